@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ namespace septet::instant {
 /// pool of its headlights are drawn.
 enum class Shown : std::uint8_t { whole, shadow_and_light };
 
+/// Meshes that stand in for those of a prototype's parts, one of each: a body with dents. Null: the part keeps its own. Their parts
+/// have the materials of the mesh that they stand in for.
+using ReshapedParts = std::vector<std::shared_ptr<const scene::SurfaceMesh>>;
+
 /// A participant as the frame shows it: interpolated pose, what it looks like, what is lit, how its wheels stand.
 struct DrawnParticipant {
   std::uint32_t prototype = 0;  ///< Indexes ResolvedScene::prototypes; one that is not there (yet) is not drawn.
@@ -37,7 +42,8 @@ struct DrawnParticipant {
   double speed_mps = 0.0;                ///< Who walks swings his limbs by it.
   double steering_wheel_rad = 0.0;       ///< Turns the part about its object's x axis, positive to the left.
   Shown shown = Shown::whole;
-  std::uint32_t number = 0;  ///< Tells it from others: its number plate.
+  std::shared_ptr<const ReshapedParts> reshaped;  ///< Null: it has the shape of its prototype.
+  std::uint32_t number = 0;                       ///< Tells it from others: its number plate.
   // What it does to the water that it drives through (spray.hpp).
   Vec3 velocity_mps{0.0};  ///< World frame.
   double yaw_rate_radps = 0.0;

@@ -86,6 +86,8 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
       input.participants, scene.prototypes, scene.meshes, input.simulated_time_s, world_eye(input.views.front()),
       [&](const RigidTransform& world_from_vehicle) { return share_of_sky(scene, world_from_vehicle); });
   instant.parts = std::move(placed.meshes);
+  for (const DrawnParticipant& participant : input.participants)
+    if (participant.reshaped) instant.reshaped.push_back(participant.reshaped);
   instant.lamps = std::move(placed.glows);
   instant.headlights = seen_headlights(std::move(placed.headlights), scene, *instant.light);
   instant.contacts = contacts_of(input.participants, scene);

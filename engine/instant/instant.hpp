@@ -61,6 +61,7 @@ struct Instant {
   std::vector<FrameView> views;      ///< At least one.
   std::vector<MirrorGlass> mirrors;  ///< Seen in the first view.
   std::vector<PlacedMesh> parts;     ///< Of participants, ordered by mesh.
+  std::vector<std::shared_ptr<const ReshapedParts>> reshaped;  ///< What `parts` have in their meshes' stead.
   std::vector<LooseMesh> loose;
   std::vector<ice::IceBody> ice;    ///< None without vertices.
   std::vector<ice::IceBody> glass;  ///< Likewise.

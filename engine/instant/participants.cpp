@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -174,7 +175,8 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     const float sky = share_of_sky(participant.world_from_vehicle);
     Vec3 lamps_m(0.0);
     int head_lamps = 0;
-    for (const scene::Instance& part : prototypes[participant.prototype].parts) {
+    const std::vector<scene::Instance>& parts = prototypes[participant.prototype].parts;
+    for (const scene::Instance& part : parts) {
       if (part.mesh >= meshes.size() || distance_m - margin_m >= gone_from_m(part.visible_to_m)) continue;
       const MeshSummary& mesh = meshes[part.mesh];
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);
@@ -185,6 +187,9 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       placed.share_of_sky = sky;
       placed.snowed_on = false;  // What drives has blown it off.
       placed.number = participant.number;
+      if (const auto index = static_cast<std::size_t>(&part - parts.data());
+          participant.reshaped && index < participant.reshaped->size())
+        placed.reshaped = (*participant.reshaped)[index].get();
       const auto& lift = participant.wheel_lift_m;
       placed.over_road_m = static_cast<float>(in_vehicle.position_m.z - 0.25 * (lift[0] + lift[1] + lift[2] + lift[3]));
       placed.tint = glm::vec4(participant.paint, lit);

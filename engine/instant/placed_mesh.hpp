@@ -30,6 +30,8 @@ struct PlacedMesh {
   float over_road_m = unknown_road;
   static constexpr float unknown_road = -1e4f;
   std::uint32_t number = 0;  ///< Of its participant: which picture a material of several shows.
+  /// What is drawn in the mesh's stead; the instant keeps it (Instant::reshaped). Null: the mesh.
+  const scene::SurfaceMesh* reshaped = nullptr;
 };
 
 /// Bounds of a mesh in its object's frame.

@@ -57,15 +57,20 @@ SceneIndex::SceneIndex(const scene::ResolvedScene& scene) {
   };
   for (const scene::SurfaceMesh& mesh : scene.meshes) {
     open.push_back(std::ranges::any_of(mesh.parts, is_open));
-    std::vector<std::uint32_t>& of_triangles = materials.emplace_back(mesh.indices.size() / 3, no_material);
-    // Where two hold a triangle the first counts.
-    for (auto part = mesh.parts.rbegin(); part != mesh.parts.rend(); ++part)
-      for (std::size_t n = part->first_index; n < std::size_t{part->first_index} + part->index_count; n += 3)
-        if (n / 3 < of_triangles.size()) of_triangles[n / 3] = part->material;
-    if (!of_triangles.empty() && std::ranges::all_of(of_triangles, [&](auto m) { return m == of_triangles[0]; }))
-      of_triangles.resize(1);
-    of_triangles.shrink_to_fit();
+    materials.push_back(triangle_materials(mesh));
   }
+}
+
+std::vector<std::uint32_t> triangle_materials(const scene::SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> of_triangles(mesh.indices.size() / 3, no_material);
+  // Where two hold a triangle the first counts.
+  for (auto part = mesh.parts.rbegin(); part != mesh.parts.rend(); ++part)
+    for (std::size_t n = part->first_index; n < std::size_t{part->first_index} + part->index_count; n += 3)
+      if (n / 3 < of_triangles.size()) of_triangles[n / 3] = part->material;
+  if (!of_triangles.empty() && std::ranges::all_of(of_triangles, [&](auto m) { return m == of_triangles[0]; }))
+    of_triangles.resize(1);
+  of_triangles.shrink_to_fit();
+  return of_triangles;
 }
 
 World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const instant::Instant& instant,
@@ -84,6 +89,7 @@ World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const i
   if (instant.environment.rain_mm_per_h > 0.0 && instant.environment.road_wetness > 0.0)
     ripples_ = instant::ripple_slopes(instant.environment.rain_mm_per_h, instant.simulated_time_s);
   geometry_.keep(scene.meshes.size());
+  next_mesh_ = static_cast<std::uint32_t>(scene.meshes.size());
   std::vector<Place> places;
   for (std::size_t n = 0; n < scene.instances.size(); ++n) {
     const scene::Instance& instance = scene.instances[n];

@@ -62,6 +62,9 @@ struct SceneIndex {
   std::vector<std::vector<std::uint32_t>> materials;
 };
 
+/// The material of each triangle of a mesh; one number for all of them, if they are of one.
+std::vector<std::uint32_t> triangle_materials(const scene::SurfaceMesh& mesh);
+
 class World : public Openings {
  public:
   /// `index` is the scene's. `geometry` holds the scene's meshes; those of this instant alone are added behind them. `cloud_noise` is instant::cloud_noise(). All of
@@ -177,6 +180,8 @@ class World : public Openings {
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
   std::vector<std::vector<scene::SurfaceVertex>> later_soups_;
+  std::uint32_t next_mesh_ = 0;                                 ///< Of those added behind the scene's.
+  std::vector<std::vector<std::uint32_t>> reshaped_materials_;  ///< Of what stands in for a mesh, its triangles'.
   HeadlightRow headlights_;
   std::vector<Lamp> lamps_;
   LampRow lamp_row_;

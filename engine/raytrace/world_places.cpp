@@ -63,7 +63,14 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
   const instant::LevelFade fade =
       instant::fade_at(static_cast<float>(distance_m), placed.visible_from_m, placed.visible_to_m);
   if (fade.none()) return;
-  const scene::SurfaceMesh& mesh = scene_.meshes[placed.mesh];
+  const scene::SurfaceMesh& mesh = placed.reshaped ? *placed.reshaped : scene_.meshes[placed.mesh];
+  std::uint32_t number = placed.mesh;
+  std::span<const std::uint32_t> materials = index_.materials[placed.mesh];
+  if (placed.reshaped) {
+    geometry_.add_mesh(mesh.vertices, mesh.indices, index_.open[placed.mesh]);
+    number = next_mesh_++;
+    materials = reshaped_materials_.emplace_back(triangle_materials(mesh));
+  }
   const glm::vec3 origin(placed.origin_m - origin_m_);
   std::optional<Motion> motion;
   if (later && glm::length(later->origin_m - placed.origin_m) < longest_way_m) {
@@ -71,7 +78,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
         to{glm::vec3(later->origin_m - origin_m_), later->world_from_object};
     if (!(from == to)) motion.emplace(from, to);
   }
-  places.push_back({placed.mesh, origin, placed.world_from_object, placed.seen, motion, fade});
+  places.push_back({number, origin, placed.world_from_object, placed.seen, motion, fade});
   placed_.push_back({mesh.vertices,
                      mesh.indices,
                      mesh.parts,
@@ -83,7 +90,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
                      placed.snowed_on,
                      placed.number,
                      stands,
-                     index_.materials[placed.mesh],
+                     materials,
                      {},
                      nullptr,
                      static_cast<std::uint32_t>(object)});
@@ -98,14 +105,13 @@ void World::add_soups(std::vector<Place>& places, const instant::Instant* later,
   loose_indices_.resize(longest);
   std::iota(loose_indices_.begin(), loose_indices_.end(), 0u);
   loose_parts_.reserve(instant_.loose.size());
-  std::uint32_t mesh = static_cast<std::uint32_t>(scene_.meshes.size());
   later_soups_.reserve(instant_.loose.size());
   const auto add_soup = [&](const Vec3& origin_m, std::span<const scene::SurfaceVertex> vertices, bool seen,
                             std::span<const scene::SurfaceVertex> moved) -> PlacedSurface& {
     const glm::vec3 origin(origin_m - origin_m_);
     const std::span indices(loose_indices_.data(), vertices.size() / 3 * 3);
     geometry_.add_mesh(vertices, indices, false, moved);
-    places.push_back({mesh++, origin, glm::mat3(1.0f), seen});
+    places.push_back({next_mesh_++, origin, glm::mat3(1.0f), seen});
     PlacedSurface soup;
     soup.vertices = vertices;
     soup.indices = indices;

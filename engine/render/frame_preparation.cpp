@@ -126,7 +126,7 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
 PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant,
                             const LampField& lamps, std::uint32_t width, std::uint32_t height) {
   const Vec3 eye_m = world_eye(instant.views.front());
-  const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant.loose);
+  const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant);
   const std::vector<SmokePuff> smoke = merged_puffs(instant.smoke, eye_m);
   PreparedFrame frame;
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);

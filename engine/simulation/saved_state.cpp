@@ -20,6 +20,11 @@ namespace septet::debris {
 SEPTET_MEMBERS(GroundPoint, height_m, normal, friction_factor)
 }
 
+namespace septet::debris {
+SEPTET_MEMBERS(Dent, place_m, heading_rad, depth_m, half_width_m, top_m)
+SEPTET_MEMBERS(DentedVehicle, vehicle, dents)
+}  // namespace septet::debris
+
 namespace septet::ice {
 SEPTET_MEMBERS(LyingSlab, vehicle, foot_m, size_m)
 SEPTET_MEMBERS(IcicleRow, from_m, to_m, longest_m, seed)
@@ -38,6 +43,7 @@ SEPTET_MEMBERS(BlackIce, road, lane, s_m, length_m, thickness_m)
 SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(panes, keyframe, glass_keyframe))
 SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
 SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
+SEPTET_MEMBERS(DentState, vehicles, keyframe)
 SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(GameState, standing, next_move_s, random)
@@ -47,9 +53,9 @@ SEPTET_MEMBERS(PublishedEffects, keyframes, channels)
 
 // Smoke and its track have a reader of their own; what is new of them is in the effects' chained hash.
 SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires), kept(keyframes))
-// Debris and fires have readers of their own; of debris what moved is in the chained hash. What is published follows from them, and the
-// rest remembers where something was found.
-SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), left_out(fires), hashed(ice, random),
+// Debris and fires have readers of their own; of debris what moved is in the chained hash. Dents follow from the crashes and are shown alone;
+// what is published follows from debris, and the rest remembers where something was found.
+SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. What the input did is in the car. A game, and an examiner, is hashed where there is one.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road),

@@ -1,7 +1,8 @@
 #pragma once
-/// Debris, still ice, smoke and soot of an instant, as a screen or a film draws them. One thread.
+/// Debris, dents, still ice, smoke and soot of an instant, as a screen or a film draws them. One thread.
 
 #include "sim-client/frame/debris_drawing.hpp"
+#include "sim-client/frame/dent_drawing.hpp"
 #include "sim-client/frame/glass_drawing.hpp"
 #include "sim-client/frame/ice_drawing.hpp"
 #include "sim-client/frame/smoke_drawing.hpp"
@@ -18,6 +19,7 @@ class EffectsDrawing {
 
  private:
   DebrisDrawing debris_;
+  DentDrawing dents_;
   IceDrawing ice_;
   GlassDrawing glass_;
   SmokeDrawing smoke_;

@@ -50,12 +50,13 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
   };
   std::array<Run, 2> runs;  // Of one mesh: those that are shown whole, and those that fade.
   std::uint32_t run_mesh = 0;
+  const scene::SurfaceMesh* run_reshaped = nullptr;
   const auto close = [&] {
     for (std::size_t fading = 0; fading < runs.size(); ++fading) {
       Run& run = runs[fading];
       if (run.records.empty()) continue;
       list.batches.push_back({run_mesh, static_cast<std::uint32_t>(list.records.size()),
-                              static_cast<std::uint32_t>(run.records.size()), run.nearest_m, fading != 0});
+                              static_cast<std::uint32_t>(run.records.size()), run.nearest_m, fading != 0, run_reshaped});
       list.records.insert(list.records.end(), run.records.begin(), run.records.end());
       run.records.clear();
       run.nearest_m = 1e30f;
@@ -68,8 +69,9 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
     if (fade.none()) continue;
     const glm::vec3 centre = origin + mesh.centre_m;
     if (!keep(mesh, centre)) continue;
-    if (run_mesh != mesh.mesh) close();
+    if (run_mesh != mesh.mesh || run_reshaped != mesh.reshaped) close();
     run_mesh = mesh.mesh;
+    run_reshaped = mesh.reshaped;
     Run& run = runs[fade.all() ? 0 : 1];
     run.records.push_back(record_of(mesh, origin, fade));
     run.nearest_m = std::min(run.nearest_m, glm::length(centre));

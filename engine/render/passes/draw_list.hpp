@@ -34,12 +34,13 @@ static_assert(sizeof(InstanceRecord) == 88);
 /// What the vertex shader takes for a mesh whose origin lies at `origin_m` from the eye.
 InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m, const instant::LevelFade& fade = {});
 
-/// Records of one mesh that lie together.
+/// Records of one mesh, or of what stands in for it, that lie together.
 struct Batch {
   std::uint32_t mesh = 0;
   std::uint32_t first = 0, count = 0;
   float nearest_m = 0.0f;  ///< From the eye to the nearest bounding sphere's middle, so that wide ground comes late.
   bool fading = false;     ///< Its records show only some pixels of what they place.
+  const scene::SurfaceMesh* reshaped = nullptr;
 };
 
 struct DrawList {

@@ -2,12 +2,36 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace septet::render {
-DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, std::span<const LooseMesh> meshes) {
+namespace {
+
+void upload_reshaped(PassContext& context, const Instant& instant, DynamicSurfaces& surfaces) {
+  for (const PlacedMesh& placed : instant.parts) {
+    if (!placed.reshaped || surfaces.reshaped.contains(placed.reshaped)) continue;
+    const scene::SurfaceMesh& mesh = *placed.reshaped;
+    const auto holds = [&](std::uint32_t index) { return index < mesh.vertices.size(); };
+    if (!std::ranges::all_of(mesh.indices, holds)) continue;
+    ReshapedSurface surface;
+    for (const scene::MeshPart& part : mesh.parts)
+      if (part.index_count > 0 && part.first_index <= mesh.indices.size() &&
+          part.index_count <= mesh.indices.size() - part.first_index)
+        surface.parts.push_back(part);
+    surface.vertices = store(context, std::span<const scene::SurfaceVertex>(mesh.vertices));
+    surface.indices = store(context, std::span<const std::uint32_t>(mesh.indices));
+    surfaces.reshaped.emplace(placed.reshaped, std::move(surface));
+  }
+}
+
+}  // namespace
+
+DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, const Instant& instant) {
   DynamicSurfaces result;
+  upload_reshaped(context, instant, result);
   std::uint32_t longest = 0;
-  for (const auto& [mesh, material, share_of_sky] : meshes) {
+  for (const auto& [mesh, material, share_of_sky] : instant.loose) {
     if (material >= scene.materials.size()) continue;
     DynamicSurface surface;
     surface.placed.origin_m = mesh.origin_m;

@@ -1,7 +1,8 @@
 #pragma once
 /// Meshes that are new in every frame: their vertices go through the frame's arena, once for all views and cascades.
 
-#include <span>
+#include <cstdint>
+#include <map>
 #include <vector>
 
 #include "engine/instant/instant.hpp"
@@ -17,12 +18,20 @@ struct DynamicSurface {
   std::uint32_t material = 0;
 };
 
+/// What stands in for a part's mesh (PlacedMesh::reshaped).
+struct ReshapedSurface {
+  FrameData vertices, indices;
+  std::vector<scene::MeshPart> parts;
+};
+
 struct DynamicSurfaces {
   std::vector<DynamicSurface> surfaces;
   FrameData indices;  ///< 0, 1, 2, … as far as the longest surface reaches.
+  std::map<const scene::SurfaceMesh*, ReshapedSurface> reshaped;
 };
 
-DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, std::span<const LooseMesh> meshes);
+/// Of the instant's loose meshes, and of those that stand in for its participants' parts.
+DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, const Instant& instant);
 
 /// Adds what is wanted to a view's or cascade's draws, and its records to theirs.
 void append_dynamic(const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of,

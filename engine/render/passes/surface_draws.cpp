@@ -3,13 +3,32 @@
 #include "engine/render/passes/dynamic_surfaces.hpp"
 
 #include <map>
+#include <span>
 #include <tuple>
+#include <vector>
 
 namespace septet::render {
 namespace {
 
+/// Where the triangles of a batch lie.
+struct Triangles {
+  VkBuffer vertices, indices;
+  std::uint64_t indices_at, vertices_at;
+  std::span<const scene::MeshPart> parts;
+};
+
+Triangles triangles_of(const Batch& batch, const DeviceScene& scene, const DynamicSurfaces& dynamic) {
+  if (const auto found = dynamic.reshaped.find(batch.reshaped); batch.reshaped && found != dynamic.reshaped.end()) {
+    const ReshapedSurface& surface = found->second;
+    return {surface.vertices.buffer, surface.indices.buffer, surface.indices.offset, surface.vertices.offset,
+            surface.parts};
+  }
+  const DeviceMesh& mesh = scene.meshes[batch.mesh];
+  return {mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, 0, mesh.parts};
+}
+
 /// A batch's parts, neighbours of one group as one.
-void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Batch& batch, const GroupOf& group_of) {
+void add_batch(std::vector<SurfaceDraw>& list, const Triangles& mesh, const Batch& batch, const GroupOf& group_of) {
   bool open = false;
   for (const scene::MeshPart& part : mesh.parts) {
     const std::uint32_t group = group_of(part.material);
@@ -22,7 +41,7 @@ void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Bat
       list.back().index_count += part.index_count;
       continue;
     }
-    list.push_back({mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, 0, part.first_index, part.index_count,
+    list.push_back({mesh.vertices, mesh.indices, mesh.indices_at, mesh.vertices_at, part.first_index, part.index_count,
                     batch.first, batch.count, group, batch.fading});
     open = true;
   }
@@ -38,7 +57,8 @@ SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::
   append_visible(instanced, scene.placed, eye_m, keep, detail.still);
   append_visible(instanced, participants, eye_m, keep, detail.participants);
   sort_by_distance(instanced);
-  for (const Batch& batch : instanced.batches) add_batch(draws.list, scene.meshes[batch.mesh], batch, group_of);
+  for (const Batch& batch : instanced.batches)
+    add_batch(draws.list, triangles_of(batch, scene, dynamic), batch, group_of);
   append_dynamic(dynamic, eye_m, keep, group_of, draws.list, instanced.records);
 
   const Gathered gathered = gather(scene.still, eye_m, keep, group_of, detail.still, volume);

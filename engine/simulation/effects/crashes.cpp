@@ -66,6 +66,7 @@ void crash_with_vehicle(const Participant& car, const Participant& other, const 
   outcome.impulse_on_driver_ns += blow.normal * (common * closing);
   throw_parts(car, blow, world, memory, debris, random, outcome);
   note_glass(other.id, blow.second, blow.point_m, closing, outcome);
+  for (const MadeDent& dent : dents_of_crash(car, other, blow.normal, closing)) outcome.dents.push_back(dent);
   memory.parts[other.id] = std::move(blow.second.parts);
 }
 
@@ -84,6 +85,7 @@ void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch
                                     orientation_from_angles(std::atan2(touch.normal.y, touch.normal.x), 0.0, 0.0)};
   blow.second.box.half_size_m = Vec3(half_m);
   throw_parts(car, blow, world, memory, debris, random, outcome);
+  for (const MadeDent& dent : dents_of_touch(car, touch)) outcome.dents.push_back(dent);
 }
 
 }  // namespace

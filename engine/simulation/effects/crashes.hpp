@@ -10,6 +10,7 @@
 
 #include "engine/effects/debris/crash.hpp"
 #include "engine/physics/vehicle/hull.hpp"
+#include "engine/simulation/effects/dents.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::simulation {
@@ -36,6 +37,7 @@ struct CrashOutcome {
   int pieces = 0;
   Vec3 impulse_on_driver_ns{0.0};
   std::vector<ShakenGlass> glass;
+  std::vector<MadeDent> dents;
 };
 
 /// Two boxes as rectangles on the ground: do they overlap, and if so, where and which way out (shortest, from b to a)?

@@ -11,6 +11,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/obstacles.hpp"
 #include "engine/simulation/effects/crashes.hpp"
+#include "engine/simulation/effects/dents.hpp"
 #include "engine/simulation/effects/fire_stage.hpp"
 #include "engine/simulation/effects/ice_stage.hpp"
 #include "engine/simulation/effects/keyframe_schedule.hpp"
@@ -25,6 +26,7 @@ inline constexpr double debris_reach_m = 600.0;  ///< Debris further from the dr
 struct EffectsState {
   debris::State debris;
   CrashMemory crashes;
+  DentState dents;
   FireState fires;
   IceState ice;
   Random random{0};

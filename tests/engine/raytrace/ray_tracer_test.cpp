@@ -1,6 +1,9 @@
 #include "engine/raytrace/ray_tracer.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <memory>
 
 #include <doctest/doctest.h>
 
@@ -181,6 +184,28 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   CHECK(share == doctest::Approx(0.25).epsilon(0.05));
   CHECK(nearer == doctest::Approx(share).epsilon(0.05));
   CHECK(further == doctest::Approx(share + 3.0 * (1.0 - share)).epsilon(0.02));
+}
+
+TEST_CASE("a part is seen where the mesh is that stands in for its own, and is what it was") {
+  scene::ResolvedScene scene = ball_scene({}, 1);
+  scene.instances.clear();
+  instant::Instant instant = instant_from({-6.0, 0.0, 0.0}, 0.9, 32, even_sky(0.25f));
+  instant::PlacedMesh part;
+  part.number = 77;
+  instant.parts.push_back(part);
+  // The ball's upper half alone, in its second half's stead.
+  auto halves = std::make_shared<instant::ReshapedParts>();
+  scene::SurfaceMesh half = scene.meshes[0];
+  for (scene::SurfaceVertex& vertex : half.vertices) vertex.position_m.z = std::max(vertex.position_m.z, 0.0f);
+  halves->push_back(std::make_shared<const scene::SurfaceMesh>(half));
+  const auto sees = [&] {
+    const TracedPicture picture = traced(scene, instant, {.samples = 1, .filter = Filter::box});
+    return std::array{picture.at(16, 13).participant, picture.at(16, 19).participant, picture.at(16, 13).object};
+  };
+  CHECK(sees() == std::array{77u, 77u, 1u});
+  instant.reshaped.push_back(halves);
+  instant.parts[0].reshaped = halves->front().get();
+  CHECK(sees() == std::array{77u, 0u, 1u});
 }
 
 TEST_CASE("a point that is out of focus is a disc as wide as its circle of confusion and evenly bright") {
