@@ -22,20 +22,22 @@ struct LevelFade {
   bool operator==(const LevelFade&) const = default;
 };
 
-/// Half the width of the band, as a share of the distance in its middle; a tree at 100 m changes between 88 and 112 m.
-inline constexpr float fade_half_band = 0.12f;
+/// Half the width of the band, as a share of the distance in its middle and at most in metres; a tree at 100 m changes between 88 and 112 m.
+/// Further off no more metres are needed, for they pass no faster, and whatever fades is drawn twice.
+inline constexpr float fade_half_band = 0.12f, most_fade_half_band_m = 12.0f;
+inline float fade_half_band_m(float border_m) { return std::min(fade_half_band * border_m, most_fade_half_band_m); }
 /// In so many steps, so that what stands together fades together and takes one draw.
 inline constexpr float fade_steps = 64.0f;
 
 /// From where on a level that is visible until `visible_to_m` is not seen at all.
-inline float gone_from_m(float visible_to_m) { return visible_to_m * (1.0f + fade_half_band); }
+inline float gone_from_m(float visible_to_m) { return visible_to_m + fade_half_band_m(visible_to_m); }
 
 /// Of a level that is visible while the eye's distance is in [visible_from_m, visible_to_m).
 inline LevelFade fade_at(float range_m, float visible_from_m, float visible_to_m) {
   // The nearer level's share, where the levels meet at `border_m`.
   const auto nearer = [&](float border_m) {
     if (!(range_m < gone_from_m(border_m))) return 0.0f;  // Nor where one of them is no number.
-    const float at = (range_m / border_m - 1.0f) / (2.0f * fade_half_band) + 0.5f;
+    const float at = 0.5f * (range_m - border_m) / fade_half_band_m(border_m) + 0.5f;
     return 1.0f - std::round(std::clamp(at, 0.0f, 1.0f) * fade_steps) / fade_steps;
   };
   return {nearer(visible_from_m), nearer(visible_to_m)};
