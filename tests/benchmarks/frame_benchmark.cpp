@@ -1,10 +1,14 @@
 // One virtual screen on lavapipe, from the scenario's motorway with traffic: CPU time of drawing a frame and reading it
 // back, the shaders' compilation not counted. LP_NUM_THREADS=0 keeps Mesa on one thread. By day, and in each weather by its name.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -90,13 +94,9 @@ Weather weather_named(std::string_view name) {
   return weather;
 }
 
-void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, std::string_view name,
-                          bool timed = false) {
-  auto renderer = must(
-      Renderer::create({width, height, DevicePreference::software, false, Antialiasing::automatic, nullptr, timed}));
+/// The motorway in a weather, with traffic from where it is looked at on; without views.
+FrameInput traffic_in(const Weather& weather) {
   const Motorway& world = motorway();
-  must(renderer.upload(world.scene));
-  const Weather weather = weather_named(name);
   FrameInput input;
   input.environment = weather.environment;
   for (int i = 0; i < 24; ++i) {
@@ -110,6 +110,16 @@ void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uin
     car.number = static_cast<std::uint32_t>(i);
     input.participants.push_back(car);
   }
+  return input;
+}
+
+void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, std::string_view name,
+                          bool timed = false) {
+  auto renderer = must(
+      Renderer::create({width, height, DevicePreference::software, false, Antialiasing::automatic, nullptr, timed}));
+  must(renderer.upload(motorway().scene));
+  const Weather weather = weather_named(name);
+  FrameInput input = traffic_in(weather);
   double s_m = weather.s_m - 10.0;
   const auto draw = [&] {
     input.simulated_time_s += 0.1;
@@ -128,6 +138,55 @@ void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uin
   for (const PassTime& pass : renderer.statistics().pass_times) state.counters[std::string(pass.name)] = pass.time_ms;
   state.counters["most_triangles"] = triangles;
   state.counters["draws"] = renderer.statistics().draws;
+}
+
+/// Seven screens of 1920 × 1080 around the eye on a graphics card, each with all that it draws there, one after the other: frames of all seven a
+/// second, and what each pass of the seven took by the device's clock.
+void seven_screens(benchmark::State& state, std::string_view name, bool validated) {
+  constexpr std::uint32_t width = 1920, height = 1080, screens = 7;
+  std::vector<Renderer> renderers;
+  for (std::uint32_t i = 0; i < screens; ++i) {
+    renderers.push_back(
+        must(Renderer::create({.width = width, .height = height, .validation = validated, .timed = true})));
+    if (renderers.back().device_name().starts_with("llvmpipe")) {
+      state.SkipWithError("no graphics card");
+      return;
+    }
+    must(renderers.back().upload(motorway().scene));
+  }
+  const Weather weather = weather_named(name);
+  FrameInput input = traffic_in(weather);
+  double s_m = weather.s_m - 10.0;
+  const auto draw_all = [&] {
+    input.simulated_time_s += 1.0 / 60.0;
+    s_m += 0.4;
+    for (std::uint32_t i = 0; i < screens; ++i) {
+      // Five of 44° ahead, two of 30° behind.
+      const double heading_deg = i < 5 ? 44.0 * (i - 2.0) : i == 5 ? 150.0 : -150.0, across_deg = i < 5 ? 44.0 : 30.0;
+      constexpr double rad = std::numbers::pi / 180.0;
+      input.views = {forward_view({0, 0, 0}, width, height)};
+      input.views[0].projection =
+          symmetric_view({1.35, 0.37, 1.17}, heading_deg * rad, 0.0, across_deg * rad,
+                         2.0 * std::atan(std::tan(0.5 * across_deg * rad) * static_cast<double>(height) / width));
+      input.views[0].world_from_car = in_lane(-4, s_m);
+      must(renderers[i].draw(input));
+    }
+  };
+  for (int warm = 0; warm < 3; ++warm) draw_all();
+  for (auto unused : state) draw_all();
+  double sum_ms = 0.0, messages = 0.0;
+  for (const Renderer& renderer : renderers) {
+    messages += renderer.statistics().validation_messages;
+    for (const PassTime& pass : renderer.statistics().pass_times) {
+      state.counters[std::string(pass.name)].value += pass.time_ms;
+      sum_ms += pass.time_ms;
+    }
+  }
+  state.counters["all_passes"] = sum_ms;
+  if (validated) state.counters["validation_messages"] = messages;
+  state.counters["frames_of_all"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.SetLabel(std::string(renderers.front().device_name()));
 }
 
 void thirty_frames_thrice(benchmark::internal::Benchmark* frame) {
@@ -150,6 +209,18 @@ BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_tunnel, 640, 420, "tunnel")->App
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_by_passes_ms, 640, 420, "day", true)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(10);
+
+void on_a_card(benchmark::internal::Benchmark* frames) {
+  frames->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(240);
+}
+BENCHMARK_CAPTURE(seven_screens, 1920x1080_by_passes_ms, "day", false)->Apply(on_a_card);
+BENCHMARK_CAPTURE(seven_screens, 1920x1080_rain_at_dusk_by_passes_ms, "rain_at_dusk", false)->Apply(on_a_card);
+BENCHMARK_CAPTURE(seven_screens, 1920x1080_night_by_passes_ms, "night", false)->Apply(on_a_card);
+BENCHMARK_CAPTURE(seven_screens, 1920x1080_tunnel_by_passes_ms, "tunnel", false)->Apply(on_a_card);
+BENCHMARK_CAPTURE(seven_screens, 1920x1080_rain_at_dusk_validated, "rain_at_dusk", true)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(5);
 
 }  // namespace
 }  // namespace septet::render
