@@ -82,9 +82,8 @@ void pass_holes(const RTCFilterFunctionNArguments* args) {
     const std::uint32_t place = place_of(args, n);
     const Standing& standing = (*query->standing)[place];
     if (!standing.fade.shows(query->thresholds[n]) ||
-        (standing.open &&
-         query->openings->is_hole(place, RTCHitN_primID(args->hit, args->N, n), RTCHitN_u(args->hit, args->N, n),
-                                  RTCHitN_v(args->hit, args->N, n))))
+        (standing.open && query->openings->is_hole(place, RTCHitN_primID(args->hit, args->N, n),
+                                                   RTCHitN_u(args->hit, args->N, n), RTCHitN_v(args->hit, args->N, n))))
       args->valid[n] = 0;
   }
 }

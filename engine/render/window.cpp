@@ -2,6 +2,8 @@
 #include "engine/render/window.hpp"
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 
 #include <GLFW/glfw3.h>
 #include <fmt/core.h>
@@ -27,6 +29,11 @@ struct Window::Glfw {
   GLFWwindow* window = nullptr;
   bool initialised = false;
   bool touched = false;
+  std::atomic<std::uint32_t> width{0}, height{0};
+  void take_size(int width_px, int height_px) {
+    width = static_cast<std::uint32_t>(width_px);
+    height = static_cast<std::uint32_t>(height_px);
+  }
   ~Glfw() {
     if (window) glfwDestroyWindow(window);
     if (initialised) glfwTerminate();
@@ -83,6 +90,12 @@ Expected<Window> Window::open(const WindowOptions& options) {
     if (action == GLFW_PRESS && key != GLFW_KEY_F1 && key != GLFW_KEY_ENTER && key != GLFW_KEY_ESCAPE)
       static_cast<Glfw*>(glfwGetWindowUserPointer(window))->touched = true;
   });
+  int width_px = 0, height_px = 0;
+  glfwGetFramebufferSize(glfw->window, &width_px, &height_px);
+  glfw->take_size(width_px, height_px);
+  glfwSetFramebufferSizeCallback(glfw->window, [](GLFWwindow* window, int new_width_px, int new_height_px) {
+    static_cast<Glfw*>(glfwGetWindowUserPointer(window))->take_size(new_width_px, new_height_px);
+  });
   if (monitor) glfwSetInputMode(glfw->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
   return Window(std::move(glfw));
 }
@@ -116,17 +129,8 @@ std::optional<Gamepad> Window::gamepad() const {
   return std::nullopt;
 }
 
-std::uint32_t Window::width() const {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(glfw_->window, &width, &height);
-  return static_cast<std::uint32_t>(width);
-}
-
-std::uint32_t Window::height() const {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(glfw_->window, &width, &height);
-  return static_cast<std::uint32_t>(height);
-}
+std::uint32_t Window::width() const { return glfw_->width; }
+std::uint32_t Window::height() const { return glfw_->height; }
 
 std::array<int, 2> Window::place() const {
   std::array<int, 2> corner{};

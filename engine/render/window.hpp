@@ -2,7 +2,7 @@
 /// A window or a full screen, with keyboard and gamepad, by way of GLFW. Only desktops and projectors need one; a virtual
 /// screen never comes near this file.
 ///
-/// All calls come from the program's main thread.
+/// All calls but those for the size come from the program's main thread.
 
 #include <array>
 #include <cstdint>
@@ -47,7 +47,7 @@ class Window {
   /// Whether any key but F1 and Escape has been pressed since the window opened.
   bool was_touched() const;
   std::optional<Gamepad> gamepad() const;
-  /// Size of the picture, pixels.
+  /// Size of the picture when the window was last polled, pixels; from any thread.
   std::uint32_t width() const;
   std::uint32_t height() const;
 

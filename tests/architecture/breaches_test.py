@@ -32,6 +32,7 @@ BREACHES = {
     "one from within a folder": ("NOTES.md", "see `low/gone`\n", "named_paths", "there is no low/gone"),
     "a comment": ("engine/low/above.cpp", "/// As low/gone.hpp.\n", "named_paths", "above.cpp:1: there is no low/gone.hpp"),
     "a header that is not the first": ("engine/low/above.cpp", '#include <map>\n#include "engine/low/above.hpp"\n', "own_header", "does not include engine/low/above.hpp first"),
+    "a loose tolerance": ("tests/a_test.cpp", "CHECK(x == doctest::Approx(f(0.1)).epsilon(0.1));\n", "tolerances", "tests/a_test.cpp:1: an epsilon without its scale"),
     "a folder's name with a slash": ("NOTES.md", "(`engine/gone/`.)\n", "named_paths", "there is no engine/gone"),
 }
 
@@ -50,7 +51,7 @@ def check(what, files, test, expected):
             failures.append(f"{what}: exit {result.returncode}, {result.stdout!r} {result.stderr!r}")
 
 
-for test in ("layers", "named_paths", "own_header"):
+for test in ("layers", "named_paths", "own_header", "tolerances"):
     check(f"no breach, {test}", GOOD, test, "")
 for what, (name, text, test, expected) in BREACHES.items():
     check(what, GOOD | {name: text}, test, expected)

@@ -4,6 +4,7 @@
 
 #include "car-io/relayed_device.hpp"
 #include "car-io/simulated_hid_device.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -30,11 +31,11 @@ TEST_CASE("the newest of the waiting reports decides and is handed over as it wa
   CarReading reading = car.poll(0.0);
   CHECK(reading.is_connected);
   CHECK_FALSE(reading.is_stale);
-  CHECK(reading.input.accelerator == doctest::Approx(0.9).epsilon(1e-4));
+  CHECK(reading.input.accelerator == relative(0.9, 1e-4));
   CHECK(reading.report == report_of(0.9, 2));
   reading = car.poll(0.008);
   CHECK_FALSE(reading.report.has_value());
-  CHECK(reading.input.accelerator == doctest::Approx(0.9).epsilon(1e-4));
+  CHECK(reading.input.accelerator == relative(0.9, 1e-4));
 }
 
 TEST_CASE(
@@ -52,12 +53,12 @@ TEST_CASE(
   CHECK(stale.is_connected);
   CHECK(stale.input.accelerator == 0.0);
   CHECK_FALSE(stale.input.horn);
-  CHECK(stale.input.brake == doctest::Approx(0.25).epsilon(1e-4));
-  CHECK(stale.input.steering_wheel_rad == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(stale.input.brake == relative(0.25, 1e-4));
+  CHECK(stale.input.steering_wheel_rad == relative(0.5, 1e-3));
   port.send(report_of(0.8, 6));
   const CarReading fresh = car.poll(1.2);
   CHECK_FALSE(fresh.is_stale);
-  CHECK(fresh.input.accelerator == doctest::Approx(0.8).epsilon(1e-4));
+  CHECK(fresh.input.accelerator == relative(0.8, 1e-4));
 }
 
 TEST_CASE("a car that was never there is stale and says why once") {
@@ -89,7 +90,7 @@ TEST_CASE("an unplugged car is stale at once and comes back by itself after repl
   reading = car.poll(0.51);
   CHECK(reading.is_connected);
   CHECK_FALSE(reading.is_stale);
-  CHECK(reading.input.accelerator == doctest::Approx(0.6).epsilon(1e-4));
+  CHECK(reading.input.accelerator == relative(0.6, 1e-4));
 }
 
 TEST_CASE("refused reports are counted and change nothing") {
@@ -101,7 +102,7 @@ TEST_CASE("refused reports are counted and change nothing") {
   port.send(Bytes(3, std::byte{1}));
   const CarReading reading = car.poll(0.01);
   CHECK(car.refused_reports() == 1);
-  CHECK(reading.input.accelerator == doctest::Approx(0.8).epsilon(1e-4));
+  CHECK(reading.input.accelerator == relative(0.8, 1e-4));
   CHECK(car.take_error().value().what == "it has 3 bytes where 15 belong");
   for (int i = 0; i < 20; ++i) {
     port.send(Bytes(3, std::byte{1}));
@@ -147,9 +148,9 @@ TEST_CASE("a far device is read like a near one and what was overtaken on the wa
   CHECK_FALSE(car.poll(0.0).is_connected);
   CHECK(car.take_error()->what == "septet-car has not connected yet");
   far.receive(7, report_of(0.5, 1), "");
-  CHECK(car.poll(1.0).input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(car.poll(1.0).input.accelerator == relative(0.5, 1e-4));
   far.receive(6, report_of(0.9, 0), "");
-  CHECK(car.poll(1.01).input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(car.poll(1.01).input.accelerator == relative(0.5, 1e-4));
   far.receive(8, {}, "reading failed: No such device");
   const CarReading away = car.poll(1.02);
   CHECK_FALSE(away.is_connected);
@@ -157,7 +158,7 @@ TEST_CASE("a far device is read like a near one and what was overtaken on the wa
   CHECK(away.input.accelerator == 0.0);
   CHECK(car.take_error()->what == "reading failed: No such device");
   far.receive(9, report_of(0.7, 2), "");
-  CHECK(car.poll(2.0).input.accelerator == doctest::Approx(0.7).epsilon(1e-4));
+  CHECK(car.poll(2.0).input.accelerator == relative(0.7, 1e-4));
   far.lose("");
   CHECK(car.poll(2.01).is_stale);
 }

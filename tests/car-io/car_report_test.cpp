@@ -7,6 +7,7 @@
 
 #include "car-io/car_layout.hpp"
 #include "engine/core/random.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -66,7 +67,7 @@ TEST_CASE("controls go through a report and back within half a step of their fie
   const auto report = encode_controls(sent);
   const auto read = decode_report(layout_of("septet-car"), {}, report);
   REQUIRE(read.has_value());
-  CHECK(read->steering_wheel_rad == doctest::Approx(sent.steering_wheel_rad).epsilon(1e-4));
+  CHECK(read->steering_wheel_rad == relative(sent.steering_wheel_rad, 1e-4));
   CHECK(std::abs(read->accelerator - sent.accelerator) <= 0.5 / 65535);
   CHECK(std::abs(read->brake - sent.brake) <= 0.5 / 65535);
   CHECK(std::abs(read->gaze_heading_rad - sent.gaze_heading_rad) < 1e-4);
@@ -165,7 +166,7 @@ TEST_CASE("a Logitech G29 report reads as its layout says") {
   rig::CarCalibration calibration;
   auto input = decode_report(layout_of("logitech-g29"), calibration, report);
   REQUIRE(input.has_value());
-  CHECK(input->steering_wheel_rad == doctest::Approx(-0.5 * default_steering_lock_rad).epsilon(1e-4));
+  CHECK(input->steering_wheel_rad == relative(-0.5 * default_steering_lock_rad, 1e-4));
   CHECK(input->accelerator == doctest::Approx(128.0 / 255));
   CHECK(input->brake == 0.0);
   CHECK(input->horn);
@@ -204,23 +205,23 @@ TEST_CASE("calibrated axes read 0 and 1 at their own ends and nothing in their d
     return *decode_report(layout_of("septet-car"), calibration, encode_controls(input));
   };
   CHECK(read(0, 0.1, 0).brake == 0.0);
-  CHECK(read(0, 0.45, 0).brake == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(read(0, 0.45, 0).brake == relative(0.5, 1e-3));
   CHECK(read(0, 0.8, 0).brake == 1.0);
   CHECK(read(0, 0, 1.0).clutch == 0.0);
   CHECK(read(0, 0, 0.92).clutch == 0.0);
   CHECK(read(0, 0, 0.0).clutch == 1.0);
-  CHECK(read(0, 0, 0.45).clutch == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(read(0, 0, 0.45).clutch == relative(0.5, 1e-3));
   CHECK(read(0.1, 0, 0).steering_wheel_rad == doctest::Approx(0.0));
   CHECK(read(0.13, 0, 0).steering_wheel_rad == doctest::Approx(0.0));
   CHECK(read(0.95, 0, 0).steering_wheel_rad == doctest::Approx(default_steering_lock_rad));
-  CHECK(read(-0.8, 0, 0).steering_wheel_rad == doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
+  CHECK(read(-0.8, 0, 0).steering_wheel_rad == relative(-default_steering_lock_rad, 1e-3));
   calibration.steering.inverted = true;
-  CHECK(read(0.9, 0, 0).steering_wheel_rad == doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
+  CHECK(read(0.9, 0, 0).steering_wheel_rad == relative(-default_steering_lock_rad, 1e-3));
 }
 
 TEST_CASE("the force of the hand wheel goes through its report and back") {
   for (const double force : {-1.0, -0.25, 0.0, 0.5, 1.0})
-    CHECK(decode_steering(encode_steering(force, 3)).value() == doctest::Approx(force).epsilon(1e-3));
+    CHECK(decode_steering(encode_steering(force, 3)).value() == relative(force, 1e-3));
   CHECK(encode_steering(1.0, 0)[2] == std::byte{0x80});  // To the left: negative, as the wheel.
   CHECK_FALSE(decode_steering(Bytes(3)).has_value());
 }
@@ -234,7 +235,7 @@ TEST_CASE("an unknown layout is refused with the names that exist") {
 TEST_CASE("actuators and device status go through their reports and back") {
   const auto actuators = decode_actuators(encode_actuators({.fan = 0.5, .vibration = 1.5, .vibration_hz = 45}, 7));
   REQUIRE(actuators.has_value());
-  CHECK(actuators->fan == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(actuators->fan == relative(0.5, 1e-4));
   CHECK(actuators->vibration == 1.0);
   CHECK(actuators->vibration_hz == 45);
   const auto status = decode_device_status(encode_device_status({.firmware = 0x0102, .watchdog_ms = 250}));

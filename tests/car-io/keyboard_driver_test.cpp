@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/relative.hpp"
+
 namespace septet::car_io {
 namespace {
 
@@ -108,7 +110,7 @@ TEST_CASE("a steering key turns the wheel slowly, then faster, and letting go st
   const KeyStates left{.left = true};
   const double full = largest_steering_rad(driver.settings, 25.0);
   CHECK(hold(driver, left, 25.0, 0.1).steering_wheel_rad < 0.06 * full);
-  CHECK(hold(driver, left, 25.0, 0.3).steering_wheel_rad == doctest::Approx(0.46 * full).epsilon(0.02));
+  CHECK(hold(driver, left, 25.0, 0.3).steering_wheel_rad == relative(0.46 * full, 0.02));
   CHECK(hold(driver, left, 25.0, 0.3).steering_wheel_rad == full);
   CHECK(hold(driver, {}, 25.0, 0.05).steering_wheel_rad > 0.9 * full);
   CHECK(hold(driver, {}, 25.0, 0.4).steering_wheel_rad == 0.0);
@@ -118,11 +120,11 @@ TEST_CASE("a steering key turns the wheel slowly, then faster, and letting go st
 
 TEST_CASE("pedals rise and fall within their times") {
   KeyboardDriver driver;
-  CHECK(hold(driver, {.accelerate = true}, 10.0, 0.175).accelerator == doctest::Approx(0.5).epsilon(0.03));
+  CHECK(hold(driver, {.accelerate = true}, 10.0, 0.175).accelerator == relative(0.5, 0.03));
   CHECK(hold(driver, {.accelerate = true}, 10.0, 0.5).accelerator == 1.0);
   const DriverInput braking = hold(driver, {.brake = true}, 10.0, 0.4);
   CHECK(braking.accelerator == 0.0);
-  CHECK(braking.brake == doctest::Approx(0.3).epsilon(0.05));
+  CHECK(braking.brake == relative(0.3, 0.05));
   CHECK(hold(driver, {.brake = true}, 10.0, 0.4).brake == 1.0);
 }
 

@@ -17,6 +17,7 @@
 #include "sim-client/frame/screen_frames.hpp"
 #include "tests/images/flip.hpp"
 #include "tests/images/motorway_view.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet {
@@ -164,9 +165,9 @@ TEST_CASE("pictures alike differ by nothing, white and black by nearly all, and 
     }
   CHECK(difference(flip_features(edge), flip_features(edge)).mean == doctest::Approx(0.0));
   // As flip.py has it.
-  CHECK(difference(flip_features(black), flip_features(white)).mean == doctest::Approx(0.9674).epsilon(2e-3));
+  CHECK(difference(flip_features(black), flip_features(white)).mean == relative(0.9674, 2e-3));
   const Difference moved = difference(flip_features(edge), flip_features(next));
-  CHECK(moved.mean == doctest::Approx(0.01016).epsilon(0.02));
+  CHECK(moved.mean == relative(0.01016, 0.02));
   CHECK(moved.worst < 0.5 * accepted_tile);
 }
 

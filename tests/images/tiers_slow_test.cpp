@@ -15,6 +15,7 @@
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/images/motorway_view.hpp"
+#include "tests/relative.hpp"
 
 namespace septet {
 namespace {
@@ -124,7 +125,7 @@ TEST_CASE(
     REQUIRE(brakes[0].codes > 300.0);
     for (const std::size_t i : {1u, 2u}) {
       CAPTURE(tiers()[i].name);
-      CHECK(brakes[i].codes == doctest::Approx(brakes[0].codes).epsilon(0.02));
+      CHECK(brakes[i].codes == relative(brakes[0].codes, 0.02));
       CHECK(glm::distance(brakes[i].middle, brakes[0].middle) < 0.3);
       CHECK(glm::distance(car[i].middle, car[0].middle) < 1.0);
       CHECK(within_a_pixel(car[i].left, car[0].left));

@@ -16,11 +16,12 @@
 #include "logging/measures/time_to_line_crossing.hpp"
 #include "logging/report/drive_measures.hpp"
 #include "tests/logging/sample_series.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::logging {
 namespace {
 
-auto exactly(double value) { return doctest::Approx(value).epsilon(1e-6).scale(0.0); }
+auto exactly(double value) { return relative(value, 1e-6); }
 
 /// Ten samples a second that close in on a leader with this TTC.
 std::vector<Sample> closing_in(const std::vector<double>& ttc_s) {
@@ -272,8 +273,8 @@ TEST_CASE("steering entropy is 0.542 of normal errors in their own baseline and 
     errors.push_back(x);
   }
   const double alpha = steering_entropy_alpha(errors).value();
-  CHECK(alpha == doctest::Approx(1.6449).epsilon(1e-3));
-  CHECK(steering_entropy_of(errors, alpha).value() == doctest::Approx(0.542).epsilon(1e-3));
+  CHECK(alpha == relative(1.6449, 1e-3));
+  CHECK(steering_entropy_of(errors, alpha).value() == relative(0.542, 1e-3));
   CHECK(steering_entropy_of(std::vector{-9.0, -3.0, -2.0, -0.7, 0.0, 0.7, 2.0, 3.0, 9.0}, 1.0).value() == exactly(1.0));
   CHECK(steering_entropy_of(std::vector{0.1, 0.2}, 1.0).value() == 0.0);
   CHECK_FALSE(steering_entropy_of(std::vector{0.1}, 0.0).has_value());

@@ -13,6 +13,7 @@
 #include "engine/core/regular_file.hpp"
 #include "logging/lesson/debrief.hpp"
 #include "logging/lesson/lesson.hpp"
+#include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace septet::logging {
@@ -99,8 +100,8 @@ TEST_CASE("a lane change is marked by indicator and mirror, and is no bad place 
   auto late = good_drive();
   change_lanes(late, 1.5);
   const TaskMark half_as_long = mark_of("indicator", 3.0, 3.0, late);
-  CHECK(*half_as_long.mark == doctest::Approx(5.0).epsilon(0.1));
-  CHECK(half_as_long.worst_s == doctest::Approx(26.0).epsilon(0.01));  // Where it began to move, 4 s before the line.
+  CHECK(*half_as_long.mark == relative(5.0, 0.1));
+  CHECK(half_as_long.worst_s == relative(26.0, 0.01));  // Where it began to move, 4 s before the line.
   auto unsignalled = good_drive();
   change_lanes(unsignalled, 0.0);
   CHECK(*mark_of("indicator", 3.0, 3.0, unsignalled).mark == doctest::Approx(0.0));
@@ -115,7 +116,7 @@ TEST_CASE("where the head never moved no glance is marked, and a long time witho
   for (int i = 100; i < 300; ++i) samples[static_cast<std::size_t>(i)].gaze_heading_rad = 0.01;
   const TaskMark blind = mark_of("lookout", 6.0, 28.0, samples);
   CHECK(*blind.mark < 6.0);
-  CHECK(blind.worst == doctest::Approx(25.0).epsilon(0.05));
+  CHECK(blind.worst == relative(25.0, 0.05));
   for (Sample& sample : samples) sample.gaze_heading_rad = 0.0;
   CHECK_FALSE(mark_of("lookout", 6.0, 10.0, samples).mark.has_value());
 }

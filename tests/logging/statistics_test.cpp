@@ -4,11 +4,12 @@
 
 #include "logging/statistics/compare.hpp"
 #include "logging/statistics/survival.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::logging {
 namespace {
 
-auto nearly(double value) { return doctest::Approx(value).epsilon(1e-9).scale(0.0); }
+auto nearly(double value) { return relative(value, 1e-9); }
 const std::vector longer{29.0, 30.0, 30.0, 27.0, 29.5}, shorter{23.0, 18.0, 25.0, 30.0, 21.0, 24.5, 22.0, 12.0};
 
 }  // namespace
@@ -18,8 +19,8 @@ TEST_CASE("Hedges' g and its interval equal those of the worked example") {
   const auto effect = hedges_g(MeanAndSpread{12, 10.0, 2.0}, MeanAndSpread{10, 8.0, 2.0});
   REQUIRE(effect.has_value());
   CHECK(effect->g == nearly(1.0 - 3.0 / 79.0));
-  CHECK(effect->low == doctest::Approx(0.076).epsilon(0.01));
-  CHECK(effect->high == doctest::Approx(1.848).epsilon(0.001));
+  CHECK(effect->low == relative(0.076, 0.01));
+  CHECK(effect->high == relative(1.848, 0.001));
   CHECK_FALSE(hedges_g(std::vector{1.0, 1.0}, std::vector{1.0, 1.0}).has_value());
   CHECK_FALSE(hedges_g(std::vector{1.0}, std::vector{1.0, 2.0}).has_value());
 }
@@ -31,8 +32,8 @@ TEST_CASE("Welch's test equals SciPy's") {
   CHECK(test->t == nearly(3.6590242937994795));
   CHECK(test->degrees == nearly(8.175716893326793));
   CHECK(test->p == nearly(0.0061753527699824505));
-  CHECK(test->low == doctest::Approx(2.6653536046206243).epsilon(1e-8));
-  CHECK(test->high == doctest::Approx(11.65964639537938).epsilon(1e-8));
+  CHECK(test->low == relative(2.6653536046206243, 1e-8));
+  CHECK(test->high == relative(11.65964639537938, 1e-8));
   // scipy.stats.t.sf.
   CHECK(t_test_p(2.0, 5.0) == nearly(0.10193947882985835));
   CHECK(t_test_p(0.7, 17.3) == nearly(0.49323392394304955));
@@ -71,7 +72,7 @@ TEST_CASE("the log-rank test equals SciPy's") {
   const auto test = log_rank_test(first, second);
   REQUIRE(test.has_value());
   CHECK(test->chi_square == nearly(16.494011320386342));
-  CHECK(test->p == doctest::Approx(4.880398158605818e-05).epsilon(1e-8));
+  CHECK(test->p == relative(4.880398158605818e-05, 1e-8));
 }
 
 }  // namespace septet::logging

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/pipeline/simulated_rig.hpp"
+#include "tests/relative.hpp"
 
 namespace septet {
 namespace {
@@ -42,7 +43,7 @@ TEST_CASE("a screen whose server is gone leaves after two seconds") {
   screen::Departure departure = escape(rig);
   const double from_s = rig.now_s();
   CHECK(leave(rig, departure, from_s + 60.0));
-  CHECK(rig.now_s() - from_s == doctest::Approx(2.0).epsilon(0.05).scale(0.0));
+  CHECK(rig.now_s() - from_s == relative(2.0, 0.05));
 }
 
 }  // namespace septet

@@ -7,6 +7,7 @@
 #include "engine/core/version.hpp"
 #include "logging/session_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::pipeline {
 namespace {
@@ -146,7 +147,7 @@ TEST_CASE("vehicle, parameters and participant of a drive are in its log, its su
   auto snapshots = log->snapshots().value();
   const auto first = snapshots.next().value();
   REQUIRE(first.has_value());
-  CHECK(first->driver_car.speed_mps == doctest::Approx(20.0).epsilon(0.01).scale(0.0));
+  CHECK(first->driver_car.speed_mps == relative(20.0, 0.01));
   const std::string summary = text_of(folder / "out" / "summary.json"),
                     report = text_of(folder / "out" / "report.html");
   for (const char* words :

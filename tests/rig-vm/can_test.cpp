@@ -27,6 +27,7 @@
 #include "car-io/can/instrument_sender.hpp"
 #include "car-io/can/signal_codec.hpp"
 #include "car-io/car_connection.hpp"
+#include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
 #include "tests/rig-vm/virtual_can.hpp"
 #include "tests/shipped_files.hpp"
@@ -306,8 +307,8 @@ TEST_CASE("controls on the bus drive and are stale when their node falls silent 
   };
   drive(0.3, true);
   CHECK_FALSE(reading.is_stale);
-  CHECK(reading.input.accelerator == doctest::Approx(0.4).epsilon(0.001));
-  CHECK(reading.input.steering_wheel_rad == doctest::Approx(-1.5708).epsilon(0.001));
+  CHECK(reading.input.accelerator == relative(0.4, 0.001));
+  CHECK(reading.input.steering_wheel_rad == relative(-1.5708, 0.001));
   const double silent_from_s = now_s();
   CHECK(becomes_true([&] {
     drive(0.005, false);

@@ -26,6 +26,7 @@
 #include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
 #include "car-io/joystick/input_device.hpp"
+#include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
 
 namespace septet::rig_vm {
@@ -166,14 +167,14 @@ TEST_CASE("reports that are none are counted and change nothing and a sequence t
   REQUIRE(becomes_true([&] { return connection.poll(now_s()).is_connected; }));
   car.send(0.5, 1);
   CarReading reading = connection.poll(now_s());
-  CHECK(reading.input.accelerator == doctest::Approx(0.5).epsilon(0.001));
+  CHECK(reading.input.accelerator == relative(0.5, 0.001));
   Bytes wrong(controls_report_bytes, std::byte{0xFF});
   wrong[0] = std::byte{controls_report_id};
   for (const std::size_t size : {std::size_t{1}, std::size_t{2}, controls_report_bytes, std::size_t{64}}) {
     wrong.resize(size, std::byte{0xFF});
     car.send(wrong);
     reading = connection.poll(now_s());
-    CHECK(reading.input.accelerator == doctest::Approx(0.5).epsilon(0.001));
+    CHECK(reading.input.accelerator == relative(0.5, 0.001));
   }
   wrong[0] = std::byte{99};
   car.send(wrong);

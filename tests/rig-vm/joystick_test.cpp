@@ -26,6 +26,7 @@
 #include "car-io/car_connection.hpp"
 #include "car-io/joystick/input_device.hpp"
 #include "car-io/joystick/joystick_controls.hpp"
+#include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
 
 namespace septet::rig_vm {
@@ -150,8 +151,8 @@ TEST_CASE("a wheel drives and is released when it is pulled out and drives again
     wheel->move(EV_ABS, ABS_GAS, 51);
     wheel->move(EV_KEY, BTN_TRIGGER, 1);
     CarReading reading = car.poll(now_s());
-    CHECK(reading.input.steering_wheel_rad == doctest::Approx(-3.925).epsilon(0.001));
-    CHECK(reading.input.accelerator == doctest::Approx(0.2).epsilon(0.001));
+    CHECK(reading.input.steering_wheel_rad == relative(-3.925, 0.001));
+    CHECK(reading.input.accelerator == relative(0.2, 0.001));
     CHECK(reading.input.horn);
     wheel.reset();
     reading = car.poll(now_s());
@@ -191,7 +192,7 @@ TEST_CASE("the motor plays one effect that is changed and ends with silence or w
       CAPTURE(force);
       CHECK(becomes_true([&] {
         writer.set({.steering = force});
-        return wheel.force() == doctest::Approx(force).epsilon(0.001);
+        return wheel.force() == relative(force, 0.001);
       }));
     }
     CHECK(wheel.effects() == 1);

@@ -26,6 +26,7 @@
 #include "car-io/joystick/input_device.hpp"
 #include "car-io/joystick/joystick_controls.hpp"
 #include "tests/car-io/pid/simulated_pid_wheel.hpp"
+#include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
 
 namespace septet::rig_vm {
@@ -135,7 +136,7 @@ TEST_CASE("a wheel whose force the kernel does not know is moved by HID PID thro
       CAPTURE(force);
       CHECK(becomes_true([&] {
         writer.set({.steering = force});
-        return wheel.playing(constant) == doctest::Approx(force).epsilon(0.001);
+        return wheel.playing(constant) == relative(force, 0.001);
       }));
     }
     CHECK(wheel.playing(spring) == doctest::Approx(0.2));
@@ -145,7 +146,7 @@ TEST_CASE("a wheel whose force the kernel does not know is moved by HID PID thro
     wheel.turn_to(-16384);
     CHECK(becomes_true([&] {
       writer.set({.steering = 0.5});
-      return car.poll(now_s()).input.steering_wheel_rad == doctest::Approx(3.925).epsilon(0.001);
+      return car.poll(now_s()).input.steering_wheel_rad == relative(3.925, 0.001);
     }));
     const double since_s = now_s();
     REQUIRE(becomes_true([&] { return wheel.playing(constant) == 0.0; }));

@@ -18,6 +18,7 @@
 #include "car-io/actuator_writer.hpp"
 #include "car-io/car_connection.hpp"
 #include "car-io/usb_device.hpp"
+#include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
 #include "tests/rig-vm/usb_car.hpp"
 #include "tests/shipped_files.hpp"
@@ -125,9 +126,9 @@ TEST_CASE("a car is read and moved and its watchdog set whatever the way in") {
     const auto error = car.take_error();
     REQUIRE_MESSAGE(found_s.has_value(), (error ? describe(*error) : ""));
     const CarReading reading = car.poll(now_s());
-    CHECK(reading.input.steering_wheel_rad == doctest::Approx(-1.0).epsilon(0.001));
-    CHECK(reading.input.accelerator == doctest::Approx(0.5).epsilon(0.001));
-    CHECK(reading.input.brake == doctest::Approx(0.25).epsilon(0.001));
+    CHECK(reading.input.steering_wheel_rad == relative(-1.0, 0.001));
+    CHECK(reading.input.accelerator == relative(0.5, 0.001));
+    CHECK(reading.input.brake == relative(0.25, 0.001));
 
     // What the driver does is there a few milliseconds later.
     input.accelerator = 1.0;
@@ -143,9 +144,9 @@ TEST_CASE("a car is read and moved and its watchdog set whatever the way in") {
         writer.set({.fan = 0.5, .vibration = 0.25, .vibration_hz = 40.0, .steering = -0.125});
         return device.actuators().steering != 0.0;
       }));
-      CHECK(device.actuators().fan == doctest::Approx(0.5).epsilon(0.001));
+      CHECK(device.actuators().fan == relative(0.5, 0.001));
       CHECK(device.actuators().vibration_hz == 40.0);
-      CHECK(device.actuators().steering == doctest::Approx(-0.125).epsilon(0.001));
+      CHECK(device.actuators().steering == relative(-0.125, 0.001));
       CHECK(device.watchdog_ms() == 250);
       const auto fault = writer.take_error();
       CHECK_MESSAGE(!fault.has_value(), (fault ? describe(*fault) : ""));

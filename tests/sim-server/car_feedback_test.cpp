@@ -7,6 +7,7 @@
 #include "car-io/simulated_hid_device.hpp"
 #include "sim-server/drive/car_motion.hpp"
 #include "sim-server/drive/driver_seat.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -61,7 +62,7 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
     }
     // The writer has a thread and a clock of its own: give it until it has written this speed, which fades where nobody sets it.
     const double share = std::min(live->newest().driver_car.speed_mps / 70.0, 1.0);
-    const auto expected = doctest::Approx(0.2 + 0.8 * share).epsilon(1e-3).scale(0.0);
+    const auto expected = relative(0.2 + 0.8 * share, 1e-3);
     double fan = -1.0;
     for (int i = 0; i < 150'000 && fan != expected; ++i) {
       actuate_again();

@@ -3,6 +3,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::server {
 namespace {
@@ -37,8 +38,7 @@ TEST_CASE("the log's leader is whose body is in the driver's lane, not who stand
   CHECK(half_in->participant == 2);
   const VehicleModel& saloon = vehicle_models()[*find_vehicle_model("saloon")];
   const VehicleModel& own = vehicle_models()[*find_vehicle_model("volvo-s80")];
-  CHECK(half_in->distance_gap_m ==
-        doctest::Approx(40.0 - saloon.rear_overhang_m - own.front_m()).epsilon(0.02).scale(0.0));
+  CHECK(half_in->distance_gap_m == relative(40.0 - saloon.rear_overhang_m - own.front_m(), 0.02));
 }
 
 }  // namespace septet::server

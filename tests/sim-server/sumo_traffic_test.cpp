@@ -7,6 +7,7 @@
 
 #include "engine/road/opendrive_reader.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::server {
 namespace {
@@ -86,7 +87,7 @@ TEST_CASE("between the steps of SUMO every tick is where the speed says") {
     for (std::size_t i = 0; i < now.size(); ++i) {
       CHECK(now[i].id == before[i].id);
       CHECK(now[i].world_from_vehicle.position_m.x - before[i].world_from_vehicle.position_m.x ==
-            doctest::Approx(20.0 / 120.0).epsilon(1e-6).scale(0.0));
+            relative(20.0 / 120.0, 1e-6));
       CHECK(now[i].velocity_mps.x == doctest::Approx(20.0));
       CHECK(now[i].lamps.has(Lamp::brake));
     }

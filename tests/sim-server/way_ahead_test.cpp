@@ -8,6 +8,7 @@
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -108,7 +109,7 @@ TEST_CASE(
   const double before_m = road.entity().lane.offset_m;
   road.keep_beside(aside_m, 4.0);
   CHECK(scenario::has_yet_to_move_aside(road.entity()));
-  CHECK(road.entity().lane.offset_m == doctest::Approx(before_m).epsilon(0.001).scale(0.0));
+  CHECK(road.entity().lane.offset_m == relative(before_m, 0.001));
   CHECK_FALSE(road.touched);
   CHECK(road.hardest_mps2 > -2.5);
   road.put_car(-150.0, 0.0);
@@ -124,7 +125,7 @@ TEST_CASE("a car across the whole bend is minded where the bend leads and not st
     road.put_car(ahead_m, 0.0);
     road.drive_for(1.0 / simulation::tick_rate_hz);
     REQUIRE(road.entity().in_the_way.has_value());
-    CHECK(road.entity().in_the_way->gap_m == doctest::Approx(ahead_m - 5.9).epsilon(0.05).scale(0.0));
+    CHECK(road.entity().in_the_way->gap_m == relative(ahead_m - 5.9, 0.05));
   }
 }
 

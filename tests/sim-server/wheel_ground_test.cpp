@@ -9,6 +9,7 @@
 
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -105,11 +106,11 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   CHECK_FALSE(edge({50.0, -2.0, 0.3}, {0.0, -1.0}).has_value());
   const auto before = edge({50.0, -3.3, 0.3}, {0.0, -1.0});
   REQUIRE(before.has_value());
-  CHECK(before->y == doctest::Approx(-3.5).epsilon(0.001).scale(0.0));
-  CHECK(before->z == doctest::Approx(0.12).epsilon(0.01).scale(0.0));
+  CHECK(before->y == relative(-3.5, 0.001));
+  CHECK(before->z == relative(0.12, 0.01));
   const auto across = edge({50.0, -3.4, 0.3}, {0.8, -0.6});
   REQUIRE(across.has_value());
-  CHECK(across->y == doctest::Approx(-3.5).epsilon(0.001).scale(0.0));
+  CHECK(across->y == relative(-3.5, 0.001));
   const auto backwards = edge({50.0, -3.3, 0.3}, {0.0, 1.0});  // The car rolls back at it.
   REQUIRE(backwards.has_value());
   CHECK_FALSE(edge({50.0, -3.3, 0.3}, {1.0, 0.0}).has_value());   // Along the kerb.
@@ -152,7 +153,7 @@ TEST_CASE("an island and a kerb stone that are objects are met as kerbs and pain
   const Met island = met(49.8, 1.0, along);
   CHECK(island.height_m == 0.0);
   REQUIRE(island.edge_m.has_value());
-  CHECK(island.edge_m->x == doctest::Approx(50.0).epsilon(0.0001).scale(0.0));
+  CHECK(island.edge_m->x == relative(50.0, 0.0001));
   CHECK(island.edge_m->z == doctest::Approx(0.12));
   CHECK_FALSE(met(58.0, -0.2, left).edge_m.has_value());  // Lowered for those on foot.
   CHECK_FALSE(met(49.5, 1.0, along).edge_m.has_value());
@@ -163,7 +164,7 @@ TEST_CASE("an island and a kerb stone that are objects are met as kerbs and pain
     const Met stone = met(95.0, -2.075 - before_m, left);
     CHECK(stone.height_m == 0.0);
     REQUIRE(stone.edge_m.has_value());
-    CHECK(stone.edge_m->y == doctest::Approx(-2.075).epsilon(0.001).scale(0.0));
+    CHECK(stone.edge_m->y == relative(-2.075, 0.001));
   }
   CHECK(met(130.0, 3.9, along).height_m == doctest::Approx(0.2));  // The box stands across the road.
   CHECK(met(131.0, 2.0, along).height_m == 0.0);

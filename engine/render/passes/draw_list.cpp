@@ -56,7 +56,8 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
       Run& run = runs[fading];
       if (run.records.empty()) continue;
       list.batches.push_back({run_mesh, static_cast<std::uint32_t>(list.records.size()),
-                              static_cast<std::uint32_t>(run.records.size()), run.nearest_m, fading != 0, run_reshaped});
+                              static_cast<std::uint32_t>(run.records.size()), run.nearest_m, fading != 0,
+                              run_reshaped});
       list.records.insert(list.records.end(), run.records.begin(), run.records.end());
       run.records.clear();
       run.nearest_m = 1e30f;

@@ -77,9 +77,9 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
     const std::uint32_t glossy =
         std::uint32_t{material.glossy || (light.wet && material.wettable)} | std::uint32_t{material.coated} << 1;
-    const VkPipeline pipeline = pipeline_of(
-        pass, context,
-        {texturing, light.lamps(), glossy, light.snowy, light.sooty, material.wettable, light.mirror_of_road, draw.fading, kind});
+    const VkPipeline pipeline = pipeline_of(pass, context,
+                                            {texturing, light.lamps(), glossy, light.snowy, light.sooty,
+                                             material.wettable, light.mirror_of_road, draw.fading, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

@@ -22,6 +22,7 @@
 #include "car-io/can/signal_codec.hpp"
 #include "car-io/car_connection.hpp"
 #include "tests/car-io/can/simulated_can_bus.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::car_io {
@@ -248,9 +249,9 @@ TEST_CASE("controls on the bus drive and a node that falls silent makes the car 
   };
   drive(20, true);
   CHECK_FALSE(reading.is_stale);
-  CHECK(reading.input.steering_wheel_rad == doctest::Approx(-std::numbers::pi / 2).epsilon(0.001));
-  CHECK(reading.input.accelerator == doctest::Approx(0.4).epsilon(0.001));
-  CHECK(reading.input.brake == doctest::Approx(0.05).epsilon(0.01));
+  CHECK(reading.input.steering_wheel_rad == relative(-std::numbers::pi / 2, 0.001));
+  CHECK(reading.input.accelerator == relative(0.4, 0.001));
+  CHECK(reading.input.brake == relative(0.05, 0.01));
   CHECK((reading.input.indicator == IndicatorStalk::right && reading.input.horn));
   CHECK((reading.input.selector == GearSelector::manual && reading.input.gear == 3));
   drive(20, false);

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "car-io/can/signal_codec.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::car_io::dbc {
@@ -61,7 +62,7 @@ TEST_CASE("frames that cantools made decode to its values and those encode to th
       const double expected = std::stod(value.substr(equals + 1));
       const auto decoded = decode(*message, *signal, data);
       REQUIRE(decoded.has_value());
-      CHECK(*decoded == doctest::Approx(expected).epsilon(1e-12));
+      CHECK(*decoded == relative(expected, 1e-12));
       encode(*signal, expected, encoded);
     }
     CHECK(encoded == data);

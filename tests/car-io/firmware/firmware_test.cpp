@@ -16,6 +16,7 @@
 #include "car-io/car_report.hpp"
 #include "engine/core/random.hpp"
 #include "tests/car-io/firmware/simulated_car.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -65,17 +66,17 @@ TEST_CASE("what the firmware packs the host's layout unpacks, and the reverse") 
   car.run(settled_ms);
   const CarReading reading = host.poll(0.0);
   REQUIRE_FALSE(reading.is_stale);
-  CHECK(reading.input.steering_wheel_rad == doctest::Approx(0.5 * default_steering_lock_rad).epsilon(1e-4));
+  CHECK(reading.input.steering_wheel_rad == relative(0.5 * default_steering_lock_rad, 1e-4));
   CHECK(reading.input.accelerator == 1.0);
-  CHECK(reading.input.brake == doctest::Approx(0.1).epsilon(1e-4));
-  CHECK(reading.input.clutch == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(reading.input.brake == relative(0.1, 1e-4));
+  CHECK(reading.input.clutch == relative(0.5, 1e-4));
   CHECK(reading.input.indicator == IndicatorStalk::right);
   CHECK(reading.input.horn);
   CHECK(reading.input.high_beam);
   CHECK_FALSE(reading.input.low_beam);
   CHECK(reading.input.selector == GearSelector::manual);
   CHECK(reading.input.gear == 4);
-  CHECK(reading.input.gaze_heading_rad == doctest::Approx(0.5 * std::numbers::pi).epsilon(1e-3));
+  CHECK(reading.input.gaze_heading_rad == relative(0.5 * std::numbers::pi, 1e-3));
   CHECK(reading.switches == CarSwitches{.emergency_stop = false, .rearm = true});
   CHECK(host.poll(0.01).input.sequence != reading.input.sequence);
 
@@ -290,8 +291,8 @@ TEST_CASE("the shaker's wave has its frequency and size and does not jump when t
     largest_step = std::max(largest_step, std::abs(sample - before));
     before = sample;
   }
-  CHECK(crossings == doctest::Approx(70).epsilon(0.02));
-  CHECK(largest == doctest::Approx(32767).epsilon(0.001));
+  CHECK(crossings == relative(70, 0.02));
+  CHECK(largest == relative(32767, 0.001));
   CHECK(largest_step < 1.02 * 32767 * 2.0 * std::numbers::pi * 50.0 / 4000.0);
   outputs.amplifier_power = false;
   CHECK(septet_vibration_sample(&outputs, 4000) == 0);

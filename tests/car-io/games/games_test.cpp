@@ -18,6 +18,7 @@
 #include "car-io/games/uinput_wheel.hpp"
 #include "engine/core/bytes.hpp"
 #include "engine/core/random.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -337,11 +338,11 @@ TEST_CASE("Linux' effects become ours: directions, conditions, and a direction t
   effect.type = FF_CONSTANT;
   effect.direction = 0x4000;
   effect.u.constant.level = 16384;
-  CHECK(force_effect_of(effect).level == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(force_effect_of(effect).level == relative(0.5, 1e-3));
   effect.direction = 0xC000;
-  CHECK(force_effect_of(effect).level == doctest::Approx(-0.5).epsilon(1e-3));
+  CHECK(force_effect_of(effect).level == relative(-0.5, 1e-3));
   effect.direction = 0;
-  CHECK(force_effect_of(effect).level == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(force_effect_of(effect).level == relative(0.5, 1e-3));
   effect = {};
   effect.type = FF_SPRING;
   effect.u.condition[0] = {.right_saturation = 0xffff,
@@ -352,9 +353,9 @@ TEST_CASE("Linux' effects become ours: directions, conditions, and a direction t
                            .center = 3277};
   const ForceEffect spring = force_effect_of(effect);
   CHECK(spring.kind == ForceKind::spring);
-  CHECK(spring.left_coefficient == doctest::Approx(0.5).epsilon(1e-3));
-  CHECK(spring.left_most == doctest::Approx(0.5).epsilon(1e-3));
-  CHECK(spring.centre == doctest::Approx(-0.1).epsilon(1e-3));  // To the right.
+  CHECK(spring.left_coefficient == relative(0.5, 1e-3));
+  CHECK(spring.left_most == relative(0.5, 1e-3));
+  CHECK(spring.centre == relative(-0.1, 1e-3));  // To the right.
 }
 
 TEST_CASE("a game is told once of what has changed, wheel and pedals as a wheel's axes") {

@@ -18,6 +18,7 @@
 #include "car-io/car_connection.hpp"
 #include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
+#include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace septet::car_io {
@@ -130,7 +131,7 @@ TEST_CASE("hidapi finds reads writes and loses a car and the connection finds it
   mocked.send(report);
   const CarReading read = poll_until(car, [](const CarReading& r) { return r.report.has_value(); });
   CHECK(read.report == Bytes(report.begin(), report.end()));
-  CHECK(read.input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(read.input.accelerator == relative(0.5, 1e-4));
   CHECK_FALSE(read.is_stale);
 
   const auto actuators = encode_actuators({.fan = 0.25}, 1);

@@ -13,6 +13,7 @@
 #include "car-io/joystick/joystick_controls.hpp"
 #include "car-io/joystick/joystick_lesson.hpp"
 #include "engine/rig/rig.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -94,8 +95,8 @@ TEST_CASE("a joystick is learnt and what is learnt is a rig's table that drives 
   wheel.state.down = {288, 293};
   CarReading reading = car.poll(0.0);
   CHECK_FALSE(reading.is_stale);
-  CHECK(reading.input.steering_wheel_rad == doctest::Approx(7.85).epsilon(0.001));
-  CHECK(reading.input.accelerator == doctest::Approx(0.5).epsilon(0.02));
+  CHECK(reading.input.steering_wheel_rad == relative(7.85, 0.001));
+  CHECK(reading.input.accelerator == relative(0.5, 0.02));
   CHECK((reading.input.brake == 0.0 && reading.input.horn && reading.input.selector == GearSelector::reverse));
   wheel.state.axes[0].value = 65535;
   wheel.state.down = {};
@@ -123,11 +124,11 @@ TEST_CASE("the force of the hand wheel reaches its motor and fan and shaker are 
   const auto device = joystick_opener(wheel.opener(), {}, 7.85, feel)();
   REQUIRE(device.has_value());
   CHECK((*device)->write(encode_steering(0.5, 1)).has_value());
-  CHECK(wheel.force == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(wheel.force == relative(0.5, 1e-4));
   CHECK(wheel.feels == std::vector{feel});
   CHECK((*device)->write(encode_actuators({.fan = 1.0}, 1)).has_value());
   CHECK(wheel.feels.size() == 1);
-  CHECK(wheel.force == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(wheel.force == relative(0.5, 1e-4));
   wheel.has_motor = false;
   CHECK((*device)->write(encode_steering(0.0, 2)).has_value());
   const auto refused = (*device)->write(encode_steering(0.5, 3));

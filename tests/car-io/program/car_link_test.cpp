@@ -10,6 +10,7 @@
 #include "engine/scene/store.hpp"
 #include "sim-server/host/screen_host.hpp"
 #include "tests/engine/net/simulated_machine.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -92,7 +93,7 @@ TEST_CASE("the controls of a car on another machine reach the server as the devi
   const CarReading reading = rig.run_for(1.0);
   CHECK(reading.is_connected);
   CHECK_FALSE(reading.is_stale);
-  CHECK(reading.input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(reading.input.accelerator == relative(0.5, 1e-4));
   CHECK(rig.at_server->refused_reports() == 0);
 }
 
@@ -121,7 +122,7 @@ TEST_CASE("a device that is lost mid-drive is one message at either end and come
   rig.port.plug();
   reading = rig.run_for(1.0);
   CHECK_FALSE(reading.is_stale);
-  CHECK(reading.input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(reading.input.accelerator == relative(0.5, 1e-4));
   CHECK(has(rig.link->take_messages(), "the device is there"));
 }
 
@@ -137,7 +138,7 @@ TEST_CASE("feedback of the server turns the fan of the device") {
     for (const Bytes& report : rig.port.take_written())
       if (const auto actuators = decode_actuators(report)) fan = actuators->fan;
   }
-  CHECK(fan == doctest::Approx(0.6).epsilon(1e-3));
+  CHECK(fan == relative(0.6, 1e-3));
 }
 
 TEST_CASE("whoever re-arms at the car's own machine holds the button for a second and a third") {
@@ -148,7 +149,7 @@ TEST_CASE("whoever re-arms at the car's own machine holds the button for a secon
   CHECK(rig.run_for(0.1).switches.rearm);
   CHECK(rig.run_for(1.1).switches.rearm);
   CHECK_FALSE(rig.run_for(0.2).switches.rearm);
-  CHECK(rig.poll().input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(rig.poll().input.accelerator == relative(0.5, 1e-4));
 }
 
 TEST_CASE("a client whose key is not called car is refused as a car") {

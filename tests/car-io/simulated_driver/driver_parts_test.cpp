@@ -7,6 +7,7 @@
 #include "car-io/simulated_driver/pedals.hpp"
 #include "car-io/simulated_driver/perception.hpp"
 #include "car-io/simulated_driver/steering.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 
@@ -63,8 +64,8 @@ TEST_CASE("a wandering error has the standard deviation and correlation time it 
     products += value * previous;
     previous = value;
   }
-  CHECK(std::sqrt(squares / count) == doctest::Approx(0.3).epsilon(0.03));
-  CHECK(products / squares == doctest::Approx(std::exp(-0.1 / 2.0)).epsilon(0.01));
+  CHECK(std::sqrt(squares / count) == relative(0.3, 0.03));
+  CHECK(products / squares == relative(std::exp(-0.1 / 2.0), 0.01));
 }
 
 TEST_CASE("the wish is none at the desired speed and at the time gap") {
@@ -82,8 +83,8 @@ TEST_CASE("at the wanted gap the wish passes from following to braking without a
     return wished_acceleration_mps2(speed, v, 30.0, Obstacle{gap_m / tightness, v});
   };
   const double before = (wish(1.0) - wish(1.0 - step)) / step, after = (wish(1.0 + step) - wish(1.0)) / step;
-  CHECK(before == doctest::Approx(-2.0 * speed.acceleration_mps2).epsilon(1e-3));
-  CHECK(after == doctest::Approx(before).epsilon(1e-3));
+  CHECK(before == relative(-2.0 * speed.acceleration_mps2, 1e-3));
+  CHECK(after == relative(before, 1e-3));
 }
 
 TEST_CASE("between two gears the lever stands in neutral for half of its way") {
@@ -102,7 +103,7 @@ TEST_CASE("between two gears the lever stands in neutral for half of its way") {
     if (state.lever == 0) neutral_s += 0.001;
   }
   CHECK(state.lever == 3);
-  CHECK(neutral_s == doctest::Approx(0.5 * gears.lever_s).epsilon(0.02));
+  CHECK(neutral_s == relative(0.5 * gears.lever_s, 0.02));
 }
 
 TEST_CASE("a short gap to one who does not come nearer is opened gently, whoever cut in") {
@@ -187,7 +188,7 @@ TEST_CASE("the hand wheel for a bend is that of its geometry and of what banking
   const CarKnowledge car;
   CHECK(steady_wheel_rad(car, 30.0, 0.0, 0.0) == 0.0);
   const double creeping = steady_wheel_rad(car, 0.1, 1.0 / 100.0, 0.0);
-  CHECK(creeping == doctest::Approx(car.steering_ratio * car.wheelbase_m / 100.0).epsilon(1e-3));
+  CHECK(creeping == relative(car.steering_ratio * car.wheelbase_m / 100.0, 1e-3));
   const double flat = steady_wheel_rad(car, 30.0, 1.0 / 500.0, 0.0);
   CHECK(flat == doctest::Approx(car.steering_ratio * (car.wheelbase_m / 500.0 + car.understeer_radps2pm * 1.8)));
   CHECK(steady_wheel_rad(car, 30.0, -1.0 / 500.0, 0.0) == -flat);

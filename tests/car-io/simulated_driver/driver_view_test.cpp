@@ -4,6 +4,7 @@
 
 #include "engine/road/lane_geometry.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::car_io {
@@ -46,7 +47,7 @@ TEST_CASE("a vehicle on the hard shoulder is in nobody's way, one with a wheel i
   CHECK(over_the_line[0].innermost_lane == 7);
   CHECK(over_the_line[0].outermost_lane == 7);
   CHECK(over_the_line[0].is_ahead);
-  CHECK(over_the_line[0].gap_m == doctest::Approx(35.2).epsilon(0.02));
+  CHECK(over_the_line[0].gap_m == relative(35.2, 0.02));
 }
 
 TEST_CASE("a vehicle is in the lanes that its body lies over, and a second early in the one it comes to") {
@@ -68,7 +69,7 @@ TEST_CASE("braking is seen by the speed that it takes, within a second, and not 
     if (look == 20) CHECK(now[0].acceleration_mps2 < -3.0);
     before = now;
   }
-  CHECK(now[0].acceleration_mps2 == doctest::Approx(-4.0).epsilon(0.05));
+  CHECK(now[0].acceleration_mps2 == relative(-4.0, 0.05));
 }
 
 TEST_CASE("the driver knows how far the sides of the car are from the lines of its lane") {
@@ -81,7 +82,7 @@ TEST_CASE("the driver knows how far the sides of the car are from the lines of i
   const auto own = see_own_place(motorway(), *corridor, scene.snapshot, std::nullopt);
   REQUIRE(own);
   const double width_m = vehicle_models()[scene.snapshot.participants[0].model].width_m;
-  CHECK(own->room_right_m - own->room_left_m == doctest::Approx(1.0).epsilon(0.01));
+  CHECK(own->room_right_m - own->room_left_m == relative(1.0, 0.01));
   CHECK(own->room_right_m + own->room_left_m ==
         doctest::Approx(road::lane_width_m(motorway(), 0, -7, 3000.0) - width_m));
 }

@@ -7,6 +7,7 @@
 #include "logging/measures/lane_changes.hpp"
 #include "logging/measures/lateral_position.hpp"
 #include "tests/car-io/simulated_driver/closed_loop.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -84,7 +85,7 @@ TEST_CASE("a drive that begins in a bend begins in the middle of the lane") {
     const double taken_rad = loop.input.steering_wheel_rad;
     loop.run(12.0);
     MESSAGE("hand wheel at the start " << taken_rad << " rad, 12 s later " << loop.input.steering_wheel_rad << " rad");
-    CHECK(taken_rad == doctest::Approx(loop.input.steering_wheel_rad).epsilon(0.25));
+    CHECK(taken_rad == relative(loop.input.steering_wheel_rad, 0.25));
     for (const logging::Sample& sample : loop.samples) REQUIRE(std::abs(sample.lateral_position_m) < 0.12);
   }
 }

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "tests/conformance/vehicle/reference_curve.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet::vehicle;
+using septet::relative;
 
 namespace {
 /// Largest magnitude on the course, which begins at X = 0.
@@ -21,11 +23,11 @@ TEST_CASE("the double lane change peaks where the published model peaks") {
     CAPTURE(std::string(reference.curve));
     const Curve curve = read_curve("dlc_" + std::string(reference.curve) + "_80.csv");
     const ManoeuvreReport report = double_lane_change(read_car(reference.vehicle), {});
-    CHECK(report.figure("peak lateral acceleration") == doctest::Approx(peak(curve, "ay")).epsilon(0.05));
-    CHECK(report.figure("peak yaw rate") == doctest::Approx(peak(curve, "yawrate") * 57.29577951308232).epsilon(0.05));
-    CHECK(report.figure("peak roll") == doctest::Approx(peak(curve, "roll_deg")).epsilon(0.05));
-    CHECK(report.figure("peak steer") == doctest::Approx(peak(curve, "delta")).epsilon(0.05));
-    CHECK(report.figure("peak sideslip") == doctest::Approx(peak(curve, "beta_deg")).epsilon(0.05));
+    CHECK(report.figure("peak lateral acceleration") == relative(peak(curve, "ay"), 0.05));
+    CHECK(report.figure("peak yaw rate") == relative(peak(curve, "yawrate") * 57.29577951308232, 0.05));
+    CHECK(report.figure("peak roll") == relative(peak(curve, "roll_deg"), 0.05));
+    CHECK(report.figure("peak steer") == relative(peak(curve, "delta"), 0.05));
+    CHECK(report.figure("peak sideslip") == relative(peak(curve, "beta_deg"), 0.05));
   }
 }
 
@@ -40,6 +42,6 @@ TEST_CASE("stopping distances match those of the published tyre within two perce
     ManoeuvreOptions options;
     options.friction = anchor.friction;
     const VehicleParameters car = read_car("commonroad-escort");
-    CHECK(stop(car, options).figure("stopping distance") == doctest::Approx(anchor.distance_m).epsilon(0.02));
+    CHECK(stop(car, options).figure("stopping distance") == relative(anchor.distance_m, 0.02));
   }
 }

@@ -1,8 +1,10 @@
 // Steady cornering against the published multi-body model (vehicles/README.md).
 
 #include "tests/conformance/vehicle/reference_curve.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet::vehicle;
+using septet::relative;
 
 TEST_CASE("steer and yaw rate in steady cornering match the published model within two percent") {
   for (const ReferenceCar& reference : reference_cars)
@@ -20,13 +22,11 @@ TEST_CASE("steer and yaw rate in steady cornering match the published model with
       const auto& theirs = curve.at("ay");
       for (const double acceleration : {2.0, 3.0, 4.0, 5.0, 6.0}) {
         CAPTURE(acceleration);
-        CHECK(where(ours, acceleration, steer) ==
-              doctest::Approx(where(theirs, acceleration, curve.at("delta_rad"))).epsilon(0.02));
-        CHECK(where(ours, acceleration, yaw) ==
-              doctest::Approx(where(theirs, acceleration, curve.at("yawrate"))).epsilon(0.02));
+        CHECK(where(ours, acceleration, steer) == relative(where(theirs, acceleration, curve.at("delta_rad")), 0.02));
+        CHECK(where(ours, acceleration, yaw) == relative(where(theirs, acceleration, curve.at("yawrate")), 0.02));
         if (acceleration < 3.0) continue;  // Below, the published tyre's wobble shows in the roll.
         const double roll_deg = where(ours, acceleration, roll) * 57.29577951308232;
-        CHECK(roll_deg == doctest::Approx(-where(theirs, acceleration, curve.at("roll_deg"))).epsilon(0.02));
+        CHECK(roll_deg == relative(-where(theirs, acceleration, curve.at("roll_deg")), 0.02));
       }
     }
 }

@@ -5,6 +5,7 @@
 #include "engine/audio/siren.hpp"
 #include "tests/engine/audio/sound_fixture.hpp"
 #include "tests/engine/audio/spectrum.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::audio {
 namespace {
@@ -30,9 +31,9 @@ TEST_CASE("An engine of four, five and six cylinders sings at its firing order, 
     const auto left = after(sound[0], 0.5);
     const double expected_hz = cylinders / 2.0 * 2000.0 / 60.0;
     const double found_hz = peak_hz(left, 0.8 * expected_hz, 1.2 * expected_hz);
-    CHECK(found_hz == doctest::Approx(expected_hz).epsilon(0.01));
+    CHECK(found_hz == relative(expected_hz, 0.01));
     CHECK(decibels(power_at(left, found_hz) / power_at(left, found_hz * 1.1)) > 10.0);
-    CHECK(peak_hz(left, 1.6 * expected_hz, 2.4 * expected_hz) == doctest::Approx(2.0 * expected_hz).epsilon(0.01));
+    CHECK(peak_hz(left, 1.6 * expected_hz, 2.4 * expected_hz) == relative(2.0 * expected_hz, 0.01));
   }
 }
 
@@ -87,9 +88,8 @@ TEST_CASE(
     return decibels(
         a_weighted_power(voices_of(480, [=](int) { return cruising(speed_mps, 0.0, 0.0); })[std::size_t(voice)]));
   };
-  CHECK(layer(30.0, OwnVoice::wind_left) - layer(15.0, OwnVoice::wind_left) == doctest::Approx(16.0).epsilon(0.1));
-  CHECK(layer(36.0, OwnVoice::rear_left) - layer(14.4, OwnVoice::rear_left) ==
-        doctest::Approx(34.0 * std::log10(2.5)).epsilon(0.08));
+  CHECK(layer(30.0, OwnVoice::wind_left) - layer(15.0, OwnVoice::wind_left) == relative(16.0, 0.1));
+  CHECK(layer(36.0, OwnVoice::rear_left) - layer(14.4, OwnVoice::rear_left) == relative(34.0 * std::log10(2.5), 0.08));
   CHECK(wind_inside_db(31.0) > rolling_inside_db(31.0));
   CHECK(wind_inside_db(25.0) < rolling_inside_db(25.0));
 }
@@ -201,12 +201,9 @@ TEST_CASE("The road's unevenness shakes as ISO 8608 says: 3 dB for twice the spe
   };
   const auto good = low(15.0, {.unevenness_m3 = class_a_m3});
   const double at_15 = band(good, 8.0, 40.0);
-  CHECK(decibels(band(low(30.0, {.unevenness_m3 = class_a_m3}), 8.0, 40.0) / at_15) ==
-        doctest::Approx(3.0).epsilon(0.2));
-  CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_b_m3}), 8.0, 40.0) / at_15) ==
-        doctest::Approx(6.0).epsilon(0.1));
-  CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_d_m3}), 8.0, 40.0) / at_15) ==
-        doctest::Approx(18.0).epsilon(0.1));
+  CHECK(decibels(band(low(30.0, {.unevenness_m3 = class_a_m3}), 8.0, 40.0) / at_15) == relative(3.0, 0.2));
+  CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_b_m3}), 8.0, 40.0) / at_15) == relative(6.0, 0.1));
+  CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_d_m3}), 8.0, 40.0) / at_15) == relative(18.0, 0.1));
   // As much in each hertz of what a shaker plays of it.
   CHECK(std::abs(decibels(band(good, 10.0, 18.0) / band(good, 20.0, 28.0))) < 3.0);
   CHECK(decibels(band(good, 150.0, 1000.0) / at_15) < -30.0);
@@ -223,7 +220,7 @@ TEST_CASE("A line under a wheel hums at the speed over its profile's 0.305 m, an
         return heard;
       },
       240);
-  CHECK(peak_hz(line, 40.0, 110.0) == doctest::Approx(20.0 / 0.3048).epsilon(0.01));
+  CHECK(peak_hz(line, 40.0, 110.0) == relative(20.0 / 0.3048, 0.01));
   const auto kerb = low(
       [](int tick) {
         Heard heard = cruising(0.0, 0.0, 0.0);
@@ -231,7 +228,7 @@ TEST_CASE("A line under a wheel hums at the speed over its profile's 0.305 m, an
         return heard;
       },
       120);
-  CHECK(peak_hz(kerb, 5.0, 60.0) == doctest::Approx(13.0).epsilon(0.15));
+  CHECK(peak_hz(kerb, 5.0, 60.0) == relative(13.0, 0.15));
   const auto [least, most] = std::ranges::minmax(kerb);
   CHECK(most > 0.2f);
   CHECK(std::abs(kerb.back()) < 0.01f * most);

@@ -11,6 +11,7 @@
 #include "engine/audio/levels.hpp"
 #include "tests/engine/audio/sound_fixture.hpp"
 #include "tests/engine/audio/spectrum.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::audio {
 namespace {
@@ -46,15 +47,14 @@ TEST_CASE("The gears whine with twenty teeth before the final drive, and in reve
   const double speed_mps = 8.0, mesh_hz = speed_mps / (2.0 * 3.14159265 * 0.32) * car.final_ratio * 20.0;
   const auto forwards = rolling(speed_mps, as_it_is),
              backwards = rolling(speed_mps, [](OwnCar&own) { own.reversing = true; });
-  CHECK(peak_hz(backwards, 0.8 * mesh_hz, 1.2 * mesh_hz) == doctest::Approx(mesh_hz).epsilon(0.01));
-  CHECK(decibels(power_at(backwards, mesh_hz) / power_at(forwards, mesh_hz)) ==
-        doctest::Approx(reverse_whine_more_db).epsilon(0.15));
+  CHECK(peak_hz(backwards, 0.8 * mesh_hz, 1.2 * mesh_hz) == relative(mesh_hz, 0.01));
+  CHECK(decibels(power_at(backwards, mesh_hz) / power_at(forwards, mesh_hz)) == relative(reverse_whine_more_db, 0.15));
 }
 
 TEST_CASE("The horn has two tones, 400 and 500 Hz") {
   const auto horn = rolling(0.0, [](OwnCar& own) { own.horn = true; });
-  CHECK(peak_hz(horn, 360.0, 440.0) == doctest::Approx(400.0).epsilon(0.01));
-  CHECK(peak_hz(horn, 460.0, 540.0) == doctest::Approx(500.0).epsilon(0.01));
+  CHECK(peak_hz(horn, 360.0, 440.0) == relative(400.0, 0.01));
+  CHECK(peak_hz(horn, 460.0, 540.0) == relative(500.0, 0.01));
   CHECK(decibels(power_at(horn, 400.0) / power_at(horn, 440.0)) > 20.0);
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("Rain makes the roof ring at its modes, more of it louder, and none of
     CAPTURE(mode_hz);
     CHECK(power_within(some, mode_hz - 25.0, mode_hz + 25.0) > 2.0 * power_within(some, 60.0, 110.0));
   }
-  CHECK(decibels(a_weighted_power(rain(20.0)) / a_weighted_power(some)) == doctest::Approx(6.0).epsilon(0.35));
+  CHECK(decibels(a_weighted_power(rain(20.0)) / a_weighted_power(some)) == relative(6.0, 0.35));
 }
 
 TEST_CASE("A hard blow breaks glass, a soft one does not, and pieces clatter") {
@@ -123,7 +123,7 @@ TEST_CASE("The exhaust's pipe of 2 m rings at a quarter of its wave, 65 Hz, and 
     return decibels(power_at(voices[std::size_t(OwnVoice::exhaust)], firing_hz) /
                     power_at(voices[std::size_t(OwnVoice::engine)], firing_hz));
   };
-  CHECK(above_engine_db(65.1) - above_engine_db(130.2) == doctest::Approx(20.0 * std::log10(3.0)).epsilon(0.1));
+  CHECK(above_engine_db(65.1) - above_engine_db(130.2) == relative(20.0 * std::log10(3.0), 0.1));
 }
 
 TEST_CASE(
@@ -135,7 +135,7 @@ TEST_CASE(
   // Of a six its orders are multiples of 50 Hz.
   const double intake_db = decibels(noise(1.0, 315.0, 340.0) / noise(0.2, 315.0, 340.0)),
                mechanics_db = decibels(noise(1.0, 2000.0, 3000.0) / noise(0.2, 2000.0, 3000.0));
-  CHECK(mechanics_db == doctest::Approx(0.8 * 9.0).epsilon(0.15));
+  CHECK(mechanics_db == relative(0.8 * 9.0, 0.15));
   CHECK(intake_db > mechanics_db + 1.0);
 }
 
@@ -162,14 +162,14 @@ TEST_CASE("Another car sings at its own firing order, raised as it comes, and a 
     return voices[own_voices];
   };
   const OtherSound car{.id = 5, .position_m = {20.0, 0.0, 0.0}, .doppler = 1.08, .engine_hz = 50.0, .load = 1.0};
-  CHECK(peak_hz(heard_of(car), 90.0, 130.0) == doctest::Approx(100.0 * 1.08).epsilon(0.01));
+  CHECK(peak_hz(heard_of(car), 90.0, 130.0) == relative(100.0 * 1.08, 0.01));
   const OtherSound rolls{.id = 5, .position_m = {20.0, 0.0, 0.0}, .speed_mps = 30.0};
   OtherSound slow = rolls, lorry = rolls;
   slow.speed_mps = 10.0;
   lorry.kind = ParticipantKind::lorry;
   const auto rolling = [&](const OtherSound& sound) { return power_within(heard_of(sound), 500.0, 1500.0); };
   CHECK(decibels(rolling(rolls) / rolling(slow)) > 8.0);
-  CHECK(decibels(rolling(lorry) / rolling(rolls)) == doctest::Approx(8.0).epsilon(0.2));
+  CHECK(decibels(rolling(lorry) / rolling(rolls)) == relative(8.0, 0.2));
   OtherSound hooting = rolls;
   hooting.speed_mps = 0.0;
   const double quiet_there = power_at(heard_of(hooting), 400.0);

@@ -10,6 +10,7 @@
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/noise.hpp"
 #include "engine/geometry/shapes.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::geometry;
@@ -190,7 +191,7 @@ TEST_CASE("gradient noise is smooth and bounded and its mean is nothing and an o
   }
   CHECK(fractal_noise(0.3, 0.4, 1, 5) == gradient_noise(0.3, 0.4, 5));
   CHECK(fractal_noise(0.3, 0.4, 2, 5) ==
-        doctest::Approx(gradient_noise(0.3, 0.4, 5) + 0.5 * gradient_noise(0.6, 0.8, 5 + 7919)).epsilon(1e-12));
+        relative(gradient_noise(0.3, 0.4, 5) + 0.5 * gradient_noise(0.6, 0.8, 5 + 7919), 1e-12));
 }
 
 TEST_CASE("random numbers of a lattice are even and neighbours and seeds have nothing to do with each other") {
@@ -209,7 +210,7 @@ TEST_CASE("random numbers of a lattice are even and neighbours and seeds have no
     }
   // Of 40,000 numbers each mean has a deviation of 0.0015 or, of the products, of 0.0004.
   CHECK(std::abs(sum / (n * n)) < 0.006);
-  CHECK(squares / (n * n) == doctest::Approx(1.0 / 12.0).epsilon(0.02).scale(0.0));
+  CHECK(squares / (n * n) == relative(1.0 / 12.0, 0.02));
   CHECK(std::abs(along / (n * n)) < 0.002);
   CHECK(std::abs(across / (n * n)) < 0.002);
   CHECK(std::abs(seeds / (n * n)) < 0.002);

@@ -9,6 +9,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/noise.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::geometry {
 
@@ -26,11 +27,11 @@ TEST_CASE("a box is closed and holds its volume with bevels and without") {
 
 TEST_CASE("a lathe and a cylinder and an icosphere are closed and face outwards") {
   CHECK(is_closed(cylinder(0.5f, 0.0f, 2.0f, 48)));
-  CHECK(signed_volume_m3(cylinder(0.5f, 0.0f, 2.0f, 48)) == doctest::Approx(0.5 * std::numbers::pi).epsilon(0.01));
+  CHECK(signed_volume_m3(cylinder(0.5f, 0.0f, 2.0f, 48)) == relative(0.5 * std::numbers::pi, 0.01));
   const PolygonMesh ball = icosphere(3);
   CHECK(triangle_count(ball) == 1280);
   CHECK(is_closed(ball));
-  CHECK(signed_volume_m3(ball) == doctest::Approx(4.0 / 3.0 * std::numbers::pi).epsilon(0.02));
+  CHECK(signed_volume_m3(ball) == relative(4.0 / 3.0 * std::numbers::pi, 0.02));
 }
 
 TEST_CASE("a closed profile extruded along a path is a closed tube") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/image/font.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::image {
 namespace {
@@ -30,7 +31,7 @@ TEST_CASE("the box filter keeps the mean of an image") {
   double sum = 0.0;
   for (std::uint32_t y = 0; y < 2; ++y)
     for (std::uint32_t x = 0; x < 4; ++x) sum += half.at(x, y).red;
-  CHECK(sum / 8.0 == doctest::Approx(127.5).epsilon(0.005));
+  CHECK(sum / 8.0 == relative(127.5, 0.005));
   CHECK(half.at(0, 0) == white);
   CHECK(half.at(3, 1) == black);
 }
@@ -50,7 +51,7 @@ TEST_CASE("a line is as wide as it was asked for wherever it lies") {
       line(image, -5.0, y, 20.0, y, width_px, white);
       double sum = 0.0;
       for (std::uint32_t row = 0; row < 11; ++row) sum += image.at(5, row).red / 255.0;
-      CHECK(sum == doctest::Approx(width_px).epsilon(0.02).scale(0.0));
+      CHECK(sum == relative(width_px, 0.02));
     }
 }
 
@@ -74,7 +75,7 @@ TEST_CASE("a polygon covers the area that it encloses") {
   double sum = 0.0;
   for (std::uint32_t y = 0; y < 20; ++y)
     for (std::uint32_t x = 0; x < 20; ++x) sum += image.at(x, y).red / 255.0;
-  CHECK(sum == doctest::Approx(112.5).epsilon(0.02));
+  CHECK(sum == relative(112.5, 0.02));
 }
 
 TEST_CASE("text leaves ink within the width that was promised") {

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/relative.hpp"
+
 namespace septet::image {
 namespace {
 
@@ -73,8 +75,8 @@ TEST_CASE("a mark on a screen appears in the panorama at its direction") {
         ++count;
       }
   REQUIRE(count > 20);
-  CHECK(x / count == doctest::Approx(expected.x).epsilon(0.001));
-  CHECK(y / count == doctest::Approx(expected.y).epsilon(0.005));
+  CHECK(x / count == relative(expected.x, 0.001));
+  CHECK(y / count == relative(expected.y, 0.005));
 }
 
 TEST_CASE("screens ahead stand above screens behind from left to right") {
@@ -87,8 +89,8 @@ TEST_CASE("screens ahead stand above screens behind from left to right") {
   REQUIRE(layout.rows.size() == 2);
   CHECK(layout.rows[0].screens == std::vector<std::size_t>{5, 2, 3, 4, 0});
   CHECK(layout.rows[1].screens == std::vector<std::size_t>{6, 1});
-  CHECK(layout.rows[0].width_px == doctest::Approx(2200).epsilon(0.001));
-  CHECK(layout.rows[1].width_px == doctest::Approx(600).epsilon(0.002));
+  CHECK(layout.rows[0].width_px == relative(2200, 0.001));
+  CHECK(layout.rows[1].width_px == relative(600, 0.002));
   CHECK(layout.rows[1].top_px > layout.rows[0].top_px + layout.rows[0].height_px);
 }
 

@@ -7,6 +7,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/relative.hpp"
+
 namespace septet::instant {
 namespace {
 
@@ -64,8 +66,8 @@ TEST_CASE("a low sun gives the light that is told of it and not that light dimme
     return double(brightness(sky_light(environment).light_irradiance));
   };
   const double high = brightness_of_sun(0.75, 80000.0);
-  CHECK(brightness_of_sun(0.05, 1500.0) / high == doctest::Approx(1500.0 / 80000.0).epsilon(0.05));
-  CHECK(brightness_of_sun(0.3, 35000.0) / high == doctest::Approx(35000.0 / 80000.0).epsilon(0.05));
+  CHECK(brightness_of_sun(0.05, 1500.0) / high == relative(1500.0 / 80000.0, 0.05));
+  CHECK(brightness_of_sun(0.3, 35000.0) / high == relative(35000.0 / 80000.0, 0.05));
   // Who leaves it as it is by day means the same sun, lower.
   CHECK(brightness_of_sun(0.05, 80000.0) < 0.5 * high);
 }
@@ -87,7 +89,7 @@ TEST_CASE("night is dark and a moon stands opposite the sun") {
 
 TEST_CASE("fog hides at its visibility all but a fiftieth of the contrast") {
   // Koschmieder: contrast falls to 2 % at the meteorological range.
-  CHECK(std::exp(-light_at(0.8, 0.0, 400.0).fog_per_m * 400.0f) == doctest::Approx(0.02).epsilon(0.01).scale(0.0));
+  CHECK(std::exp(-light_at(0.8, 0.0, 400.0).fog_per_m * 400.0f) == relative(0.02, 0.01));
 }
 
 TEST_CASE("rain hides as much as its drops do, snow more, and neither where none falls") {
@@ -98,7 +100,7 @@ TEST_CASE("rain hides as much as its drops do, snow more, and neither where none
   for (const std::array<double, 2>& row : {std::array{1.0, 0.31}, std::array{5.0, 0.92}, std::array{10.0, 1.46},
                                            std::array{25.0, 2.7}, std::array{50.0, 4.3}}) {
     environment.rain_mm_per_h = row[0];
-    CHECK(1000.0 * fall_extinction_per_m(environment) == doctest::Approx(row[1]).epsilon(0.02).scale(0.0));
+    CHECK(1000.0 * fall_extinction_per_m(environment) == relative(row[1], 0.02));
   }
   environment.rain_mm_per_h = 2.0;
   const double rain = fall_extinction_per_m(environment);

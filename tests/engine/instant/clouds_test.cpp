@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/relative.hpp"
+
 namespace septet::instant {
 namespace {
 
@@ -38,7 +40,7 @@ TEST_CASE("the noise of clouds holds every rank as often as any other") {
   REQUIRE(noise.size() == std::size_t{cloud_noise_side} * cloud_noise_side);
   std::array<double, 8> share{};
   for (const std::uint8_t rank : noise) share[rank / 32] += 1.0 / static_cast<double>(noise.size());
-  for (const double each : share) CHECK(each == doctest::Approx(0.125).epsilon(0.03).scale(0));
+  for (const double each : share) CHECK(each == relative(0.125, 0.03));
 }
 
 TEST_CASE("a clear sky has no clouds and the more the weather has the more are seen") {
@@ -68,8 +70,8 @@ TEST_CASE("clouds drift with the wind and come back after nine kilometres") {
   const float z = 0.8f, per_m = (z + 0.12f) / 1600.0f;
   const glm::vec3 overhead{-0.3f, 0.0f, z}, later{-0.3f + 300.0f * per_m, 0.0f, z};
   CHECK(cloud_seen(noise, sky(), 0.6, {-300.0f, 0.0f}, later).cover ==
-        doctest::Approx(double(cloud_seen(noise, sky(), 0.6, {0.0f, 0.0f}, overhead).cover)).epsilon(0.001));
-  CHECK(mean_cover(noise, 0.6, {9000.0f, -9000.0f}) == doctest::Approx(mean_cover(noise, 0.6)).epsilon(0.001));
+        relative(double(cloud_seen(noise, sky(), 0.6, {0.0f, 0.0f}, overhead).cover), 0.001));
+  CHECK(mean_cover(noise, 0.6, {9000.0f, -9000.0f}) == relative(mean_cover(noise, 0.6), 0.001));
 }
 
 }  // namespace septet::instant

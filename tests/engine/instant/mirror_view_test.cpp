@@ -7,6 +7,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/relative.hpp"
+
 namespace septet::instant {
 namespace {
 
@@ -59,8 +61,8 @@ TEST_CASE("a point behind the car is seen in a flat mirror where the law of refl
     for (const Vec3& point_m : {Vec3(-30, 4, 0.8), Vec3(-8, 2, 0.3), Vec3(-100, -1, 3)}) {
       const Vec2 seen = shown_at(*view, point_m);
       const Vec2 expected = on_glass(glass(), reflection_point(glass(), eye_m, point_m));
-      CHECK(seen.x == doctest::Approx(expected.x).epsilon(1e-4));
-      CHECK(seen.y == doctest::Approx(expected.y).epsilon(1e-4));
+      CHECK(seen.x == relative(expected.x, 1e-4));
+      CHECK(seen.y == relative(expected.y, 1e-4));
     }
   }
 }
@@ -79,8 +81,7 @@ TEST_CASE("a convex mirror shows at its middle what a flat one does and more aro
   // The image of an eye 0.8 m away in a mirror of 1.4 m is at 0.7 · 0.8 / 1.5 m: the angle is that much wider.
   const double flat_m = glm::dot(middle_m - flat->eye_m, -flat->back);
   const double share = 0.7 / (flat_m + 0.7);
-  CHECK(convex->right_slope - convex->left_slope ==
-        doctest::Approx((flat->right_slope - flat->left_slope) / share).epsilon(1e-9));
+  CHECK(convex->right_slope - convex->left_slope == relative((flat->right_slope - flat->left_slope) / share, 1e-9));
 }
 
 TEST_CASE("nothing between the eye's image and the glass is drawn") {

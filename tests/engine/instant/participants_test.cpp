@@ -9,6 +9,7 @@
 
 #include "engine/world/limbs.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::instant {
 namespace {
@@ -71,7 +72,7 @@ TEST_CASE("a beacon flashes twice in its half of every half second and not when 
       CHECK(shining(PartRole::beacon, {}, 7.0 + i * 0.001, y_m) == 0.0f);
     }
     CHECK(edges == 4);
-    CHECK(lit_s == doctest::Approx(0.24).epsilon(0.02));
+    CHECK(lit_s == relative(0.24, 0.02));
   }
   CHECK(shining(PartRole::beacon, on, 0.03, 0.4) == 1.0f);
   CHECK(shining(PartRole::beacon, on, 0.03, -0.4) == 0.0f);
@@ -84,7 +85,7 @@ TEST_CASE("a film of 25 pictures a second has all of a beacon's light whenever i
     double lit_s = 0.0;
     for (int picture = 0; picture < 25; ++picture)
       lit_s += 0.04 * shining(PartRole::beacon, on, 3.0 + 0.001 * shift + 0.04 * picture, 0.4);
-    CHECK(lit_s == doctest::Approx(0.24).epsilon(1e-4));
+    CHECK(lit_s == relative(0.24, 1e-4));
   }
 }
 

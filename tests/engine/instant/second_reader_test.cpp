@@ -10,6 +10,7 @@
 #include "engine/instant/instant.hpp"
 #include "engine/instant/tone_curve.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::instant {
 namespace {
@@ -92,8 +93,7 @@ TEST_CASE("rays find the car and its lit brake lamp and loose triangles before i
   const Hit body = along({11.0, 0.0, 0.55});
   REQUIRE(body.material != no_material);
   CHECK(stage.reference.scene.materials[body.material].takes_paint);
-  CHECK(body.distance_m ==
-        doctest::Approx(glm::length(Vec3(11.0, 0.0, 0.55) - world_eye(stage.input.views[0]))).epsilon(1e-6));
+  CHECK(body.distance_m == relative(glm::length(Vec3(11.0, 0.0, 0.55) - world_eye(stage.input.views[0])), 1e-6));
   CHECK(along({100.0, 0.0, 200.0}).material == no_material);
   stage.input.participants[0].lamps.set(Lamp::brake, false);
   CHECK(along({10.96, 0.65, 0.68}).emission_shines == 0.0f);
@@ -107,7 +107,7 @@ TEST_CASE("rays find the car and its lit brake lamp and loose triangles before i
   stage.input.meshes = {shard};
   const Vec3 eye_m = world_eye(stage.input.views[0]);
   const Vec3 behind = eye_m + (Vec3(8.0, 0.0, 0.7) - eye_m) * 2.0;
-  CHECK(along(behind).distance_m == doctest::Approx(glm::length(Vec3(8.0, 0.0, 0.7) - eye_m)).epsilon(1e-6));
+  CHECK(along(behind).distance_m == relative(glm::length(Vec3(8.0, 0.0, 0.7) - eye_m), 1e-6));
 }
 
 TEST_CASE("a ray through a pixel goes where the projection takes it from in a mirror too") {
@@ -117,13 +117,13 @@ TEST_CASE("a ray through a pixel goes where the projection takes it from in a mi
     const Vec3 point_m = world_eye(view) + 17.0 * ray_through(view, 250.5, 31.5);
     const glm::dvec4 clip = view.projection.clip_from_eye_relative *
                             glm::dvec4(inverse(view.world_from_car) * point_m - view.projection.eye_m, 1.0);
-    CHECK((0.5 + (mirrored ? -0.5 : 0.5) * clip.x / clip.w) * 320.0 == doctest::Approx(250.5).epsilon(1e-9));
-    CHECK((0.5 + 0.5 * clip.y / clip.w) * 200.0 == doctest::Approx(31.5).epsilon(1e-9));
+    CHECK((0.5 + (mirrored ? -0.5 : 0.5) * clip.x / clip.w) * 320.0 == relative(250.5, 1e-9));
+    CHECK((0.5 + 0.5 * clip.y / clip.w) * 200.0 == relative(31.5, 1e-9));
   }
 }
 
 TEST_CASE("an exposure value whitens what the standard says and noon and night lie where photographers put them") {
-  CHECK(Exposure{15.0f}.scale() * 39322.0f / luminance_unit_cdpm2 == doctest::Approx(1.0).epsilon(1e-4));
+  CHECK(Exposure{15.0f}.scale() * 39322.0f / luminance_unit_cdpm2 == relative(1.0, 1e-4));
   CHECK(exposure_of_scale(Exposure{7.25f}.scale()).ev100 == doctest::Approx(7.25));
   Stage stage;
   const float noon = describe(stage.input, stage.summary).exposure.ev100;
@@ -152,7 +152,7 @@ TEST_CASE("a description depends on its input alone and headlights are in it onl
 
 TEST_CASE("light far brighter than white still differs on the display and darkness is black") {
   CHECK(display_code(glm::vec3(0.0f)).g == 0.0f);
-  CHECK(display_code(glm::vec3(0.18f)).g == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(display_code(glm::vec3(0.18f)).g == relative(0.5, 0.05));
   CHECK(display_code(glm::vec3(8.0f)).g > display_code(glm::vec3(4.0f)).g);
   CHECK(display_code(glm::vec3(1e6f)).g <= 1.0f);
 }

@@ -8,6 +8,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/relative.hpp"
+
 namespace septet::instant {
 namespace {
 
@@ -55,10 +57,10 @@ TEST_CASE("what hangs behind a vehicle takes as much light as its spray is compu
   for (const bool heavy : {false, true})
     for (double time_s = 8.0; time_s < 8.4; time_s += 0.03) {
       const DrawnParticipant vehicle = vehicle_at(25.0, heavy);
-      CHECK(depth_along(spray_of(vehicle, 1.0, time_s)) == doctest::Approx(spray_depth(vehicle, 1.0)).epsilon(0.15));
+      CHECK(depth_along(spray_of(vehicle, 1.0, time_s)) == relative(spray_depth(vehicle, 1.0), 0.15));
     }
   // A lorry's at 90 km/h in standing water: two thirds to three quarters.
-  CHECK(1.0 - std::exp(-spray_depth(vehicle_at(25.0, true), 1.0)) == doctest::Approx(0.7).epsilon(0.05));
+  CHECK(1.0 - std::exp(-spray_depth(vehicle_at(25.0, true), 1.0)) == relative(0.7, 0.05));
 }
 
 TEST_CASE(

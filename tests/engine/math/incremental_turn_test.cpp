@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/math/spherical_interpolation.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 
@@ -105,7 +106,7 @@ TEST_CASE("equal vectors stay and antipodal ones are refused") {
   // A turn by nearly half a circle still ends where it should.
   auto half = *Turn::between({1, 0, 0}, {-std::cos(1e-5), std::sin(1e-5), 0}, 100);
   for (int n = 0; n < 100; ++n) half.advance();
-  CHECK(half.value()[1] == doctest::Approx(std::sin(1e-5)).epsilon(1e-6));
+  CHECK(half.value()[1] == relative(std::sin(1e-5), 1e-6));
 }
 
 TEST_CASE("a turn refuses sigma beyond one and no steps and vectors that are not of unit length") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/net/net_fixtures.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::net {
 namespace {
@@ -31,8 +32,8 @@ TEST_CASE(
   CHECK(said[0].second.find("is lost (the server is not heard for") != std::string::npos);
   for (std::size_t i = 1; i < said.size(); ++i)
     CHECK(said[i].second.find("no answer from 10.0.0.1:4750") != std::string::npos);
-  CHECK(said[2].first - said[1].first == doctest::Approx(30.0).epsilon(0.01));
-  CHECK(said[3].first - said[2].first == doctest::Approx(30.0).epsilon(0.01));
+  CHECK(said[2].first - said[1].first == relative(30.0, 0.01));
+  CHECK(said[3].first - said[2].first == relative(30.0, 0.01));
 
   site.start_server(2);
   site.run(2.0);

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/net/net_fixtures.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::net {
 namespace {
@@ -67,15 +68,15 @@ TEST_CASE("the estimate of a clock is the middle of what all pings leave") {
   clock.add(10.0, 110.003, 10.020);  // The way back was slow: the offset is between 99.983 and 100.003.
   clock.add(10.1, 110.118, 10.120);  // The way there: between 99.998 and 100.018.
   CHECK(clock.pings() == 2);
-  CHECK(clock.offset_s() == doctest::Approx(100.0005).epsilon(1e-6));
-  CHECK(clock.uncertainty_s() == doctest::Approx(0.0025 + 0.00001).epsilon(0.01).scale(0.0));
+  CHECK(clock.offset_s() == relative(100.0005, 1e-6));
+  CHECK(clock.uncertainty_s() == relative(0.0025 + 0.00001, 0.01));
   // What an old ping said counts for less and less: two clocks drift apart.
   for (int k = 1; k <= 10; ++k) clock.add(10.0 + k, 110.0105 + k, 10.020 + k);
   CHECK(clock.uncertainty_s() > 0.0025 + 0.0015);
   // One that cannot be true if the others are: a clock was set.
   clock.add(30.0, 180.001, 30.002);
   CHECK(clock.pings() == 1);
-  CHECK(clock.offset_s() == doctest::Approx(150.0).epsilon(1e-6));
+  CHECK(clock.offset_s() == relative(150.0, 1e-6));
   // Nor are times any better that no clock shows.
   clock.add(std::nan(""), 181.0, 31.0);
   clock.add(31.0, 181.0, 30.9);

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/random.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -193,7 +194,7 @@ TEST_CASE("a tile is taken to cost what it has cost in the frames before, on mac
       costs.learn(tile, frame % 2 ? cost : 3.0 * cost, frame % 2 ? fast : slow);
     }
   for (std::uint32_t tile = 0; tile < 4; ++tile)
-    CHECK(costs[tile] == doctest::Approx(std::array{1.0, 2.0, 4.0, 5.0}[tile] / 3.0).epsilon(0.15));
+    CHECK(costs[tile] == relative(std::array{1.0, 2.0, 4.0, 5.0}[tile] / 3.0, 0.15));
   const double before = costs[1];
   for (const double nonsense : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
     costs.learn(1, nonsense, slow);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 
@@ -32,8 +33,8 @@ TEST_CASE("under an even sky a black board with a clear coat is as bright as gla
   for (const double down_rad : {0.3, 0.6, 1.2}) {
     CAPTURE(down_rad);
     const double fresnel = 0.04 + 0.96 * std::pow(1.0 - std::sin(down_rad), 5.0);
-    CHECK(seen(1.0f, down_rad) == doctest::Approx(fresnel).epsilon(0.04));
-    CHECK(seen(0.5f, down_rad) == doctest::Approx(0.5 * fresnel).epsilon(0.04));
+    CHECK(seen(1.0f, down_rad) == relative(fresnel, 0.04));
+    CHECK(seen(0.5f, down_rad) == relative(0.5 * fresnel, 0.04));
     CHECK(seen(0.0f, down_rad) == 0.0);
   }
 }

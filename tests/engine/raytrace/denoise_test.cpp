@@ -10,6 +10,7 @@
 
 #include "engine/raytrace/displayed.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -36,7 +37,7 @@ TEST_CASE("without its noise a picture is nearer to one of many samples and its 
   const double before = rmse(noisy, reference), after = rmse(clean, reference);
   MESSAGE("RMSE ", before, " with noise, ", after, " without");
   CHECK(after < 0.6 * before);
-  CHECK(mean_of(clean).radiance.x == doctest::Approx(mean_of(noisy).radiance.x).epsilon(0.03));
+  CHECK(mean_of(clean).radiance.x == relative(mean_of(noisy).radiance.x, 0.03));
 }
 
 TEST_CASE("a picture without noise stays as it is within a code of a display") {
@@ -70,8 +71,8 @@ TEST_CASE("an edge that is painted on a surface or between two of them stays sha
     const TracedPicture clean = denoised(picture, exposure);
     for (std::uint32_t y = 8; y < 24; ++y)
       left += clean.at(23, y).radiance.x / 16.0, right += clean.at(24, y).radiance.x / 16.0;
-    CHECK(left == doctest::Approx(painted ? 0.8 : 0.2).epsilon(0.06));
-    CHECK(right == doctest::Approx(painted ? 0.2 : 0.16).epsilon(0.06));
+    CHECK(left == relative(painted ? 0.8 : 0.2, 0.06));
+    CHECK(right == relative(painted ? 0.2 : 0.16, 0.06));
     CHECK(std::abs(clean.at(23, 16).radiance.x - left) < 0.15 * left);
   }
 }

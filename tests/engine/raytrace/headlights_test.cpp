@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/instant/headlight_beam.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -42,13 +43,13 @@ TEST_CASE("each of many headlights is drawn as often as it is a share of their l
     float expected = 0.0f;
     for (const instant::Headlight& light : headlights) expected += strength(light);
     const float sum = row.sum(place_m, half_open);
-    CHECK(sum == doctest::Approx(expected).epsilon(1e-5));
+    CHECK(sum == relative(expected, 1e-5));
     constexpr int draws = 20'000;
     std::vector<int> drawn(count);
     for (int n = 0; n < draws; ++n) {
       const DrawnHeadlight one = row.drawn(place_m, half_open, (static_cast<float>(n) + 0.5f) / draws, sum);
       ++drawn.at(one.which);
-      REQUIRE(one.strength == doctest::Approx(strength(headlights[one.which])).epsilon(1e-5));
+      REQUIRE(one.strength == relative(strength(headlights[one.which]), 1e-5));
       REQUIRE(one.strength > 0.0f);
     }
     for (std::size_t n = 0; n < count; ++n)

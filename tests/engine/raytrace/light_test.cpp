@@ -12,6 +12,7 @@
 
 #include "engine/raytrace/lamps.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -165,7 +166,7 @@ TEST_CASE("a sky lights a wall by the integral of its radiance and the cosine") 
       drawn_share += double(light.pdf(direction));
     }
   const double solid_angle = 2.0 * std::numbers::pi / rings / spokes;
-  CHECK(drawn_share * solid_angle == doctest::Approx(1.0).epsilon(0.005));
+  CHECK(drawn_share * solid_angle == relative(1.0, 0.005));
   const double known = 0.5 / std::numbers::pi * irradiance * solid_angle;
   const PictureMean mean =
       mean_of(traced(scene, needle({5.0, 0.0, 0.0}, 0.0, std::make_shared<const instant::SkyLight>(sky)), direct(512)));
@@ -200,7 +201,7 @@ TEST_CASE("rough metal under the sun shines as Walter's microfacets say") {
       const double known = f * d * g / (4.0 * v.x * l.x) * -l.x * 3.0;
       CAPTURE(roughness);
       CAPTURE(aside_deg);
-      CHECK(mean.radiance.x == doctest::Approx(known).epsilon(0.01).scale(0));
+      CHECK(mean.radiance.x == relative(known, 0.01));
     }
 }
 
@@ -218,7 +219,7 @@ TEST_CASE("a mirror shows a lamp as bright as it is") {
   const double aside = std::atan2(0.75, 1.0);
   const PictureMean mean = mean_of(traced(scene, needle({5.0, 0.0, 0.0}, aside, even_sky(0.0f)), direct(64)));
   const double fresnel_here = 0.8 + 0.2 * std::pow(1.0 - std::cos(aside), 5.0);
-  CHECK(mean.radiance.x == doctest::Approx(7.0 * fresnel_here).epsilon(0.005).scale(0));
+  CHECK(mean.radiance.x == relative(7.0 * fresnel_here, 0.005));
 }
 
 }  // namespace septet::raytrace

@@ -9,6 +9,7 @@
 
 #include "engine/geometry/temporal_normals.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -100,10 +101,10 @@ TEST_CASE("a pixel's motion is the way of what it shows in the picture by the ca
   // The camera moves to the left and up: what stands goes to the right and down, the sky nowhere.
   instant::Instant later = instant;
   later.views.front().projection.eye_m += Vec3(0.0, 1.0, 0.5);
-  CHECK(motion(later, on_sheet).x == doctest::Approx(px_of_m).epsilon(1e-4));
-  CHECK(motion(later, on_sheet).y == doctest::Approx(0.5 * px_of_m).epsilon(1e-4));
+  CHECK(motion(later, on_sheet).x == relative(px_of_m, 1e-4));
+  CHECK(motion(later, on_sheet).y == relative(0.5 * px_of_m, 1e-4));
   CHECK(glm::length(motion(later, in_sky)) < 1e-3f);
-  CHECK(motion(later, on_sheet, 2.5f).x == doctest::Approx(2.5 * px_of_m).epsilon(1e-4));
+  CHECK(motion(later, on_sheet, 2.5f).x == relative(2.5 * px_of_m, 1e-4));
   // It turns to the left: the sky goes to the right, by tangents.
   later = instant;
   later.views.front().projection = instant::symmetric_view({-distance_m, 0.0, 0.0}, 0.05, 0.0, angle_rad, angle_rad);
@@ -113,7 +114,7 @@ TEST_CASE("a pixel's motion is the way of what it shows in the picture by the ca
   // The sheet goes to the right, which a camera that goes with it does not see.
   later = instant;
   later.parts.front().origin_m.y = -1.5;
-  CHECK(motion(later, on_sheet).x == doctest::Approx(1.5 * px_of_m).epsilon(1e-4));
+  CHECK(motion(later, on_sheet).x == relative(1.5 * px_of_m, 1e-4));
   CHECK(std::abs(motion(later, on_sheet).y) < 1e-3f);
   later.views.front().projection.eye_m.y = -1.5;
   CHECK(glm::length(motion(later, on_sheet)) < 1e-3f);
@@ -145,8 +146,8 @@ TEST_CASE("debris moves in the picture as its corners do") {
   later.loose.front().mesh.origin_m.y += 0.25;
   const TracedPicture picture =
       traced_until(scene, instant, later, {.samples = 1, .filter = Filter::box, .blurs = false});
-  CHECK(picture.at(20, 20).motion_px.x == doctest::Approx(-0.25 * px_of_m).epsilon(1e-4));
-  CHECK(picture.at(20, 20).motion_px.y == doctest::Approx(0.75 * px_of_m).epsilon(1e-4));
+  CHECK(picture.at(20, 20).motion_px.x == relative(-0.25 * px_of_m, 1e-4));
+  CHECK(picture.at(20, 20).motion_px.y == relative(0.75 * px_of_m, 1e-4));
 }
 
 TEST_CASE("a ray meets what turns where it is at the ray's time") {
@@ -167,11 +168,11 @@ TEST_CASE("a ray meets what turns where it is at the ray's time") {
     ray.origin_m = {-9.0f, 2.0f, 0.5f}, ray.direction = {1.0f, 0.0f, 0.0f}, ray.time = time;
     Hit hit;
     REQUIRE(geometry->intersect(ray, hit));
-    CHECK(hit.distance_m == doctest::Approx(9.0 - 2.0 * std::tan(1.2 * time)).epsilon(1e-4));
+    CHECK(hit.distance_m == relative(9.0 - 2.0 * std::tan(1.2 * time), 1e-4));
     const Stand now = motion.at(time);
     const glm::vec3 axis = now.turn * glm::vec3(0, 1, 0);
-    CHECK(axis.x == doctest::Approx(-2.0 * std::sin(1.2 * time)).epsilon(1e-4));
-    CHECK(axis.y == doctest::Approx(2.0 * std::cos(1.2 * time)).epsilon(1e-4));
+    CHECK(axis.x == relative(-2.0 * std::sin(1.2 * time), 1e-4));
+    CHECK(axis.y == relative(2.0 * std::cos(1.2 * time), 1e-4));
     CHECK(now.origin_m.z == doctest::Approx(3.0 * time));
   }
 }

@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -180,10 +181,10 @@ TEST_CASE("a ball of glass sends on what it lets through, and where two stand in
   };
   const double beam = std::numbers::pi * 0.25 * 30000.0 / (double(away_m) * double(away_m));
   const double one = energy({ball_of(1.5f, 0.4f, 0.5f, {0.0, 0.0, 0.0})});
-  CHECK(one / (beam * let_through(1.5f, 0.4, 0.5)) == doctest::Approx(1.0).epsilon(0.01).scale(0));
+  CHECK(one / (beam * let_through(1.5f, 0.4, 0.5)) == relative(1.0, 0.01));
   // One in the other's shadow, clear: all that falls on the first goes on, through both.
   const double both = energy({ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, 0.0}), ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, -1.5})});
-  CHECK(both / beam == doctest::Approx(1.0).epsilon(0.015).scale(0));
+  CHECK(both / beam == relative(1.0, 0.015));
 }
 
 TEST_CASE("under a ball of glass the sun makes a bright spot in a shadow, with the light that goes down through it") {
@@ -201,7 +202,7 @@ TEST_CASE("under a ball of glass the sun makes a bright spot in a shadow, with t
   settings.photons.caustic_reach_m = 0.1f;
   const TracedPicture with = traced(scene, instant, settings, glass);
   const double open_floor = 0.5 / std::numbers::pi * 3.0;
-  CHECK(mean_of(open).radiance.x == doctest::Approx(open_floor).epsilon(0.01).scale(0));
+  CHECK(mean_of(open).radiance.x == relative(open_floor, 0.01));
   float brightest = 0.0f;
   for (const TracedPixel& pixel : with.pixels) brightest = std::max(brightest, pixel.radiance.x);
   CHECK(brightest > 5.0 * open_floor);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 TEST_CASE("the Cornell box has the light that other renderers find in it") {
@@ -32,8 +33,7 @@ TEST_CASE("the Cornell box has by a final gather the light that paths find in it
   MESSAGE("gathered ", gathered.radiance.x, " ", gathered.radiance.y, " ", gathered.radiance.z, ", by paths ",
           paths.radiance.x, " ", paths.radiance.y, " ", paths.radiance.z, "; sigma ", gathered.sigma, " and ",
           paths.sigma);
-  for (int c = 0; c < 3; ++c)
-    CHECK(gathered.radiance[c] / paths.radiance[c] == doctest::Approx(1.0).epsilon(0.02).scale(0));
+  for (int c = 0; c < 3; ++c) CHECK(gathered.radiance[c] / paths.radiance[c] == relative(1.0, 0.02));
 }
 
 TEST_CASE("the error falls with the root of the number of samples") {
@@ -50,7 +50,7 @@ TEST_CASE("the error falls with the root of the number of samples") {
   };
   const double few = error(8), many = error(128);
   MESSAGE("from 8 to 128 samples the error falls ", few / many, " times");
-  CHECK(few / many == doctest::Approx(4.0).epsilon(0.1));
+  CHECK(few / many == relative(4.0, 0.1));
 }
 
 TEST_CASE("a picture that is told its error has it and tells it") {
@@ -78,7 +78,7 @@ TEST_CASE("a picture that is told its error has it and tells it") {
   MESSAGE("wanted 0.06, told ", told, ", found ", found, ", against the reference ", against_reference, "; ",
           samples / pixels, " samples a pixel, at most ", most);
   CHECK(told <= 0.06);
-  CHECK(found / told == doctest::Approx(1.0).epsilon(0.15));
+  CHECK(found / told == relative(1.0, 0.15));
   CHECK(found < 0.066);
   CHECK(against_reference < 0.075);
   CHECK(most < 1 << 14);

@@ -9,6 +9,7 @@
 
 #include "engine/instant/headlight_beam.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -120,7 +121,7 @@ TEST_CASE("the variance that a pixel tells is that of its mean over other seeds"
       found += off * off;
     }
   }
-  CHECK(found / told == doctest::Approx(1.0).epsilon(0.25));
+  CHECK(found / told == relative(1.0, 0.25));
 }
 
 TEST_CASE("light that is not a number is counted and black") {
@@ -181,9 +182,9 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   for (const TracedPixel& pixel : picture.pixels)
     nearer += pixel.radiance.r / (side_px * side_px), further += pixel.radiance.g / (side_px * side_px);
   const double share = instant::fade_at(static_cast<float>(eye_m), 0.0f, scene.instances[0].visible_to_m).share();
-  CHECK(share == doctest::Approx(0.25).epsilon(0.05));
-  CHECK(nearer == doctest::Approx(share).epsilon(0.05));
-  CHECK(further == doctest::Approx(share + 3.0 * (1.0 - share)).epsilon(0.02));
+  CHECK(share == relative(0.25, 0.05));
+  CHECK(nearer == relative(share, 0.05));
+  CHECK(further == relative(share + 3.0 * (1.0 - share), 0.02));
 }
 
 TEST_CASE("a part is seen where the mesh is that stands in for its own, and is what it was") {
@@ -236,9 +237,9 @@ TEST_CASE("a point that is out of focus is a disc as wide as its circle of confu
     const double confusion_px = lens_radius_m * std::abs(1.0 / focus_m - 1.0 / distance_m) * px_of_slope;
     const double ball_px = ball_m / distance_m * px_of_slope, pixel_moment = 1.0 / 6.0;
     const double expected = 0.5 * (confusion_px * confusion_px + ball_px * ball_px) + pixel_moment;
-    CHECK(moment / light == doctest::Approx(expected).epsilon(0.06));
+    CHECK(moment / light == relative(expected, 0.06));
     // Whatever the focus, as much light comes.
-    CHECK(light == doctest::Approx(pi * ball_px * ball_px).epsilon(0.06));
+    CHECK(light == relative(pi * ball_px * ball_px, 0.06));
   }
 }
 
@@ -295,7 +296,7 @@ TEST_CASE("a dipped beam lights a wall as its table says in every direction") {
     const double down = way.first, aside = way.second;
     const double radiance = seen(down * degree, aside * degree), table = expected(down * degree, aside * degree);
     INFO(down << " degrees down, " << aside << " aside");
-    CHECK(radiance == doctest::Approx(table).epsilon(0.08).scale(0));
+    CHECK(radiance == relative(table, 0.08));
   }
 }
 
@@ -317,8 +318,8 @@ TEST_CASE("a picture of sets of samples is that of all of them, whichever set is
       const TracedPixel& pixel = whole.pixels[k];
       const TracedPixel joined_pixel = joined(of_sets);
       CHECK(joined_pixel.samples == samples);
-      CHECK(joined_pixel.radiance.x == doctest::Approx(pixel.radiance.x).epsilon(1e-5));
-      CHECK(joined_pixel.variance == doctest::Approx(pixel.variance).epsilon(1e-3));
+      CHECK(joined_pixel.radiance.x == relative(pixel.radiance.x, 1e-5));
+      CHECK(joined_pixel.variance == relative(pixel.variance, 1e-3));
       CHECK(joined_pixel.depth_m == pixel.depth_m);
       CHECK(joined_pixel.object == pixel.object);
     }

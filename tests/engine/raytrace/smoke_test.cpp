@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -45,13 +46,12 @@ TEST_CASE("a slab of smoke lets through what Beer and Lambert say") {
     const Smoke smoke(slab(extinction_per_m, 0.3f), Vec3(0.0));
     for (const float aside : {0.0f, 0.37f, -1.21f})
       CHECK(std::exp(-smoke.optical_depth(along_x(aside, 0.4f * aside))) ==
-            doctest::Approx(std::exp(-extinction_per_m * 3.0f)).epsilon(0.005).scale(0));
+            relative(std::exp(-extinction_per_m * 3.0f), 0.005));
     // The same aslant, through as much more of it.
     Ray aslant = along_x();
     aslant.direction = glm::normalize(glm::vec3(1.0f, 0.25f, -0.1f));
     aslant.origin_m = glm::vec3(3.5f, 0.0f, 0.0f) - 6.0f * aslant.direction;
-    CHECK(smoke.optical_depth(aslant) ==
-          doctest::Approx(extinction_per_m * 3.0f / aslant.direction.x).epsilon(0.005).scale(0));
+    CHECK(smoke.optical_depth(aslant) == relative(extinction_per_m * 3.0f / aslant.direction.x, 0.005));
   }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("a puff takes its extinction area from the light in all however fine t
       const float step = smoke->cell_m() / 8.0f;
       for (float y = -6.0f; y < 6.0f; y += step)
         for (float z = -6.0f; z < 6.0f; z += step) area += double(smoke->optical_depth(along_x(y, z))) * step * step;
-      CHECK(area == doctest::Approx(2.0).epsilon(0.002).scale(0));
+      CHECK(area == relative(2.0, 0.002));
     }
   }
 }
@@ -78,8 +78,7 @@ TEST_CASE("depth adds up along a ray and is nothing before and behind the smoke"
   const Smoke smoke(slab(0.7f, 0.3f), Vec3(0.0));
   Ray first = along_x(), second = along_x(), whole = along_x();
   first.to_m = second.from_m = 6.4f;
-  CHECK(smoke.optical_depth(first) + smoke.optical_depth(second) ==
-        doctest::Approx(smoke.optical_depth(whole)).epsilon(1e-4).scale(0));
+  CHECK(smoke.optical_depth(first) + smoke.optical_depth(second) == relative(smoke.optical_depth(whole), 1e-4));
   Ray before = along_x();
   before.to_m = 3.0f;
   CHECK(smoke.optical_depth(before) == 0.0f);
@@ -89,14 +88,14 @@ TEST_CASE("depth adds up along a ray and is nothing before and behind the smoke"
   CHECK_FALSE(smoke.walk(whole, 3.0f).scatters);
   const SmokeWalk walk = smoke.walk(whole, 0.7f * 1.5f);
   REQUIRE(walk.scatters);
-  CHECK(walk.distance_m == doctest::Approx(6.5).epsilon(0.005).scale(0));
-  CHECK(walk.albedo.x == doctest::Approx(0.3).epsilon(1e-3).scale(0));
+  CHECK(walk.distance_m == relative(6.5, 0.005));
+  CHECK(walk.albedo.x == relative(0.3, 1e-3));
 }
 
 TEST_CASE("smoke that only scatters cannot be told from the even sky around it") {
   const auto mean = mean_of(traced(nothing(), in_smoke({puff({3.0, 0.0, 0.0}, 1.0f, 12.0f, 1.0f)}, 0.25f),
                                    {.samples = 64, .paths = {.longest = 200, .roulette_from = 200}}));
-  CHECK(mean.radiance.x == doctest::Approx(0.25).epsilon(0.002).scale(0));
+  CHECK(mean.radiance.x == relative(0.25, 0.002));
 }
 
 TEST_CASE("black smoke hides what lies behind it and flames shine as bright as flames are") {
@@ -104,8 +103,8 @@ TEST_CASE("black smoke hides what lies behind it and flames shine as bright as f
   CHECK(std::abs(black.radiance.x - 0.5 * std::exp(-3.0)) < 4.0 * black.sigma + 0.005 * 0.5 * std::exp(-3.0));
   const auto flames =
       mean_of(traced(nothing(), in_smoke({puff({3.0, 0.0, 0.0}, 1.0f, 200.0f, 0.0f, 1.0f)}, 0.0f), {.samples = 4}));
-  CHECK(flames.radiance.x == doctest::Approx(double(instant::flame_radiance.x)).epsilon(0.001).scale(0));
-  CHECK(flames.radiance.z == doctest::Approx(double(instant::flame_radiance.z)).epsilon(0.001).scale(0));
+  CHECK(flames.radiance.x == relative(double(instant::flame_radiance.x), 0.001));
+  CHECK(flames.radiance.z == relative(double(instant::flame_radiance.z), 0.001));
 }
 
 TEST_CASE("the sun lights less of what lies in the shadow of smoke") {
@@ -125,7 +124,7 @@ TEST_CASE("the sun lights less of what lies in the shadow of smoke") {
   };
   // A little of the slab's edge lies between eye and ball too.
   const double share = lit(0.4f) / lit(0.0f);
-  CHECK(share == doctest::Approx(std::exp(-1.2)).epsilon(0.02).scale(0));
+  CHECK(share == relative(std::exp(-1.2), 0.02));
 }
 
 TEST_CASE("puffs that are nothing or nowhere are left out and a hall full of them keeps within its cells") {

@@ -11,6 +11,7 @@
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -55,7 +56,7 @@ TEST_CASE(
   for (const Antialiasing antialiasing : {Antialiasing::none, Antialiasing::multisampled}) {
     const RadianceImage without = lit_square(Bloom::none, antialiasing),
                         with = lit_square(Bloom::present, antialiasing);
-    CHECK(sum_of_green(with) == doctest::Approx(sum_of_green(without)).epsilon(0.01));
+    CHECK(sum_of_green(with) == relative(sum_of_green(without), 0.01));
     const auto gained = [&](std::uint32_t beside_px) {
       const std::uint32_t x = bloom_width / 2 + 15 + beside_px, y = bloom_height / 2;
       return with.at(x, y).g - without.at(x, y).g;

@@ -9,6 +9,7 @@
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render::coats {
 namespace {
@@ -66,19 +67,19 @@ TEST_CASE("a clear coat mirrors the sky as glass does and lets so much less ligh
     const double fresnel = schlick(std::sin(down_rad)), sky = double(board.sky(down_rad).g);
     const double plain = double(board.seen(0.6f, 0.0f, down_rad).g), black = double(board.seen(0.0f, 1.0f, down_rad).g),
                  coated = double(board.seen(0.6f, 1.0f, down_rad).g);
-    CHECK(black / (fresnel * sky) == doctest::Approx(1.0).epsilon(0.06));
+    CHECK(black / (fresnel * sky) == relative(1.0, 0.06));
     // Of the light of a whole sky a twelfth does not come through to the base.
-    CHECK((coated - black) / plain == doctest::Approx((1.0 - fresnel) * 0.92).epsilon(0.02));
+    CHECK((coated - black) / plain == relative((1.0 - fresnel) * 0.92, 0.02));
     // Half of it coated is half of both.
     const double half = double(board.seen(0.6f, 0.5f, down_rad).g);
-    CHECK(half == doctest::Approx(0.5 * (plain + coated)).epsilon(0.02));
+    CHECK(half == relative(0.5 * (plain + coated), 0.02));
   }
 }
 
 TEST_CASE("a rougher layer mirrors less of a low sky and as much straight down") {
   Board board;
   CHECK(board.seen(0.0f, 0.0f, 0.15, 0.5f).g < 0.6f * board.seen(0.0f, 0.0f, 0.15, 0.06f).g);
-  CHECK(board.seen(0.0f, 0.0f, 1.4, 0.5f).g == doctest::Approx(board.seen(0.0f, 0.0f, 1.4, 0.06f).g).epsilon(0.15));
+  CHECK(board.seen(0.0f, 0.0f, 1.4, 0.5f).g == relative(board.seen(0.0f, 0.0f, 1.4, 0.06f).g, 0.15));
 }
 
 }  // namespace septet::render::coats

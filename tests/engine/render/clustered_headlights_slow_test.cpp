@@ -16,6 +16,7 @@
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -103,7 +104,7 @@ TEST_CASE(
   const double outermost = at(clustered, -5.0, 55.0), middle = at(clustered, -5.0, 5.0);
   CHECK(outermost > 0.5 * middle);
   CHECK(at(nearest, -5.0, 55.0) < 0.4 * outermost);
-  CHECK(at(nearest, -5.0, 5.0) == doctest::Approx(middle).epsilon(0.1));
+  CHECK(at(nearest, -5.0, 5.0) == relative(middle, 0.1));
 }
 
 }  // namespace septet::render

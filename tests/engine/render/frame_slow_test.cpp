@@ -9,6 +9,7 @@
 
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -224,7 +225,7 @@ TEST_CASE("snow lies on the land and not on a car that drives nor on its windows
   studio.input.environment.snow_cover = 1.0;
   const image::Image snowed = studio.draw();
   CHECK(around(snowed, land) > around(bare, land) + 30.0);
-  CHECK(around(snowed, roof) == doctest::Approx(around(bare, roof)).epsilon(0.12));
+  CHECK(around(snowed, roof) == relative(around(bare, roof), 0.12));
 }
 
 TEST_CASE("rain darkens the near road and makes the far road mirror the sky") {

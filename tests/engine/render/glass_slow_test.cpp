@@ -12,6 +12,7 @@
 #include "engine/effects/ice/glass.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -111,7 +112,7 @@ TEST_CASE("what lies behind frost loses its contrast by Beer's law with the fros
     if (kgpm2 > 0.0f)
       CHECK(contrast < before - 0.02);
     else
-      CHECK(contrast == doctest::Approx(1.0).epsilon(1e-3));
+      CHECK(contrast == relative(1.0, 1e-3));
     before = contrast;
   }
 }
@@ -140,7 +141,7 @@ TEST_CASE("more of a frosted pane is seen through with every minute of the blowe
     for (int i = 0; i < 240; ++i) ice::warm(frost, 268.15, 8.0, 0.25);
   }
   CHECK(foot_first);
-  CHECK(before[0] == doctest::Approx(1.0).epsilon(1e-3));
+  CHECK(before[0] == relative(1.0, 1e-3));
 }
 
 TEST_CASE(

@@ -11,6 +11,7 @@
 
 #include "engine/effects/ice/objects.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -155,9 +156,9 @@ TEST_CASE("in quality mode cracks bend what is seen, absorption takes red before
   blue.look.absorption_per_m = {2.0f, 1.0f, 0.0f};
   const glm::vec3 taken = light_of({blue}).at(width / 2, height / 2) / through;
   // A metre through the middle.
-  CHECK(taken.r == doctest::Approx(std::exp(-2.0)).epsilon(0.03));
-  CHECK(taken.g == doctest::Approx(std::exp(-1.0)).epsilon(0.03));
-  CHECK(taken.b == doctest::Approx(1.0).epsilon(0.01));
+  CHECK(taken.r == relative(std::exp(-2.0), 0.03));
+  CHECK(taken.g == relative(std::exp(-1.0), 0.03));
+  CHECK(taken.b == relative(1.0, 0.01));
 
   ice::IceBody cracked = body;
   for (const ice::Crack& crack : generic_cracks(bounds(body.vertices), 2, 3)) append_crack(cracked.inside, crack);
@@ -173,9 +174,9 @@ TEST_CASE("in quality mode cracks bend what is seen, absorption takes red before
   const RadianceImage both = light_of({behind, blue}), either = light_of({blue, behind});
   // Two metres of ice, in whatever order they come.
   const glm::vec3 share = both.at(width / 2, height / 2) / through;
-  CHECK(share.r == doctest::Approx(std::exp(-4.0)).epsilon(0.15));
-  CHECK(share.g == doctest::Approx(std::exp(-2.0)).epsilon(0.15));
-  CHECK(share.b == doctest::Approx(1.0).epsilon(0.1));
+  CHECK(share.r == relative(std::exp(-4.0), 0.15));
+  CHECK(share.g == relative(std::exp(-2.0), 0.15));
+  CHECK(share.b == relative(1.0, 0.1));
   CHECK(differing(both, either) == 0);
 }
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/engine/instant/lone_mesh.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -48,10 +49,10 @@ TEST_CASE(
   const Vec2 foot = corner_m + (Vec2(128, 128) + 0.5) * LampField::texel_m;
   const LampField field = lamp_field(std::array{lamp(Vec3(foot, 6.0))}, corner_m);
   const float below = lamplight(texel(field, foot), up);
-  CHECK(below == doctest::Approx(candela / (height_m * height_m)).epsilon(1e-4));
+  CHECK(below == relative(candela / (height_m * height_m), 1e-4));
   const float beside = lamplight(texel(field, foot + Vec2(6, 0)), up);
   // At 45°: cos⁴ is a quarter; the window that ends the lamp's reach takes a twentieth.
-  CHECK(beside / below == doctest::Approx(0.25f).epsilon(0.06));
+  CHECK(beside / below == relative(0.25f, 0.06));
   // A wall that looks at the lamp is lit, its back is not.
   const glm::vec4 there = texel(field, foot + Vec2(6, 0));
   CHECK(lamplight(there, {-1, 0, 0}) > 0.5f * beside);

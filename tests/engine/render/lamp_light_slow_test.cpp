@@ -13,6 +13,7 @@
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -104,7 +105,7 @@ TEST_CASE(
   for (const double each : by_square) {
     CAPTURE(each);
     CAPTURE(by_square[3]);
-    CHECK(each == doctest::Approx(by_square[3]).epsilon(0.15));
+    CHECK(each == relative(by_square[3], 0.15));
   }
 }
 
@@ -123,16 +124,15 @@ TEST_CASE("rain and snow take as much of a picture's contrast as is computed of 
     return 1.0 - double(drawn(renderer, instant).at(side_px / 2, side_px / 2).g / behind.g);
   };
   const double dry = contrast(0.0, 283.0, 1.0f);
-  CHECK(dry == doctest::Approx(std::exp(-3.912 * 500.0 / 200e3)).epsilon(0.01));
+  CHECK(dry == relative(std::exp(-3.912 * 500.0 / 200e3), 0.01));
   for (const double mm_per_h : {2.5, 10.0, 50.0}) {
     CAPTURE(mm_per_h);
-    CHECK(contrast(mm_per_h, 283.0, 1.0f) / dry ==
-          doctest::Approx(std::exp(-0.312 * std::pow(mm_per_h, 0.67) * 0.5)).epsilon(0.01));
+    CHECK(contrast(mm_per_h, 283.0, 1.0f) / dry == relative(std::exp(-0.312 * std::pow(mm_per_h, 0.67) * 0.5), 0.01));
   }
   // Moderate snowfall, seen through half a kilometre to one.
   const double snow = contrast(2.0, 265.0, 1.0f) / dry;
-  CHECK(std::log(snow) == doctest::Approx(-0.5 * 5.50 / 4.343 * std::pow(2.0, 1.38)).epsilon(0.02));
-  CHECK(contrast(50.0, 283.0, 0.0f) == doctest::Approx(dry).epsilon(0.01));
+  CHECK(std::log(snow) == relative(-0.5 * 5.50 / 4.343 * std::pow(2.0, 1.38), 0.02));
+  CHECK(contrast(50.0, 283.0, 0.0f) == relative(dry, 0.01));
 }
 
 TEST_CASE("haze in a tunnel is lit by its lamps and not by the sky, and beyond its mouth by the sky") {
@@ -187,11 +187,11 @@ TEST_CASE("a wet road sends on as much of a lamp's light as water mirrors, in a 
                  below = taller * (peak - 0.5 * side_px) * pixel_m / ahead_m;
     CAPTURE(share / water);
     CAPTURE(ratio);
-    CHECK(share == doctest::Approx(water).epsilon(0.25).scale(0.0));
+    CHECK(share == relative(water, 0.25));
     // Seen so flat as high as 1 / sin(grazing) times its width: 11 at 20 m, 26 at 50 m.
     CHECK(ratio * grazing > 0.76);
     CHECK(ratio * grazing < 1.3);
-    CHECK(below == doctest::Approx(grazing).epsilon(0.1).scale(0.0));
+    CHECK(below == relative(grazing, 0.1));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/random.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 
@@ -24,8 +25,8 @@ TEST_CASE("black and white average to half the light and not to half the code") 
 TEST_CASE("the colour of what is cut away does not bleed in") {
   const std::vector<std::uint8_t> leaf{40, 200, 40, 255, 255, 0, 255, 0, 40, 200, 40, 255, 255, 0, 255, 0};
   const std::vector<MipLevel> levels = mip_chain(2, 2, leaf, true);
-  CHECK(levels[1].rgba[0] == doctest::Approx(40).epsilon(0.03));
-  CHECK(levels[1].rgba[1] == doctest::Approx(200).epsilon(0.01));
+  CHECK(levels[1].rgba[0] == relative(40, 0.03));
+  CHECK(levels[1].rgba[1] == relative(200, 0.01));
 }
 
 TEST_CASE("foliage keeps the share that passes the cut on smaller levels") {
@@ -38,7 +39,7 @@ TEST_CASE("foliage keeps the share that passes the cut on smaller levels") {
     int passing = 0;
     const std::size_t pixels = levels[level].rgba.size() / 4;
     for (std::size_t i = 0; i < pixels; ++i) passing += levels[level].rgba[4 * i + 3] >= 128;
-    CHECK(static_cast<double>(passing) / static_cast<double>(pixels) == doctest::Approx(0.3).epsilon(0.4).scale(0.0));
+    CHECK(static_cast<double>(passing) / static_cast<double>(pixels) == relative(0.3, 0.4));
   }
 }
 

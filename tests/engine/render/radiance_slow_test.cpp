@@ -11,6 +11,7 @@
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -99,7 +100,7 @@ TEST_CASE(
   Renderer renderer = renderer_of(Antialiasing::automatic);
   const float dark = wall_radiance(renderer, 0.0f).g, bright = wall_radiance(renderer, 20.0f).g,
               glaring = wall_radiance(renderer, 20000.0f).g;
-  CHECK((glaring - dark) / (bright - dark) == doctest::Approx(1000.0).epsilon(0.002));
+  CHECK((glaring - dark) / (bright - dark) == relative(1000.0, 0.002));
 }
 
 TEST_CASE("smoke of optical depth one before a wall leaves the share of its radiance that Beer and Lambert say") {
@@ -119,7 +120,7 @@ TEST_CASE("smoke of optical depth one before a wall leaves the share of its radi
   const float once = with_smoke(0.5f) / behind, twice = with_smoke(1.0f) / behind;
   CHECK(once < 0.85f);
   CHECK(once > 0.35f);
-  CHECK(twice == doctest::Approx(once * once).epsilon(0.02));
+  CHECK(twice == relative(once * once, 0.02));
 }
 
 TEST_CASE(
@@ -314,7 +315,7 @@ TEST_CASE(
   };
   const Drawn one = drawn(Antialiasing::none), four = drawn(Antialiasing::multisampled);
   CHECK(between(four) > between(one) + 100);
-  CHECK(light(four) == doctest::Approx(light(one)).epsilon(0.05));
+  CHECK(light(four) == relative(light(one), 0.05));
 }
 
 }  // namespace septet::render

@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/relative.hpp"
+
 using namespace septet;
 using namespace septet::render;
 
@@ -26,9 +28,9 @@ TEST_CASE("a point's place in the far cascade follows from that in the near one"
   for (const glm::vec3 point : {glm::vec3(0.0f), glm::vec3(9.0f, 4.0f, -1.5f), glm::vec3(-15.0f, 7.0f, 3.0f)}) {
     const glm::vec3 in_near = times(texture_from_relative(shadows.cascades[0], glm::vec3(0.0f)), point);
     const glm::vec3 in_far = times(texture_from_relative(shadows.cascades[1], glm::vec3(0.0f)), point);
-    CHECK(in_far.x == doctest::Approx(far.x * in_near.x + far.z).epsilon(1e-5));
-    CHECK(in_far.y == doctest::Approx(far.y * in_near.y + far.w).epsilon(1e-5));
-    CHECK(in_far.z == doctest::Approx(in_near.z).epsilon(1e-6));
+    CHECK(in_far.x == relative(far.x * in_near.x + far.z, 1e-5));
+    CHECK(in_far.y == relative(far.y * in_near.y + far.w, 1e-5));
+    CHECK(in_far.z == relative(in_near.z, 1e-6));
   }
 }
 
@@ -39,12 +41,11 @@ TEST_CASE("a cascade's edges are those of its texture and depth grows towards th
     const glm::vec3 middle = cascade.middle_m.x * cascade.right + cascade.middle_m.y * cascade.up;
     for (const float side : {-1.0f, 1.0f}) {
       const glm::vec3 edge = times(texture, middle + side * cascade.half_side_m * cascade.right);
-      CHECK(edge.x == doctest::Approx(0.5f + 0.5f * side).epsilon(1e-5));
-      CHECK(edge.y == doctest::Approx(0.5f).epsilon(1e-5));
-      CHECK(times(texture, middle + side * cascade.half_side_m * cascade.up).y ==
-            doctest::Approx(0.5f + 0.5f * side).epsilon(1e-5));
+      CHECK(edge.x == relative(0.5f + 0.5f * side, 1e-5));
+      CHECK(edge.y == relative(0.5f, 1e-5));
+      CHECK(times(texture, middle + side * cascade.half_side_m * cascade.up).y == relative(0.5f + 0.5f * side, 1e-5));
       CHECK(times(texture, middle + side * cascade.half_depth_m * cascade.to_light).z ==
-            doctest::Approx(0.5f + 0.5f * side).epsilon(1e-5));
+            relative(0.5f + 0.5f * side, 1e-5));
     }
     CHECK(glm::length(cascade.to_light - to_light) < 1e-6f);
     CHECK(std::abs(cascade.right.z) < 1e-6f);  // Level.

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/random.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -38,7 +39,7 @@ TEST_CASE("merged smoke is less and hides as much") {
   double before = 0.0, after = 0.0;
   for (const SmokePuff& puff : puffs) before += puff.extinction_area_m2;
   for (const SmokePuff& puff : merged) after += puff.extinction_area_m2;
-  CHECK(after == doctest::Approx(before).epsilon(1e-4));
+  CHECK(after == relative(before, 1e-4));
   // Lines of sight through the cloud keep their optical depth, in the mean.
   double depth_before = 0.0, depth_after = 0.0;
   for (int i = 0; i < 40; ++i) {
@@ -46,7 +47,7 @@ TEST_CASE("merged smoke is less and hides as much") {
     depth_before -= std::log(transmittance(puffs, {0, 0, 1}, point));
     depth_after -= std::log(transmittance(merged, {0, 0, 1}, point));
   }
-  CHECK(depth_after == doctest::Approx(depth_before).epsilon(0.05));
+  CHECK(depth_after == relative(depth_before, 0.05));
 }
 
 TEST_CASE("a puff dims what is behind its middle by its optical depth and nothing before it") {

@@ -13,6 +13,7 @@
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -89,8 +90,8 @@ TEST_CASE("a soft shadow's edge is as wide as the sun's disc makes it, and light
     CHECK(narrow.width_m < 2.0 * texel_m);
     CHECK(soft.width_m < suns_m + 2.5 * texel_m);
     CHECK(soft.width_m > 0.8 * suns_m);
-    CHECK(soft.lit == doctest::Approx(narrow.lit).epsilon(0.01));
-    CHECK(soft.dark == doctest::Approx(narrow.dark).epsilon(0.01));
+    CHECK(soft.lit == relative(narrow.lit, 0.01));
+    CHECK(soft.dark == relative(narrow.dark, 0.01));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render {
 namespace {
@@ -67,7 +68,7 @@ TEST_CASE("street lamps throw pools on the road by night and none that is seen b
     const RadianceImage light = *renderer.read_radiance();
     return ground_at(light, input.views[0], 80.0) / ground_at(light, input.views[0], 65.0);
   };
-  CHECK(pools() == doctest::Approx(1.0f).epsilon(0.03));
+  CHECK(pools() == relative(1.0f, 0.03));
   input.environment.sun_elevation_rad = -0.4;
   input.environment.sun_illuminance_lux = 0.0;
   const float by_night = pools();
@@ -78,8 +79,7 @@ TEST_CASE("street lamps throw pools on the road by night and none that is seen b
   input.views = {instant::forward_view({26, 0, 6}, lamps_width, lamps_height)};
   REQUIRE(renderer.draw(input).has_value());
   const RadianceImage after = *renderer.read_radiance();
-  CHECK(ground_at(after, input.views[0], 80.0) / ground_at(after, input.views[0], 65.0) ==
-        doctest::Approx(by_night).epsilon(0.1));
+  CHECK(ground_at(after, input.views[0], 80.0) / ground_at(after, input.views[0], 65.0) == relative(by_night, 0.1));
 }
 
 }  // namespace septet::render

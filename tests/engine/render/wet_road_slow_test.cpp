@@ -17,6 +17,7 @@
 #include "engine/instant/wet_road.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render::wet_road_pictures {
 namespace {
@@ -143,7 +144,7 @@ TEST_CASE("a wet road shows a car upside down below it, as bright as water mirro
       // The sky that was mirrored there gives way to the body, which is red.
       CHECK(added.g < 0.0);
       CHECK(added.r > added.g);
-      CHECK((added.r - added.g) / (fresnel * 0.36 * wetness * (body.r - body.g)) == doctest::Approx(1.0).epsilon(0.3));
+      CHECK((added.r - added.g) / (fresnel * 0.36 * wetness * (body.r - body.g)) == relative(1.0, 0.3));
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::rig {
@@ -46,7 +47,7 @@ TEST_CASE("seven screens cover 220 by 30 degrees ahead and 60 by 30 behind") {
       const Vec3 direction = from_eye(*rig, corner);
       const double elevation_deg =
           std::atan2(std::abs(direction.z), std::hypot(direction.x, direction.y)) * 57.29577951308232;
-      CHECK(elevation_deg == doctest::Approx(15.0).epsilon(1e-5));
+      CHECK(elevation_deg == relative(15.0, 1e-5));
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/rig/rig.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::rig {
@@ -118,8 +119,7 @@ TEST_CASE("the window of a desktop, which does not reach the mirrors, has each o
           const Window& glass = view.window;
           const double glass_aspect = glm::distance(glass.lower_left_m, glass.lower_right_m) /
                                       glm::distance(glass.lower_left_m, glass.upper_left_m);
-          CHECK(view.width * screen.width_px / (view.height * screen.height_px) ==
-                doctest::Approx(glass_aspect).epsilon(0.01));
+          CHECK(view.width * screen.width_px / (view.height * screen.height_px) == relative(glass_aspect, 0.01));
         }
     CHECK(shown == rig.mirrors.size());
   }

@@ -6,6 +6,7 @@
 
 #include "engine/road/lane_geometry.hpp"
 #include "road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::road {
 namespace {
@@ -26,7 +27,7 @@ TEST_CASE("a lane of the motorway is driven from end to end both ways without a 
     for (Advanced next; driven < 9'990.0; at = next.position, driven += 10.0) {
       next = advance(network, at, 10.0);
       REQUIRE(next.remaining_m == 0.0);
-      REQUIRE(gap_m(network, at, next.position) == doctest::Approx(10.0).epsilon(0.03).scale(0.0));
+      REQUIRE(gap_m(network, at, next.position) == relative(10.0, 0.03));
       REQUIRE(next.position.lane == start.lane);
     }
     const Advanced end = advance(network, at, 1000.0);

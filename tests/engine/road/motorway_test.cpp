@@ -4,6 +4,7 @@
 
 #include "engine/road/lane_geometry.hpp"
 #include "road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::road {
 
@@ -33,7 +34,7 @@ TEST_CASE("position and heading and height of the motorway run on smoothly acros
     RoadPoint before = evaluate(network, {index, 0.0, 0.0});
     for (double s = 1.0; s <= network.roads[index].length_m; s += 1.0) {
       const RoadPoint point = evaluate(network, {index, s, 0.0});
-      REQUIRE(glm::distance(Vec2(point.position_m), Vec2(before.position_m)) == doctest::Approx(1.0).epsilon(1e-3));
+      REQUIRE(glm::distance(Vec2(point.position_m), Vec2(before.position_m)) == relative(1.0, 1e-3));
       REQUIRE(std::abs(wrap_angle(point.heading_rad - before.heading_rad)) < 1.0 / 240.0);
       REQUIRE(std::abs(point.pitch_rad - before.pitch_rad) < 1e-4);
       REQUIRE(std::abs(point.roll_rad - before.roll_rad) < 3e-4);

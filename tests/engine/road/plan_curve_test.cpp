@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/relative.hpp"
+
 namespace septet::road {
 namespace {
 
@@ -24,7 +26,7 @@ void check_unit_speed(const PlanCurve& curve, double length) {
   for (double s = 1.0; s < length - 1.0; s += 0.37) {
     const Vec2 before = evaluate_plan(curve, s - 1e-4).position_m, after = evaluate_plan(curve, s + 1e-4).position_m;
     const PlanPoint point = evaluate_plan(curve, s);
-    REQUIRE(glm::distance(before, after) == doctest::Approx(2e-4).epsilon(1e-6).scale(0.0));
+    REQUIRE(glm::distance(before, after) == relative(2e-4, 1e-6));
     REQUIRE(glm::distance((after - before) / 2e-4, point.direction) < 1e-6);
     const Vec2 turn = (evaluate_plan(curve, s + 1e-4).direction - evaluate_plan(curve, s - 1e-4).direction) / 2e-4;
     REQUIRE(turn.y * point.direction.x - turn.x * point.direction.y ==
@@ -40,7 +42,7 @@ TEST_CASE("an arc is a circle") {
   const Vec2 centre = Vec2(10.0, -5.0) + 50.0 * Vec2(std::sin(1.0), -std::cos(1.0));
   for (double s = 0.0; s <= 250.0; s += 7.3) {
     const PlanPoint point = evaluate_plan(curve, s);
-    CHECK(glm::distance(point.position_m, centre) == doctest::Approx(50.0).epsilon(1e-12));
+    CHECK(glm::distance(point.position_m, centre) == relative(50.0, 1e-12));
     CHECK(std::remainder(std::atan2(point.direction.y, point.direction.x) - (1.0 - 0.02 * s), 6.283185307179586) ==
           doctest::Approx(0.0));
     CHECK(point.curvature_per_m == -0.02);
@@ -94,8 +96,7 @@ TEST_CASE("a cubic over its abscissa is run through by arc length") {
   CHECK(glm::distance(evaluate_plan(curve, 0.0).position_m, Vec2(0.0, 0.5)) < 1e-12);
   const Vec2 end = evaluate_plan(curve, 50.0).position_m;
   CHECK(end.x < 50.0);
-  CHECK(end.y ==
-        doctest::Approx(0.5 + 0.1 * end.x + 0.01 * end.x * end.x - 1e-4 * end.x * end.x * end.x).epsilon(1e-12));
+  CHECK(end.y == relative(0.5 + 0.1 * end.x + 0.01 * end.x * end.x - 1e-4 * end.x * end.x * end.x, 1e-12));
 }
 
 TEST_CASE("a cubic that stands still and a curve that turns without end are refused") {

@@ -6,6 +6,7 @@
 
 #include "engine/core/random.hpp"
 #include "road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::road {
 namespace {
@@ -29,8 +30,8 @@ TEST_CASE("locating a random point of the motorway gives back its road and stati
     const auto found = locate(network, Vec2(point), &hint);
     REQUIRE(found.has_value());
     REQUIRE(found->position.road == position.road);
-    REQUIRE(found->position.s_m == doctest::Approx(position.s_m).epsilon(1e-9));
-    REQUIRE(found->position.t_m == doctest::Approx(position.t_m).epsilon(1e-9));
+    REQUIRE(found->position.s_m == relative(position.s_m, 1e-9));
+    REQUIRE(found->position.t_m == relative(position.t_m, 1e-9));
     REQUIRE(found->lanes.outside_m == 0.0);
 
     const auto cold = locate(network, Vec2(point));
@@ -52,8 +53,8 @@ TEST_CASE("steep banking on a changing grade is inverted exactly") {
     const RoadPosition position{0, random.uniform(5.0, 195.0), random.uniform(-3.4, 2.9)};
     const auto found = locate(network, Vec2(evaluate(network, position).position_m));
     REQUIRE(found.has_value());
-    REQUIRE(found->position.s_m == doctest::Approx(position.s_m).epsilon(1e-8));
-    REQUIRE(found->position.t_m == doctest::Approx(position.t_m).epsilon(1e-8));
+    REQUIRE(found->position.s_m == relative(position.s_m, 1e-8));
+    REQUIRE(found->position.t_m == relative(position.t_m, 1e-8));
   }
 }
 
@@ -120,8 +121,8 @@ TEST_CASE("a banked road with a shape and a crossfall and raised lanes is invert
     const RoadPosition position{0, random.uniform(5.0, 195.0), random.uniform(-3.4, 2.9)};
     const auto found = locate(network, Vec2(evaluate(network, position).position_m));
     REQUIRE(found.has_value());
-    REQUIRE(found->position.s_m == doctest::Approx(position.s_m).epsilon(1e-8));
-    REQUIRE(found->position.t_m == doctest::Approx(position.t_m).epsilon(1e-7));
+    REQUIRE(found->position.s_m == relative(position.s_m, 1e-8));
+    REQUIRE(found->position.t_m == relative(position.t_m, 1e-7));
   }
 }
 

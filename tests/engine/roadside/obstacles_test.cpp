@@ -11,6 +11,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/plants.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::roadside {
 namespace {
@@ -185,7 +186,7 @@ TEST_CASE("a tunnel has walls half a metre beside its lanes and between them, up
   for (const Obstacle& obstacle : motorway_obstacles().listed())
     if (obstacle.kind == ObstacleKind::portal) lengths.push_back(glm::distance(obstacle.from_m, obstacle.to_m));
   REQUIRE(lengths.size() == 4);
-  for (const double length_m : lengths) CHECK(length_m == doctest::Approx(46.0 - 0.5 - 0.45).epsilon(1e-3));
+  for (const double length_m : lengths) CHECK(length_m == relative(46.0 - 0.5 - 0.45, 1e-3));
 }
 
 TEST_CASE("marker posts yield and stand every fifty metres a little outside of the lanes but not where a wall is") {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::roadside {
 namespace {
@@ -30,11 +31,11 @@ TEST_CASE("a road runs on straight beyond an end that is linked to nothing and i
   const auto beyond = [](double distance_m) { return 0.05 * 250.0 * std::tanh(distance_m / 250.0); };
   for (const double distance_m : {1.0, 100.0, 1500.0}) {
     const Vec3 after = roads.point(0, 100.0 + distance_m, 2.0), before = roads.point(0, -distance_m, 2.0);
-    CHECK(after.x == doctest::Approx(100.0 + distance_m).epsilon(1e-9));
-    CHECK(after.y == doctest::Approx(2.0).epsilon(1e-9));
-    CHECK(after.z == doctest::Approx(5.0 + beyond(distance_m)).epsilon(1e-6));
-    CHECK(before.x == doctest::Approx(-distance_m).epsilon(1e-9));
-    CHECK(before.z == doctest::Approx(-beyond(distance_m)).epsilon(1e-6));
+    CHECK(after.x == relative(100.0 + distance_m, 1e-9));
+    CHECK(after.y == relative(2.0, 1e-9));
+    CHECK(after.z == relative(5.0 + beyond(distance_m), 1e-6));
+    CHECK(before.x == relative(-distance_m, 1e-9));
+    CHECK(before.z == relative(-beyond(distance_m), 1e-6));
   }
 }
 
@@ -52,8 +53,8 @@ TEST_CASE("height over a road is along its surface's normal") {
   const RoadShape roads(network, 0.0);
   const Vec3 foot = roads.point(0, 50.0, 0.0), up = roads.point(0, 50.0, 0.0, 2.0) - foot;
   const double slope = std::atan(0.05);
-  CHECK(up.x == doctest::Approx(-2.0 * std::sin(slope)).epsilon(1e-9).scale(0.0));
-  CHECK(up.z == doctest::Approx(2.0 * std::cos(slope)).epsilon(1e-9).scale(0.0));
+  CHECK(up.x == relative(-2.0 * std::sin(slope), 1e-9));
+  CHECK(up.z == relative(2.0 * std::cos(slope), 1e-9));
 }
 
 TEST_CASE("tiles are cut where a road ends or a structure does and lie without gaps") {
@@ -67,13 +68,13 @@ TEST_CASE("tiles are cut where a road ends or a structure does and lie without g
   REQUIRE(ends.size() == expected.size());
   for (std::size_t i = 0; i < ends.size(); ++i) {
     CAPTURE(i);
-    CHECK(ends[i] == doctest::Approx(expected[i]).epsilon(1e-9));
+    CHECK(ends[i] == relative(expected[i], 1e-9));
     CHECK(tiles[i].s0_m == (i == 0 ? -70.0 : tiles[i - 1].s1_m));
     CHECK(tiles[i].in_tunnel == (expected[i] == 60.0));
     CHECK(tiles[i].on_bridge == (expected[i] == 90.0));
     const glm::vec3 middle = roads.local(tiles[i], tiles[i].middle_m(), 0.0);
     CHECK(glm::length(middle) < 1e-4f);
-    CHECK(roads.local(tiles[i], tiles[i].middle_m(), 1.0).y == doctest::Approx(1.0).epsilon(1e-4));
+    CHECK(roads.local(tiles[i], tiles[i].middle_m(), 1.0).y == relative(1.0, 1e-4));
   }
 }
 

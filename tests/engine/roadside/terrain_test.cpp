@@ -10,6 +10,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/roadside/buildings.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::roadside {
 namespace {
@@ -53,13 +54,13 @@ TEST_CASE("a place beside a road knows where along and how far outside of its la
     const Nearest left = terrain.nearest({x, 23.0}), right = terrain.nearest({x, -23.5}),
                   on = terrain.nearest({x, 1.0});
     REQUIRE((left.found && right.found && on.found));
-    CHECK(left.s_m == doctest::Approx(x).epsilon(1e-9));
-    CHECK(left.t_m == doctest::Approx(23.0).epsilon(1e-9));
-    CHECK(right.t_m == doctest::Approx(-23.5).epsilon(1e-9));
-    CHECK(left.outside_m == doctest::Approx(20.0).epsilon(1e-3));
-    CHECK(right.outside_m == doctest::Approx(20.0).epsilon(1e-3));
+    CHECK(left.s_m == relative(x, 1e-9));
+    CHECK(left.t_m == relative(23.0, 1e-9));
+    CHECK(right.t_m == relative(-23.5, 1e-9));
+    CHECK(left.outside_m == relative(20.0, 1e-3));
+    CHECK(right.outside_m == relative(20.0, 1e-3));
     CHECK(on.outside_m == 0.0);
-    CHECK(left.axis_z_m == doctest::Approx(7.0).epsilon(1e-9));
+    CHECK(left.axis_z_m == relative(7.0, 1e-9));
     const auto surface_z = [&](double t_m) { return tilted().point(0, x, t_m).z; };
     CHECK(std::abs(left.edge_z_m - surface_z(3.0)) < 1e-3);
     CHECK(std::abs(right.edge_z_m - surface_z(-3.5)) < 1e-3);

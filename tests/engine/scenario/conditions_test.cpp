@@ -6,6 +6,7 @@
 
 #include "engine/scenario/entity_distance.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -145,12 +146,12 @@ TEST_CASE("who stands is seen so after the duration and a place is reached withi
     drive.run_until(6.0);
     return drive.time_of("e", ElementTransition::start);
   };
-  CHECK(time_of("A", R"(<StandStillCondition duration="2"/>)") == doctest::Approx(2.0).epsilon(0.01));
+  CHECK(time_of("A", R"(<StandStillCondition duration="2"/>)") == relative(2.0, 0.01));
   CHECK(time_of("B", R"(<StandStillCondition duration="2"/>)") < 0.0);
   const std::string place =
       R"(<ReachPositionCondition tolerance="5"><Position><LanePosition roadId="R" laneId="-2" s="225"/></Position></ReachPositionCondition>)";
-  CHECK(time_of("B", place) == doctest::Approx(2.0).epsilon(0.01));
-  CHECK(time_of("B", R"(<TraveledDistanceCondition value="20"/>)") == doctest::Approx(2.0).epsilon(0.01));
+  CHECK(time_of("B", place) == relative(2.0, 0.01));
+  CHECK(time_of("B", R"(<TraveledDistanceCondition value="20"/>)") == relative(2.0, 0.01));
 }
 
 TEST_CASE("a condition of several entities holds for any or for all as it says") {

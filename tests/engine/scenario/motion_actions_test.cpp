@@ -10,6 +10,7 @@
 #include "engine/scenario/speed_profile.hpp"
 #include "engine/scenario/synchronize.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -157,8 +158,8 @@ TEST_CASE("a distance is approached within the bounds and never fallen below") {
         if (drive.count_of("e", ElementTransition::end) > 0) break;
       }
       CHECK(least > 20.0 + touching_m - 0.05);
-      CHECK(gap_m(drive) == doctest::Approx(20.0 + touching_m).epsilon(0.01));
-      CHECK(drive.a().speed_mps == doctest::Approx(10.0).epsilon(0.02));
+      CHECK(gap_m(drive) == relative(20.0 + touching_m, 0.01));
+      CHECK(drive.a().speed_mps == relative(10.0, 0.02));
       CHECK(drive.count_of("e", ElementTransition::end) == (continuous ? 0 : 1));
     }
   }
@@ -178,14 +179,14 @@ TEST_CASE("one may also be ahead, or behind by a time") {
       cars(-60, 15),
       gap_text("distance=\"30\" freespace=\"false\" displacement=\"leadingReferencedEntity\"", gentle, true));
   ahead.run_until(40.0);
-  CHECK(gap_m(ahead) == doctest::Approx(-30.0).epsilon(0.005));
-  CHECK(ahead.a().speed_mps == doctest::Approx(15.0).epsilon(0.005));
+  CHECK(gap_m(ahead) == relative(-30.0, 0.005));
+  CHECK(ahead.a().speed_mps == relative(15.0, 0.005));
   Drive any = drive_with(cars(-60, 15), gap_text("distance=\"30\" freespace=\"false\" displacement=\"any\"", "", true));
   any.run_until(1.0);
   CHECK(gap_m(any) == doctest::Approx(-30.0));
   Drive timed = drive_with(cars(100, 15), gap_text("timeGap=\"2\" freespace=\"true\"", gentle, true));
   timed.run_until(40.0);
-  CHECK(gap_m(timed) == doctest::Approx(2.0 * 15.0 + touching_m).epsilon(0.005));
+  CHECK(gap_m(timed) == relative(2.0 * 15.0 + touching_m, 0.005));
 }
 
 TEST_CASE("jerk limits of a distance are kept") {
@@ -202,7 +203,7 @@ TEST_CASE("jerk limits of a distance are kept") {
     least = std::min(least, gap_m(drive));
   }
   CHECK(least > touching_m);
-  CHECK(gap_m(drive) == doctest::Approx(20.0 + touching_m).epsilon(0.02));
+  CHECK(gap_m(drive) == relative(20.0 + touching_m, 0.02));
 }
 
 TEST_CASE("a lateral distance is had on the side that is named") {
@@ -217,7 +218,7 @@ TEST_CASE("a lateral distance is had on the side that is named") {
         doctest::Approx(2.8));
   // From 3.5 m to 1.5 m at 0.5 m/s.
   const std::string slow = R"(<DynamicConstraints maxSpeed="0.5"/>)";
-  CHECK(left_after("freespace=\"false\" distance=\"1.5\"", slow, 2.0) == doctest::Approx(-2.5).epsilon(0.01));
+  CHECK(left_after("freespace=\"false\" distance=\"1.5\"", slow, 2.0) == relative(-2.5, 0.01));
   CHECK(left_after("freespace=\"false\" distance=\"1.5\"", slow, 6.0) == doctest::Approx(-1.5));
 }
 
@@ -227,16 +228,16 @@ TEST_CASE("a lateral distance follows one who moves within its bounds and ends w
       cars(0, 20, -1),
       beside_text("freespace=\"true\" distance=\"0.5\" displacement=\"rightToReferencedEntity\"", limits, true));
   drive.run_until(8.0);
-  CHECK(left_m(drive) == doctest::Approx(-2.3).epsilon(0.01));
+  CHECK(left_m(drive) == relative(-2.3, 0.01));
   const double before = drive.a().world_from_entity.position_m.y;
   drive.state.entities[1].lane.offset_m -= 1.0;
   drive.run_until(12.0);
-  CHECK(left_m(drive) == doctest::Approx(-2.3).epsilon(0.01));
-  CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(before - 1.0).epsilon(0.01));
+  CHECK(left_m(drive) == relative(-2.3, 0.01));
+  CHECK(drive.a().world_from_entity.position_m.y == relative(before - 1.0, 0.01));
   Drive once = drive_with(cars(0, 20, -1), beside_text("freespace=\"false\" distance=\"2\"", limits, false));
   once.run_until(6.0);
   CHECK(once.count_of("e", ElementTransition::end) == 1);
-  CHECK(left_m(once) == doctest::Approx(-2.0).epsilon(0.04));
+  CHECK(left_m(once) == relative(-2.0, 0.04));
 }
 
 TEST_CASE("both ways of a meeting have the same strength and lead there in time") {
@@ -254,7 +255,7 @@ TEST_CASE("both ways of a meeting have the same strength and lead there in time"
         v = next;
       }
       CHECK(std::abs(s) < 0.05);
-      CHECK(v == doctest::Approx(final_mps).epsilon(0.01));
+      CHECK(v == relative(final_mps, 0.01));
       CHECK(least >= 0.0);
       CHECK(strongest < 6.0);
     }
@@ -277,29 +278,28 @@ TEST_CASE("two entities are at their places at the same time") {
     return drive.a().world_from_entity.position_m.x;
   };
   double speed = 0.0;
-  CHECK(arrive("", speed) == doctest::Approx(420.0).epsilon(0.001));
-  CHECK(arrive("<FinalSpeed><AbsoluteSpeed value=\"12\"/></FinalSpeed>", speed) ==
-        doctest::Approx(420.0).epsilon(0.001));
-  CHECK(speed == doctest::Approx(12.0).epsilon(0.01));
+  CHECK(arrive("", speed) == relative(420.0, 0.001));
+  CHECK(arrive("<FinalSpeed><AbsoluteSpeed value=\"12\"/></FinalSpeed>", speed) == relative(420.0, 0.001));
+  CHECK(speed == relative(12.0, 0.01));
   CHECK(arrive("<FinalSpeed><RelativeSpeedToMaster value=\"2\" speedTargetValueType=\"factor\"/></FinalSpeed>",
-               speed) == doctest::Approx(420.0).epsilon(0.001));
-  CHECK(speed == doctest::Approx(30.0).epsilon(0.01));
+               speed) == relative(420.0, 0.001));
+  CHECK(speed == relative(30.0, 0.01));
   Drive steady = drive_with(
       cars(100, 15, -1),
       meeting(
           "<FinalSpeed><AbsoluteSpeed value=\"10\"><TargetTimeSteadyState time=\"5\"/></AbsoluteSpeed></FinalSpeed>"));
   steady.run_until(15.2);
-  CHECK(steady.a().speed_mps == doctest::Approx(10.0).epsilon(0.01));
-  CHECK(steady.a().world_from_entity.position_m.x == doctest::Approx(420.0 - 48.0).epsilon(0.001));
+  CHECK(steady.a().speed_mps == relative(10.0, 0.01));
+  CHECK(steady.a().world_from_entity.position_m.x == relative(420.0 - 48.0, 0.001));
   // The master brakes in the middle: found anew.
   Drive changed = drive_with(cars(100, 15, -1), meeting("<FinalSpeed><AbsoluteSpeed value=\"12\"/></FinalSpeed>"));
   changed.run_until(10.0);
   changed.state.entities[1].speed_mps = 5.0;
   while (changed.b().world_from_entity.position_m.x < 500.0) changed.run_until(changed.state.time_s + 0.01);
-  CHECK(changed.a().world_from_entity.position_m.x == doctest::Approx(420.0).epsilon(0.002));
+  CHECK(changed.a().world_from_entity.position_m.x == relative(420.0, 0.002));
   Drive tolerant = drive_with(cars(100, 15, -1), meeting("", "targetToleranceMaster=\"30\" targetTolerance=\"1\""));
   tolerant.run_until(20.0);
-  CHECK(tolerant.time_of("e", ElementTransition::end) == doctest::Approx(18.0).epsilon(0.01));
+  CHECK(tolerant.time_of("e", ElementTransition::end) == relative(18.0, 0.01));
 }
 
 TEST_CASE("distances and profiles that say nothing are named") {

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenario {
 
@@ -16,11 +17,11 @@ TEST_CASE("every shape takes its time and ends at its speed") {
     CAPTURE(shape);
     Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(30, shape, "time", 4.0), at_time(1.0)))));
     drive.run_until(3.0);
-    CHECK(drive.a().speed_mps == doctest::Approx(25.0).epsilon(0.001));
+    CHECK(drive.a().speed_mps == relative(25.0, 0.001));
     drive.run_until(6.0);
     CHECK(drive.a().speed_mps == 30.0);
     // 1 s at 20, 4 s at a mean of 25, 1 s at 30 m/s.
-    CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(250.0).epsilon(1e-4));
+    CHECK(drive.a().world_from_entity.position_m.x == relative(250.0, 1e-4));
     CHECK(drive.time_of("e", ElementTransition::end) == doctest::Approx(4.99));
   }
 }
@@ -33,14 +34,14 @@ TEST_CASE("a rate is the greatest rate and a distance is kept") {
     rate.run_until(rate.state.time_s + 0.01);
     greatest = std::max(greatest, rate.a().acceleration_mps2);
   }
-  CHECK(greatest == doctest::Approx(2.0).epsilon(0.001));
+  CHECK(greatest == relative(2.0, 0.001));
   Drive distance(
       scenario_text(two_cars, story_text(event_text("e", speed_text(30, "linear", "distance", 125.0), at_time(0.0)))));
   distance.run_until(4.0);
   CHECK(distance.a().speed_mps == doctest::Approx(28.0));
   distance.run_until(5.0);
   CHECK(distance.a().speed_mps == 30.0);
-  CHECK(distance.a().world_from_entity.position_m.x == doctest::Approx(225.0).epsilon(1e-3));
+  CHECK(distance.a().world_from_entity.position_m.x == relative(225.0, 1e-3));
 }
 
 TEST_CASE("acceleration never exceeds what the vehicle can do") {
@@ -50,7 +51,7 @@ TEST_CASE("acceleration never exceeds what the vehicle can do") {
     drive.run_until(drive.state.time_s + 0.01);
     greatest = std::max(greatest, drive.a().acceleration_mps2);
   }
-  CHECK(greatest == doctest::Approx(10.0).epsilon(0.001));
+  CHECK(greatest == relative(10.0, 0.001));
   CHECK(drive.a().speed_mps == 50.0);
 }
 
@@ -62,9 +63,9 @@ TEST_CASE("a lane change is one smooth curve to the centre of the next lane") {
         two_cars, story_text(event_text("e", lane_change_text(1, "sinusoidal", dimension, value), at_time(0.0)))));
     CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-5.25));
     drive.run_until(2.0);
-    CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-3.5).epsilon(0.01));
+    CHECK(drive.a().world_from_entity.position_m.y == relative(-3.5, 0.01));
     const double slope = 3.5 * std::numbers::pi / 8.0 / 20.0;
-    CHECK(heading_rad(drive.a().world_from_entity.orientation) == doctest::Approx(slope).epsilon(0.01).scale(0.0));
+    CHECK(heading_rad(drive.a().world_from_entity.orientation) == relative(slope, 0.01));
     drive.run_until(4.2);
     CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-1.75));
     CHECK(heading_rad(drive.a().world_from_entity.orientation) == doctest::Approx(0.0));

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -49,8 +50,8 @@ TEST_CASE("distance conditions fire where the distance is") {
   drive.run_until(6.0);
   // 100 m apart, closing at 10 m/s; 2.3 + 1.4 − 0.9 m of the boxes lie between the reference
   // points: 4.6 m in all.
-  CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx(4.54).epsilon(0.005));
-  CHECK(drive.time_of("f", ElementTransition::start) == doctest::Approx(2.0).epsilon(0.006));
+  CHECK(drive.time_of("e", ElementTransition::start) == relative(4.54, 0.005));
+  CHECK(drive.time_of("f", ElementTransition::start) == relative(2.0, 0.006));
 }
 
 TEST_CASE("the freespace distance to a position is that from the box to the point") {
@@ -63,8 +64,8 @@ TEST_CASE("the freespace distance to a position is that from the box to the poin
                                        event_text("f", speed_text(20), trigger_text(of_entity_text("A", soon))))));
   drive.run_until(10.0);
   // At 20 m/s from 100 m, and the box reaches 3.7 m forward.
-  CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx((300 - 100 - 50 - 3.7) / 20).epsilon(0.002));
-  CHECK(drive.time_of("f", ElementTransition::start) == doctest::Approx((300 - 100 - 40 - 3.7) / 20).epsilon(0.002));
+  CHECK(drive.time_of("e", ElementTransition::start) == relative((300 - 100 - 50 - 3.7) / 20, 0.002));
+  CHECK(drive.time_of("f", ElementTransition::start) == relative((300 - 100 - 40 - 3.7) / 20, 0.002));
 }
 
 TEST_CASE("before 1.2 an acceleration is that of the speed") {
@@ -89,7 +90,7 @@ TEST_CASE("a distance along the world's axes minds the boxes") {
   Drive drive(
       scenario_text(two_cars, story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", apart))))));
   drive.run_until(6.0);
-  CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx(4.54).epsilon(0.005));
+  CHECK(drive.time_of("e", ElementTransition::start) == relative(4.54, 0.005));
 }
 
 TEST_CASE("conditions see parameters and variables that actions change") {
@@ -132,7 +133,7 @@ TEST_CASE("a collision is when the boxes meet") {
                                          event_text("man", speed_text(20), meets("<ByType type=\"pedestrian\"/>")))));
   drive.run_until(11.0);
   // 100 m less the 4.6 m of the boxes, at 10 m/s.
-  CHECK(drive.time_of("b", ElementTransition::start) == doctest::Approx(9.54).epsilon(0.002));
+  CHECK(drive.time_of("b", ElementTransition::start) == relative(9.54, 0.002));
   CHECK(drive.time_of("car", ElementTransition::start) == drive.time_of("b", ElementTransition::start));
   CHECK(drive.count_of("man", ElementTransition::start) == 0);
 }
@@ -282,7 +283,7 @@ TEST_CASE("the ambulance of the motorway changes lanes and speed with its beacon
   CHECK(changed_lane);
   CHECK(slowed);
   CHECK(fastest > 32.0);
-  CHECK(way == doctest::Approx(state->entities[ambulance].travelled_m).epsilon(0.002));
+  CHECK(way == relative(state->entities[ambulance].travelled_m, 0.002));
   std::vector<Participant> participants;
   append_participants(*scenario, *state, 1, participants);
   CHECK(participants.size() == 2);

@@ -9,6 +9,7 @@
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/path.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -122,8 +123,8 @@ TEST_CASE("an arc of a clothoid is an arc and its length that of the file") {
   const Path path = lay_shape(shape);
   CHECK(path.length_m() == doctest::Approx(25.0 * pi));
   const PathPoint end = path.points.back();
-  CHECK(end.position_m.x == doctest::Approx(60.0).epsilon(1e-9));
-  CHECK(end.position_m.y == doctest::Approx(70.0).epsilon(1e-9));
+  CHECK(end.position_m.x == relative(60.0, 1e-9));
+  CHECK(end.position_m.y == relative(70.0, 1e-9));
   CHECK(end.heading_rad == doctest::Approx(pi / 2.0));
   CHECK(end.time_s == 5.0);
   CHECK(path_at_time(path, 2.5).s_m == doctest::Approx(12.5 * pi));
@@ -139,10 +140,10 @@ TEST_CASE("a clothoid is the Fresnel integral") {
     (n % 2 == 0 ? x : y) += (n % 4 < 2 ? 1.0 : -1.0) * term / (2 * n + 1);
     term *= u / (n + 1);
   }
-  CHECK(path.points.back().position_m.x == doctest::Approx(length * x).epsilon(1e-6).scale(0.0));
-  CHECK(path.points.back().position_m.y == doctest::Approx(length * y).epsilon(1e-6).scale(0.0));
+  CHECK(path.points.back().position_m.x == relative(length * x, 1e-6));
+  CHECK(path.points.back().position_m.y == relative(length * y, 1e-6));
   CHECK(path.points.back().heading_rad == doctest::Approx(u));
-  CHECK(path_at_station(path, 40.0).heading_rad == doctest::Approx(u / 4.0).epsilon(1e-5).scale(0.0));
+  CHECK(path_at_station(path, 40.0).heading_rad == relative(u / 4.0, 1e-5));
 }
 
 TEST_CASE("segments of a clothoid spline go on where the one before ends and turn by their offset") {
@@ -175,12 +176,12 @@ TEST_CASE("nine weighted points are a circle") {
     shape.points.push_back({at(radius * xs[i], radius * ys[i]), i % 2 == 0 ? 1.0 : corner, 1.0 * i});
   shape.knots = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
   const Path path = lay_shape(shape);
-  CHECK(path.length_m() == doctest::Approx(2.0 * pi * radius).epsilon(1e-5));
+  CHECK(path.length_m() == relative(2.0 * pi * radius, 1e-5));
   CHECK(path.end_s() == 8.0);
   for (double s = 0.0; s < path.length_m(); s += 3.0) {
     const PathPoint point = path_at_station(path, s);
-    CHECK(glm::length(point.position_m) == doctest::Approx(radius).epsilon(1e-4));
-    CHECK(point.heading_rad == doctest::Approx(pi / 2.0 + s / radius).epsilon(0.005).scale(0.0));
+    CHECK(glm::length(point.position_m) == relative(radius, 1e-4));
+    CHECK(point.heading_rad == relative(pi / 2.0 + s / radius, 0.005));
   }
 }
 
@@ -277,7 +278,7 @@ TEST_CASE("a trajectory with nothing between two instants jumps and keeps the sp
     drive.run_until(drive.state.time_s + 0.01);
     CHECK(drive.a().speed_mps <= 30.0);
   }
-  CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(680.0).epsilon(0.001));
+  CHECK(drive.a().world_from_entity.position_m.x == relative(680.0, 0.001));
 }
 
 TEST_CASE("a lane change or another trajectory takes the entity off its trajectory") {

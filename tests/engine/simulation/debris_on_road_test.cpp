@@ -12,6 +12,7 @@
 #include "engine/simulation/effects/effect_surroundings.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::simulation;
@@ -79,7 +80,7 @@ TEST_CASE("a wheel climbs debris up to ten centimetres and none that is in the a
   put(debris::Part::ice_slab, over_lane(900.0, 0.02), low);
   put(debris::Part::barrier_post, over_lane(900.0, 0.0), high);
   put(debris::Part::ice_slab, over_lane(900.0, 1.5), flying);
-  CHECK(obstacle_height_m(low, ground) == doctest::Approx(0.06).epsilon(0.05).scale(0.0));
+  CHECK(obstacle_height_m(low, ground) == relative(0.06, 0.05));
   CHECK(obstacle_height_m(high, ground) == 0.1);
   CHECK(obstacle_height_m(flying, ground) == 0.0);
   CHECK(obstacle_height_m({}, ground) == 0.0);
@@ -140,7 +141,7 @@ TEST_CASE("what slides off a roof leaves it backwards") {
   const Vec3 mps = debris::from_eigen(elastic::momentum_ns(slab)) / elastic::total_mass_kg(slab);
   CHECK(glm::dot(mps, forward) == doctest::Approx(19.0));
   CHECK(elastic::centre_of_mass_m(slab).z() - from.world_from_entity.position_m.z ==
-        doctest::Approx(3.85 + 0.04 + 0.02).epsilon(0.01).scale(0.0));
+        relative(3.85 + 0.04 + 0.02, 0.01));
 }
 
 TEST_CASE("the driver's car feels what it drives into and vehicles far from debris are not looked at") {

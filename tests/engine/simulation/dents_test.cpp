@@ -16,6 +16,7 @@
 #include "engine/world/snapshot.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::simulation;
@@ -92,7 +93,7 @@ TEST_CASE("who is run into from the side is dented there, in his own frame which
     const CrashOutcome outcome = run_into(both);
     const debris::Dent* side = dent_of(outcome.dents, 7);
     REQUIRE(side);
-    CHECK(side->place_m.x == doctest::Approx(struck.centre_x_m()).epsilon(0.02));
+    CHECK(side->place_m.x == relative(struck.centre_x_m(), 0.02));
     CHECK(side->place_m.y == doctest::Approx(0.5 * struck.width_m));
     CHECK(std::abs(turned(side->heading_rad + 0.5 * std::numbers::pi)) < 1e-6);
     CHECK(side->half_width_m == doctest::Approx(0.5 * striker.width_m));
@@ -204,7 +205,7 @@ TEST_CASE("a crash's dents are in every snapshot from then on, for who joins lat
   const auto dents = debris::decode_dents(dents_in(from_wire(*told).effects).data);
   REQUIRE(dents);
   REQUIRE(dents->size() == 2);
-  CHECK(dents->at(0).dents.at(0).depth_m == doctest::Approx((10.0 - undented_mps) / b1_per_s).epsilon(0.02));
+  CHECK(dents->at(0).dents.at(0).depth_m == relative((10.0 - undented_mps) / b1_per_s, 0.02));
   participants.pop_back();
   advance(140);
   const auto left = debris::decode_dents(dents_in(effect_keyframes(state)).data);

@@ -13,6 +13,7 @@
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::simulation;
@@ -130,7 +131,7 @@ TEST_CASE("a slab that lies on the road lifts the wheel that rolls over it") {
   EffectsState state;
   put_on_lane(debris::Part::ice_slab, 0.045, state);
   const Vec3 ground = on_motorway(900.0, -5).position_m;
-  CHECK(obstacle_height_m(state, ground) == doctest::Approx(0.085).epsilon(0.1).scale(0.0));
+  CHECK(obstacle_height_m(state, ground) == relative(0.085, 0.1));
   CHECK(obstacle_height_m(state, ground + Vec3(0.0, 5.0, 0.0)) == 0.0);
 }
 
@@ -163,7 +164,7 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   for (const debris::Piece& piece : state.debris.pieces) thrown += elastic::total_mass_kg(piece.body);
   for (const debris::Shard& shard : state.debris.shards) thrown += shard.mass_kg;
   CHECK(thrown + mass_kg(state.crashes.parts[1]) + mass_kg(state.crashes.parts[7]) ==
-        doctest::Approx(mass_kg(all_parts(0)) + mass_kg(all_parts(1))).epsilon(0.02).scale(0.0));
+        relative(mass_kg(all_parts(0)) + mass_kg(all_parts(1)), 0.02));
 }
 
 TEST_CASE("in a blow a car takes the momentum that the two masses share and nothing where they part") {

@@ -8,6 +8,7 @@
 #include "engine/traffic/lateral.hpp"
 #include "engine/traffic/traffic_stages.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::traffic {
 
@@ -71,8 +72,8 @@ TEST_CASE("the curve of a lane change has the slope and curvature of its offset 
   for (const double u : {0.1, 0.35, 0.6, 0.9}) {
     const double slope = (at(u + h).offset_m - at(u - h).offset_m) / (2.0 * h * length_m);
     const double curvature = (at(u + h).slope - at(u - h).slope) / (2.0 * h * length_m);
-    CHECK(at(u).slope == doctest::Approx(slope).epsilon(1e-4).scale(0.0));
-    CHECK(at(u).curvature_per_m == doctest::Approx(curvature).epsilon(1e-3).scale(0.0));
+    CHECK(at(u).slope == relative(slope, 1e-4));
+    CHECK(at(u).curvature_per_m == relative(curvature, 1e-3));
   }
   // A body that stands askew is wider.
   at(0.5);
@@ -85,7 +86,7 @@ TEST_CASE("who stops within a step stops where its braking ends") {
   car.traffic.acceleration_mps2[0] = -5.0;
   move(car.traffic, 0.2);  // It stands after 0.1 s.
   CHECK(car.traffic.speed_mps[0] == 0.0);
-  CHECK(car.traffic.x_m[0] == doctest::Approx(500.0 + 0.5 * 0.5 / (2.0 * 5.0)).epsilon(1e-9));
+  CHECK(car.traffic.x_m[0] == relative(500.0 + 0.5 * 0.5 / (2.0 * 5.0), 1e-9));
   car.traffic.speed_mps[0] = 10.0;
   car.traffic.acceleration_mps2[0] = 2.0;
   const double from_m = car.traffic.x_m[0];

@@ -9,6 +9,7 @@
 
 #include "engine/traffic/traffic.hpp"
 #include "engine/world/vehicle_body.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::traffic {
 
@@ -40,9 +41,9 @@ TEST_CASE("a motorway's traffic shows twenty and more shapes, as often as their 
       ++seen[vehicle_models()[look].name];
     }
   CHECK(shapes.size() >= 20);
-  CHECK(seen["taxi"] == doctest::Approx(200).epsilon(0.25));
-  CHECK(seen["city-articulated"] == doctest::Approx(520).epsilon(0.15));
-  CHECK(seen["saloon"] == doctest::Approx(1500).epsilon(0.1));
+  CHECK(seen["taxi"] == relative(200, 0.25));
+  CHECK(seen["city-articulated"] == relative(520, 0.15));
+  CHECK(seen["saloon"] == relative(1500, 0.1));
   CHECK(look_of(5, 1234) == look_of(5, 1234));
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/traffic/fundamental_diagram.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -44,10 +45,9 @@ TEST_CASE("a ring of equal cars settles at the equilibrium speeds of the intelli
     // At 80 cars the law itself is string-unstable (f_v²/2 + f_Δv f_v < f_s), so they start evenly.
     for (int step = 0; step < 12000; ++step) advance(parameters, network, {}, 0.1, random, state);
     const auto& speeds = state.corridors[0].speed_mps;
-    CHECK(*std::ranges::min_element(speeds) == doctest::Approx(speed).epsilon(0.001 / speed));
-    CHECK(*std::ranges::max_element(speeds) == doctest::Approx(speed).epsilon(0.001 / speed));
-    CHECK(idm_equilibrium_speed(driver.following, 2011.3 / ring.count - 5.0) ==
-          doctest::Approx(speed).epsilon(0.001 / speed));
+    CHECK(*std::ranges::min_element(speeds) == relative(speed, 0.001 / speed));
+    CHECK(*std::ranges::max_element(speeds) == relative(speed, 0.001 / speed));
+    CHECK(idm_equilibrium_speed(driver.following, 2011.3 / ring.count - 5.0) == relative(speed, 0.001 / speed));
   }
 }
 

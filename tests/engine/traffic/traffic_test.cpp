@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/road/opendrive_reader.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
@@ -127,7 +128,7 @@ TEST_CASE("vehicles leave by the exit and merge from the entry before its lane e
   REQUIRE(state.ramps.size() == 1);
   const Ramp& ramp = state.ramps.front();
   CorridorTraffic &main = state.corridors[ramp.main], &way = state.corridors[ramp.way];
-  CHECK(way.corridor.length_m == doctest::Approx(800.7).epsilon(0.001));
+  CHECK(way.corridor.length_m == relative(800.7, 0.001));
   const std::size_t all = main.size();
   const double entry_ends_m = lane_end_m(main.table, ramp.entry.lane, ramp.entry.x_m + 1.0);
   REQUIRE(entry_ends_m < ramp.entry.x_m + 400.0);

@@ -13,6 +13,7 @@
 #include "engine/road/turn.hpp"
 #include "engine/traffic/corridor.hpp"
 #include "engine/traffic/yield_line.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
@@ -100,7 +101,7 @@ TEST_CASE("a walker counts while he is on the way over a crossing or comes to it
   };
   REQUIRE(with("pedestrian", 0.0, 1.3).has_value());
   CHECK(with("pedestrian", 0.0, 1.3)->in_s == 0.0);
-  CHECK(with("pedestrian", -5.5, 1.3)->in_s == doctest::Approx(3.0).epsilon(0.1));
+  CHECK(with("pedestrian", -5.5, 1.3)->in_s == relative(3.0, 0.1));
   CHECK_FALSE(with("pedestrian", 2.5, 1.3).has_value());  // Is over it, and goes on.
   CHECK_FALSE(with("hatchback", 0.0, 1.3).has_value());
 }

@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 #include <glm/gtc/constants.hpp>
 
+#include "tests/relative.hpp"
+
 namespace septet {
 namespace {
 
@@ -102,7 +104,7 @@ TEST_CASE("position velocity and acceleration at both ends shape the motion betw
   };
   for (const double t : {0.3, 1.0, 1.7})
     CHECK(interpolate(at(0.0), at(2.0), 2.0, t / 2.0).world_from_vehicle.position_m.x ==
-          doctest::Approx(at(t).world_from_vehicle.position_m.x).epsilon(1e-12));
+          relative(at(t).world_from_vehicle.position_m.x, 1e-12));
 }
 
 TEST_CASE("what else moves is between its two values in proportion to the time") {

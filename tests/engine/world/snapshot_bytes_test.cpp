@@ -6,6 +6,7 @@
 
 #include "engine/world/indicator.hpp"
 #include "engine/world/wire_snapshot.hpp"
+#include "tests/relative.hpp"
 
 namespace septet {
 namespace {
@@ -133,7 +134,7 @@ TEST_CASE("what is out of bounds is sent as the bound and a number gone bad as z
   sent.velocity_mps = {5000.0, -INFINITY, 1.0};
   sent.wheel_lift_m = {99.0, 0.0, 0.0, 0.0};
   const Participant got = received(sent);
-  CHECK(got.world_from_vehicle.position_m.x == doctest::Approx(524288.0).epsilon(1e-8).scale(0.0));
+  CHECK(got.world_from_vehicle.position_m.x == relative(524288.0, 1e-8));
   CHECK(got.world_from_vehicle.position_m.x < 524288.0);
   CHECK(got.world_from_vehicle.position_m.y == -got.world_from_vehicle.position_m.x);
   CHECK(got.world_from_vehicle.position_m.z == 0.0);

@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/relative.hpp"
+
 namespace septet::film {
 namespace {
 
@@ -40,7 +42,7 @@ TEST_CASE("a film with the samples that are chosen is made within its time, and 
         CHECK(choice->tried_s == doctest::Approx(machines.spent_s));
         CHECK(machines.spent_s < 0.15 * limit_s);
         const double took_s = times.of(frames, choice->samples);
-        CHECK(choice->foretold_s == doctest::Approx(took_s).epsilon(0.02));
+        CHECK(choice->foretold_s == relative(took_s, 0.02));
         CHECK(machines.spent_s + took_s <= limit_s);
         if (choice->samples < 8192)
           CHECK(machines.spent_s + took_s + static_cast<double>(frames) * times.sample_s > 0.88 * limit_s);

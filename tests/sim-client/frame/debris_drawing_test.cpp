@@ -5,6 +5,7 @@
 
 #include "engine/control/control_message.hpp"
 #include "engine/core/random.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::frame;
@@ -61,7 +62,7 @@ TEST_CASE("between two keyframes vertices go straight and normals stand upright 
       CHECK(std::abs(glm::dot(p.normal, q.position_m - p.position_m)) < 1e-5f);
       CHECK(std::abs(glm::dot(p.normal, r.position_m - p.position_m)) < 1e-5f);
       CHECK(glm::dot(p.normal, p.position_m - inside) > 0.0f);
-      CHECK(glm::length(p.normal) == doctest::Approx(1.0).epsilon(1e-5).scale(0.0));
+      CHECK(glm::length(p.normal) == relative(1.0, 1e-5));
     }
   }
 }
@@ -129,7 +130,7 @@ TEST_CASE("screens that lost different ticks show the same debris at the same in
       REQUIRE(meshes.size() == 1);
       return meshes.front().origin_m.x;
     };
-    CHECK(place(all) == doctest::Approx(0.1 * tick + 0.5).epsilon(1e-4).scale(0.0));
+    CHECK(place(all) == relative(0.1 * tick + 0.5, 1e-4));
     CHECK(place(some) == place(all));
     CHECK(place(late) == place(all));
   }

@@ -13,6 +13,7 @@
 
 #include "engine/world/vehicle_model.hpp"
 #include "sim-client/frame/dented_mesh.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::frame;
@@ -80,9 +81,9 @@ TEST_CASE("a sheet is divided where a dent bends it, keeps its outline, and is a
     const Vec3 at = in_vehicle(i);
     deepest = std::max(deepest, 2.0 - at.x);
     if (std::abs(at.y) > 0.8) CHECK(std::abs(at.x - 2.0) < 1e-5);
-    CHECK(glm::length(bent->vertices[i].normal) == doctest::Approx(1.0).epsilon(1e-4));
+    CHECK(glm::length(bent->vertices[i].normal) == relative(1.0, 1e-4));
   }
-  CHECK(deepest == doctest::Approx(0.3).epsilon(0.08).scale(0.0));
+  CHECK(deepest == relative(0.3, 0.08));
   // Its triangles cover what they did: seen from the front there is neither a hole nor an overlap.
   std::uint32_t in_parts = 0;
   for (const scene::MeshPart& part : bent->parts) in_parts += part.index_count;
@@ -94,7 +95,7 @@ TEST_CASE("a sheet is divided where a dent bends it, keeps its outline, and is a
     if (debris::reaches(dents, 0.5 * (a + b) + Vec3(0.3, 0, 0)))
       CHECK(std::hypot(b.y - a.y, b.z - a.z) < 2.5 * longest_bent_edge_m);
   }
-  CHECK(area_m2 == doctest::Approx(4.0 * 2.0 * 0.5).epsilon(1e-3));
+  CHECK(area_m2 == relative(4.0 * 2.0 * 0.5, 1e-3));
 }
 
 TEST_CASE("a mesh that no dent reaches, or that makes no sense, stays as it is") {

@@ -15,6 +15,7 @@
 
 #include "engine/world/instrument_panel.hpp"
 #include "sim-client/frame/dent_drawing.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-client/frame/cockpit_view.hpp"
 
 namespace septet::frame {
@@ -116,7 +117,7 @@ TEST_CASE("a front that was pushed in is seen from the side as far back as its d
     const auto picture = from_outside("saloon", {dent(shape.front_m(), 0.0, 180.0, depth_m, 0.9, 0.9)}, 90.0, 0.0,
                                       "dents-side-" + std::to_string(int(100 * depth_m)));
     const double moved_m = (first_column(picture, nothing, row(0.65), row(0.45)) - front) / px_per_m;
-    CHECK(moved_m == doctest::Approx(depth_m).epsilon(0.2).scale(0.0));
+    CHECK(moved_m == relative(depth_m, 0.2));
     // Behind the doors nothing has moved.
     int changed = 0;
     for (std::uint32_t x = width_px / 2; x < width_px; ++x)

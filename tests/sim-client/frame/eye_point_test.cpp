@@ -9,6 +9,7 @@
 
 #include "engine/world/interpolate.hpp"
 #include "sim-client/frame/client_frame.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::frame {
@@ -48,8 +49,8 @@ TEST_CASE("from wherever the head is each screen stays a window onto the same wo
       const Vec3 beyond_m = 3.0 * (0.4 * window.lower_left_m + 0.6 * window.upper_right_m());
       const Vec2 drawn = drawn_at(views->views.front(), beyond_m);
       const Vec2 passed = passed_at(window, rig.eye_point_m + moved_m, beyond_m);
-      CHECK(drawn.x == doctest::Approx(passed.x).epsilon(1e-9));
-      CHECK(drawn.y == doctest::Approx(passed.y).epsilon(1e-9));
+      CHECK(drawn.x == relative(passed.x, 1e-9));
+      CHECK(drawn.y == relative(passed.y, 1e-9));
     }
 }
 

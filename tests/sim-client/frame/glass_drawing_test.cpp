@@ -10,6 +10,7 @@
 
 #include "engine/effects/ice/glass_keyframe.hpp"
 #include "engine/world/vehicle_model.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::frame;
@@ -93,7 +94,7 @@ TEST_CASE(
         CHECK(std::abs(place.y) < 0.81);
         // Of the car that is seen it lies on the glass, a few millimetres before it.
         const double before_m = (place.x - 2.0) * 0.5547 + (place.z - 0.9) * 0.8321;
-        if (prototype == 1) CHECK(before_m == doctest::Approx(0.004).epsilon(0.2));
+        if (prototype == 1) CHECK(before_m == relative(0.004, 0.2));
       }
   }
   // Thawed and gone with its keyframe; and a vehicle that is not there is none.

@@ -16,6 +16,7 @@
 #include "engine/world/instrument_panel.hpp"
 #include "sim-client/frame/prototype_of.hpp"
 #include "tests/engine/instant/reflection_point.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-client/frame/cockpit_view.hpp"
 
 namespace septet::frame {
@@ -181,7 +182,7 @@ TEST_CASE("a mirror shows things as bright as they are but for what silver takes
        {render::Antialiasing::smoothing, render::Antialiasing::multisampled}) {
     Stage left(rig, rig.screens[0], shown, {}, antialiasing), ahead(rig, rig.screens[1], shown, {}, antialiasing);
     const Seen direct = ahead.with({12.0, 0.8, 1.6}, 0.5), mirrored = left.with({-12.0, 3.4, 1.4}, 0.6);
-    CHECK(double(mirrored.most) == doctest::Approx(0.9 * double(direct.most)).epsilon(0.03));
+    CHECK(double(mirrored.most) == relative(0.9 * double(direct.most), 0.03));
     CHECK(left.with({-12.0, 4.4, 1.4}, 0.4).pixel.x < left.with({-12.0, 3.4, 1.4}, 0.4).pixel.x - 3.0);
   }
 }

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/relative.hpp"
+
 namespace septet::frame {
 
 TEST_CASE("wipers rest in the dry, run at least 45 times a minute in steady rain, and now and then in a drizzle") {
@@ -32,7 +34,7 @@ TEST_CASE("a place was last wiped when a blade stood there") {
         const auto passed_s = last_passed_s(rain, share, time_s);
         REQUIRE(passed_s);
         CHECK(*passed_s <= time_s);
-        CHECK(wiper_share(rain, *passed_s) == doctest::Approx(share).epsilon(1e-6));
+        CHECK(wiper_share(rain, *passed_s) == relative(share, 1e-6));
         // And none did since.
         for (double later_s = *passed_s + 0.002; later_s < time_s; later_s += 0.01)
           CHECK((wiper_share(rain, later_s) > share) == (wiper_share(rain, *passed_s + 0.002) > share));

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/relative.hpp"
+
 namespace septet::screen {
 namespace {
 
@@ -15,9 +17,9 @@ PictureRate steady(double per_second, double for_s) {
 
 TEST_CASE("the rate is that of the last seconds and not of the start") {
   PictureRate rate = steady(60.0, 5.0);
-  CHECK(rate.per_second().value() == doctest::Approx(60.0).epsilon(0.02).scale(0.0));
+  CHECK(rate.per_second().value() == relative(60.0, 0.02));
   for (int i = 1; i <= 40; ++i) rate.add(105.0 + 0.1 * i);
-  CHECK(rate.per_second().value() == doctest::Approx(10.0).epsilon(0.06).scale(0.0));
+  CHECK(rate.per_second().value() == relative(10.0, 0.06));
 }
 
 TEST_CASE("nothing is said of a rate that is not known yet") {

@@ -14,6 +14,7 @@
 
 #include "engine/audio/signal.hpp"
 #include "tests/logging/session_fixture.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::sound {
 namespace {
@@ -91,7 +92,7 @@ TEST_CASE(
   CHECK(onset_s(samples, 2.6) == -1.0);
   // As a tape at half speed.
   CHECK(static_cast<double>(crossings(samples, 0.52, 0.58)) ==
-        doctest::Approx(static_cast<double>(crossings(samples, 1.54, 1.66))).epsilon(0.1));
+        relative(static_cast<double>(crossings(samples, 1.54, 1.66)), 0.1));
 }
 
 TEST_CASE("a film's sound that is given up leaves no file") {

@@ -10,6 +10,7 @@
 #include "car-io/can/can_plan.hpp"
 #include "car-io/simulated_hid_device.hpp"
 #include "sim-server/drive/live_drive.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -97,7 +98,7 @@ TEST_CASE("an emergency stop is in force with its own tick and outlasts its rele
   seated.drive(60, true);
   CHECK(seated.live->alarm().empty());
   const double accelerated = seated.live->state().input.accelerator;
-  CHECK(accelerated == doctest::Approx(0.5).epsilon(0.01));
+  CHECK(accelerated == relative(0.5, 0.01));
   seated.switches.emergency_stop = true;
   seated.drive(1, true);
   CHECK(seated.is_off());

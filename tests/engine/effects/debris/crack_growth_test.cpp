@@ -11,6 +11,7 @@
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/effects/debris/fracture.hpp"
 #include "tests/engine/effects/debris/pieces.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::debris;
@@ -77,7 +78,7 @@ TEST_CASE("under a lasting pull a crack of ice grows as Kachanov's law says unti
       }
       REQUIRE(slab.cracks.size() == 10);
       const double expected = 1.0 - std::pow(1.0 - time_s / rupture_s, 1.0 / (crack_exponent + 1.0));
-      CHECK(slab.cracks.front().reach == doctest::Approx(expected).epsilon(0.03));
+      CHECK(slab.cracks.front().reach == relative(expected, 0.03));
     }
     int opened = 0;
     for (; opened == 0 && time_s < 1.1 * opens_s; time_s += step_s) {
@@ -86,7 +87,7 @@ TEST_CASE("under a lasting pull a crack of ice grows as Kachanov's law says unti
       slab.cracks = std::move(result.cracks);
     }
     CHECK(opened == 10);
-    CHECK(time_s / opens_s == doctest::Approx(1.0).epsilon(0.03));
+    CHECK(time_s / opens_s == relative(1.0, 0.03));
   }
 }
 
@@ -109,12 +110,12 @@ TEST_CASE("a blow that cannot pay for a face cracks it as far as it pays and the
   FractureResult result = fracture(slab, blow_that_lost(0.6 * cost_j, 6.0));
   CHECK(result.opened_faces == 0);
   REQUIRE(result.cracks.size() == 1);
-  CHECK(result.cracks[0].reach == doctest::Approx(0.6).epsilon(1e-6));
+  CHECK(result.cracks[0].reach == relative(0.6, 1e-6));
   slab.cracks = result.cracks;
   result = fracture(slab, blow_that_lost(0.5 * 0.4 * cost_j, 6.0));
   CHECK(result.opened_faces == 0);
   REQUIRE(result.cracks.size() == 1);
-  CHECK(result.cracks[0].reach == doctest::Approx(0.8).epsilon(1e-6));
+  CHECK(result.cracks[0].reach == relative(0.8, 1e-6));
   slab.cracks = result.cracks;
   CHECK(fracture(slab, blow_that_lost(0.21 * cost_j, 6.0)).opened_faces == 1);
   CHECK(fracture(in_splinters(Part::ice_slab, 2), blow_that_lost(0.21 * cost_j, 6.0)).opened_faces == 0);

@@ -13,6 +13,7 @@
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "tests/engine/effects/debris/pieces.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::debris;
@@ -60,7 +61,7 @@ TEST_CASE("a part that rests falls asleep and a moving box wakes it") {
   }
   CHECK(state.pieces[0].asleep);
   CHECK(std::abs(calm_ticks - 59) <= 1);  // The sixtieth makes it a second.
-  CHECK(highest_debris_m(state, 0.0, 0.0, 0.2).value_or(0) == doctest::Approx(0.5).epsilon(0.03).scale(0.0));
+  CHECK(highest_debris_m(state, 0.0, 0.0, 0.2).value_or(0) == relative(0.5, 0.03));
   CHECK_FALSE(highest_debris_m(state, 3.0, 0.0, 0.2).has_value());
   Box car;
   car.world_from_box.position_m = {-3.0, 0, 0.8};
@@ -161,8 +162,7 @@ TEST_CASE("a windscreen thrown at a wall cracks and shatters on the road and los
   State state;
   CHECK(throw_windscreen_at_wall(state) > 20);
   CHECK(state.shards.size() > 5);
-  CHECK(mass_of(state) ==
-        doctest::Approx(elastic::total_mass_kg(part_at_rest(Part::windscreen, 3).body)).epsilon(1e-9));
+  CHECK(mass_of(state) == relative(elastic::total_mass_kg(part_at_rest(Part::windscreen, 3).body), 1e-9));
   for (const auto& s : state.shards) {
     CHECK(s.position_m.z >= 0.0);
     CHECK(glm::length(s.velocity_mps) < 40.0);

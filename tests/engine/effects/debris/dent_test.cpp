@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/world/vehicle_body.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::debris;
@@ -42,7 +43,7 @@ TEST_CASE("what was struck is pushed in by the dent's depth, and what is beside,
   const std::vector<Dent> dents{front_dent(0.3)};
   const Vec3 struck(3.7, 0.1, 0.5);
   const Vec3 way = dented(dents, struck) - struck;
-  CHECK(way.x == doctest::Approx(-0.3).epsilon(0.08).scale(0.0));  // Up to its folds.
+  CHECK(way.x == relative(-0.3, 0.08));  // Up to its folds.
   CHECK(std::hypot(way.y, way.z) < 0.03);
   for (const Vec3& kept : {Vec3(3.7, 0.9, 0.5), Vec3(3.7, -0.7, 0.5), Vec3(3.7, 0.1, 1.35), Vec3(2.85, 0.1, 0.5)}) {
     CAPTURE(kept.x);

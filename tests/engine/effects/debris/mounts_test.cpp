@@ -8,6 +8,7 @@
 #include "engine/effects/debris/crash.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::debris;
@@ -72,9 +73,8 @@ TEST_CASE("what is torn off flies with the speed that the car had when its mount
     const elastic::ElasticBody& lamp = run.state.pieces.front().body;
     // V cos ωt at sin ωt = share.
     const double left_mps = speed_mps * std::sqrt(1.0 - share * share);
-    CHECK(elastic::momentum_ns(lamp).x() / elastic::total_mass_kg(lamp) ==
-          doctest::Approx(left_mps).epsilon(0.02).scale(0.0));
-    CHECK(run.crash.first.impulse_ns.x == doctest::Approx(lamp_kg * (speed_mps - left_mps)).epsilon(0.02).scale(0.0));
+    CHECK(elastic::momentum_ns(lamp).x() / elastic::total_mass_kg(lamp) == relative(left_mps, 0.02));
+    CHECK(run.crash.first.impulse_ns.x == relative(lamp_kg * (speed_mps - left_mps), 0.02));
     CHECK(glm::length(from_eigen(elastic::rigid_motion(lamp).angular_velocity_radps)) < 0.15 * speed_mps * 3.0);
   }
 }
@@ -89,7 +89,7 @@ TEST_CASE("a struck part goes to the common speed and out with at most what the 
     return from_eigen(Eigen::Vector3d(momentum / mass));
   };
   CHECK(std::abs(mean_mps(wall).x) < 0.01);
-  CHECK(mean_mps(car).x == doctest::Approx(0.5 * speed_mps).epsilon(0.01).scale(0.0));
+  CHECK(mean_mps(car).x == relative(0.5 * speed_mps, 0.01));
   const double returned_mps = material_data(Material::bumper_plastic).restitution * speed_mps;
   for (const Run* run : {&wall, &car}) {
     const Vec3 out = mean_mps(*run);

@@ -11,6 +11,7 @@
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "tests/engine/effects/debris/pieces.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::debris;
@@ -43,14 +44,14 @@ TEST_CASE("a shard falls freely and a fifth of its speed comes back from the roa
     closing_mps = -state.shards[0].velocity_mps.z;
     advance_shards(state, road, shard_step_s);
   }
-  CHECK(state.shards[0].velocity_mps.z == doctest::Approx(0.2 * closing_mps).epsilon(0.02).scale(0.0));
+  CHECK(state.shards[0].velocity_mps.z == relative(0.2 * closing_mps, 0.02));
   CHECK(state.shards[0].velocity_mps.x == 0.0);  // Friction of 0.4 times 1.2 times the blow takes more than it had.
 }
 
 TEST_CASE("a shard that grazes the road loses Coulomb's share and comes to rest on it") {
   State state = with_shard({0, 0, 1e-6}, {20, 0, -3});
   advance_shards(state, level_road(), shard_step_s);
-  CHECK(state.shards[0].velocity_mps.x == doctest::Approx(20.0 - 0.4 * 1.2 * 3.0).epsilon(0.005).scale(0.0));
+  CHECK(state.shards[0].velocity_mps.x == relative(20.0 - 0.4 * 1.2 * 3.0, 0.005));
   for (int k = 0; k < 10'000; ++k) advance_shards(state, level_road(), shard_step_s);
   CHECK(state.shards[0].velocity_mps == Vec3(0.0));
   CHECK(state.shards[0].position_m.z == 0.0);
@@ -83,7 +84,7 @@ TEST_CASE("one splinter of glass is a shard with its mass and motion and turns a
       glass.body.velocity_mps[i] = Eigen::Vector3d(1, 2, 3) + Eigen::Vector3d(0, 0, rate).cross(arm);
     }
     const Shard shard = shard_of(glass);
-    CHECK(shard.mass_kg == doctest::Approx(part_recipe(Part::windscreen).mass_kg).epsilon(0.001));
+    CHECK(shard.mass_kg == relative(part_recipe(Part::windscreen).mass_kg, 0.001));
     CHECK(glm::length(shard.velocity_mps - Vec3(1, 2, 3)) < 1e-9);
     CHECK(shard.angular_velocity_radps.z == doctest::Approx(std::min(rate, 30.0)));
   }
@@ -127,7 +128,7 @@ TEST_CASE("a shard that slides on the road stops after v squared over two mu g, 
     };
     for (int k = 0; k < 8000; ++k) advance_shards(state, road, shard_step_s);
     CHECK(state.shards[0].velocity_mps == Vec3(0.0));
-    CHECK(state.shards[0].position_m.x == doctest::Approx(25.0 / (2.0 * 0.4 * factor * 9.81)).epsilon(0.01).scale(0.0));
+    CHECK(state.shards[0].position_m.x == relative(25.0 / (2.0 * 0.4 * factor * 9.81), 0.01));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/effects/ice/glass_keyframe.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::ice {
 namespace {
@@ -37,7 +38,7 @@ double cleared(const Frost& frost) {
 
 TEST_CASE("wind takes heat from a plate as a turbulent boundary layer does, and a car that stands has some of it") {
   // Nu = 0.037 Re^0.8 Pr^(1/3) at 22 m/s: Re = 1.323e6, Nu = 2612.
-  CHECK(wind_wpm2k(22.0) == doctest::Approx(79.3).epsilon(2e-3));
+  CHECK(wind_wpm2k(22.0) == relative(79.3, 2e-3));
   CHECK(wind_wpm2k(-22.0) == wind_wpm2k(22.0));
   CHECK(wind_wpm2k(44.0) / wind_wpm2k(22.0) == doctest::Approx(std::pow(2.0, 0.8)));
   CHECK(wind_wpm2k(0.0) == 8.0);
@@ -127,12 +128,12 @@ TEST_CASE("the driver looks through a scraped hole, and whoever sits beside him 
   CHECK(left_by_scraper(0.735, 0.05) == 1.0);
   double least = 1.0;
   for (double across = 0.6; across < 0.9; across += 0.005) least = std::min(least, left_by_scraper(across, 0.5));
-  CHECK(least == doctest::Approx(0.03).epsilon(0.01));
+  CHECK(least == relative(0.03, 0.01));
 }
 
 TEST_CASE("frost is drawn where some is left, thinner as it melts") {
   Frost frost = morning_frost(freezing_k - 5.0, 1);
-  CHECK(area_m2(frost_surface(flat, frost)) == doctest::Approx(0.7).epsilon(1e-3));
+  CHECK(area_m2(frost_surface(flat, frost)) == relative(0.7, 1e-3));
   double before = 0.8;
   for (int minute = 0; minute < 4; ++minute) {
     for (int i = 0; i < 240; ++i) warm(frost, freezing_k - 5.0, 12.0, 0.25);
@@ -205,7 +206,7 @@ TEST_CASE("a windscreen is found on bent glass, and none on what cannot be one")
       CHECK(place.x - bent(place.y, place.z).x < 0.012);
     }
   CHECK(place_on(pane, 0.0, 0.0).y < -0.6);
-  CHECK(width_m(pane) == doctest::Approx(1.32).epsilon(0.03));
+  CHECK(width_m(pane) == relative(1.32, 0.03));
   CHECK(pane_on({}).empty());
   CHECK(pane_on(std::span(glass).first(6)).empty());
   const std::vector<Vec3> nonsense(9, Vec3(NAN));
@@ -228,7 +229,7 @@ TEST_CASE("glass comes back from the wire to the gram and the millimetre, and no
   CHECK((*read)[0].frost.melted_kgpm2[7] == doctest::Approx(0.07));
   CHECK((*read)[1].vehicle == 77);
   CHECK((*read)[1].stars.at(1).seed == 78);
-  CHECK((*read)[1].stars[1].across == doctest::Approx(0.75).epsilon(0.003));
+  CHECK((*read)[1].stars[1].across == relative(0.75, 0.003));
   CHECK(encode_glass(*read) == bytes);
   for (std::size_t length = 0; length < bytes.size(); ++length) CHECK(!decode_glass(std::span(bytes).first(length)));
   Bytes longer = bytes, newer = bytes;

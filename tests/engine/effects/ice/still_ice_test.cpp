@@ -11,6 +11,7 @@
 
 #include "engine/effects/ice/ice_keyframe.hpp"
 #include "engine/effects/ice/objects.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::ice {
 namespace {
@@ -40,8 +41,8 @@ TEST_CASE("ice melts by degree-hours as the integral of a day's temperature says
     thawed_kh += degree_hours(mean_k + swing_k * std::sin(2.0 * M_PI * (t + 0.5 * step_s) / day_s), step_s);
   const double begin = std::asin(1.0 / swing_k);
   const double expected_kh = 24.0 / (2.0 * M_PI) * (2.0 * swing_k * std::cos(begin) - (M_PI - 2.0 * begin));
-  CHECK(thawed_kh == doctest::Approx(expected_kh).epsilon(1e-6));
-  CHECK(left_m(0.08, thawed_kh) == doctest::Approx(0.08 - 0.008 / 24.0 * expected_kh).epsilon(1e-9));
+  CHECK(thawed_kh == relative(expected_kh, 1e-6));
+  CHECK(left_m(0.08, thawed_kh) == relative(0.08 - 0.008 / 24.0 * expected_kh, 1e-9));
   CHECK(left_m(0.004, 12.0) == doctest::Approx(0.0).scale(1.0));  // Four millimetres: twelve degree-hours.
   CHECK(left_m(0.004, 11.9) > 0.0);
   CHECK(degree_hours(260.0, 1e6) == 0.0);

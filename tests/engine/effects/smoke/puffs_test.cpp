@@ -6,6 +6,7 @@
 
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "smoke_fixtures.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::smoke;
@@ -95,7 +96,7 @@ TEST_CASE("particles are born evenly in the emitter's ball and one may be owed")
     mean += at;
   }
   const double count = static_cast<double>(p.size());
-  CHECK(within_half / count == doctest::Approx(1.0 / 8.0).epsilon(0.1).scale(0.0));
+  CHECK(within_half / count == relative(1.0 / 8.0, 0.1));
   CHECK(glm::length(mean / count) < 0.05);
 }
 
@@ -110,7 +111,7 @@ TEST_CASE("a draught moves smoke by its speed whatever the size of the cells") {
     State state = make_smoke(make_grid({}, cell_m, 40, 10, 10, 0), {none}, 3, 100, parameters);
     REQUIRE(add_particle(state, {5.5, 5.5, 5.5}, 0));
     for (int n = 0; n < 60; ++n) advance_smoke(state, Vec3(3.0, 0.0, 0.0), {}, 1.0 / 60.0);
-    CHECK((state.particles.x[0] - 5.5f) * static_cast<float>(cell_m) == doctest::Approx(3.0).epsilon(0.01).scale(0.0));
+    CHECK((state.particles.x[0] - 5.5f) * static_cast<float>(cell_m) == relative(3.0, 0.01));
   }
 }
 
@@ -152,6 +153,6 @@ TEST_CASE("a cell fills its walls with soot at the stated rate and never beyond"
   };
   // A wall halves what is around: of the ball's layers below the floor there are none.
   const double share = 0.399 + 0.242 + 0.054;
-  CHECK(soot_after(0.2) == doctest::Approx(0.2 * share * std::pow(0.991, 2)).epsilon(0.02).scale(0.0));
+  CHECK(soot_after(0.2) == relative(0.2 * share * std::pow(0.991, 2), 0.02));
   CHECK(soot_after(50.0) == 1.0f);
 }

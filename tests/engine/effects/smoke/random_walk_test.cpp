@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/effects/smoke/smoke_state.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::smoke;
@@ -48,8 +49,7 @@ TEST_CASE("smoke in a full cell walks by the stated deviation and grows with the
   for (const int steps : {1, 4}) {
     CAPTURE(steps);
     const Vec3 spread = spread_cells(10, steps, 5e-5);
-    for (int axis = 0; axis < 3; ++axis)
-      CHECK(spread[axis] == doctest::Approx(expected * std::sqrt(5e-5 * steps)).epsilon(0.05).scale(0.0));
+    for (int axis = 0; axis < 3; ++axis) CHECK(spread[axis] == relative(expected * std::sqrt(5e-5 * steps), 0.05));
   }
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("at the crowd smoke walks a third as far and in a thin cell not at all
   const Parameters parameters;
   const Vec3 crowd = spread_cells(5, 4, 5e-5), thin = spread_cells(2, 4, 5e-5);
   for (int axis = 0; axis < 3; ++axis) {
-    CHECK(crowd[axis] == doctest::Approx(parameters.jitter_cells * std::sqrt(2e-4)).epsilon(0.07).scale(0.0));
+    CHECK(crowd[axis] == relative(parameters.jitter_cells * std::sqrt(2e-4), 0.07));
     CHECK(thin[axis] < 1e-6);
   }
 }

@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "smoke_fixtures.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::smoke;
@@ -104,7 +105,7 @@ TEST_CASE("puffs carry the cross-section of their particles to where they are in
                               static_cast<int>(std::floor(p.z))));
   }
   for (const float area : state.extinction_area_m2) simulated_m2 += area;
-  CHECK(drawn_m2 == doctest::Approx(simulated_m2).epsilon(0.03));
+  CHECK(drawn_m2 == relative(simulated_m2, 0.03));
 }
 
 TEST_CASE("twenty thousand visible particles need less than two megabytes a second") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/elastic/beam.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::elastic;
@@ -12,8 +13,8 @@ TEST_CASE(
     "clamped") {
   // St. Venant and Kirchhoff's strain is Hooke's less 1.5 times its square: 0.9985 of it here.
   const double free = beam::static_stretch(1, 1e-3, true) / 1e-3, clamped = beam::static_stretch(1, 1e-3, false) / 1e-3;
-  CHECK(free == doctest::Approx(beam::st_venant_kirchhoff_strain(1e-3) / 1e-3).epsilon(1e-4).scale(0.0));
-  CHECK(free == doctest::Approx(1.0 - 1.5e-3).epsilon(1e-4).scale(0.0));
+  CHECK(free == relative(beam::st_venant_kirchhoff_strain(1e-3) / 1e-3, 1e-4));
+  CHECK(free == relative(1.0 - 1.5e-3, 1e-4));
   // The clamp keeps the first of 21 cubes from growing thinner.
   CHECK(clamped < free);
   CHECK(clamped > 0.995 * free);
@@ -22,20 +23,20 @@ TEST_CASE(
 TEST_CASE("pulled and pushed hard it follows St. Venant-Kirchhoff and not Hooke") {
   const double pulled = beam::st_venant_kirchhoff_strain(0.1);
   const double pushed = beam::st_venant_kirchhoff_strain(-0.1);
-  CHECK(pulled / 0.1 == doctest::Approx(0.8803).epsilon(0.001).scale(0.0));  // Hooke would say 1.
-  CHECK(pushed / -0.1 == doctest::Approx(1.211).epsilon(0.002).scale(0.0));
-  CHECK(beam::static_stretch(1, 0.1, true) == doctest::Approx(pulled).epsilon(0.005).scale(0.0));
-  CHECK(beam::static_push_strain(1, -0.1) == doctest::Approx(pushed).epsilon(0.005).scale(0.0));
+  CHECK(pulled / 0.1 == relative(0.8803, 0.001));  // Hooke would say 1.
+  CHECK(pushed / -0.1 == relative(1.211, 0.002));
+  CHECK(beam::static_stretch(1, 0.1, true) == relative(pulled, 0.005));
+  CHECK(beam::static_push_strain(1, -0.1) == relative(pushed, 0.005));
 }
 
 TEST_CASE("torsion of coarse linear tetrahedra is five times too stiff and converges") {
-  CHECK(beam::static_twist_ratio(1) == doctest::Approx(0.21).epsilon(0.05).scale(0.0));
-  CHECK(beam::static_twist_ratio(2) == doctest::Approx(0.48).epsilon(0.05).scale(0.0));
+  CHECK(beam::static_twist_ratio(1) == relative(0.21, 0.05));
+  CHECK(beam::static_twist_ratio(2) == relative(0.48, 0.05));
 }
 
 TEST_CASE("bending of coarse linear tetrahedra converges from below") {
-  CHECK(beam::static_bend_ratio(1) == doctest::Approx(0.36).epsilon(0.05).scale(0.0));
-  CHECK(beam::static_bend_ratio(2) == doctest::Approx(0.68).epsilon(0.05).scale(0.0));
+  CHECK(beam::static_bend_ratio(1) == relative(0.36, 0.05));
+  CHECK(beam::static_bend_ratio(2) == relative(0.68, 0.05));
 }
 
 TEST_CASE("Young's modulus and the Poisson ratio give the right Lame constants") {
@@ -55,9 +56,9 @@ TEST_CASE("a beam at rest hangs at a depth that goes with one over the stiffness
     for (const auto& x : body.position_m) deepest = std::min(deepest, x.x());
     if (first == 0.0) {
       first = deepest * young;
-      CHECK(deepest == doctest::Approx(-0.0318).epsilon(0.01).scale(0.0));
+      CHECK(deepest == relative(-0.0318, 0.01));
     }
-    CHECK(deepest * young == doctest::Approx(first).epsilon(0.01));
+    CHECK(deepest * young == relative(first, 0.01));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/step.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::elastic;
@@ -67,7 +68,7 @@ TEST_CASE("a stiff cube on a hinge swings down in a pendulum's time and rises as
         settings.step_s = step_s;
         const Swing result = swing(cube, settings);
         // Places are half a step ahead of velocities.
-        CHECK(result.down_s + 0.5 * step_s == doctest::Approx(quarter_period_s(cube)).epsilon(0.002).scale(0.0));
-        CHECK(result.rise == doctest::Approx(1.0).epsilon(0.002).scale(0.0));
+        CHECK(result.down_s + 0.5 * step_s == relative(quarter_period_s(cube), 0.002));
+        CHECK(result.rise == relative(1.0, 0.002));
       }
 }

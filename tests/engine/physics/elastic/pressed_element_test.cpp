@@ -8,6 +8,7 @@
 #include "engine/physics/elastic/elastic_body.hpp"
 #include "engine/physics/elastic/element.hpp"
 #include "engine/physics/elastic/step.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet::elastic;
 
@@ -97,6 +98,6 @@ TEST_CASE("a step that presses further is held by the stiffness of the volume as
     const double inertia = mass_over_volume * 9.0 / 16.0 / g2;
     StepSettings settings;
     const double expected = 1e-8 / gamma_of(settings) * 3.0 * stiffness / inertia;
-    CHECK(slowed_by(share) == doctest::Approx(expected).epsilon(0.02).scale(0.0));
+    CHECK(slowed_by(share) == relative(expected, 0.02));
   }
 }

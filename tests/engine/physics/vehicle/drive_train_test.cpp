@@ -8,6 +8,7 @@
 
 #include "engine/physics/vehicle/controls.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -36,8 +37,8 @@ double wheel_share(double accelerator) {
 
 TEST_CASE("the gears lose their share when the engine drives and when the car drags it") {
   const double efficiency = read_car("volvo-s80").powertrain.efficiency;
-  CHECK(wheel_share(0.5) == doctest::Approx(efficiency).epsilon(0.02).scale(0.0));
-  CHECK(wheel_share(0.0) == doctest::Approx(1.0 / efficiency).epsilon(0.02).scale(0.0));
+  CHECK(wheel_share(0.5) == relative(efficiency, 0.02));
+  CHECK(wheel_share(0.0) == relative(1.0 / efficiency, 0.02));
 }
 
 TEST_CASE("the automatic takes its time between two changes of gear and gives less torque during one") {

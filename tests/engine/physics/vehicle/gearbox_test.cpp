@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -84,7 +85,7 @@ TEST_CASE("a closed clutch turns engine and wheels together") {
   drive(car, in_gear(gear, 0.4, 0.0), level_ground(), 3.0, state);
   const double wheel_radps = 0.5 * (state.wheels[0].spin_radps + state.wheels[1].spin_radps);
   const double input_radps = wheel_radps * car.powertrain.final_ratio * car.powertrain.gear_ratio[gear - 1];
-  CHECK(state.powertrain.engine_radps == doctest::Approx(input_radps).epsilon(0.01));
+  CHECK(state.powertrain.engine_radps == relative(input_radps, 0.01));
 }
 
 TEST_CASE("reverse is refused while the car rolls forward") {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -70,10 +71,10 @@ TEST_CASE("a car that runs into a wall crushes as far as its speed says and hard
   for (const double speed : {2.0, 8.0, 15.0}) {
     CAPTURE(speed);
     const Drive drive = drive_into({across}, {0.0, 0.0}, 0.0, speed, 0.8 / speed + 0.5);
-    CHECK(drive.deepest_m == doctest::Approx(speed / 23.5).epsilon(0.05).scale(0.0));  // C = V/ω.
+    CHECK(drive.deepest_m == relative(speed / 23.5, 0.05));  // C = V/ω.
     REQUIRE(drive.report.over.size() == 1);
     const HullTouch& blow = drive.report.over.front();
-    CHECK(blow.closing_speed_mps == doctest::Approx(speed).epsilon(0.05));
+    CHECK(blow.closing_speed_mps == relative(speed, 0.05));
     CHECK(blow.delta_v_mps.x < -speed);  // All of it, and a little rebound,
     CHECK(blow.delta_v_mps.x > -1.6 * speed);
     CHECK(drive.state.velocity_mps.x < 0.0);
@@ -87,7 +88,7 @@ TEST_CASE("beyond its crumple zone a car is six times as stiff") {
   // V²/ω² = C² + 5 (C − 0.7)².
   const double soft_m = speed / 23.5, c = crumple_m;
   const double expected_m = (5.0 * c + std::sqrt(25.0 * c * c - 6.0 * (5.0 * c * c - soft_m * soft_m))) / 6.0;
-  CHECK(drive.deepest_m == doctest::Approx(expected_m).epsilon(0.03).scale(0.0));
+  CHECK(drive.deepest_m == relative(expected_m, 0.03));
 }
 
 TEST_CASE("restitution falls with the speed") {
@@ -196,15 +197,14 @@ TEST_CASE("a trunk beside the middle turns the car about it") {
   const Drive left = drive_into({trunk({8.0, 0.6}, 0.2)}, {0.0, 0.0}, 0.0, 15.0, 0.7);
   const Drive right = drive_into({trunk({8.0, -0.6}, 0.2)}, {0.0, 0.0}, 0.0, 15.0, 0.7);
   CHECK(heading_rad(left.state) > 0.1);
-  CHECK(heading_rad(right.state) == doctest::Approx(-heading_rad(left.state)).epsilon(0.05).scale(0.0));
+  CHECK(heading_rad(right.state) == relative(-heading_rad(left.state), 0.05));
 }
 
 TEST_CASE("a marker post takes the momentum of its mass and no more") {
   const Drive drive = drive_into({trunk({8.0, 0.0}, 0.06, 3.0)}, {0.0, 0.0}, 0.0, 30.0, 0.6);
   static const VehicleParameters car = read_car("volvo-s80");
   REQUIRE(drive.report.over.size() == 1);
-  CHECK(drive.report.over.front().delta_v_mps.x ==
-        doctest::Approx(-30.0 * 3.0 / (car.body.mass_kg + 3.0)).epsilon(0.02).scale(0.0));
+  CHECK(drive.report.over.front().delta_v_mps.x == relative(-30.0 * 3.0 / (car.body.mass_kg + 3.0), 0.02));
   CHECK(drive.state.velocity_mps.x > 29.0);
   CHECK(*std::ranges::max_element(drive.hull.crush_m) == 0.0);
 }

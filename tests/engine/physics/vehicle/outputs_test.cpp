@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -73,7 +74,7 @@ TEST_CASE("a car on its roof slides with half its weight as friction") {
   drive(car, input, level_ground(), 0.3, state);
   const double before_mps = state.velocity_mps.x;
   drive(car, input, level_ground(), 1.0, state);
-  CHECK(before_mps - state.velocity_mps.x == doctest::Approx(0.5 * gravity_mps2).epsilon(0.1).scale(0.0));
+  CHECK(before_mps - state.velocity_mps.x == relative(0.5 * gravity_mps2, 0.1));
 }
 
 TEST_CASE("a car that pitches and rolls in the air begins to yaw as Euler's equations say and gains no energy") {
@@ -88,8 +89,7 @@ TEST_CASE("a car that pitches and rolls in the air begins to yaw as Euler's equa
   const double start_j = mechanical_energy_j(car, state);
   advance_vehicle(car, input, level_ground(), 0.001, state);
   const Vec3& inertia = car.body.inertia_kgm2;
-  CHECK(state.angular_acceleration_radps2.z ==
-        doctest::Approx((inertia.x - inertia.y) * 1.0 * 1.5 / inertia.z).epsilon(0.02).scale(0.0));
+  CHECK(state.angular_acceleration_radps2.z == relative((inertia.x - inertia.y) * 1.0 * 1.5 / inertia.z, 0.02));
   // The wheels swing out against their dampers; a step errs by its fall.
   for (int i = 0; i < 40; ++i) {
     drive(car, input, level_ground(), 0.01, state);
@@ -110,7 +110,6 @@ TEST_CASE("the tyre's aligning torque is its trail of the contact's length") {
         2.0 * std::sqrt(2.0 * car.tyre.radius_m * front.squeeze_m);  // A chord of the tyre's circle.
     const double slip = std::abs(std::tan(front.slip_angle_rad)) / car.tyre.load_sensitive.trail_zero_slip;
     REQUIRE(slip < 0.15);
-    CHECK(-front.aligning_nm / front.force_n.y ==
-          doctest::Approx(car.tyre.load_sensitive.trail_over_length * length_m).epsilon(0.1).scale(0.0));
+    CHECK(-front.aligning_nm / front.force_n.y == relative(car.tyre.load_sensitive.trail_over_length * length_m, 0.1));
   }
 }

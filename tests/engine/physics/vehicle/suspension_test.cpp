@@ -8,6 +8,7 @@
 
 #include "engine/physics/vehicle/controls.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -41,8 +42,7 @@ TEST_CASE("each axle carries its share and stands as high as its tyres give") {
   CHECK(front_n + rear_n == doctest::Approx(weight_n));
   CHECK(known.sprung_load_n[0] / known.sprung_load_n[1] ==
         doctest::Approx(car.body.mass_centre_x_m / (car.body.wheelbase_m - car.body.mass_centre_x_m)));
-  CHECK(car.tyre.radius_m - known.centre_z_m[0] ==
-        doctest::Approx(0.5 * front_n / car.tyre.vertical_stiffness_npm).epsilon(1e-6).scale(0.0));
+  CHECK(car.tyre.radius_m - known.centre_z_m[0] == relative(0.5 * front_n / car.tyre.vertical_stiffness_npm, 1e-6));
 }
 
 TEST_CASE("a spring holds its own wheel and an anti-roll bar resists the difference of both") {
@@ -73,7 +73,7 @@ TEST_CASE("the inner front wheel turns further by the share of the Ackermann con
     CHECK(0.5 * (left + right) == doctest::Approx(mean_rad));
     // cot of the outer less cot of the inner angle is the track over the wheelbase.
     const double geometric = car.suspension[0].track_m / car.body.wheelbase_m * mean_rad * mean_rad;
-    CHECK(left - right == doctest::Approx(car.steering.ackermann * geometric).epsilon(0.02).scale(0.0));
+    CHECK(left - right == relative(car.steering.ackermann * geometric, 0.02));
   }
   // Rear wheels have their toe alone: in on both sides.
   CHECK(wheel_steer_rad(car, 2, still, 0.1) == doctest::Approx(-car.suspension[1].toe_rad(0.0)));
@@ -106,7 +106,7 @@ TEST_CASE("bump leans a strut's wheel inwards and a force to the left leans it t
   CHECK(right == doctest::Approx(-left));
   wheel.force_n.y = 3000.0;
   CHECK(place_wheel(car, known, 0, wheel, 0.0).spin_axis.z - left ==
-        doctest::Approx(3000.0 * car.suspension[0].camber_by_lateral_force_radpn).epsilon(0.01).scale(0.0));
+        relative(3000.0 * car.suspension[0].camber_by_lateral_force_radpn, 0.01));
 }
 
 namespace {

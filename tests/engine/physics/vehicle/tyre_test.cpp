@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -64,12 +65,10 @@ TEST_CASE("the side force peaks where the curves say at the nominal load and at 
       const double force_n = load_sensitive_force(tyre, rolling(load_n, 0.0, slip)).force_n.y;
       if (force_n > best_n) best_n = force_n, best_slip = slip;
     }
-    CHECK(best_n == doctest::Approx(curve.peak_force_n).epsilon(1e-4).scale(0.0));
-    CHECK(best_slip == doctest::Approx(curve.peak_slip).epsilon(0.01).scale(0.0));
-    CHECK(load_sensitive_force(tyre, rolling(load_n, 0.0, 1e-5)).force_n.y / 1e-5 ==
-          doctest::Approx(curve.slope_n).epsilon(1e-3).scale(0.0));
-    CHECK(load_sensitive_force(tyre, rolling(load_n, 0.0, 0.9)).force_n.y ==
-          doctest::Approx(curve.sliding_force_n).epsilon(1e-4).scale(0.0));
+    CHECK(best_n == relative(curve.peak_force_n, 1e-4));
+    CHECK(best_slip == relative(curve.peak_slip, 0.01));
+    CHECK(load_sensitive_force(tyre, rolling(load_n, 0.0, 1e-5)).force_n.y / 1e-5 == relative(curve.slope_n, 1e-3));
+    CHECK(load_sensitive_force(tyre, rolling(load_n, 0.0, 0.9)).force_n.y == relative(curve.sliding_force_n, 1e-4));
   }
   // Beyond two and a half times the nominal load the parabola is no longer trusted.
   const double at_10_kn = load_sensitive_force(tyre, rolling(10e3, 0.0, 0.2)).force_n.y;
@@ -84,7 +83,7 @@ TEST_CASE("half the friction halves the peak and keeps the slope") {
     return load_sensitive_force(tyre, contact).force_n.y;
   };
   CHECK(force_n(0.45, 0.085) == doctest::Approx(0.5 * force_n(0.9, 0.17)));
-  CHECK(force_n(0.45, 1e-5) == doctest::Approx(force_n(0.9, 1e-5)).epsilon(1e-3).scale(0.0));
+  CHECK(force_n(0.45, 1e-5) == relative(force_n(0.9, 1e-5), 1e-3));
 }
 
 TEST_CASE("a tyre that leans to the right pushes to the right") {
@@ -93,7 +92,7 @@ TEST_CASE("a tyre that leans to the right pushes to the right") {
   leaning.inclination_rad = 0.01;
   const double slope_n = tyre.load_sensitive.lateral_nominal.slope_n;
   CHECK(load_sensitive_force(tyre, leaning).force_n.y ==
-        doctest::Approx(-0.01 * tyre.load_sensitive.camber_slip * slope_n).epsilon(0.02).scale(0.0));
+        relative(-0.01 * tyre.load_sensitive.camber_slip * slope_n, 0.02));
 }
 
 TEST_CASE("the pneumatic trail begins as its share of the contact and ends a little in front of the middle") {
@@ -106,8 +105,7 @@ TEST_CASE("the pneumatic trail begins as its share of the contact and ends a lit
   const double whole_m = tyre.load_sensitive.trail_over_length * 0.14;
   CHECK(trail_m(0.0) == doctest::Approx(whole_m));
   CHECK(trail_m(0.5 * tyre.load_sensitive.trail_zero_slip) < 0.6 * whole_m);
-  CHECK(trail_m(1.5 * tyre.load_sensitive.trail_zero_slip) ==
-        doctest::Approx(-0.05 * whole_m).epsilon(1e-6).scale(0.0));
+  CHECK(trail_m(1.5 * tyre.load_sensitive.trail_zero_slip) == relative(-0.05 * whole_m, 1e-6));
 }
 
 TEST_CASE("a patch carries no more than the surface can hold and springs back from there") {
@@ -117,7 +115,7 @@ TEST_CASE("a patch carries no more than the surface can hold and springs back fr
   Vec2 force_n{0.0};
   for (int i = 0; i < 1000; ++i) force_n = relax(steady, 1000.0, 0.001, deflection_m);
   CHECK(glm::length(force_n) == doctest::Approx(1000.0));
-  CHECK(force_n.x * steady.force_n.y == doctest::Approx(force_n.y * steady.force_n.x).epsilon(0.2).scale(0.0));
+  CHECK(force_n.x * steady.force_n.y == relative(force_n.y * steady.force_n.x, 0.2));
   // The deflection is cut with the force: nothing is wound up behind it.
   const Vec2 held_n = steady.stiffness_npm * deflection_m;
   CHECK(glm::length(held_n) < 1200.0);
@@ -138,7 +136,7 @@ TEST_CASE("the side force builds up over the relaxation length") {
     Vec2 deflection_m{0.0}, force_n{0.0};
     for (int i = 0; i < steps; ++i) force_n = relax(steady, 1e9, dt_s, deflection_m);
     const double expected = 1.0 - slope_n / rate_n * std::exp(-lengths);
-    CHECK(force_n.y / steady.force_n.y == doctest::Approx(expected).epsilon(0.005).scale(0.0));
+    CHECK(force_n.y / steady.force_n.y == relative(expected, 0.005));
   }
 }
 
@@ -162,7 +160,7 @@ TEST_CASE("the published tyre gives the forces of the published package") {
     contact.sliding_mps = {1000.0 * point.braking_slip, -1000.0 * std::tan(point.slip_angle_rad)};
     contact.inclination_rad = point.inclination_rad;
     const Vec2 force_n = published_force(tyre, contact).force_n;
-    CHECK(force_n.x == doctest::Approx(point.longitudinal_n).epsilon(1e-6));
-    CHECK(force_n.y == doctest::Approx(-point.lateral_n).epsilon(1e-6));
+    CHECK(force_n.x == relative(point.longitudinal_n, 1e-6));
+    CHECK(force_n.y == relative(-point.lateral_n, 1e-6));
   }
 }

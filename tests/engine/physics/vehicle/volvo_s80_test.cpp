@@ -7,6 +7,7 @@
 
 #include "engine/physics/vehicle/manoeuvre.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -24,8 +25,8 @@ TEST_CASE("the S80 understeers like a car") {
 
 TEST_CASE("the S80 reaches 60 mph in about nine seconds and runs about 140 mph") {
   const ManoeuvreReport report = acceleration(read_car("volvo-s80"), {});
-  CHECK(report.figure("0-60 mph") == doctest::Approx(9.0).epsilon(0.5 / 9.0));
-  CHECK(report.figure("top speed in mph") == doctest::Approx(140.0).epsilon(0.05));
+  CHECK(report.figure("0-60 mph") == relative(9.0, 0.5 / 9.0));
+  CHECK(report.figure("top speed in mph") == relative(140.0, 0.05));
 }
 
 TEST_CASE("the S80 rolls out against drag and rolling resistance") {
@@ -37,8 +38,8 @@ TEST_CASE("the S80 rolls out against drag and rolling resistance") {
     const double rolling = car.tyre.rolling_resistance + car.tyre.rolling_resistance_s2pm2 * speed_mps * speed_mps;
     return drag_n / car.body.mass_kg + rolling * gravity_mps2;
   };
-  CHECK(report.figure("deceleration at 100 km/h") == doctest::Approx(expected(100.0 / 3.6)).epsilon(0.06).scale(0.0));
-  CHECK(report.figure("deceleration at 50 km/h") == doctest::Approx(expected(50.0 / 3.6)).epsilon(0.06).scale(0.0));
+  CHECK(report.figure("deceleration at 100 km/h") == relative(expected(100.0 / 3.6), 0.06));
+  CHECK(report.figure("deceleration at 50 km/h") == relative(expected(50.0 / 3.6), 0.06));
 }
 
 TEST_CASE("the anti-lock system stops the S80 within what the surface allows") {
@@ -88,8 +89,7 @@ TEST_CASE("at 200 km/h each axle is lightened by the lift of its own area") {
   const auto lifted = axle_loads_n(car), resting = axle_loads_n(without);
   const double pressure_pa = 0.5 * 1.225 * lifted[2] * lifted[2];
   for (int axle = 0; axle < axle_count; ++axle)
-    CHECK(resting[axle] - lifted[axle] ==
-          doctest::Approx(pressure_pa * car.body.lift_area_m2[axle]).epsilon(0.08).scale(0.0));
+    CHECK(resting[axle] - lifted[axle] == relative(pressure_pa * car.body.lift_area_m2[axle], 0.08));
 }
 
 TEST_CASE("started with full throttle on ice the driven wheels turn no faster than the traction control lets them") {

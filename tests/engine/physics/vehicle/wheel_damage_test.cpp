@@ -8,6 +8,7 @@
 
 #include "engine/physics/vehicle/tyre.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -128,8 +129,7 @@ TEST_CASE("a car with a wheel that was struck pulls to that side and is slowed b
   CHECK(end[0].world_from_vehicle.position_m.y > 2.0);
   CHECK(end[0].yaw_rate_radps > 0.02);
   CHECK(end[0].yaw_rate_radps < 0.12);
-  CHECK(end[1].world_from_vehicle.position_m.y ==
-        doctest::Approx(-end[0].world_from_vehicle.position_m.y).epsilon(0.05).scale(0.0));
+  CHECK(end[1].world_from_vehicle.position_m.y == relative(-end[0].world_from_vehicle.position_m.y, 0.05));
   CHECK(std::abs(end[2].world_from_vehicle.position_m.y) < 0.01);
   // A fifth of the wheel's load of 5 kN on 1.75 t, and what the wheel's slip takes.
   CHECK(end[2].speed_mps - end[0].speed_mps > 1.5);

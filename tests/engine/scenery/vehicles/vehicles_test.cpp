@@ -18,6 +18,7 @@
 #include "engine/scenery/vehicles/surface_patch.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 #include "engine/world/vehicle_body.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -64,10 +65,10 @@ TEST_CASE("the body of a car is closed and faces outwards and fills its bounding
       CHECK(geometry::signed_volume_m3(body) > (has_bed ? 0.3 : 0.45) * box);
       CHECK(geometry::signed_volume_m3(body) < 0.90 * box);
       const geometry::Bounds bounds = geometry::bounds(body);
-      CHECK(bounds.max_m.x == doctest::Approx(model.front_m()).epsilon(0.001));
-      CHECK(bounds.min_m.x == doctest::Approx(-model.rear_overhang_m).epsilon(0.001));
-      CHECK(bounds.max_m.y == doctest::Approx(model.width_m / 2).epsilon(0.001));
-      CHECK(bounds.max_m.z == doctest::Approx(model.height_m).epsilon(0.001));
+      CHECK(bounds.max_m.x == relative(model.front_m(), 0.001));
+      CHECK(bounds.min_m.x == relative(-model.rear_overhang_m, 0.001));
+      CHECK(bounds.max_m.y == relative(model.width_m / 2, 0.001));
+      CHECK(bounds.max_m.z == relative(model.height_m, 0.001));
     }
   }
 }
@@ -175,8 +176,8 @@ TEST_CASE("every vehicle is drawn as long and as wide as traffic and collisions 
           const glm::vec3 at(place.parent_from_object.position_m);
           low = glm::min(low, at + place.scale * shown.min_m), high = glm::max(high, at + place.scale * shown.max_m);
         }
-      CHECK(high.x == doctest::Approx(model.front_m()).epsilon(0.012));
-      CHECK(low.x == doctest::Approx(-model.rear_overhang_m).epsilon(0.08));
+      CHECK(high.x == relative(model.front_m(), 0.012));
+      CHECK(low.x == relative(-model.rear_overhang_m, 0.08));
       // Mirrors stand out, a rider's arms do not.
       CHECK(high.y > 0.45 * model.width_m);
       CHECK(high.y < 0.5 * model.width_m + 0.25);

@@ -14,6 +14,7 @@
 #include "engine/roadside/barrier_lines.hpp"
 #include "engine/roadside/obstacles.hpp"
 #include "tests/engine/scenery/world/drawn_world.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -90,7 +91,7 @@ TEST_CASE("a kerb has a face towards the road, upright and as high as its step")
     face_m2 += 0.5 * glm::length(across);
     turned_away += across.y < 0.0;  // The pavement is on the right: its face looks to the left.
   }
-  CHECK(face_m2 == doctest::Approx(96.0 * 0.12 + 4.0 * 0.02).epsilon(0.01).scale(0.0));
+  CHECK(face_m2 == relative(96.0 * 0.12 + 4.0 * 0.02, 0.01));
   CHECK(turned_away == 0);
 }
 

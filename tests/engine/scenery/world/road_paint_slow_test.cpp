@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/engine/scenery/world/drawn_world.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -50,25 +51,25 @@ TEST_CASE("a crossing is bars from kerb to kerb, as an object and as a signal") 
       paint(road_with("<signals><signal id=\"1\" type=\"1000003\" s=\"20\" t=\"0\" width=\"20\" height=\"0.01\" "
                       "value=\"4\"/></signals>"));
   for (const Paint& crossing : {object, signal}) {
-    CHECK(crossing.m2 == doctest::Approx(7.0 * 0.5 * 4.0).epsilon(0.02).scale(0.0));
+    CHECK(crossing.m2 == relative(7.0 * 0.5 * 4.0, 0.02));
     CHECK(crossing.down_m2 == 0.0);
     CHECK(crossing.low_m.y > -3.5);
     CHECK(crossing.high_m.y < 3.5);
-    CHECK(crossing.high_m.x - crossing.low_m.x == doctest::Approx(4.0).epsilon(0.01));
+    CHECK(crossing.high_m.x - crossing.low_m.x == relative(4.0, 0.01));
     CHECK(crossing.low_m.z > 0.005);
   }
-  CHECK(object.low_m.x == doctest::Approx(48.0).epsilon(0.001));
-  CHECK(signal.low_m.x == doctest::Approx(20.0).epsilon(0.001));
+  CHECK(object.low_m.x == relative(48.0, 0.001));
+  CHECK(signal.low_m.x == relative(20.0, 0.001));
 }
 
 TEST_CASE("a row of parking spaces has its lines, but for the side from which one drives in") {
   const Paint spaces = paint(road_with(
       R"(<objects><object id="1" type="parkingSpace" s="20" t="-2.5" length="5" width="2" height="0"><repeat s="20" length="10" distance="5" tStart="-2.5" tEnd="-2.5" heightStart="0" heightEnd="0" zOffsetStart="0" zOffsetEnd="0"/></object></objects>)"));
-  CHECK(spaces.m2 == doctest::Approx(3.0 * 0.12 * (5.12 + 2 * 2.12)).epsilon(0.02));
+  CHECK(spaces.m2 == relative(3.0 * 0.12 * (5.12 + 2 * 2.12), 0.02));
   CHECK(spaces.down_m2 == 0.0);
-  CHECK(spaces.low_m.x == doctest::Approx(17.44).epsilon(0.002));
-  CHECK(spaces.high_m.x == doctest::Approx(32.56).epsilon(0.002));
-  CHECK(spaces.low_m.y == doctest::Approx(-3.56).epsilon(0.002));
+  CHECK(spaces.low_m.x == relative(17.44, 0.002));
+  CHECK(spaces.high_m.x == relative(32.56, 0.002));
+  CHECK(spaces.low_m.y == relative(-3.56, 0.002));
   CHECK(spaces.high_m.y < -1.4);
 }
 
@@ -94,16 +95,16 @@ TEST_CASE("barriers of a file stand along their repeats, as high as it says, and
     CAPTURE(subtype);
     const auto [low, high] =
         barrier("barrier", subtype, road::replaced(road::replaced(repeat, "HIGH", high_m), "HIGH", high_m));
-    CHECK(high.z == doctest::Approx(std::stod(high_m)).epsilon(0.03));
+    CHECK(high.z == relative(std::stod(high_m), 0.03));
     CHECK(low.z < 0.05);
-    CHECK(low.x == doctest::Approx(20.0).epsilon(0.01));
-    CHECK(high.x == doctest::Approx(60.0).epsilon(0.01));
+    CHECK(low.x == relative(20.0, 0.01));
+    CHECK(high.x == relative(60.0, 0.01));
   }
   // One that is placed but once is as long as it is.
   const auto [low, high] = barrier("fence", "", R"(length="10" height="2">)");
-  CHECK(low.x == doctest::Approx(45.0).epsilon(0.01));
-  CHECK(high.x == doctest::Approx(55.0).epsilon(0.01));
-  CHECK(high.z == doctest::Approx(2.0).epsilon(0.03));
+  CHECK(low.x == relative(45.0, 0.01));
+  CHECK(high.x == relative(55.0, 0.01));
+  CHECK(high.z == relative(2.0, 0.03));
 }
 
 TEST_CASE("a stop line lies across the lanes that lead to it and no others") {
@@ -114,7 +115,7 @@ TEST_CASE("a stop line lies across the lanes that lead to it and no others") {
   CHECK(along.high_m.y < 0.0);
   CHECK(along.low_m.y > -3.5);
   CHECK(against.low_m.y > 0.0);
-  CHECK(along.m2 == doctest::Approx(0.5 * (3.5 - 0.16)).epsilon(0.02));
+  CHECK(along.m2 == relative(0.5 * (3.5 - 0.16), 0.02));
 }
 
 TEST_CASE("paint looks up whichever way its arrow points") {

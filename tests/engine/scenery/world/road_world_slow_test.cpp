@@ -15,6 +15,7 @@
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -289,7 +290,7 @@ TEST_CASE("a kerb's faces look outwards and its top up") {
     else
       CHECK(glm::dot(across, (a + b + c) / 3.0 - middle) > 0.0);
   }
-  CHECK(top_m2 == doctest::Approx(4.0).epsilon(0.02).scale(0.0));
+  CHECK(top_m2 == relative(4.0, 0.02));
 }
 
 }  // namespace septet::scenery
