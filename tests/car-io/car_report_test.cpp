@@ -221,7 +221,7 @@ TEST_CASE("calibrated axes read 0 and 1 at their own ends and nothing in their d
 
 TEST_CASE("the force of the hand wheel goes through its report and back") {
   for (const double force : {-1.0, -0.25, 0.0, 0.5, 1.0})
-    CHECK(decode_steering(encode_steering(force, 3)).value() == relative(force, 1e-3));
+    CHECK(decode_steering(encode_steering(force, 3)).value() == doctest::Approx(force).epsilon(1e-3).scale(1.0));
   CHECK(encode_steering(1.0, 0)[2] == std::byte{0x80});  // To the left: negative, as the wheel.
   CHECK_FALSE(decode_steering(Bytes(3)).has_value());
 }

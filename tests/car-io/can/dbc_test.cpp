@@ -11,7 +11,6 @@
 #include <doctest/doctest.h>
 
 #include "car-io/can/signal_codec.hpp"
-#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::car_io::dbc {
@@ -62,7 +61,7 @@ TEST_CASE("frames that cantools made decode to its values and those encode to th
       const double expected = std::stod(value.substr(equals + 1));
       const auto decoded = decode(*message, *signal, data);
       REQUIRE(decoded.has_value());
-      CHECK(*decoded == relative(expected, 1e-12));
+      CHECK(*decoded == doctest::Approx(expected).epsilon(1e-12).scale(1.0));
       encode(*signal, expected, encoded);
     }
     CHECK(encoded == data);

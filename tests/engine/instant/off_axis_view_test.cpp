@@ -115,7 +115,8 @@ TEST_CASE("a free camera is the off-axis view of a screen straight ahead of it")
   const OffAxisView screen = *off_axis_view({{2.2, 1.1, 0.7}, {2.2, -0.9, 0.7}, {2.2, 1.1, 1.7}}, {0.2, 0.1, 1.2});
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
-      CHECK(free.clip_from_eye_relative[i][j] == relative(screen.clip_from_eye_relative[i][j], 1e-9));
+      CHECK(free.clip_from_eye_relative[i][j] ==
+            doctest::Approx(screen.clip_from_eye_relative[i][j]).epsilon(1e-9).scale(1.0));
 }
 
 }  // namespace septet::instant

@@ -318,8 +318,8 @@ TEST_CASE("a picture of sets of samples is that of all of them, whichever set is
       const TracedPixel& pixel = whole.pixels[k];
       const TracedPixel joined_pixel = joined(of_sets);
       CHECK(joined_pixel.samples == samples);
-      CHECK(joined_pixel.radiance.x == relative(pixel.radiance.x, 1e-5));
-      CHECK(joined_pixel.variance == relative(pixel.variance, 1e-3));
+      CHECK(joined_pixel.radiance.x == doctest::Approx(pixel.radiance.x).epsilon(1e-5).scale(0.01));
+      CHECK(joined_pixel.variance == doctest::Approx(pixel.variance).epsilon(1e-3).scale(1e-4));
       CHECK(joined_pixel.depth_m == pixel.depth_m);
       CHECK(joined_pixel.object == pixel.object);
     }

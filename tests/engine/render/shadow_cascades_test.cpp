@@ -41,11 +41,12 @@ TEST_CASE("a cascade's edges are those of its texture and depth grows towards th
     const glm::vec3 middle = cascade.middle_m.x * cascade.right + cascade.middle_m.y * cascade.up;
     for (const float side : {-1.0f, 1.0f}) {
       const glm::vec3 edge = times(texture, middle + side * cascade.half_side_m * cascade.right);
-      CHECK(edge.x == relative(0.5f + 0.5f * side, 1e-5));
+      CHECK(edge.x == doctest::Approx(0.5f + 0.5f * side).epsilon(1e-5).scale(1.0));
       CHECK(edge.y == relative(0.5f, 1e-5));
-      CHECK(times(texture, middle + side * cascade.half_side_m * cascade.up).y == relative(0.5f + 0.5f * side, 1e-5));
+      CHECK(times(texture, middle + side * cascade.half_side_m * cascade.up).y ==
+            doctest::Approx(0.5f + 0.5f * side).epsilon(1e-5).scale(1.0));
       CHECK(times(texture, middle + side * cascade.half_depth_m * cascade.to_light).z ==
-            relative(0.5f + 0.5f * side, 1e-5));
+            doctest::Approx(0.5f + 0.5f * side).epsilon(1e-5).scale(1.0));
     }
     CHECK(glm::length(cascade.to_light - to_light) < 1e-6f);
     CHECK(std::abs(cascade.right.z) < 1e-6f);  // Level.

@@ -68,7 +68,7 @@ TEST_CASE("tiles are cut where a road ends or a structure does and lie without g
   REQUIRE(ends.size() == expected.size());
   for (std::size_t i = 0; i < ends.size(); ++i) {
     CAPTURE(i);
-    CHECK(ends[i] == relative(expected[i], 1e-9));
+    CHECK(ends[i] == doctest::Approx(expected[i]).epsilon(1e-9).scale(1.0));
     CHECK(tiles[i].s0_m == (i == 0 ? -70.0 : tiles[i - 1].s1_m));
     CHECK(tiles[i].in_tunnel == (expected[i] == 60.0));
     CHECK(tiles[i].on_bridge == (expected[i] == 90.0));
