@@ -37,8 +37,10 @@ struct LooseMesh {
   float share_of_sky = 1.0f;
 };
 
-/// What lamps under a roof light with from all sides, irradiance. The shaders' twins: surface.frag and view.glsl.
+/// What lamps under a roof light with from all sides, irradiance; and what of it comes to a surface besides the pools that they throw. The shaders'
+/// twins: view.glsl, and surface.frag.
 inline constexpr glm::vec3 roofed_irradiance(1.5f * 0.35f, 1.3f * 0.35f, 1.0f * 0.35f);
+inline constexpr glm::vec3 irradiance_between_pools(1.5f * 0.24f, 1.3f * 0.24f, 1.0f * 0.24f);
 
 /// Radiance of haze between an eye and a surface that are both under a roof.
 inline const glm::vec3 roofed_haze = roofed_irradiance / std::numbers::pi_v<float>;

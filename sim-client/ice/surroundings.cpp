@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/instant/instant.hpp"
+
 namespace septet::ice_viewer {
 namespace {
 
@@ -91,7 +93,7 @@ void add_room(scene::ResolvedScene& scene) {
     material.roughness = 1.0f;
     // Of a roofed place: what its lamps give is taken off, so that the walls have one brightness.
     material.share_of_sky = 0.0f;
-    material.emission = glm::vec3(room_radiance) - glm::vec3(1.5f, 1.3f, 1.0f) * (0.35f / std::numbers::pi_v<float>);
+    material.emission = glm::vec3(room_radiance) - instant::irradiance_between_pools / std::numbers::pi_v<float>;
     scene.images.push_back(wall_picture(wall));
     materials.push_back(material);
   }
