@@ -11,6 +11,7 @@
 #include "tests/relative.hpp"
 
 using namespace septet::elastic;
+using septet::relative;
 
 namespace {
 
