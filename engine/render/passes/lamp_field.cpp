@@ -29,9 +29,10 @@ void add_lamp(LampField& field, const StandingLamp& lamp) {
       const glm::vec2 way = (at - glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)) *
                             static_cast<float>(LampField::texel_m);
       const float level = glm::dot(way, way), window = 1.0f - level / (reach_m * reach_m);
-      // `way` points to the lamp.
-      if (window <= 0.0f || glm::dot(lamp.walls[0].way, way) < -lamp.walls[0].distance_m ||
-          glm::dot(lamp.walls[1].way, way) < -lamp.walls[1].distance_m)
+      // `way` points to the lamp. What lies at a wall is filtered from a texel behind it, too.
+      constexpr auto behind_m = static_cast<float>(LampField::texel_m);
+      if (window <= 0.0f || glm::dot(lamp.walls[0].way, way) < -lamp.walls[0].distance_m - behind_m ||
+          glm::dot(lamp.walls[1].way, way) < -lamp.walls[1].distance_m - behind_m)
         continue;
       const float square = level + height * height, distance = std::sqrt(square);
       const float arriving = candela * height / (distance * square) * window;
