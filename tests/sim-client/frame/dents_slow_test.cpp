@@ -23,25 +23,16 @@ namespace {
 
 constexpr std::uint32_t width_px = 480, height_px = 320;
 
-render::Renderer& renderer_of(std::uint32_t width, std::uint32_t height) {
-  static std::vector<std::pair<std::array<std::uint32_t, 2>, render::Renderer>> made;
-  for (auto& [size, renderer] : made)
-    if (size == std::array{width, height}) return renderer;
+image::Image drawn(const instant::FrameInput& frame, std::uint32_t width, std::uint32_t height,
+                   const std::string& name) {
   auto renderer = render::Renderer::create(
       {.width = width, .height = height, .device = render::DevicePreference::software, .validation = true});
   REQUIRE(renderer.has_value());
   REQUIRE(renderer->upload(vehicles_scene()).has_value());
-  made.emplace_back(std::array{width, height}, std::move(*renderer));
-  return made.back().second;
-}
-
-image::Image drawn(const instant::FrameInput& frame, std::uint32_t width, std::uint32_t height,
-                   const std::string& name) {
-  render::Renderer& renderer = renderer_of(width, height);
-  REQUIRE(renderer.draw(frame).has_value());
-  auto picture = renderer.read_back();
+  REQUIRE(renderer->draw(frame).has_value());
+  auto picture = renderer->read_back();
   REQUIRE(picture.has_value());
-  CHECK(renderer.statistics().validation_messages == 0);
+  CHECK(renderer->statistics().validation_messages == 0);
   if (const char* folder = std::getenv("SEPTET_PICTURES"))
     CHECK(image::write_png(std::string(folder) + "/" + name + ".png", *picture).has_value());
   return std::move(*picture);
