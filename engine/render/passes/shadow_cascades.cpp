@@ -34,7 +34,7 @@ ShadowCascades shadow_cascades(const Vec3& eye_m, const glm::vec3& to_light) {
     const auto in_tile = [](double texel) {
       return static_cast<float>(texel - std::floor(texel / cascade_texels) * cascade_texels);
     };
-    cascade.first_texel = {in_tile(whole_u - cascade_texels / 2), in_tile(whole_v - cascade_texels / 2)};
+    cascade.first_texel = {in_tile(whole_u - 0.5 * cascade_texels), in_tile(whole_v - 0.5 * cascade_texels)};
   }
   return shadows;
 }
