@@ -112,6 +112,12 @@ double XmlFindings::number_or(const pugi::xml_node& node, const char* attribute,
 }
 
 double XmlFindings::amount_or(const pugi::xml_node& node, const char* attribute, double fallback, double most) {
+  // Exporters write an unknown size so.
+  if (const auto given = parse<double>(node.attribute(attribute).value()); given && std::isnan(*given)) {
+    warning(node, fmt::format("{} is not a number; it is taken as not given", attribute),
+            "give a number of at least 0");
+    return fallback;
+  }
   const double value = number_or(node, attribute, fallback, most);
   if (value >= 0.0) return value;
   warning(node, fmt::format("{}={} is below 0; it is taken as 0", attribute, value), "give a number of at least 0");

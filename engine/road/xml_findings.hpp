@@ -44,7 +44,7 @@ class XmlFindings {
   double number(const pugi::xml_node& node, const char* attribute, double most = largest_number);
   /// The same; missing or empty: the fallback.
   double number_or(const pugi::xml_node& node, const char* attribute, double fallback, double most = largest_number);
-  /// A number of at least 0; missing or empty: the fallback; below 0: a warning and 0.
+  /// A number of at least 0; missing or empty: the fallback; "nan": a warning and the fallback; below 0: a warning and 0.
   double amount_or(const pugi::xml_node& node, const char* attribute, double fallback, double most = largest_number);
   /// A whole number in ±10,000 (lane ids). Missing or wrong: an error and nothing.
   std::optional<int> integer(const pugi::xml_node& node, const char* attribute);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/geometry/mesh_builder.hpp"
+#include "engine/geometry/noise.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/roadside/barrier_lines.hpp"
 #include "engine/scenery/world/far_road.hpp"
@@ -21,6 +22,11 @@ using roadside::Barrier;
 
 /// How much higher than usual a barrier is; what differs by less than a share of this is not.
 constexpr double least_change = 0.03;
+constexpr double usual_hedge_m = 0.8;  ///< Width of a hedge whose file gives none.
+constexpr float leaf_tile_m = 1.2f;    ///< What a hedge shows of the texture of leaves once.
+constexpr std::uint64_t hedge_seed = 17;
+/// What PathFrame::length_m of `frames` counts in.
+constexpr float frame_m = 4.0f;
 float stretch(const Barrier& barrier, double s_m) {
   const double share = barrier.height_at(s_m) / roadside::usual_height_m(barrier.form);
   return std::abs(share - 1.0) < least_change ? 1.0f : static_cast<float>(share);
@@ -35,8 +41,8 @@ std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile, c
     const double t = line.t_at(s);
     const glm::vec3 p = world.roads.local(tile, s, t);
     const glm::vec3 left = world.roads.local(tile, s, t + 1.0) - p;
-    path.push_back(
-        {p, -left, glm::vec3(0, 0, barrier ? stretch(*barrier, s) : 1.0f), static_cast<float>((s - tile.s0_m) / 4.0)});
+    path.push_back({p, -left, glm::vec3(0, 0, barrier ? stretch(*barrier, s) : 1.0f),
+                    static_cast<float>((s - tile.s0_m) / frame_m)});
   }
   return path;
 }
@@ -115,7 +121,7 @@ struct BarrierPen {
         extrude_into(near, Ground::concrete, box_of(barrier, 0.24), path, true);
         break;
       case BarrierForm::hedge:
-        extrude_into(near, Ground::crown_core, box_of(barrier, 0.8), path, true);
+        draw_hedge(barrier);
         break;
       case BarrierForm::fence:
         for (const float z : {0.35f, 0.85f, 1.35f}) {
@@ -138,6 +144,43 @@ struct BarrierPen {
     const auto half = static_cast<float>(0.5 * (barrier.width_m > 0.05 ? barrier.width_m : usual_width_m)),
                high = static_cast<float>(roadside::usual_height_m(barrier.form));
     return {{{-half, -0.3f}, {half, -0.3f}, {half, high}, {-half, high}}};
+  }
+
+  /// Leaves with holes, cut round above and grown unevenly, over a dark core that hides what lies behind, as crowns have.
+  void draw_hedge(const roadside::Barrier& barrier) {
+    const std::array<glm::vec2, 4> box = box_of(barrier, usual_hedge_m);
+    const float half = box[2].x, high = box[2].y, foot = box[0].y;
+    const std::array<glm::vec2, 8> shell{{{-half, foot},
+                                          {half, foot},
+                                          {half, 0.5f * high},
+                                          {0.94f * half, 0.85f * high},
+                                          {0.65f * half, high},
+                                          {-0.65f * half, high},
+                                          {-0.94f * half, 0.85f * high},
+                                          {-half, 0.5f * high}}};
+    const auto path = frames(world, tile, barrier.line, 1.25, &barrier);
+    if (path.size() < 2) return;
+    geometry::PolygonMesh leaves = geometry::extrude(shell, path, true);
+    // Inwards alone, so that it is as wide and as high as its file says.
+    const float unevenness_m = std::min(0.12f, 0.2f * half);
+    const auto random = [](std::size_t n, std::int64_t axis) {
+      return static_cast<float>(geometry::lattice_random(static_cast<std::int64_t>(n), axis, hedge_seed));
+    };
+    for (std::size_t n = 0; n < leaves.vertices_m.size(); ++n) {
+      const PathFrame& frame = path[n / shell.size()];
+      const glm::vec2 point = shell[n % shell.size()];
+      if (point.y == foot) continue;
+      leaves.vertices_m[n] -=
+          unevenness_m * (std::copysign(random(n, 0), point.x) * frame.right + random(n, 1) * frame.up);
+    }
+    for (auto& uvs : leaves.corner_uvs)
+      for (glm::vec2& uv : uvs) uv = glm::vec2(uv.y * frame_m, 2.0f * uv.x) / leaf_tile_m;
+    near.material = index_of(Ground::leaves_oak);
+    near.append(leaves, glm::mat4(1.0f), true);
+    std::array<glm::vec2, 4> core = box;
+    for (glm::vec2& corner : core) corner *= glm::vec2(0.65f, corner.y > 0.0f ? 0.75f : 1.0f);
+    extrude_into(near, Ground::crown_core, core, frames(world, tile, barrier.line, roadside::barrier_step_m, &barrier),
+                 true);
   }
 
   /// The rail as a thin closed tube: the W in front, a flat back.

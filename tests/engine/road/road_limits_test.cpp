@@ -85,7 +85,7 @@ TEST_CASE("more lanes than a road can hold are refused before they are read") {
   CHECK(only_finding(road.xml()).error.what == "there are more than 100 lanes");
 }
 
-TEST_CASE("what reaches beyond the road is cut off at its end and said") {
+TEST_CASE("what reaches beyond the road is cut off at its end, a size that is none left out, and both said") {
   const auto read = [](const std::string& inside, const char* what) {
     const std::string xml = with_objects(inside);
     const Finding finding = only_finding(xml);
@@ -116,6 +116,10 @@ TEST_CASE("what reaches beyond the road is cut off at its end and said") {
   const Road box = read("<objects><object id=\"1\" s=\"0\" t=\"1\" width=\"-2\"/></objects>",
                         "width=-2 is below 0; it is taken as 0");
   CHECK(box.objects.at(0).width_m == 0.0);
+  const Road tree = read("<objects><object id=\"1\" s=\"0\" t=\"1\" height=\"nan\" radius=\"2\"/></objects>",
+                         "height is not a number; it is taken as not given");
+  CHECK(tree.objects.at(0).height_m == 0.0);
+  CHECK(tree.objects.at(0).radius_m == 2.0);
   const Road sign = read("<signals><signal id=\"1\" s=\"100.5\" t=\"1\"/></signals>",
                          "s=100.5 is beyond the road, which is 100 m long; it is taken to its end");
   CHECK(sign.signals.at(0).s_m == 100.0);
