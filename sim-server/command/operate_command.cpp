@@ -260,6 +260,7 @@ std::vector<std::string> command_of(const page::DriveChoice& choice, const Opera
   add("rig", choice.rig);
   add("driver", choice.driver);
   add("vehicle", choice.vehicle);
+  add("models", options.models.string());
   add("participant", choice.participant);
   add_about("group", choice.group);
   add_about("condition", choice.condition);

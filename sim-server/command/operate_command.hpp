@@ -16,7 +16,8 @@ struct OperateOptions {
   std::uint16_t port = 0;               ///< Of the page on 127.0.0.1; 0: any free one.
   std::vector<std::string> page_hosts;  ///< By what names, beside this machine's own, it may be asked for.
   std::filesystem::path out;            ///< Where each drive gets a folder; empty: out/drives of the data folder.
-  std::filesystem::path keys;  ///< Of a rig of several machines, whose screens run already: septet-server is started.
+  std::filesystem::path keys;    ///< Of a rig of several machines, whose screens run already: septet-server is started.
+  std::filesystem::path models;  ///< Folder of a person's own models, for each drive; empty: none.
 };
 
 /// Until a signal comes, which ends a drive that goes on in order. Prints the page's address to standard output.

@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "car-io/driving_keys.hpp"
 #include "program/command_line.hpp"
 #include "sim-server/command/other_program.hpp"
@@ -28,6 +30,10 @@ void add_drive_options(CLI::App& command, DriveOptions& drive, const std::string
                    "Off-screen pictures in lockstep, even where there is a display");
 }
 
+void add_models_option(CLI::App& command, std::filesystem::path& models) {
+  command.add_option("--models", models, "Folder of your own glTF models: NAME.glb replaces NAME")->default_str("none");
+}
+
 }  // namespace
 
 void add_drive_commands(CLI::App& app, Options& options) {
@@ -43,8 +49,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   drive_command->add_option("--vehicle", options.drive.vehicle, "Vehicle file, or a name of septet list vehicles")
       ->default_str("the rig's");
-  drive_command->add_option("--models", options.drive.models, "Folder of your own glTF models: NAME.glb replaces NAME")
-      ->default_str("none");
+  add_models_option(*drive_command, options.drive.models);
   drive_command
       ->add_option("--participant", options.drive.participant, "The driver's code, for log, summary and report")
       ->default_str("none");
@@ -110,6 +115,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->add_option("--keys", options.operate.keys,
                    "Of a rig of several machines: the server's folder of septet rig keys; its screens run already")
       ->default_str("none: screens and car of this machine");
+  add_models_option(*operate_command, options.operate.models);
   operate_command->callback([&] { options.work = [&] { return run_operate(options.operate); }; });
 
   auto* replay_command =

@@ -19,10 +19,13 @@ TEST_CASE("a drive that is chosen on the page is the command that a person types
                                  .parameters = {{"density", "20"}},
                                  .start_now = true};
   OperateOptions options{.port = 8080};
+  options.models = "my models";
   CHECK(typed(command_of(choice, options, "/d/one")) ==
-        "septet drive --scenario=motorway-ambulance --rig=desktop --driver=plain --participant=-P07 --group=a "
+        "septet drive --scenario=motorway-ambulance --rig=desktop --driver=plain '--models=my models' "
+        "--participant=-P07 --group=a "
         R"('--note=it'\''s late; $HOME' --seed=7 --parameter=density=20 --start-now --out=/d/one --page=8080)");
   options.keys = "keys/server";
+  options.models.clear();
   CHECK(typed(command_of({.scenario = "s", .group = "a"}, options, "/d/two")) ==
         "septet-server --keys=keys/server --scenario=s --about=group=a --out=/d/two --page=8080");
 }
