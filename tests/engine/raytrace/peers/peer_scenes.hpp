@@ -6,8 +6,8 @@
 /// film of water on a wet road. ice: three bodies of it on the motorway below noon's sky without the sun, whose light through them is
 /// the photons' matter.
 ///
-/// Sheets of glass, puddles, retroreflection, headlights and fog, whose formulas are Septet's own, are left out on both sides; closed
-/// forms hold them in the tests beside. A lamp lights as bright as it is seen.
+/// Sheets of glass, clear coats, puddles, retroreflection, headlights and fog, whose formulas are Septet's own, are left out on both
+/// sides; closed forms hold them in the tests beside. A lamp lights as bright as it is seen.
 
 #include <algorithm>
 #include <cstdint>
@@ -63,6 +63,7 @@ inline Gloss gloss_of(const scene::SurfaceMaterial& material, const Environment&
 inline void simplify(scene::ResolvedScene& scene, bool matt) {
   for (scene::SurfaceMaterial& material : scene.materials) {
     material.retroreflection = 0.0f;
+    material.clear_coat = 0.0f;
     if (matt) {
       material.roughness = 1.0f;
       material.metallic = 0.0f;
