@@ -209,6 +209,8 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   if (!seat) return tl::unexpected(seat.error());
   seat->show = std::move(can->show);
   seat->bus_is_lost = std::move(can->is_lost);
+  const auto& sound = drive.loaded.rig.sound;
+  seat->shakes_by_sound = sound && sound->speakers == rig::Sound::Speakers::surround_51;
   drive.by_person = !seat->look;
   if (const auto& tracking = drive.loaded.rig.head; tracking && drive.by_person) {
     auto tracker = car_io::HeadTracker::open(*tracking);

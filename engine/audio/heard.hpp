@@ -48,8 +48,9 @@ struct OwnCar {
   double blow_mps = 0.0;  ///< Change of velocity within this tick, beyond what tyres can do; 0: no blow.
   double bump_mps =
       0.0;  ///< Of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond what a road does.
-  int pieces = 0;       ///< That were broken off in this tick.
-  double tunnel = 0.0;  ///< 0 in the open to 1 inside, over 20 m at its mouth.
+  int pieces = 0;          ///< That were broken off in this tick.
+  double tunnel = 0.0;     ///< 0 in the open to 1 inside, over 20 m at its mouth.
+  double low_share = 1.0;  ///< Of the low frequencies, which may move a shaker: less while what shakes is cut.
 };
 
 /// Somebody else in one tick.
@@ -61,6 +62,7 @@ struct OtherSound {
   double speed_mps = 0.0;
   double engine_hz = 0.0, load = 0.0;
   bool siren = false, horn = false;
+  double siren_s = 0.0;  ///< Where its siren is in its melody, or would be.
   double blow_mps = 0.0;
   double level_db = 0.0;  ///< dB(A) at the ear outside of the car, by which the loudest are chosen.
 };

@@ -92,12 +92,9 @@ void add_tones_of(OtherState& state, Voice& voice) {
                 engine_multiples, out);
 
   if (sound.siren || state.siren.pressure_pa[0] != 0.0f) {
-    const double hz = siren_hz(siren_of(sound.kind), state.siren_s);
+    const double hz = siren_hz(siren_of(sound.kind), sound.siren_s);
     const Harmonics on = toned(500.0, siren_db, 1.2, siren_multiples);
     add_harmonics(state.siren, hz * sound.doppler, sound.siren && here > 0.0 ? on : Harmonics{}, siren_multiples, out);
-    state.siren_s += block_s;
-  } else {
-    state.siren_s = 0.0;
   }
   add_horn(state.horn_low, state.horn_high, sound.horn ? here * horn_pressure(horn_db) : 0.0, sound.doppler, out);
 

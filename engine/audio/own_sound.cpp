@@ -236,6 +236,9 @@ void render_own(OwnState& state, const CarSound& car, const OwnCar& heard, std::
   voices[static_cast<std::size_t>(OwnVoice::low)].is_low = true;
   render_low(state, car, heard, low);
   render_crash(state, heard, crash, low);
+  Ramp share(state.low_share, heard.low_share);
+  for (float& sample : low) sample *= share.next();
+  state.low_share = heard.low_share;
 }
 
 }  // namespace septet::audio

@@ -21,7 +21,7 @@ inline std::span<const SirenTone> siren_of(ParticipantKind kind) {
   return kind == ParticipantKind::ambulance ? std::span<const SirenTone>(two_tone) : std::span<const SirenTone>(wail);
 }
 
-/// At a time since it was switched on.
+/// At a time of its melody, which repeats.
 double siren_hz(std::span<const SirenTone> pattern, double time_s);
 
 }  // namespace septet::audio

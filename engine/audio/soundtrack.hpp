@@ -60,7 +60,7 @@ struct OwnState {
   double drop_rate = 0.0, drop_pressure = 0.0;
   bool was_lit = false;
   Burst relay, blow, glass, pieces, bump;
-  double bump_phase = 0.0;
+  double bump_phase = 0.0, low_share = 1.0;
   double relay_phase = 0.0, relay_hz = 2300.0;
   Filter blow_filter, glass_filter, pieces_filter, low_first, low_second, low_blow;
 };
@@ -73,7 +73,7 @@ struct OtherState {
   Burst blow;
   Filter blow_filter;
   CabinWall wall;
-  double engine_hz = 0.0, siren_s = 0.0, siren_gain = 0.0, doppler = 1.0;
+  double engine_hz = 0.0;
   OtherSound last;
   bool is_leaving = false;
 };

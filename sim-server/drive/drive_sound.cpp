@@ -12,7 +12,7 @@
 
 namespace septet::server {
 
-std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
+std::function<void(const std::shared_ptr<const TakenSnapshot>&, double)> drive_sound(
     const rig::Rig& rig, const std::shared_ptr<const simulation::Model>& model, const logging::SessionReader* session,
     const scene::Store& store, std::function<void(const std::string&)> message, std::function<void()> lost) {
   audio::CarSound sound{.ear_m = rig.eye_point_m};
@@ -33,9 +33,9 @@ std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
   auto boxes = frame::echo_boxes(instant::summarise(scene::resolve(store)));
   const auto live = std::make_shared<LiveSound>(
       SoundFeeder(device_opener(rig.sound.value_or(rig::Sound{})), sound, std::move(boxes), std::move(roads)));
-  return [live, message = std::move(message), lost = std::move(lost),
-          times_lost = std::uint64_t{0}](const std::shared_ptr<const TakenSnapshot>& tick) mutable {
-    live->add(tick);
+  return [live, message = std::move(message), lost = std::move(lost), times_lost = std::uint64_t{0}](
+             const std::shared_ptr<const TakenSnapshot>& tick, double shaking_share) mutable {
+    live->add(tick, shaking_share);
     if (live->counts().lost > std::exchange(times_lost, live->counts().lost)) lost();
     while (const auto text = live->take_message()) message(*text);
   };

@@ -13,9 +13,9 @@
 
 namespace septet::server {
 
-/// Hands each tick to a thread that plays (host/live_sound.hpp). `model`: of the drive, or null; then `session` says which car and road it was. The
+/// Hands each tick, and how much of what shakes may do so (TickSource), to a thread that plays (host/live_sound.hpp). `model`: of the drive, or null; then `session` says which car and road it was. The
 /// scene says where it echoes. `message`: is there a device, is it lost. `lost`: a device that was there plays no more.
-std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
+std::function<void(const std::shared_ptr<const TakenSnapshot>&, double shaking_share)> drive_sound(
     const rig::Rig& rig, const std::shared_ptr<const simulation::Model>& model, const logging::SessionReader* session,
     const scene::Store& store, std::function<void(const std::string&)> message, std::function<void()> lost);
 

@@ -115,7 +115,7 @@ void LiveDrive::cut_actuators(const std::string& why) {
   cut_why_ = why;
   guard_.trip(true);
   if (log_) log_->record_message("actuators_cut", "why=" + printable(why));
-  if (seat_.actuate)
+  if (seat_.actuate || seat_.shakes_by_sound)
     tell(fmt::format("fan, shaker and wheel force are cut, for {}; re-arm them, or pause the drive and go on", why));
 }
 
@@ -184,8 +184,11 @@ void LiveDrive::feel(const Snapshot& before, car_io::CarMotion& motion) {
 
 void LiveDrive::move_actuators(const Snapshot& before) {
   watch_faults();
-  if (!seat_.actuate) return;
   constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
+  if (!seat_.actuate) {
+    guard_.pass({}, tick_s);  // What shakes by sound goes by it.
+    return;
+  }
   auto motion = car_motion(*model_, state_);
   feel(before, motion);
   motion.steering_torque_nm = car_io::wheel_torque_nm(wheel_torque_,

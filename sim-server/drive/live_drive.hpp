@@ -33,6 +33,7 @@ struct DriverSeat {
   /// Moves fan, shaker and hand wheel; empty: there are none. Never waits for the device. Answers what is wrong with them, once.
   std::function<std::optional<Error>(Tick, const car_io::Actuators&)> actuate;
   rig::CarActuators actuators;      ///< Their limits.
+  bool shakes_by_sound = false;     ///< The sound has a channel of low frequencies, on which a shaker may hang.
   double steering_lock_rad = 7.85;  ///< Where the hand wheel ends.
   /// Shows speed, revolutions and lamps on a cluster that is no screen's; empty: there is none. Never waits. Answers what is wrong, once.
   std::function<std::optional<Error>(const car_io::Instruments&)> show;
@@ -72,6 +73,7 @@ class LiveDrive final : public TickSource {
   bool driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) override;
   void stand_still() override;
   std::string alarm() const override;
+  double shaking_share() const override { return dose_.is_reached() ? 0.0 : guard_.share; }
   double tick_rate_hz() const override { return simulation::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
   const Snapshot& newest() const { return newest_->snapshot(); }

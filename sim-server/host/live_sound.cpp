@@ -4,10 +4,14 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <fmt/core.h>
 
 #include "engine/audio/sound_stage.hpp"
@@ -48,11 +52,21 @@ void quiet_sound_libraries() {
     reinterpret_cast<int (*)(Handler)>(set)(say_nothing);
 }
 
+/// OpenAL 1.19 plays six channels where its settings say so, and nothing else asks it to: they are read after those of the machine and of the
+/// user, before its first device. A user who has set ALSOFT_CONF knows better. It is a file in memory, so nothing is left behind.
+void ask_for_six_channels() {
+  static constexpr std::string_view settings = "channels = surround51\n";
+  const int file = memfd_create("septet-alsoft.conf", 0);  // Kept: OpenAL opens it by its number.
+  if (file < 0 || ::write(file, settings.data(), settings.size()) != static_cast<ssize_t>(settings.size())) return;
+  setenv("ALSOFT_CONF", fmt::format("/proc/self/fd/{}", file).c_str(), 0);
+}
+
 }  // namespace
 
 OpenSoundOutput device_opener(const rig::Sound& sound) {
   quiet_sound_libraries();
   using Speakers = rig::Sound::Speakers;
+  if (sound.speakers == Speakers::surround_51) ask_for_six_channels();
   const audio::StageOptions options{
       .speakers = sound.speakers == Speakers::surround_51 ? audio::Speakers::surround_51 : audio::Speakers::stereo,
       .headphones = sound.speakers == Speakers::headphones,
@@ -90,8 +104,9 @@ SoundFeeder::Counts SoundFeeder::counts() const {
   return counts;
 }
 
-void SoundFeeder::add(std::shared_ptr<const TakenSnapshot> tick, double now_s) {
+void SoundFeeder::add(std::shared_ptr<const TakenSnapshot> tick, double now_s, double low_share) {
   came_s_ = now_s;
+  low_share_ = low_share;
   waiting_.push_back(std::move(tick));
   for (; waiting_.size() > most_waiting; waiting_.pop_front()) ++counts_.left_out;
 }
@@ -139,6 +154,7 @@ void SoundFeeder::feed(double now_s) {
     heard_.car.pieces = 0;
     for (auto& other : heard_.others) other.blow_mps = 0.0;
   }
+  heard_.car.low_share = low_share_;
   audio::render(state_, heard_, voices_);
   output_->put(voices_, heard_.car.tunnel);
   ++counts_.blocks;
@@ -169,9 +185,10 @@ struct LiveSound::State {
     std::deque<std::shared_ptr<const TakenSnapshot>> taken;
     while (!stopping) {
       taken.swap(arrived);
+      const double share = low_share;
       // Opening a device may take seconds: nobody who adds a tick waits for it.
       lock.unlock();
-      for (auto& tick : taken) feeder->add(std::move(tick), now_s());
+      for (auto& tick : taken) feeder->add(std::move(tick), now_s(), share);
       taken.clear();
       feeder->pump(now_s());
       auto message = feeder->take_message();
@@ -194,6 +211,7 @@ struct LiveSound::State {
   std::condition_variable changed;
   bool stopping = false, has_ended = false;
   std::deque<std::shared_ptr<const TakenSnapshot>> arrived;
+  double low_share = 1.0;
   std::deque<std::string> messages;
   SoundFeeder::Counts counts;
   std::optional<double> playing_at_s;  ///< When the thread last came by while it had a device.
@@ -211,8 +229,9 @@ LiveSound::~LiveSound() {
   state_->changed.wait_for(lock, closing_takes_at_most, [&] { return state_->has_ended; });
 }
 
-void LiveSound::add(std::shared_ptr<const TakenSnapshot> tick) {
+void LiveSound::add(std::shared_ptr<const TakenSnapshot> tick, double low_share) {
   const std::lock_guard lock(state_->mutex);
+  state_->low_share = low_share;
   state_->arrived.push_back(std::move(tick));
   if (state_->arrived.size() > most_waiting) state_->arrived.pop_front();
 }

@@ -45,7 +45,8 @@ class SoundFeeder {
   SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes,
               std::shared_ptr<const road::RoadNetwork> roads = nullptr);
 
-  void add(std::shared_ptr<const TakenSnapshot> tick, double now_s);
+  /// `low_share`: of what shakes by the sound's low frequencies, from the next block on (OwnCar::low_share).
+  void add(std::shared_ptr<const TakenSnapshot> tick, double now_s, double low_share = 1.0);
   /// Keeps the device fed; call it every few milliseconds.
   void pump(double now_s);
   /// What a person should know since the last call.
@@ -72,6 +73,7 @@ class SoundFeeder {
   std::unique_ptr<SoundOutput>
       closing_;  ///< Lost; closed by the next pump, so that a close that hangs keeps nobody from hearing of the loss.
   std::optional<double> next_try_s_, came_s_;
+  double low_share_ = 1.0;
   double played_s_ = 0.0;  ///< When the device last took a block from its queue.
   std::size_t ahead_ = 0;  ///< Blocks in its queue when it was last looked at.
   double checked_s_ = 0.0;
@@ -96,7 +98,7 @@ class LiveSound {
   ~LiveSound();
   LiveSound(const LiveSound&) = delete;
   LiveSound& operator=(const LiveSound&) = delete;
-  void add(std::shared_ptr<const TakenSnapshot> tick);
+  void add(std::shared_ptr<const TakenSnapshot> tick, double low_share = 1.0);
   std::optional<std::string> take_message();
   /// A device that plays and has let nobody go on for 250 ms counts as lost, too.
   SoundFeeder::Counts counts() const;

@@ -43,7 +43,7 @@ struct Loop {
     result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
     result.state_hash = (*snapshot)->snapshot().state_hash;
     newest = *snapshot;
-    if (environment.hear) environment.hear(newest);
+    if (environment.hear) environment.hear(newest, source.shaking_share());
     return std::move(*snapshot);
   }
   /// Whether somebody wants the drive to end or its log is lost; the result says so.

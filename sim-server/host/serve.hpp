@@ -54,7 +54,7 @@ struct ServeEnvironment {
   /// whoever looks on. It never waits.
   std::function<void(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what)> attend;
   /// Each tick as it is taken, for whoever makes it heard. It never waits.
-  std::function<void(const std::shared_ptr<const TakenSnapshot>&)> hear;
+  std::function<void(const std::shared_ptr<const TakenSnapshot>&, double shaking_share)> hear;
   /// Whether the operator wants the world to stand still; asked after `attend`.
   std::function<bool()> is_paused;
   /// The list of allowed clients, where it has changed.

@@ -29,7 +29,8 @@ TEST_CASE("An ambulance that comes at 25 m/s sounds higher and one that goes low
   for (const double speed_mps : {25.0, -25.0}) {
     CAPTURE(speed_mps);
     // Behind the car and far off, so that its direction stays; only the first tone sounds.
-    const Snapshot snapshot = with_ambulance(-60.0, speed_mps);
+    Snapshot snapshot = with_ambulance(-60.0, speed_mps);
+    snapshot.simulated_time_s = 0.6;
     const auto sound = played(90, [&](int) { return hear(snapshot, nullptr, {}, {}); });
     const double expected_hz = 440.0 * 343.3 / (343.3 - speed_mps);
     CHECK(peak_hz(after(sound[0], 0.1), 380.0, 520.0) == relative(expected_hz, 0.002));
@@ -117,6 +118,34 @@ TEST_CASE("Of 5.1 channels the one for low frequencies has what shakes and nothi
       60, [&](int) { return hear(behind, nullptr, {}, {}); }, surround);
   CHECK(mean_square(siren[4]) > 4.0 * mean_square(siren[0]));
   CHECK(mean_square(siren[3]) < 1e-6);
+  // What shakes is cut: its channel alone is silent, and does not click on its way there.
+  const auto cut = played(
+      120,
+      [](int tick) {
+        Heard heard = cruising(0.0, 15.0, 0.5);
+        heard.car.low_share = tick < 60 ? 1.0 : 0.0;
+        return heard;
+      },
+      surround);
+  CHECK(mean_square(after(cut[3], 0.55)) == 0.0);
+  CHECK(mean_square(after(cut[0], 0.55)) == relative(mean_square(after(sound[0], 0.55)), 1e-6));
+  CHECK(loudest_step(cut[3]) <= 1.5 * loudest_step(sound[3]));
+}
+
+TEST_CASE("A siren is in the same place of its melody wherever one begins to listen") {
+  const auto tone_hz = [](double from_s, double to_s) {
+    Snapshot snapshot = with_ambulance(20.0, 0.0);
+    const auto sound = played(static_cast<int>(std::lround((to_s - from_s) * 120.0)), [&](int tick) {
+      snapshot.simulated_time_s = from_s + tick / 120.0;
+      return hear(snapshot, nullptr, {}, {});
+    });
+    return peak_hz(after(sound[0], to_s - from_s - 0.25), 400.0, 620.0);
+  };
+  for (const double to_s : {2.0, 2.5, 3.0, 3.5}) {
+    CAPTURE(to_s);
+    CHECK(tone_hz(1.0, to_s) == relative(tone_hz(to_s - 0.4, to_s), 0.01));
+  }
+  CHECK(std::abs(tone_hz(1.6, 2.0) - tone_hz(2.35, 2.75)) > 100.0);
 }
 
 TEST_CASE("The air takes 5 dB of 100 m at 5 kHz and hardly anything where sirens are") {

@@ -18,7 +18,7 @@ namespace {
 
 /// A person's car in a drive on simulated time, and what its actuators are told.
 struct SeatedDrive {
-  explicit SeatedDrive(const rig::CarActuators& limits) {
+  explicit SeatedDrive(const rig::CarActuators& limits, bool has_actuators = true) {
     port.plug();
     DriverSeat seat;
     seat.actuators = limits;
@@ -27,6 +27,8 @@ struct SeatedDrive {
       told = actuators;
       return std::nullopt;
     };
+    if (!has_actuators) seat.actuate = nullptr;
+    seat.shakes_by_sound = true;
     seat.bus_is_lost = [this] { return bus_is_lost; };
     seat.show = [this](const car_io::Instruments& instruments) -> std::optional<Error> {
       shown = instruments;
@@ -194,6 +196,28 @@ TEST_CASE("a shaker that has shaken for a day is cut and the fan blows on") {
   CHECK(seated.told.vibration == 0.0);
   CHECK(seated.told.fan > 0.19);
   CHECK(messages_with(*seated.live, "the shaker is cut") == 1);
+  CHECK(seated.live->shaking_share() == 0.0);
+}
+
+TEST_CASE(
+    "a shaker on the sound's low frequencies is cut and re-armed with everything else, also where there is nothing "
+    "else") {
+  for (const bool has_others : {true, false}) {
+    CAPTURE(has_others);
+    SeatedDrive seated({}, has_others);
+    seated.drive(60, true);
+    CHECK(seated.live->shaking_share() == 1.0);
+    seated.drive(50, false);
+    CHECK(seated.live->shaking_share() == 0.0);
+    CHECK(messages_with(*seated.live, "are cut, for the controls have stopped") == 1);
+    seated.drive(30, true);
+    CHECK(seated.live->shaking_share() == 0.0);
+    CHECK_FALSE(seated.live->rearm_actuators("operator").has_value());
+    seated.drive(1, true);
+    CHECK(seated.live->shaking_share() < 0.05);
+    seated.drive(240, true);
+    CHECK(seated.live->shaking_share() == 1.0);
+  }
 }
 
 }  // namespace septet::server

@@ -1,10 +1,13 @@
 #include "sim-server/host/live_sound.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,6 +17,8 @@
 #include <utility>
 
 #include <doctest/doctest.h>
+
+#include "tests/temporary_folder.hpp"
 
 namespace septet::server {
 namespace {
@@ -180,6 +185,25 @@ TEST_CASE("that a device is lost is known before it is closed, which may hang") 
   CHECK(speaker.closed == 0);
   drive.run(tick_s);
   CHECK(speaker.closed == 1);
+}
+
+TEST_CASE("a rig that asks for 5.1 has six channels of a device whose settings leave that open") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "played.wav";
+  {
+    // OpenAL's device that writes a file stands for one; XDG_CONFIG_HOME has what a user has set.
+    std::ofstream(folder.path() / "alsoft.conf") << "drivers = wave\n[wave]\nfile = " << file.string() << "\n";
+    setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
+    const auto open = device_opener({.speakers = rig::Sound::Speakers::surround_51});
+    auto output = open();
+    REQUIRE(output.has_value());
+    const audio::Voice voice{.key = 1};
+    (*output)->put({&voice, 1}, 0.0);
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::array<unsigned char, 24> header{};
+  REQUIRE(in.read(reinterpret_cast<char*>(header.data()), header.size()));
+  CHECK(header[22] + 256 * header[23] == 6);  // Channels of a WAV file.
 }
 
 TEST_CASE("a device that lets nobody go on counts as lost while it hangs") {
