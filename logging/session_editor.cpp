@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "logging/record_tables.hpp"
@@ -36,6 +38,13 @@ Expected<void> strip(const Database& database, const SessionInfo& info) {
   for (const auto& [key, value] : info.other)
     if (done && is_personal(key)) done = database.execute("DELETE FROM meta WHERE key = " + quoted(key));
   if (done) done = database.execute("UPDATE questionnaire SET reason = ''");
+  // What an operator wrote, of the drive's end or of a moment, may be about them.
+  for (const auto& [kind, words] : {std::pair("mark", " note="), {"operator", " reason="}})
+    if (done)
+      done =
+          database.execute(fmt::format("UPDATE events SET detail = substr(detail, 1, instr(detail, '{0}') - 1) WHERE "
+                                       "kind = '{1}' AND instr(detail, '{0}') > 0",
+                                       words, kind));
   if (done) done = database.execute("COMMIT");
   if (done) done = database.execute("PRAGMA journal_mode=DELETE; VACUUM");
   return done;

@@ -40,12 +40,26 @@ void add_measures(const DriveMeasures& m, Json& json) {
 
 }  // namespace
 
+Json answers_json(const std::vector<QuestionnaireRecord>& answers) {
+  Json rows = Json::array();
+  for (const QuestionnaireRecord& answer : answers)
+    rows.push_back({{"item", answer.item},
+                    {"answer", answer.answer ? Json(*answer.answer) : Json(nullptr)},
+                    {"value", optional_number(answer.value)},
+                    {"observed_s", number(answer.observed_s)},
+                    {"censored", answer.censored},
+                    {"reason", answer.reason}});
+  return rows;
+}
+
 Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader) {
   const auto missing = reader.missing_ticks();
   if (!missing) return tl::unexpected(missing.error());
   const auto records = read_drive_records(reader);
   if (!records) return tl::unexpected(records.error());
-  DriveSummary::FromLog log{*missing, compute_drive_measures(*records), {}};
+  const auto answers = reader.questionnaire();
+  if (!answers) return tl::unexpected(answers.error());
+  DriveSummary::FromLog log{*missing, compute_drive_measures(*records), {}, *answers};
   for (const Event& event : records->events) ++log.events[event.kind];
   return log;
 }
@@ -64,6 +78,7 @@ std::string to_json(const DriveSummary& s) {
   if (s.log) {
     add_measures(s.log->measures, json);
     json["events"] = s.log->events;
+    json["answers"] = answers_json(s.log->answers);
   }
   return document::text_of(json);
 }

@@ -6,8 +6,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/document/json.hpp"
 #include "logging/outcome.hpp"
 #include "logging/report/drive_measures.hpp"
 #include "logging/session_reader.hpp"
@@ -28,6 +30,7 @@ struct DriveSummary {
     std::uint64_t missing_ticks = 0;
     DriveMeasures measures;
     std::map<std::string, std::uint64_t> events;  ///< By kind.
+    std::vector<QuestionnaireRecord> answers;     ///< Of questionnaires, and whether the driver dropped out.
   };
   std::optional<FromLog> log;
 };
@@ -38,5 +41,8 @@ Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader);
 std::string to_json(const DriveSummary& summary);
 
 Expected<void> write_summary(const std::filesystem::path& path, const DriveSummary& summary);
+
+/// A summary's `answers`, which may be given after the drive.
+document::Json answers_json(const std::vector<QuestionnaireRecord>& answers);
 
 }  // namespace septet::logging

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iostream>
 #include <set>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "logging/best_list.hpp"
 #include "logging/questionnaire.hpp"
 #include "logging/report/report.hpp"
+#include "logging/report/summary.hpp"
 #include "logging/session_editor.hpp"
 #include "logging/session_reader.hpp"
 #include "program/console.hpp"
@@ -55,29 +57,35 @@ Expected<logging::Answers> ask(const logging::Questionnaire& questionnaire, std:
   return answers;
 }
 
-/// What lies beside a session names who drove too: made anew from its anonymous draft.
-Expected<void> renew_results(const fs::path& session, const fs::path& draft) {
+void leave_person_out(document::Json& summary) {
+  summary["participant"] = "";
+  if (!summary.contains("subject") || !summary["subject"].is_object()) return;
+  summary["subject"].erase("note");
+  std::vector<std::string> own;
+  for (const auto& item : summary["subject"].items())
+    if (item.key().starts_with("column.")) own.push_back(item.key());
+  for (const auto& key : own) summary["subject"].erase(key);
+}
+
+/// Summary and report in `folder`, where they are there, tell again what `session` tells now, which may lie elsewhere; `change`: what else the summary is to lose.
+Expected<void> renew_results(const fs::path& folder, const fs::path& session,
+                             const std::function<void(document::Json&)>& change = {}) {
   std::error_code ignored;
-  const fs::path folder = session.parent_path();
-  if (const fs::path file = folder / "summary.json"; fs::exists(file, ignored)) {
-    const auto text = read_regular_file(file);
+  const fs::path summary = folder / "summary.json", report = folder / "report.html";
+  if (!fs::exists(summary, ignored) && !fs::exists(report, ignored)) return {};
+  const auto reader = logging::SessionReader::open(session);
+  if (!reader) return tl::unexpected(reader.error());
+  if (fs::exists(summary, ignored)) {
+    const auto text = read_regular_file(summary);
     auto json = text ? document::Json::parse(*text, nullptr, false) : document::Json();
-    if (!json.is_object()) return failure("it is no summary", file.string(), "remove it");
-    json["participant"] = "";
-    if (json.contains("subject") && json["subject"].is_object()) {
-      json["subject"].erase("note");
-      std::vector<std::string> own;
-      for (const auto& item : json["subject"].items())
-        if (item.key().starts_with("column.")) own.push_back(item.key());
-      for (const auto& key : own) json["subject"].erase(key);
-    }
-    if (auto written = document::write_text_file(file, document::text_of(json)); !written) return written;
+    if (!json.is_object()) return failure("it is no summary", summary.string(), "remove it");
+    const auto answers = reader->questionnaire();
+    if (!answers) return tl::unexpected(answers.error());
+    json["answers"] = logging::answers_json(*answers);
+    if (change) change(json);
+    if (auto written = document::write_text_file(summary, document::text_of(json)); !written) return written;
   }
-  if (const fs::path file = folder / "report.html"; fs::exists(file, ignored)) {
-    const auto reader = logging::SessionReader::open(draft);
-    if (!reader) return tl::unexpected(reader.error());
-    return logging::write_report(*reader, file);
-  }
+  if (fs::exists(report, ignored)) return logging::write_report(*reader, report);
   return {};
 }
 
@@ -129,7 +137,7 @@ Expected<void> make_anonymous(const std::vector<fs::path>& sessions) {
   }
   // The sessions come last: as long as one tells who drove, the whole can be done again.
   for (std::size_t i = 0; i < sessions.size(); ++i)
-    if (auto renewed = renew_results(sessions[i], drafts[i]); !renewed) return renewed;
+    if (auto renewed = renew_results(sessions[i].parent_path(), drafts[i], leave_person_out); !renewed) return renewed;
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     fs::rename(drafts[i], sessions[i], error);
     if (error)
@@ -183,6 +191,8 @@ Expected<int> run_session_answer(const AnswerOptions& options, std::istream& in,
   const auto added = logging::add_answers(options.session,
                                           logging::records_of(*questionnaire, *answers, prefix, *seen_s), prefix + '.');
   if (!added) return tl::unexpected(added.error());
+  if (auto renewed = renew_results(options.session.parent_path(), options.session); !renewed)
+    return tl::unexpected(renewed.error());
   for (const auto& [id, score] : logging::scores_of(*questionnaire, *answers))
     out << fmt::format("{}.{}: {}\n", prefix, id,
                        score ? fmt::format("{:.2f}", *score) : "no score, an answer is missing");
@@ -202,6 +212,8 @@ Expected<int> run_session_stop(const StopOptions& options) {
       {{"drive_completed", "", std::nullopt, std::nullopt, options.at_s.value_or(*seen_s), true, options.reason}},
       "drive_completed");
   if (!added) return tl::unexpected(added.error());
+  if (auto renewed = renew_results(options.session.parent_path(), options.session); !renewed)
+    return tl::unexpected(renewed.error());
   program::announce(
       fmt::format("{}: dropped out after {:.1f} s", options.session.string(), options.at_s.value_or(*seen_s)));
   return 0;

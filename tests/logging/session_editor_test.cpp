@@ -26,6 +26,8 @@ void write_session(const std::filesystem::path& path) {
   auto writer = SessionWriter::create(path, info);
   REQUIRE(writer.has_value());
   writer->record(QuestionnaireRecord{"drive_completed", "", std::nullopt, std::nullopt, 12.0, true, "felt-very-sick"});
+  writer->record(Event{120, 1.0, "mark", std::nullopt, "by=Ann note=looks-pale note=twice"});
+  writer->record(Event{240, 2.0, "operator", std::nullopt, "by=Ann wish=end reason=had-to-lie-down"});
   REQUIRE(writer->finish().has_value());
 }
 
@@ -65,14 +67,16 @@ TEST_CASE("answers after the drive are added and those of the same questionnaire
   CHECK((*answers)[1].value == 5.0);
 }
 
-TEST_CASE("of a person who is forgotten no byte of code note column or reason is left and the data are") {
+TEST_CASE(
+    "of a person who is forgotten no byte of code, note, column, reason or what the operator wrote is left, and the "
+    "data are") {
   const TemporaryFolder folder;
   write_session(folder / "s.sqlite");
   const auto draft = write_anonymous_copy(folder / "s.sqlite");
   REQUIRE_MESSAGE(draft.has_value(), draft.error().what);
   CHECK(bytes_of_file(folder / "s.sqlite").find(code) != std::string::npos);  // Untouched until it is renamed.
   const std::string bytes = bytes_of_file(*draft);
-  for (const char* gone : {code, "limps", "secret-age", "very-sick"})
+  for (const char* gone : {code, "limps", "secret-age", "very-sick", "pale", "twice", "lie-down"})
     CHECK_MESSAGE(bytes.find(gone) == std::string::npos, gone);
   const auto reader = SessionReader::open(*draft);
   REQUIRE(reader.has_value());
@@ -80,6 +84,10 @@ TEST_CASE("of a person who is forgotten no byte of code note column or reason is
   CHECK(subject_of(reader->info()).participant.empty());
   REQUIRE(reader->questionnaire()->size() == 1);
   CHECK(reader->questionnaire()->front().censored);
+  const auto events = reader->events();
+  REQUIRE(events->size() == 2);
+  CHECK((*events)[0].detail == "by=Ann");
+  CHECK((*events)[1].detail == "by=Ann wish=end");
   CHECK(reader->ended_cleanly());
 }
 

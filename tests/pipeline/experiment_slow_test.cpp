@@ -129,8 +129,20 @@ TEST_CASE("a participant who is forgotten is in no file of the drives any more a
     CHECK_MESSAGE(shown.error.find("without snapshots") != std::string::npos, command, shown.error);
   }
   CHECK_FALSE(fs::exists(folder / "shown"));
+  // What lies beside a session tells what was answered after it, and no longer what is forgotten.
+  const auto told = [&](const std::string& words) {
+    int files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "data"))
+      if (entry.path().filename() == "report.html" || entry.path().filename() == "summary.json")
+        files += content_of(entry.path()).find(words) != std::string::npos;
+    return files;
+  };
+  const auto stopped = run("septet", {"session", "stop", session, "--reason", "felt so sick"}, folder / "t.log");
+  CHECK_MESSAGE(stopped.code == 0, stopped.error);
+  CHECK(told("felt so sick") == 2);
   const auto forgotten = run("septet", {"session", "forget", "Q77", (folder / "data").string()}, folder / "f.log");
   CHECK_MESSAGE(forgotten.code == 0, forgotten.error);
+  CHECK(told("felt so sick") == 0);
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "data")) {
     CHECK(entry.path().string().find("Q77") == std::string::npos);
