@@ -1,10 +1,15 @@
 #pragma once
-/// The dipped beam: the twin of shaders/headlights.glsl.
+/// The beams of a pair of headlights, dipped and main: the twin of shaders/headlights.glsl.
 ///
-/// A fit to the limits that UN Regulation 149, class B sets for dipped beams, symmetric to both sides: brightest just below the cut-off at 0.57° under
-/// the level, a thirtieth of that above it, where it lights signs and the backs of lorries. Shares of the peak at some points, the fit's and (in
+/// The dipped beam is a fit to the limits that UN Regulation 149, class B sets for it, symmetric to both sides: brightest just below the cut-off at
+/// 0.57° under the level, a thirtieth of that above it, where it lights signs and the backs of lorries. Shares of the peak at some points, the fit's and (in
 /// brackets) a table's that obeys the regulation: 1.7° down 0.72 (0.75), 4° down 0.29 (0.28), 10° down 0.03 (0.05), level 0.03 (0.04), 1° up 0.019
 /// (0.015), 4° up 0.009 (0.007); 3.4° to the side 0.83 (0.8), 9° 0.41 (0.33), 20° 0.12 (0.1).
+///
+/// The main beam is lit beside the dipped one. It is symmetric, brightest straight ahead, 60,000 cd a lamp, and falls off so that on the level it gives
+/// what UN Regulation 149, 5.1.3 (tables 5 and 6, class B) asks at least, here in brackets: ahead 60,000 cd (40,500, and 0.8 of the brightest),
+/// 3° to the side 25,000 (17,500), 6° 9,200 (5,000), 9° 4,400 (3,400), 12° 2,500 (1,500). Up and down, where the tables ask nothing,
+/// it is narrower: at 1.5° 0.48 of the peak, at 4° 0.03.
 
 #include <algorithm>
 
@@ -18,8 +23,12 @@ namespace septet::instant::beam {
 /// Of a pair of dipped beams at its peak: 2 · 15,000 cd.
 inline constexpr float pair_intensity = 30000.0f / luminance_unit_cdpm2;
 
-/// Share of the peak in a direction (unit), for a lamp that points along `level` (unit), both in the world's axes.
-inline float share(const glm::vec3& level, const glm::vec3& direction) {
+/// Main beam's peak as a multiple of the dipped one's: 60,000 cd to 15,000.
+inline constexpr float main_peak = 4.0f;
+
+/// Share of the dipped beam's peak in a direction (unit), for a lamp that points along `level` (unit), both in the world's axes. `main_beam`: how
+/// far that is lit beside it, 0 to 1.
+inline float share(const glm::vec3& level, const glm::vec3& direction, float main_beam = 0.0f) {
   // Without a branch, so that eight are found at a time.
   const float cosine = glm::dot(direction, level), ahead = std::max(cosine, 1e-6f);
   const float down = level.z * ahead - direction.z;
@@ -27,7 +36,9 @@ inline float share(const glm::vec3& level, const glm::vec3& direction) {
   const float t = std::clamp((down - 0.004f) / 0.010f, 0.0f, 1.0f);
   const float below = t * t * (3.0f - 2.0f * t) / (1.0f + down * down * (400.0f + down * down * 20000.0f));
   const float above = 0.03f / (1.0f + std::max(-down, 0.0f) * 33.0f);
-  const float share = std::max(below, above) / (1.0f + aside * 59.0f);
+  const float dipped = std::max(below, above) / (1.0f + aside * 59.0f);
+  const float ahead_alone = 1.0f / (1.0f + aside * 500.0f + down * down * (900.0f + down * down * 1e6f));
+  const float share = dipped + main_beam * main_peak * ahead_alone;
   return cosine > 0.0f ? share : 0.0f;
 }
 

@@ -209,7 +209,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       const Vec3 lamp_m = head_lamps > 0 ? lamps_m / double(head_lamps) + Vec3(0.15, 0, 0) : Vec3(3.6, 0, 0.65);
       result.headlights.push_back({participant.world_from_vehicle * lamp_m,
                                    glm::vec3(participant.world_from_vehicle.orientation * Vec3(1, 0, 0)),
-                                   beam::pair_intensity});
+                                   beam::pair_intensity, participant.lamps.has(Lamp::high_beam) ? 1.0f : 0.0f});
     }
   }
   std::stable_sort(result.meshes.begin(), result.meshes.end(),

@@ -20,11 +20,12 @@ struct LampGlow {
   double road_z_m = 0.0;  ///< World; of the road below it, which mirrors it when it is wet.
 };
 
-/// Where the headlights of one vehicle stand and point: a pair of dipped beams (headlight_beam.hpp).
+/// Where the headlights of one vehicle stand and point: a pair of beams (headlight_beam.hpp).
 struct Headlight {
   Vec3 position_m{0.0};                   ///< World; the middle between them.
   glm::vec3 direction{1.0f, 0.0f, 0.0f};  ///< Unit, world axes; the level from which the beam's angles count.
-  float intensity = 0.0f;                 ///< Where the beam is brightest, both together, in units of 8000 cd.
+  float intensity = 0.0f;                 ///< Where the dipped beam is brightest, both together, in units of 8000 cd.
+  float main_beam = 0.0f;                 ///< How far the main beam is lit beside the dipped one, 0 to 1.
 };
 
 /// A body that stands on the ground and hides the sky from it: a box above its footprint.

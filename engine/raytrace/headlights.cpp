@@ -29,6 +29,7 @@ HeadlightRow::HeadlightRow(std::span<const instant::Headlight> headlights, std::
       rows_[static_cast<std::size_t>(level_x + i)][n] = headlights[n].direction[i];
     }
     rows_[intensity][n] = headlights[n].intensity;
+    rows_[main_beam][n] = headlights[n].main_beam;
   }
 }
 
@@ -43,7 +44,7 @@ inline HeadlightRow::Strengths HeadlightRow::strengths(std::size_t first, const 
     const float square = way.x * way.x + way.y * way.y + way.z * way.z;
     const float per_m = 1.0f / std::sqrt(std::max(square, 1e-6f));
     const glm::vec3 level(row[level_x][k], row[level_y][k], row[level_z][k]);
-    strengths[k] = row[intensity][k] * instant::beam::share(level, way * per_m) / (square + 1.0f);
+    strengths[k] = row[intensity][k] * instant::beam::share(level, way * per_m, row[main_beam][k]) / (square + 1.0f);
   }
   return strengths;
 }

@@ -37,7 +37,7 @@ class HeadlightRow {
   DrawnHeadlight drawn(const glm::vec3& from_m, float time, float uniform, float sum) const;
 
  private:
-  enum Number { x, y, z, way_x, way_y, way_z, level_x, level_y, level_z, intensity, numbers };
+  enum Number { x, y, z, way_x, way_y, way_z, level_x, level_y, level_z, intensity, main_beam, numbers };
   static constexpr std::size_t block = 8;
   using Strengths = std::array<float, block>;
   float at(Number number, std::size_t which) const { return rows_[number][which]; }

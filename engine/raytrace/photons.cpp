@@ -64,7 +64,8 @@ PhotonLights::PhotonLights(const World& world, const PhotonSettings& settings, s
       const glm::vec3 way = body.middle_m - world.headlights().position_m(light, 0.0f);
       const float square = std::max(glm::dot(way, way), 1e-6f);
       // Never nothing: the beam may reach its edge.
-      const float share = std::max(0.01f, instant::beam::share(headlight.direction, way / std::sqrt(square)));
+      const float share =
+          std::max(0.01f, instant::beam::share(headlight.direction, way / std::sqrt(square), headlight.main_beam));
       add(Light::headlight, light, n, headlight.intensity * share * std::min(4.0f * pi, disc_m2 / square));
     }
   }
@@ -134,8 +135,9 @@ PhotonLights::Flight PhotonLights::towards_body(PathRandom& random, float time) 
   if (found->light == Light::headlight) {
     const instant::Headlight& light = world_.instant().headlights[found->number];
     const float solid_angle_sr = aim(world_.headlights().position_m(found->number, time));
-    flight.power = headlight_color * (light.intensity * instant::beam::share(light.direction, flight.ray.direction) *
-                                      solid_angle_sr * share);
+    flight.power = headlight_color *
+                   (light.intensity * instant::beam::share(light.direction, flight.ray.direction, light.main_beam) *
+                    solid_angle_sr * share);
     flight.ray.origin_m += headlight_glass_m * flight.ray.direction;
     return flight;
   }

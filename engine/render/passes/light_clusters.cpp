@@ -8,13 +8,15 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "engine/instant/headlight_beam.hpp"
+
 namespace septet::render {
 namespace {
 
 struct NearLight {
   glm::vec3 place_m;  ///< Relative to the eye.
   glm::vec3 direction;
-  float intensity;
+  float intensity, main_beam;
 };
 
 /// The most that a lamp sends to any place of a square: it lies no nearer and no less aside of the beam than the circle around it.
@@ -29,9 +31,11 @@ bool may_reach(const NearLight& light, const glm::vec2& middle_m) {
   const float angle = std::acos(std::clamp(glm::dot(way, ahead) / (distance_m * level), -1.0f, 1.0f)) -
                       std::asin(std::min(1.0f, around_m / distance_m));
   if (angle > 1.57f) return false;
-  // A beam's share falls aside of it as 1/(1 + 59·tan²) (instant/headlight_beam.hpp); a slope of the road tilts it a little.
+  // A beam's share falls aside of it as 1/(1 + 59·tan²) (instant/headlight_beam.hpp); a slope of the road tilts it a little. The main
+  // beam falls more steeply.
   const float aside = std::tan(std::max(0.0f, angle - 0.05f));
-  return light.intensity / ((1.0f + 59.0f * aside * aside) * (nearest_m * nearest_m + 1.0f)) >=
+  return light.intensity * (1.0f + instant::beam::main_peak * light.main_beam) /
+             ((1.0f + 59.0f * aside * aside) * (nearest_m * nearest_m + 1.0f)) >=
          LightClusters::least_irradiance;
 }
 
@@ -40,7 +44,7 @@ bool may_reach(const NearLight& light, const glm::vec2& middle_m) {
 LightClusters light_clusters(const Vec3& eye_m, std::span<const Headlight> headlights) {
   std::vector<NearLight> lights;
   for (const Headlight& light : headlights)
-    lights.push_back({glm::vec3(light.position_m - eye_m), light.direction, light.intensity});
+    lights.push_back({glm::vec3(light.position_m - eye_m), light.direction, light.intensity, light.main_beam});
   const auto square = [](const NearLight& light) { return glm::dot(light.place_m, light.place_m); };
   std::ranges::stable_sort(lights, {}, square);
   lights.resize(std::min(lights.size(), LightClusters::most_lights), {});
@@ -51,7 +55,7 @@ LightClusters light_clusters(const Vec3& eye_m, std::span<const Headlight> headl
   words.resize(squares + 1);
   for (const NearLight& light : lights)
     for (const float value : {light.place_m.x, light.place_m.y, light.place_m.z, light.intensity, light.direction.x,
-                              light.direction.y, light.direction.z, 0.0f})
+                              light.direction.y, light.direction.z, light.main_beam})
       words.push_back(std::bit_cast<std::uint32_t>(value));
   for (std::uint32_t at = 0; at < squares; ++at) {
     words[at] = static_cast<std::uint32_t>(words.size());

@@ -21,7 +21,7 @@ struct LightClusters {
   static constexpr float square_m = 20.0f;
   static constexpr std::size_t most_lights = 64;     ///< The nearest.
   static constexpr float least_irradiance = 3e-6f;   ///< What lights a place less is left out: 0.024 lx.
-  static constexpr std::uint32_t words_a_light = 8;  ///< Place relative to the eye, intensity, direction, nothing.
+  static constexpr std::uint32_t words_a_light = 8;  ///< Place relative to the eye, intensity, direction, main beam.
 
   /// As shaders/surface.frag reads it: where each square's list begins, by rows to the north, and where the last one ends; the lights as
   /// floats; the lists. Places are counted from the first word.

@@ -24,7 +24,7 @@ void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const H
   nearest.resize(std::min(nearest.size(), most_headlights));
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     uniforms.headlight_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), nearest[i]->intensity);
-    uniforms.headlight_direction[i] = glm::vec4(nearest[i]->direction, 0.0f);
+    uniforms.headlight_direction[i] = glm::vec4(nearest[i]->direction, nearest[i]->main_beam);
   }
   uniforms.wind.z = static_cast<float>(nearest.size());
 }

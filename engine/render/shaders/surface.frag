@@ -78,11 +78,11 @@ layout(set = 0, binding = 16, std430) readonly buffer Clusters { uint clusters[]
 vec4 of_cluster(uint at) { return uintBitsToFloat(uvec4(clusters[at], clusters[at + 1], clusters[at + 2], clusters[at + 3])); }
 
 // What a pair of headlights does, as below.
-vec4 headlight(vec4 position, vec3 direction, vec3 n) {
+vec4 headlight(vec4 position, vec4 direction, vec3 n) {
   vec3 to_surface = relative - position.xyz;
   float square = dot(to_surface, to_surface);
   vec3 ray = to_surface * inversesqrt(square);
-  float light = position.w * beam_share(direction, ray) / (square + 1.0);
+  float light = position.w * beam_share(direction.xyz, ray, direction.w) / (square + 1.0);
   // Rough asphalt sends more light back than a matt surface would at so low an angle.
   float facing = max(0.0, -dot(n, ray)) * 0.7 + 0.3;
   float back = 1.0 - dot(ray, normalize(relative));  // Half the square of the angle between lamp and eye.
@@ -98,10 +98,10 @@ vec4 headlights(vec3 n) {
     if (any(lessThan(square, ivec2(0))) || any(greaterThanEqual(square, ivec2(side)))) return sum;
     uint at = uint(square.y * side + square.x);
     for (uint i = clusters[at]; i < clusters[at + 1]; ++i)
-      sum += headlight(of_cluster(clusters[i]), of_cluster(clusters[i] + 4).xyz, n);
+      sum += headlight(of_cluster(clusters[i]), of_cluster(clusters[i] + 4), n);
     return sum;
   }
-  for (int i = 0; i < int(view.wind.z); ++i) sum += headlight(view.headlight_position[i], view.headlight_direction[i].xyz, n);
+  for (int i = 0; i < int(view.wind.z); ++i) sum += headlight(view.headlight_position[i], view.headlight_direction[i], n);
   return sum;
 }
 

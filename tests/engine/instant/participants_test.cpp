@@ -221,6 +221,21 @@ TEST_CASE("no snow lies on what drives and its beam begins between its head lamp
   CHECK(glm::length(beam - 0.5 * (low + high)) < 0.2);
 }
 
+TEST_CASE("whoever has the main beam on sends it out beside the dipped one and whoever has not does not") {
+  const ReferenceScene reference = reference_scene({{}, false, 0});
+  for (const bool high : {false, true})
+    for (const bool low : {false, true}) {
+      DrawnParticipant car = reference_car(reference, {0, 0, 0});
+      car.lamps.set(Lamp::low_beam, low);
+      car.lamps.set(Lamp::high_beam, high);
+      const PlacedParticipants placed =
+          place_participants(std::span(&car, 1), reference.scene.prototypes, summaries(reference.scene), 0.0,
+                             car.world_from_vehicle.position_m, in_the_open);
+      REQUIRE(placed.headlights.size() == (low || high ? 1 : 0));
+      if (low || high) CHECK(placed.headlights[0].main_beam == (high ? 1.0f : 0.0f));
+    }
+}
+
 TEST_CASE("a participant is drawn where and as the snapshot has it") {
   Participant participant;
   participant.id = 12;

@@ -13,14 +13,15 @@
 namespace septet::raytrace {
 namespace {
 
-/// A row of cars on a road along x, every third away from the place that is lit.
+/// A row of cars on a road along x, every fifth with its main beam lit, every third away from the place that is lit.
 std::vector<instant::Headlight> cars(std::size_t count) {
   std::vector<instant::Headlight> headlights;
   for (std::size_t n = 0; n < count; ++n) {
     const double back_m = 9.0 + 7.0 * static_cast<double>(n);
     headlights.push_back({{1000.0 - back_m, 500.0 + static_cast<double>(n % 3), 20.7},
                           {n % 3 == 2 ? -1.0f : 1.0f, 0.0f, 0.0f},
-                          2.0f + static_cast<float>(n % 4)});
+                          2.0f + static_cast<float>(n % 4),
+                          n % 5 == 3 ? 1.0f : 0.0f});
   }
   return headlights;
 }
@@ -32,7 +33,8 @@ const glm::vec3 place_m(0.5f, 0.3f, 0.1f), way_m(1.0f, 0.2f, 0.0f);
 float strength(const instant::Headlight& light) {
   const glm::vec3 way = place_m - glm::vec3(light.position_m - origin_m) - half_open * way_m;
   const float square = glm::dot(way, way);
-  return light.intensity * instant::beam::share(light.direction, way / std::sqrt(square)) / (square + 1.0f);
+  return light.intensity * instant::beam::share(light.direction, way / std::sqrt(square), light.main_beam) /
+         (square + 1.0f);
 }
 
 TEST_CASE("each of many headlights is drawn as often as it is a share of their light, and one that shines away never") {

@@ -40,7 +40,8 @@ TEST_CASE("whatever lights a place as much as can be seen is on its square's lis
     const glm::dvec3 direction(std::cos(heading) * std::cos(slope), std::sin(heading) * std::cos(slope),
                                std::sin(slope));
     headlights.push_back({eye_m + Vec3(within(220.0), within(220.0), within(3.0)), glm::vec3(direction),
-                          instant::beam::pair_intensity * (1.0f + 0.001f * static_cast<float>(i))});
+                          instant::beam::pair_intensity * (1.0f + 0.001f * static_cast<float>(i)),
+                          i % 4 == 0 ? 1.0f : 0.0f});
   }
   const LightClusters clusters = light_clusters(eye_m, headlights);
   std::size_t asked = 0, seen = 0;
@@ -52,8 +53,9 @@ TEST_CASE("whatever lights a place as much as can be seen is on its square's lis
     for (const Headlight& light : headlights) {
       const glm::vec3 way = place_m - glm::vec3(light.position_m - eye_m);
       const float square = glm::dot(way, way);
-      const float arriving =
-          light.intensity * instant::beam::share(light.direction, way / std::sqrt(square)) / (square + 1.0f);
+      const float arriving = light.intensity *
+                             instant::beam::share(light.direction, way / std::sqrt(square), light.main_beam) /
+                             (square + 1.0f);
       if (arriving < LightClusters::least_irradiance) continue;
       ++seen;
       CHECK(std::count(list.begin(), list.end(), light.intensity) == 1);

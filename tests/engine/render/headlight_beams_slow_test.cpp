@@ -1,5 +1,6 @@
-/// The dipped beam as it is drawn, in candela and in candela per square metre. Software device, validation layer on.
+/// The dipped and the main beam as they are drawn, in candela and in candela per square metre. Software device, validation layer on.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -12,13 +13,13 @@
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 
-namespace septet::render::dipped {
+namespace septet::render::beams {
 namespace {
 
 constexpr std::uint32_t side_px = 32;
 constexpr double degree_rad = std::numbers::pi / 180.0;
 
-/// One square of one material, that a pair of dipped beams lights by night.
+/// One square of one material, that a pair of headlights lights by night.
 struct Lit {
   Renderer renderer =
       *Renderer::create({side_px, side_px, DevicePreference::software, true, Antialiasing::none, nullptr});
@@ -34,7 +35,7 @@ struct Lit {
   }
 
   /// cd/m² in a direction from the eye, of the beams alone.
-  double luminance(const Vec3& eye_m, const Vec3& lamps_m, double down_rad, double left_rad) {
+  double luminance(const Vec3& eye_m, const Vec3& lamps_m, double down_rad, double left_rad, float main_beam = 0.0f) {
     FrameInput input;
     input.environment = instant::reference_day();
     input.environment.sun_elevation_rad = -0.4;
@@ -47,7 +48,7 @@ struct Lit {
     glm::vec3 light(0.0f);
     for (const bool lit : {true, false}) {
       instant.headlights.clear();
-      if (lit) instant.headlights = {{lamps_m, {1, 0, 0}, instant::beam::pair_intensity}};
+      if (lit) instant.headlights = {{lamps_m, {1, 0, 0}, instant::beam::pair_intensity, main_beam}};
       REQUIRE(renderer.draw(instant).has_value());
       light += renderer.read_radiance()->at(side_px / 2, side_px / 2) * (lit ? 1.0f : -1.0f);
     }
@@ -64,18 +65,24 @@ scene::SurfaceMaterial matt(float grey, float retroreflection = 0.0f) {
   return material;
 }
 
+/// A white wall at 25 m, on which what each of two lamps gives in a direction is read, cd.
+struct Screen25m {
+  const Vec3 eye_m{0.0, 0.0, 1.2};
+  Lit wall{matt(0.5f), {25.0f, 0.0f, 1.2f}, {0, -9, 0}, {0, 0, 9}};
+  double candela(double down_degrees, double left_degrees, float main_beam = 0.0f) {
+    const double down = down_degrees * degree_rad, left = left_degrees * degree_rad;
+    const double ahead = std::cos(down) * std::cos(left), square = 625.0 / (ahead * ahead);
+    return 0.5 * wall.luminance(eye_m, eye_m, down, left, main_beam) * std::numbers::pi / 0.5 * square /
+           (0.7 * ahead + 0.3);
+  }
+};
+
 }  // namespace
 
 TEST_CASE(
     "on a white wall at 25 m each dipped beam gives at the points of UN Regulation 149 no more than it allows, and but "
     "for 75R what it asks") {
-  const Vec3 eye_m(0.0, 0.0, 1.2);
-  Lit wall(matt(0.5f), {25.0f, 0.0f, 1.2f}, {0, -9, 0}, {0, 0, 9});
-  const auto candela = [&](double down_degrees, double left_degrees) {
-    const double down = down_degrees * degree_rad, left = left_degrees * degree_rad;
-    const double ahead = std::cos(down) * std::cos(left), square = 625.0 / (ahead * ahead);
-    return 0.5 * wall.luminance(eye_m, eye_m, down, left) * std::numbers::pi / 0.5 * square / (0.7 * ahead + 0.3);
-  };
+  Screen25m screen;
   // At 75R, just below the cut-off, the regulation asks 10,100 cd of a right arm that rises; the beam drawn, level on both sides, has 8,400.
   struct Point {
     const char* name;
@@ -87,13 +94,46 @@ TEST_CASE(
         Point{"50L", 0.86, 3.43, 0, 13200}, Point{"50V", 0.86, 0.0, 5100, 1e9}, Point{"25L", 1.72, 9.0, 1700, 1e9},
         Point{"25R", 1.72, -9.0, 1700, 1e9}, Point{"zone IV", 1.2, 5.15, 2500, 1e9},
         Point{"zone I", 2.5, 0.0, 0, 17600}}) {
-    const double drawn = candela(point.down, point.left);
+    const double drawn = screen.candela(point.down, point.left);
     CAPTURE(point.name);
     CAPTURE(drawn);
     CHECK(drawn >= point.least);
     CHECK(drawn <= point.most);
   }
-  CHECK(candela(0.57, -1.15) > 28.0 * candela(-0.57, 3.43));
+  CHECK(screen.candela(0.57, -1.15) > 28.0 * screen.candela(-0.57, 3.43));
+}
+
+TEST_CASE(
+    "on a white wall at 25 m each main beam gives at the points of UN Regulation 149 what it asks of class B and a "
+    "vehicle's two no more than 430,000 cd") {
+  Screen25m screen;
+  const auto main_beam = [&](double down_degrees, double left_degrees) {
+    return screen.candela(down_degrees, left_degrees, 1.0f);
+  };
+  double brightest = 0.0;
+  for (const double down : {-1.0, -0.5, 0.0, 0.5, 0.8, 1.0, 1.5, 2.0})
+    brightest = std::max(brightest, main_beam(down, 0.0));
+  const double ahead = main_beam(0.0, 0.0);
+  CAPTURE(brightest);
+  CAPTURE(ahead);
+  CHECK(brightest >= 40500.0);      // IM, 5.1.3.1.
+  CHECK(2.0 * brightest <= 430e3);  // UN Regulation 48, 6.2.9, of all main beams together.
+  CHECK(ahead >= 0.8 * brightest);
+  struct Point {
+    double aside, least;
+  };
+  for (const Point& point :
+       {Point{3.0, 17500.0}, Point{6.0, 5000.0}, Point{9.0, 3400.0}, Point{12.0, 1500.0}})  // 5.1.3.2.
+    for (const double side : {-1.0, 1.0}) {
+      const double drawn = main_beam(0.0, side * point.aside);
+      CAPTURE(point.aside);
+      CAPTURE(drawn);
+      CHECK(drawn >= point.least);
+      CHECK(drawn < ahead);
+    }
+  // It lights what hangs over the road, and not the sky.
+  CHECK(main_beam(-1.0, 0.0) > 0.5 * ahead);
+  CHECK(main_beam(-6.0, 0.0) < 0.03 * ahead);
 }
 
 TEST_CASE("thirty metres ahead own dipped beams show dry markings at 2 to 6 cd/m2, 4 to 20 times the asphalt") {
@@ -112,4 +152,4 @@ TEST_CASE("thirty metres ahead own dipped beams show dry markings at 2 to 6 cd/m
   CHECK(marking < 20.0 * asphalt);
 }
 
-}  // namespace septet::render::dipped
+}  // namespace septet::render::beams
