@@ -33,7 +33,7 @@ inline float share(const glm::vec3& level, const glm::vec3& direction, float mai
   const float cosine = glm::dot(direction, level), ahead = std::max(cosine, 1e-6f);
   const float down = level.z * ahead - direction.z;
   const float aside = std::max(0.0f, 1.0f - down * down - ahead * ahead) / (ahead * ahead);
-  const float t = std::clamp((down - 0.004f) / 0.010f, 0.0f, 1.0f);
+  const float t = std::clamp((down - 0.004f) / 0.0085f, 0.0f, 1.0f);
   const float below = t * t * (3.0f - 2.0f * t) / (1.0f + down * down * (400.0f + down * down * 20000.0f));
   const float above = 0.03f / (1.0f + std::max(-down, 0.0f) * 33.0f);
   const float dipped = std::max(below, above) / (1.0f + aside * 59.0f);

@@ -5,7 +5,7 @@ float beam_share(vec3 level, vec3 direction, float main_beam) {
   float ahead = dot(direction, level);
   float down = level.z * ahead - direction.z;
   float aside = max(0.0, 1.0 - down * down - ahead * ahead) / (ahead * ahead);
-  float below = smoothstep(0.004, 0.014, down) / (1.0 + down * down * (400.0 + down * down * 20000.0));
+  float below = smoothstep(0.004, 0.0125, down) / (1.0 + down * down * (400.0 + down * down * 20000.0));
   float above = 0.03 / (1.0 + max(-down, 0.0) * 33.0);
   float dipped = max(below, above) / (1.0 + aside * 59.0);
   float ahead_alone = 1.0 / (1.0 + aside * 500.0 + down * down * (900.0 + down * down * 1e6));
