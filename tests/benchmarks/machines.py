@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """How well machines of unequal speed are used by a traced film: measured, not simulated.
 
-machines.py [--build FOLDER] [--programs N] [--size WIDTHxHEIGHT] [--samples N] [--session FILE] [--json FILE]
+machines.py [--build FOLDER] [--programs N] [--size WIDTHxHEIGHT] [--samples N] [--film-samples N] [--frames N] [--what picture,film]
+            [--schedules ours,paper,round-robin] [--session FILE] [--json FILE]
 
 Drives a second on the shipped scenario, then traces one picture and a film with N programs of one thread each under mpirun, whose speeds go from 1 to
 9 (SEPTET_FILM_PACES: a program sleeps after each tile until it has used its share of a processor), with Septet's schedule, the paper's 81 equal
@@ -10,6 +11,8 @@ buckets and the same in turn. All speeds together are 1.3 processors, so that tw
 Efficiency: the processor time of all tiles that count, over the speeds' sum, over the time from the first tile that was dealt to the last that came.
 What is missing from 100 is told by where it went: tiles that another delivered first (twice), time before the first tile of another frame than the
 last (frames), before other tiles (runs), and after a program's last tile (end), each weighed by the program's speed.
+To make a frame ready counts as no work, and is not slowed down: it keeps a program from tracing for as long as the processor really takes. Its share
+falls with the size and the samples of a frame, so that they are told with each figure.
 No tile is dealt before all programs have read the session, which fifteen programs that share two processors do for longer than machines of their own.
 """
 import argparse
@@ -80,7 +83,7 @@ def drive(build, folder, seconds=1.2):
 def report(name, made, frames):
     count = sum(row["counts"] for row in made["rows"])
     lost = ", ".join(f"{name} {100 * share:.1f}" for name, share in made["lost"].items())
-    return (f"{name:<24} {100 * made['efficiency']:6.1f} % of ideal ({lost}), {made['time_s']:6.1f} s, "
+    return (f"{name:<48} {100 * made['efficiency']:6.1f} % of ideal ({lost}), {made['time_s']:6.1f} s, "
             f"{made['splits']} splits, {len(made['rows']) - count} of {count} tiles twice, "
             f"{(made['sent_bytes'] + made['received_bytes']) / frames / 1e6:.2f} MB and {made['master_cpu_s'] / frames:.3f} s of the master a frame")
 
@@ -89,8 +92,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build/release"))
     parser.add_argument("--programs", type=int, default=15)
-    parser.add_argument("--size", default="320x240")
-    parser.add_argument("--samples", default="64")
+    parser.add_argument("--size", default="640x360")
+    parser.add_argument("--samples", type=int, default=64, help="of one picture")
+    parser.add_argument("--film-samples", type=int, default=16)
+    parser.add_argument("--what", default="picture,film")
     parser.add_argument("--frames", type=int, default=30, help="of the film")
     parser.add_argument("--processors", type=float, default=ALL_PACES, help="all speeds together; less on a machine that is busy with other things")
     parser.add_argument("--session", type=pathlib.Path, help="that was driven before, at least a second long")
@@ -104,12 +109,11 @@ def main():
     with tempfile.TemporaryDirectory(prefix="septet-machines-") as name:
         folder = pathlib.Path(name)
         session = given.session.resolve() if given.session else drive(build, folder)
-        for frames, what in ((1, "one picture"), (given.frames, f"a film of {given.frames}")):
-            if frames < 1:
-                continue
-            samples = given.samples if frames == 1 else str(max(1, int(given.samples) // 8))
+        measured = {"picture": (1, "one picture", given.samples), "film": (given.frames, f"a film of {given.frames}", given.film_samples)}
+        for frames, what, samples in (measured[word] for word in given.what.split(",")):
+            what += f", {given.size}, {samples} samples"
             (folder / "shots.toml").write_text(f"[[shot]]\nfrom_s = 0.5\nto_s = {0.5 + frames / 60}\n")
-            arguments = ["--shots", str(folder / "shots.toml"), "--fps", "60", "--size", given.size, "--samples", samples]
+            arguments = ["--shots", str(folder / "shots.toml"), "--fps", "60", "--size", given.size, "--samples", str(samples)]
             pictures = None
             for schedule in given.schedules.split(","):
                 made = run(build, session, folder, schedule, shares, arguments)
