@@ -39,7 +39,7 @@ inline glm::vec3 from_angles(float cosine, float azimuth_rad) {
 }
 
 /// Cosine and sine of a share of the full turn, in [0, 1); within 4e-7, and the same on every machine, which a library's need not be.
-inline glm::vec2 on_circle(float share) {
+[[gnu::always_inline]] inline glm::vec2 on_circle(float share) {
   const float eighths = 8.0f * share;
   const int octant = static_cast<int>(eighths);
   // Of the angle from the nearest axis, at most an eighth.

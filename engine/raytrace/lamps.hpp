@@ -59,8 +59,8 @@ class LampWeights {
   static constexpr std::size_t most = 256;
 
   float sum() const { return sum_; }
-  /// Chance with which `drawn` gives it; there is light.
-  float chance(std::size_t lamp) const { return weights_[lamp] / sum_; }
+  /// Chance with which `drawn` gives it; there is light. Of one lamp it is known without a quotient.
+  float chance(std::size_t lamp) const { return block_count_ == 0 ? 1.0f : weights_[lamp] / sum_; }
   /// Which one a uniform number in [0, 1) draws; there is light.
   std::size_t drawn(float uniform) const;
 

@@ -203,9 +203,9 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
     }
   }
   const float area = glm::length(point.flat_normal);
-  point.flat_normal = area > 0.0f ? point.flat_normal / area : -ray.direction;
+  point.flat_normal = area > 0.0f ? point.flat_normal * (1.0f / area) : -ray.direction;
   const float length = glm::length(normal);
-  normal = length > 1e-12f ? normal / length : point.flat_normal;
+  normal = length > 1e-12f ? normal * (1.0f / length) : point.flat_normal;
   point.from_front = glm::dot(point.flat_normal, ray.direction) < 0.0f;
   if (!point.from_front) {
     point.flat_normal = -point.flat_normal;
