@@ -52,7 +52,7 @@ TelemetryFormat outgauge() {
 /// Likewise OutSimPack: time, angular velocity, three angles, acceleration, velocity (floats), position (integers).
 TelemetryFormat outsim() { return {"outsim", 64, 68, 30001, {{.quantity = &T::vertical_mps2, .byte = 36}}}; }
 
-/// Floats in a row, as DiRT Rally sends them with extradata="3"; engine speeds are tenths.
+/// Floats in a row, as DiRT Rally sends them with extradata="3"; engine speeds are tenths, and reverse is gear 10 in some games, −1 in others.
 TelemetryFormat codemasters() {
   const auto at = [](std::size_t place) { return 4 * place; };
   return {"codemasters",
@@ -63,7 +63,7 @@ TelemetryFormat codemasters() {
            {.quantity = &T::accelerator, .byte = at(29)},
            {.quantity = &T::brake, .byte = at(31)},
            {.quantity = &T::clutch, .byte = at(32)},
-           {.quantity = &T::gear, .byte = at(33)},
+           {.quantity = &T::gear, .byte = at(33), .reverse = 10.0},
            {.quantity = &T::engine_rpm, .byte = at(37), .scale = 10.0}}};
 }
 
@@ -123,7 +123,7 @@ Expected<GameTelemetry> decode_telemetry(const TelemetryFormat& format, std::spa
     if (field.byte + bytes_of(field.kind) > datagram.size()) continue;
     const double value = number_at(datagram, field) * field.scale + field.offset;
     if (!(std::abs(value) <= largest)) return refused(format, "a datagram has a number that is none");
-    now.*field.quantity = value;
+    now.*field.quantity = field.reverse && value == *field.reverse ? -1.0 : value;
   }
   return now;
 }

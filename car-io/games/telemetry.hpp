@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,6 +41,7 @@ struct TelemetryField {
   bool big_endian = false;
   double scale = 1.0, offset = 0.0;
   int bit = -1;
+  std::optional<double> reverse;  ///< Of a gear: a value that means reverse, beside −1.
 };
 
 struct TelemetryFormat {

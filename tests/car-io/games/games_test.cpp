@@ -89,6 +89,16 @@ TEST_CASE("OutGauge, OutSim and Codemasters' packets are read where their struct
   CHECK(rally->engine_rpm == 5120.0);
 }
 
+TEST_CASE("Codemasters' gear 10 is reverse, as -1 is, and 0 is neutral") {
+  const auto gear = [](float sent) {
+    return decode_telemetry(format("codemasters"), Datagram(264).put(4 * 33, sent).bytes(), {}).value().gear;
+  };
+  CHECK(gear(10.0f) == -1.0);
+  CHECK(gear(-1.0f) == -1.0);
+  CHECK(gear(0.0f) == 0.0);
+  CHECK(gear(6.0f) == 6.0);
+}
+
 TEST_CASE("a datagram of another length or with a number that is none changes nothing") {
   for (const std::size_t size : {0u, 1u, 91u, 97u, 1500u})
     CHECK_FALSE(decode_telemetry(format("outgauge"), Bytes(size), {}).has_value());
