@@ -53,6 +53,7 @@ class CanControlsDevice final : public HidDevice {
   }
 
   bool take(const CanFrame& frame) {
+    bool of_ours = false;
     for (std::size_t i = 0; i < plan_.heard.size(); ++i) {
       const HeardMessage& heard = plan_.heard[i];
       if (heard.message.id != frame.id || heard.message.is_extended != frame.is_extended) continue;
@@ -64,9 +65,9 @@ class CanControlsDevice final : public HidDevice {
           any = true;
         }
       has_come_[i] = has_come_[i] || any;
-      return any;
+      of_ours |= any;
     }
-    return false;
+    return of_ours;
   }
   bool all_have_come() const {
     for (std::size_t i = 0; i < plan_.heard.size(); ++i)

@@ -1,7 +1,10 @@
 #include "car-io/can/can_plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -74,6 +77,74 @@ std::variant<std::string_view, double> meaning(const rig::Can& can, const dbc::M
   return std::string_view(found->quantity);
 }
 
+const dbc::Signal* selecting_of(const dbc::Message& message) {
+  const auto found = std::ranges::find(message.signals, true, &dbc::Signal::selects);
+  return found == message.signals.end() ? nullptr : &*found;
+}
+
+/// The signal with the raw bits themselves for its value, whatever its scale and range are.
+dbc::Signal raw(const dbc::Signal& signal) {
+  return {.name = signal.name,
+          .start_bit = signal.start_bit,
+          .bits = signal.bits,
+          .order = signal.order,
+          .selects = signal.selects};
+}
+
+/// Where the rig holds the selecting signal at a constant: the raw value that then is sent.
+std::optional<double> held_selection(const SentMessage& sent, const dbc::Signal& selecting) {
+  const auto found = std::ranges::find_if(sent.signals, [&](const SentSignal& of) { return of.signal.selects; });
+  const double* constant = found == sent.signals.end() ? nullptr : std::get_if<double>(&found->carries);
+  if (!constant) return std::nullopt;
+  std::array<std::byte, 64> data{};
+  const auto frame = std::span(data).first(sent.message.bytes);
+  dbc::encode(selecting, *constant, frame);
+  return dbc::decode(sent.message, raw(selecting), frame);
+}
+
+/// A frame carries the signals of one selected value, so that a multiplexed message becomes several: one for each value that selects
+/// anything of ours, or the one that the rig holds it at.
+Expected<std::vector<SentMessage>> by_selection(SentMessage sent, const std::string& dbc) {
+  std::set<std::uint64_t> values;
+  for (const SentSignal& of : sent.signals)
+    if (of.signal.selected_by) values.insert(*of.signal.selected_by);
+  if (values.empty()) return std::vector{std::move(sent)};
+  const dbc::Signal& selecting = *selecting_of(sent.message);
+  const auto held = held_selection(sent, selecting);
+  constexpr std::uint64_t largest_exact = 1ull << 53;
+  std::vector<SentMessage> all;
+  for (const std::uint64_t value : values) {
+    if (value > largest_exact || (selecting.bits < 64 && value >> selecting.bits != 0))
+      return failure(
+          fmt::format("{} of {} cannot hold {}, which selects a signal", selecting.name, sent.message.name, value), dbc,
+          "correct the signal's mNUMBER or the selecting signal's bits");
+    if (held && *held != static_cast<double>(value)) continue;
+    SentMessage one{sent.message, sent.period_s, {{raw(selecting), static_cast<double>(value)}}};
+    for (const SentSignal& of : sent.signals)
+      if (!of.signal.selects && (!of.signal.selected_by || *of.signal.selected_by == value)) one.signals.push_back(of);
+    all.push_back(std::move(one));
+  }
+  if (all.empty()) {
+    std::erase_if(sent.signals, [](const SentSignal& of) { return of.signal.selected_by.has_value(); });
+    all.push_back(std::move(sent));
+  }
+  return all;
+}
+
+/// Likewise, so that each selected value has to beat for itself.
+std::vector<HeardMessage> by_selection(const HeardMessage& heard) {
+  std::vector<HeardMessage> all;
+  for (const HeardSignal& of : heard.signals) {
+    auto one = std::ranges::find_if(all, [&](const HeardMessage& other) {
+      return other.signals.front().signal.selected_by == of.signal.selected_by;
+    });
+    if (one == all.end()) one = all.insert(all.end(), {heard.message, {}, false});
+    one->signals.push_back(of);
+    one->must_beat |= is_axis(of.control);
+  }
+  return all;
+}
+
 Expected<void> check_names(const dbc::Database& database, const rig::Can& can) {
   for (const rig::CanSignal& named : can.signals) {
     const auto point = named.signal.find('.');
@@ -115,7 +186,6 @@ Expected<CanPlan> plan_can(const dbc::Database& database, const rig::Can& can) {
         shows = true;
       } else if (const auto control = find(control_quantities(), name)) {
         heard.signals.push_back({signal, *control});
-        heard.must_beat |= is_axis(*control);
       } else if (name == frame_counter) {
         sent.signals.push_back({signal, FrameCounter{}});
       }
@@ -123,19 +193,30 @@ Expected<CanPlan> plan_can(const dbc::Database& database, const rig::Can& can) {
     if (shows && !heard.signals.empty())
       return failure(fmt::format("{} would be sent and heard", message.name), can.dbc,
                      "let a message carry instruments or controls");
+    const auto is_selected = [](const auto& of) { return of.signal.selected_by.has_value(); };
+    if (!selecting_of(message) &&
+        ((shows && std::ranges::any_of(sent.signals, is_selected)) || std::ranges::any_of(heard.signals, is_selected)))
+      return failure(fmt::format("{} has multiplexed signals and none that selects them", message.name), can.dbc,
+                     "mark the selecting signal with M");
     if (shows) {
       dbc::Message ours = message;
       ours.signals.clear();
       for (const auto& signal : sent.signals) ours.signals.push_back(signal.signal);
+      const dbc::Signal* selecting = selecting_of(message);
+      if (selecting && std::ranges::any_of(sent.signals, is_selected) && !dbc::find_signal(ours, selecting->name))
+        ours.signals.push_back(*selecting);
       if (const auto both = dbc::overlap(ours))
         return failure(fmt::format("{} and {} of {} share bits", both->first->name, both->second->name, message.name),
                        can.dbc, "send only one of them");
     }
     if (shows || !heard.signals.empty()) plan.needs_fd |= message.is_fd;
-    if (shows)
-      plan.sent.push_back(std::move(sent));
-    else if (!heard.signals.empty())
-      plan.heard.push_back(std::move(heard));
+    if (shows) {
+      auto all = by_selection(std::move(sent), can.dbc);
+      if (!all) return tl::unexpected(std::move(all.error()));
+      std::ranges::move(*all, std::back_inserter(plan.sent));
+    } else {
+      std::ranges::move(by_selection(heard), std::back_inserter(plan.heard));
+    }
   }
   if (plan.sent.empty() && plan.heard.empty())
     return failure("none of its signals carries anything of the car", can.dbc, "name some in the rig's [can.signals]");

@@ -59,6 +59,7 @@ struct SentSignal {
   dbc::Signal signal;
   std::variant<double, double Instruments::*, FrameCounter> carries;  ///< A number: always that.
 };
+/// Of a multiplexed message: of one selected value, which is among the signals as a constant. A plan has one for each value.
 struct SentMessage {
   dbc::Message message;
   double period_s = 0.1;
@@ -68,6 +69,7 @@ struct HeardSignal {
   dbc::Signal signal;
   double CanControls::*control = nullptr;
 };
+/// Likewise; those of its signals that are in each frame are one by themselves.
 struct HeardMessage {
   dbc::Message message;
   std::vector<HeardSignal> signals;
@@ -79,7 +81,8 @@ struct CanPlan {
   bool needs_fd = false;
 };
 
-/// Error: a signal or quantity that is not there, a message that would be sent and heard, signals on each other.
+/// Error: a signal or quantity that is not there, a message that would be sent and heard, signals on each other, multiplexed ones
+/// that nothing can select.
 Expected<CanPlan> plan_can(const dbc::Database& database, const rig::Can& can);
 
 }  // namespace septet::car_io

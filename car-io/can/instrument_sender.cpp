@@ -16,11 +16,17 @@
 namespace septet::car_io {
 namespace {
 
-CanFrame frame_of(const SentMessage& sent, const Instruments& instruments, std::uint8_t count) {
+/// Frames that were sent: with these signals, and with this identifier whatever is selected.
+struct SentCounts {
+  std::uint8_t of_selection = 0, of_message = 0;
+};
+
+CanFrame frame_of(const SentMessage& sent, const Instruments& instruments, SentCounts counts) {
   CanFrame frame{sent.message.id, sent.message.is_extended, sent.message.is_fd, sent.message.bytes, {}};
   const auto data = std::span(frame.data).first(frame.bytes);
   for (const SentSignal& signal : sent.signals) {
     double value = 0.0;
+    const std::uint8_t count = signal.signal.selected_by ? counts.of_selection : counts.of_message;
     if (const auto* constant = std::get_if<double>(&signal.carries))
       value = *constant;
     else if (const auto* instrument = std::get_if<double Instruments::*>(&signal.carries))
@@ -85,7 +91,12 @@ void InstrumentSender::lose(const Error& error, double now_s) {
 }
 
 void InstrumentSender::send(std::size_t message, const Instruments& instruments, double now_s) {
-  const auto sent = bus_->send(frame_of(plan_.sent[message], instruments, sent_of_[message]));
+  SentCounts counts{.of_selection = sent_of_[message]};
+  const auto& ours = plan_.sent[message].message;
+  for (std::size_t i = 0; i < plan_.sent.size(); ++i)
+    if (plan_.sent[i].message.id == ours.id && plan_.sent[i].message.is_extended == ours.is_extended)
+      counts.of_message = static_cast<std::uint8_t>(counts.of_message + sent_of_[i]);
+  const auto sent = bus_->send(frame_of(plan_.sent[message], instruments, counts));
   if (!sent) return lose(sent.error(), now_s);
   if (*sent) {
     ++counts_.sent;

@@ -228,6 +228,82 @@ TEST_CASE("the rig gives other signals their quantities and constants") {
   CHECK(plan_can(*database, {.dbc = "own.dbc"}).error().what == "none of its signals carries anything of the car");
 }
 
+TEST_CASE("a multiplexed message is sent once for each selected value with that value's signals alone") {
+  const auto database = dbc::read_dbc(
+      "BS_:\nBO_ 5 DASH: 8 X\n SG_ Mode M : 0|8@1+ (2,1) [50|60] \"\" X\n SG_ speed_kmh m0 : 8|16@1+ (0.01,0) [0|0] "
+      "\"\" X\n SG_ engine_rpm m1 : 8|16@1+ (1,0) [0|0] \"\" X\n SG_ unused m2 : 8|16@1+ (1,0) [0|0] \"\" X\n"
+      " SG_ counter : 32|8@1+ (1,0) [0|0] \"\" X\n SG_ own m1 : 40|8@1+ (1,0) [0|0] \"\" X\n",
+      "own.dbc");
+  REQUIRE(database.has_value());
+  rig::Can can{.dbc = "own.dbc", .signals = {{"DASH.own", "counter"}}};
+  const auto plan = plan_can(*database, can);
+  REQUIRE_MESSAGE(plan.has_value(), (plan ? "" : describe(plan.error())));
+  const auto frames_of = [](const CanPlan& sent) {
+    SimulatedCanBus bus;
+    InstrumentSender sender(bus.opener(), sent);
+    sender.set({.speed_kmh = 50.0, .engine_rpm = 3000.0}, 0.0);
+    sender.pump(0.0);
+    sender.pump(0.15);
+    return bus.sent;
+  };
+  const auto frames = frames_of(*plan);
+  REQUIRE(frames.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto at = [&](std::size_t byte) { return std::to_integer<unsigned>(frames[i].data[byte]); };
+    CAPTURE(i);
+    CHECK(at(0) == i % 2);
+    CHECK(at(1) + 256u * at(2) == (i % 2 == 0 ? 5000u : 3000u));
+    CHECK(at(4) == i);
+    CHECK(at(5) == (i % 2 == 0 ? 0u : i / 2));
+  }
+  can.signals.push_back({"DASH.Mode", "", 53.0});
+  CHECK(frames_of(plan_can(*database, can).value()).size() == 2);
+}
+
+TEST_CASE("multiplexed signals that nothing can select are refused") {
+  const auto refusal = [](const char* selecting) {
+    const auto database = dbc::read_dbc(
+        "BS_:\nBO_ 5 DASH: 8 X\n" + std::string(selecting) + " SG_ speed_kmh m9 : 8|16@1+ (0.01,0) [0|0] \"\" X\n",
+        "own.dbc");
+    const auto plan = plan_can(database.value(), {.dbc = "own.dbc"});
+    REQUIRE_FALSE(plan.has_value());
+    return plan.error().what;
+  };
+  CHECK(refusal("") == "DASH has multiplexed signals and none that selects them");
+  CHECK(refusal(" SG_ Mode M : 0|2@1+ (1,0) [0|0] \"\" X\n") == "Mode of DASH cannot hold 9, which selects a signal");
+}
+
+TEST_CASE("multiplexed controls are read in frames that select them alone and each selection has to beat") {
+  const auto database = dbc::read_dbc(
+      "BS_:\nBO_ 5 PEDALS: 8 X\n SG_ Mode M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ accelerator_percent m0 : 8|8@1+ (1,0) "
+      "[0|0] \"\" X\n SG_ brake_percent m1 : 8|8@1+ (1,0) [0|0] \"\" X\n",
+      "own.dbc");
+  SimulatedCanBus bus;
+  CarConnection car(can_controls_opener(bus.opener(), plan_can(database.value(), {}).value(), 7.85),
+                    {.calibration = {.steering_lock_rad = 7.85}});
+  const auto hear = [&](unsigned char mode, unsigned char percent) {
+    CanFrame frame{5, false, false, 8, {}};
+    frame.data[0] = std::byte{mode};
+    frame.data[1] = std::byte{percent};
+    bus.waiting.push_back(frame);
+  };
+  auto reading = car.poll(0.0);
+  for (int i = 1; i < 20; ++i) {
+    hear(0, 80);
+    hear(1, 20);
+    hear(2, 60);
+    reading = car.poll(0.01 * i);
+  }
+  CHECK(reading.input.accelerator == relative(0.8, 0.02));
+  CHECK(reading.input.brake == relative(0.2, 0.02));
+  CHECK_FALSE(reading.is_stale);
+  for (int i = 20; i < 50; ++i) {
+    hear(1, 20);
+    reading = car.poll(0.01 * i);
+  }
+  CHECK(reading.is_stale);
+}
+
 TEST_CASE("controls on the bus drive and a node that falls silent makes the car stale") {
   SimulatedCanBus bus;
   CarConnection car(can_controls_opener(bus.opener(), cluster_plan(), 7.85),
