@@ -205,6 +205,7 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   }
   auto can = open_can_seat(drive.loaded.rig, options.rig);
   if (!can) return tl::unexpected(can.error());
+  if (can->notice) progress.message(describe(*can->notice));
   auto seat = choose_seat(options, drive.loaded.rig.car, drive.loaded.model, can->controls, progress);
   if (!seat) return tl::unexpected(seat.error());
   seat->show = std::move(can->show);

@@ -148,6 +148,8 @@ std::vector<HeardMessage> by_selection(const HeardMessage& heard) {
 Expected<void> check_names(const dbc::Database& database, const rig::Can& can) {
   for (const rig::CanSignal& named : can.signals) {
     const auto point = named.signal.find('.');
+    const auto unread = std::ranges::find(database.unread, named.signal.substr(0, point), &dbc::UnreadMessage::name);
+    if (unread != database.unread.end()) return tl::unexpected(unread->why);
     const auto* message = dbc::find_message(database, named.signal.substr(0, point));
     if (!message || !dbc::find_signal(*message, named.signal.substr(point + 1)))
       return failure(fmt::format("[can.signals] names {}, which {} has not", named.signal, can.dbc), "the rig",
@@ -168,6 +170,12 @@ std::span<const Quantity<CanControls>> control_quantities() { return controls; }
 
 Expected<CanPlan> plan_can(const dbc::Database& database, const rig::Can& can) {
   if (const auto known = check_names(database, can); !known) return tl::unexpected(known.error());
+  // A signal that is called as a quantity is used, and so is its message.
+  for (const dbc::UnreadMessage& unread : database.unread)
+    for (const std::string& name : unread.signals)
+      if (find(instrument_quantities(), name) || find(control_quantities(), name))
+        return failure(fmt::format("{} of {} cannot be used: {}", name, unread.name, unread.why.what), unread.why.where,
+                       unread.why.remedy + ", or call the signal otherwise");
   CanPlan plan;
   for (const dbc::Message& message : database.messages) {
     SentMessage sent{message, std::max(message.period_s.value_or(usual_period_s), shortest_period_s), {}};

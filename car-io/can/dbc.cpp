@@ -109,6 +109,10 @@ class Reader {
       signal();
     } else if (*word == "BA_") {
       attribute();
+    } else if (*word == "BA_DEF_") {
+      definition_of_attribute();
+    } else if (*word == "SG_MUL_VAL_") {
+      selected_values();
     } else if (*word == "BA_DEF_DEF_") {
       default_of_attribute();
     } else if (*word == "SIG_VALTYPE_") {
@@ -130,6 +134,12 @@ class Reader {
       scan_.take_identifier();
   }
 
+  /// A message that is no frame of ours refuses the file only for who uses it.
+  void leave_unread(std::size_t message, std::string what, std::string remedy) {
+    unread_.try_emplace(message, Error{std::move(what), fmt::format("{}:{}", name_, line_), std::move(remedy)});
+  }
+  bool is_unread(std::size_t message) const { return unread_.contains(message); }
+
   void message() {
     const auto id = scan_.take_unsigned();
     const auto name = scan_.take_identifier();
@@ -144,16 +154,17 @@ class Reader {
     message.is_extended = (*id & extended_flag) != 0 || number > 0x7FFu;
     if (number > 0x1FFFFFFFu)
       return refuse(fmt::format("{} is no CAN identifier", *id), "use 11 bits, or 29 bits with bit 31 set");
-    if (!is_length(*bytes))
-      return refuse(fmt::format("{} cannot have {} bytes", *name, *bytes), "use 0 to 8, 12, 16, 20, 24, 32, 48 or 64");
     message.id = static_cast<std::uint32_t>(number);
     message.name = *name;
-    message.bytes = static_cast<std::uint8_t>(*bytes);
+    message.bytes = static_cast<std::uint8_t>(is_length(*bytes) ? *bytes : 0);
     message.is_fd = *bytes > 8;
     if (database_.messages.size() == most_messages) return refuse("the file has more than 10000 messages", "split it");
     if (!names_.insert(message.name).second) return refuse(fmt::format("two messages are called {}", message.name));
     if (!numbers_.emplace(*id, database_.messages.size()).second)
       return refuse(fmt::format("two messages have the identifier {}", *id));
+    if (!is_length(*bytes))
+      leave_unread(database_.messages.size(), fmt::format("{} has {} bytes, which no frame has", *name, *bytes),
+                   "use a message of 0 to 8, 12, 16, 20, 24, 32, 48 or 64 bytes");
     database_.messages.push_back(std::move(message));
   }
 
@@ -163,25 +174,36 @@ class Reader {
     if (!name) return refuse("a SG_ has no name");
     Signal signal;
     signal.name = *name;
-    if (const auto multiplex = scan_.take_identifier(); multiplex && !read_multiplex(*multiplex, signal))
+    const auto multiplex = scan_.take_identifier();
+    const bool is_nested = multiplex && multiplex->size() > 2 && multiplex->ends_with('M');
+    if (is_nested) signal.selects = true;
+    if (multiplex && !read_multiplex(is_nested ? multiplex->substr(0, multiplex->size() - 1) : *multiplex, signal))
       return refuse(fmt::format("{} is multiplexed by {}, which is not understood", *name, *multiplex),
                     "use M or mNUMBER");
     if (!read_place(signal) || !read_scale(signal))
       return refuse(fmt::format("the signal {} is not of the form {}", *name, form));
     receivers();
-    if (ignored_ || !error_.what.empty()) return;
+    if (ignored_) return;
     Message& message = database_.messages.back();
+    const std::size_t place = database_.messages.size() - 1;
+    if (is_nested ||
+        (signal.selects && std::ranges::find(message.signals, true, &Signal::selects) != message.signals.end()))
+      leave_unread(place, fmt::format("{} of {} is one of several selecting signals", *name, message.name), simple);
+    if (message.signals.size() == most_signals)
+      return refuse(fmt::format("{} has more than 1024 signals", message.name));
+    if (is_unread(place)) return message.signals.push_back(std::move(signal));
+    if (*bits_ > 64) return refuse(fmt::format("the signal {} is not of the form {}", *name, form));
+    if (signal.scale == 0.0 || !std::isnormal(signal.scale)) return refuse(fmt::format("the scale of {} is 0", *name));
     if (!fits(signal, message.bytes))
       return refuse(fmt::format("{} reaches beyond the {} bytes of {}", *name, message.bytes, message.name));
     if (find_signal(message, signal.name)) return refuse(fmt::format("{} has two signals {}", message.name, *name));
-    if (signal.selects && std::ranges::find(message.signals, true, &Signal::selects) != message.signals.end())
-      return refuse(fmt::format("{} has two signals that select", message.name), "extended multiplexing is not read");
-    if (message.signals.size() == most_signals)
-      return refuse(fmt::format("{} has more than 1024 signals", message.name));
     message.signals.push_back(std::move(signal));
   }
 
   static constexpr const char* form = "SG_ NAME : START|BITS@ORDER SIGN (SCALE,OFFSET) [LOW|HIGH] \"UNIT\" RECEIVERS";
+
+  static constexpr const char* simple =
+      "use a message that one signal M selects by mNUMBER; extended multiplexing is not read";
 
   static bool read_multiplex(std::string_view text, Signal& signal) {
     if (text == "M") return signal.selects = true;
@@ -193,13 +215,14 @@ class Reader {
   bool read_place(Signal& signal) {
     if (!scan_.take(':')) return false;
     const auto start = scan_.take_unsigned();
-    if (!start || *start > 511 || !scan_.take('|')) return false;
+    if (!start || *start > 65535 || !scan_.take('|')) return false;
     const auto bits = scan_.take_unsigned();
-    if (!bits || *bits < 1 || *bits > 64 || !scan_.take('@')) return false;
+    bits_ = bits;
+    if (!bits || *bits < 1 || !scan_.take('@')) return false;
     const auto order = scan_.take_unsigned();
     if (!order || *order > 1) return false;
     signal.start_bit = static_cast<std::uint16_t>(*start);
-    signal.bits = static_cast<std::uint8_t>(*bits);
+    signal.bits = static_cast<std::uint8_t>(std::min<std::uint64_t>(*bits, 64));
     signal.order = *order == 1 ? ByteOrder::intel : ByteOrder::motorola;
     if (scan_.take('-'))
       signal.number = Number::signed_whole;
@@ -224,7 +247,6 @@ class Reader {
     auto unit = scan_.take_string();
     if (!unit) return false;
     signal.unit = std::move(*unit);
-    if (signal.scale == 0.0 || !std::isnormal(signal.scale)) refuse(fmt::format("the scale of {} is 0", signal.name));
     return true;
   }
 
@@ -243,20 +265,77 @@ class Reader {
     if (of && *of == "BO_" && (*name == cycle_time || *name == frame_format)) {
       scan_.take_identifier();
       const auto id = scan_.take_unsigned();
-      const auto value = scan_.take_number();
+      const auto name_of_value = *name == frame_format ? scan_.take_string() : std::nullopt;
+      const auto value = name_of_value ? std::optional(0.0) : scan_.take_number();
       if (!id || !value)
         return refuse(fmt::format("BA_ \"{}\" BO_ is not followed by an identifier and a number", *name));
-      if (const auto found = numbers_.find(*id); found != numbers_.end())
-        set(database_.messages[found->second], *name, *value);
+      const auto found = numbers_.find(*id);
+      if (found == numbers_.end()) return end_statement();
+      if (*name == frame_format)
+        formats_[found->second] = FrameFormat{*value, name_of_value};
+      else
+        set_period(database_.messages[found->second], *value);
     }
     end_statement();
   }
 
-  void set(Message& message, const std::string& attribute, double value) {
-    constexpr double longest_ms = 600'000.0, standard_fd = 14.0, extended_fd = 15.0;
-    if (attribute == frame_format)
-      message.is_fd |= value == standard_fd || value == extended_fd;
-    else if (value < 0.0 || value > longest_ms)
+  /// As the file has it: an index, or a name in quotes.
+  struct FrameFormat {
+    double index = 0.0;
+    std::optional<std::string> name;
+  };
+
+  bool is_fd(const FrameFormat& format) const {
+    if (format.name) return format.name->ends_with("_FD");
+    for (std::size_t i = 0; i < frame_formats_.size(); ++i)
+      if (format.index == static_cast<double>(i)) return frame_formats_[i].ends_with("_FD");
+    constexpr double standard_fd = 14.0, extended_fd = 15.0;
+    return format.index == standard_fd || format.index == extended_fd;
+  }
+
+  /// BA_DEF_ BO_ "NAME" ENUM "NAME OF 0","NAME OF 1",…;
+  void definition_of_attribute() {
+    constexpr std::size_t most_formats = 256;
+    const auto of = scan_.peek_identifier();
+    if (of && *of == "BO_") {
+      scan_.take_identifier();
+      const auto name = scan_.take_string();
+      const auto kind = scan_.peek_identifier();
+      if (name && *name == frame_format && kind && *kind == "ENUM") {
+        scan_.take_identifier();
+        frame_formats_.clear();
+        for (auto value = scan_.take_string(); value && frame_formats_.size() < most_formats;) {
+          frame_formats_.push_back(std::move(*value));
+          value = scan_.take(',') ? scan_.take_string() : std::nullopt;
+        }
+      }
+    }
+    end_statement();
+  }
+
+  /// SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST,…; says again what mNUMBER does, or is extended multiplexing.
+  void selected_values() {
+    const auto id = scan_.take_unsigned();
+    const auto name = scan_.take_identifier();
+    const auto selecting = scan_.take_identifier();
+    const auto first = scan_.take_unsigned();
+    const bool has_range = scan_.take('-');
+    const auto last = scan_.take_unsigned();
+    if (!id || !name || !selecting || !first || !has_range || !last)
+      return refuse("a SG_MUL_VAL_ is not of the form SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST;");
+    if (const auto found = numbers_.find(*id); found != numbers_.end()) {
+      const Message& message = database_.messages[found->second];
+      const Signal *signal = find_signal(message, *name), *by = find_signal(message, *selecting);
+      if (signal && (scan_.peek() == ',' || *first != *last || signal->selected_by != first || !by || !by->selects))
+        leave_unread(found->second, fmt::format("{} of {} is selected by more than one value", *name, message.name),
+                     simple);
+    }
+    end_statement();
+  }
+
+  void set_period(Message& message, double value) {
+    constexpr double longest_ms = 600'000.0;
+    if (value < 0.0 || value > longest_ms)
       refuse(fmt::format("{} is sent every {} ms", message.name, value), "use 0 to 600000 ms");
     else if (value > 0.0)
       message.period_s = value / 1000.0;
@@ -267,6 +346,10 @@ class Reader {
   void default_of_attribute() {
     const auto name = scan_.take_string();
     if (!name) return refuse("BA_DEF_DEF_ names no attribute");
+    if (*name == frame_format) {
+      default_format_ = FrameFormat{0.0, scan_.take_string()};
+      if (!default_format_->name) default_format_->index = scan_.take_number().value_or(0.0);
+    }
     if (*name == cycle_time) default_period_ms_ = scan_.take_number().value_or(0.0);
     end_statement();
   }
@@ -280,7 +363,7 @@ class Reader {
     if (!id || !name || !type || *type > 2 || !scan_.take(';'))
       return refuse("a SIG_VALTYPE_ is not of the form SIG_VALTYPE_ ID SIGNAL : 0, 1 or 2;");
     const auto message = numbers_.find(*id);
-    if (message == numbers_.end() || *type == 0) return;
+    if (message == numbers_.end() || *type == 0 || is_unread(message->second)) return;
     auto& signals = database_.messages[message->second].signals;
     const auto signal = std::ranges::find(signals, *name, &Signal::name);
     if (signal == signals.end()) return;
@@ -290,6 +373,27 @@ class Reader {
   }
 
   void finish() {
+    for (std::size_t i = 0; i < database_.messages.size(); ++i) {
+      const auto own = formats_.find(i);
+      if (own != formats_.end() || default_format_)
+        database_.messages[i].is_fd |= is_fd(own != formats_.end() ? own->second : *default_format_);
+    }
+    set_default_period();
+    std::vector<Message> read;
+    for (std::size_t i = 0; i < database_.messages.size(); ++i) {
+      Message& message = database_.messages[i];
+      const auto unread = unread_.find(i);
+      if (unread == unread_.end()) {
+        read.push_back(std::move(message));
+        continue;
+      }
+      database_.unread.push_back({message.name, {}, std::move(unread->second)});
+      for (const Signal& signal : message.signals) database_.unread.back().signals.push_back(signal.name);
+    }
+    database_.messages = std::move(read);
+  }
+
+  void set_default_period() {
     if (!(default_period_ms_ > 0.0 && default_period_ms_ <= 600'000.0)) return;
     for (Message& message : database_.messages)
       if (!message.period_s && !periodless_.contains(message.name)) message.period_s = default_period_ms_ / 1000.0;
@@ -302,8 +406,13 @@ class Reader {
   Database database_;
   std::map<std::uint64_t, std::size_t> numbers_;  ///< Messages by their identifier as the file writes it.
   std::set<std::string> names_, periodless_;
-  int line_ = 1;          ///< In which the statement begins.
-  bool ignored_ = false;  ///< The signals that follow belong to no message.
+  std::map<std::size_t, Error> unread_;  ///< Why, by the message's place in the database, likewise the next.
+  std::map<std::size_t, FrameFormat> formats_;
+  std::vector<std::string> frame_formats_;  ///< The names of VFrameFormat's values, where the file lists them.
+  std::optional<FrameFormat> default_format_;
+  std::optional<std::uint64_t> bits_;  ///< Of the signal that is read, as the file has them.
+  int line_ = 1;                       ///< In which the statement begins.
+  bool ignored_ = false;               ///< The signals that follow belong to no message.
   double default_period_ms_ = 0.0;
   Error error_;
 };
@@ -320,9 +429,19 @@ const Signal* find_signal(const Message& message, std::string_view name) {
   return found == message.signals.end() ? nullptr : &*found;
 }
 
+std::optional<Error> notice_of(const Database& database) {
+  if (database.unread.empty()) return std::nullopt;
+  const Error& first = database.unread.front().why;
+  if (database.unread.size() == 1) return Error{"a message is not read: " + first.what, first.where, first.remedy};
+  return Error{fmt::format("{} messages are not read; of the first, {}", database.unread.size(), first.what),
+               first.where, first.remedy};
+}
+
 Expected<Database> read_dbc(std::string_view text, std::string_view name) {
   if (text.size() > largest_file)
     return failure("the file is larger than 8 MB", std::string(name), "name a file with the messages that are used");
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   return Reader(text, name).read();
 }
 

@@ -2,8 +2,9 @@
 /// What the frames of a CAN bus mean, read from a DBC file (Vector's format, as cantools and most tools write it).
 ///
 /// Read are messages, signals with their multiplexing, floating point signals (SIG_VALTYPE_), and the attributes GenMsgCycleTime and
-/// VFrameFormat; everything else that the format knows (comments, value tables, nodes, environment variables) is skipped. The file comes
-/// from outside: whatever it holds, the outcome is a database whose signals all lie within their messages, or an Error with the line.
+/// VFrameFormat (CAN FD is what its list of names calls `…_FD`; without a list 14 and 15); everything else that the format knows (comments,
+/// value tables, nodes, environment variables) is skipped, and so is a byte-order mark. The file comes from outside: whatever it holds, the
+/// outcome is a database whose signals all lie within their messages, or an Error with the line.
 
 #include <cstdint>
 #include <optional>
@@ -43,9 +44,20 @@ struct Message {
   std::vector<Signal> signals;
 };
 
+/// No frame that can be read: a transport message, extended multiplexing. Only who uses it has to know.
+struct UnreadMessage {
+  std::string name;
+  std::vector<std::string> signals;
+  Error why;
+};
+
 struct Database {
   std::vector<Message> messages;
+  std::vector<UnreadMessage> unread;
 };
+
+/// What a person should know of a file that was read: how many messages of it were not, and why the first was not.
+std::optional<Error> notice_of(const Database& database);
 
 const Message* find_message(const Database& database, std::string_view name);
 const Signal* find_signal(const Message& message, std::string_view name);

@@ -24,6 +24,7 @@ Expected<CanSeat> open_can_seat(const rig::Rig& rig, const std::filesystem::path
     return car_io::open_socket_can(interface, needs_fd);
   };
   CanSeat seat;
+  seat.notice = car_io::dbc::notice_of(*database);
   if (rig.car.source == rig::CarSource::can) {
     if (plan->heard.empty())
       return failure("none of its signals is a control of the car", path.string(),

@@ -17,6 +17,7 @@ struct CanSeat {
       show;                        ///< Empty: the DBC file has no instruments, or there is no bus.
   std::function<bool()> is_lost;   ///< Whether the bus was there and is not now; empty likewise.
   car_io::OpenHidDevice controls;  ///< Of a rig whose car's source is its CAN bus.
+  std::optional<Error> notice;     ///< What of the DBC file is not read, which the rig does not use.
 };
 
 /// `rig_file`: beside it lies the DBC file. A rig without CAN is a seat without. Error: the file cannot be read or means nothing. An

@@ -260,6 +260,24 @@ TEST_CASE("a multiplexed message is sent once for each selected value with that 
   CHECK(frames_of(plan_can(*database, can).value()).size() == 2);
 }
 
+TEST_CASE("a message that cannot be read refuses the rig that uses it and no other") {
+  const auto database = [](const std::string& signal) {
+    return dbc::read_dbc(
+               "BS_:\nBO_ 5 DASH: 8 X\n SG_ speed_kmh : 0|8@1+ (1,0) [0|0] \"\" X\nBO_ 6 LONG: 1785 X\n SG_ " + signal +
+                   " : 0|8@1+ (1,0) [0|0] \"\" X\n",
+               "own.dbc")
+        .value();
+  };
+  CHECK(plan_can(database("part"), {}).value().sent.size() == 1);
+  const auto named = plan_can(database("part"), {.signals = {{"LONG.part", "engine_rpm"}}});
+  REQUIRE_FALSE(named.has_value());
+  CHECK(named.error().what == "LONG has 1785 bytes, which no frame has");
+  CHECK(named.error().where == "own.dbc:4");
+  const auto called = plan_can(database("engine_rpm"), {});
+  REQUIRE_FALSE(called.has_value());
+  CHECK(called.error().what == "engine_rpm of LONG cannot be used: LONG has 1785 bytes, which no frame has");
+}
+
 TEST_CASE("multiplexed signals that nothing can select are refused") {
   const auto refusal = [](const char* selecting) {
     const auto database = dbc::read_dbc(

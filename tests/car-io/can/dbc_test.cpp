@@ -141,7 +141,6 @@ TEST_CASE("what is wrong with a DBC file is said with its line") {
       {"\nSG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n", "a SG_ stands before the first BO_"},
       {"\nBO_ 1073741824 A: 8 X\n", "1073741824 is no CAN identifier"},
       {"\nBO_ 18446744073709551615 A: 8 X\n", "18446744073709551615 is no CAN identifier"},
-      {"\nBO_ 7 A: 9 X\n", "A cannot have 9 bytes"},
       {"BO_ 7 A: 8 X\nBO_ 7 B: 8 X\n", "two messages have the identifier 7"},
       {"BO_ 7 A: 8 X\nBO_ 8 A: 8 X\n", "two messages are called A"},
       {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 -1;\n", "A is sent every -1 ms"},
@@ -155,6 +154,57 @@ TEST_CASE("what is wrong with a DBC file is said with its line") {
     CHECK(error.where == "bad.dbc:6");
   }
   CHECK(refusal("VERSION \"\"\nNS_ :\nBS_:\nBU_: A\nCM_ \"never ended;\n\n").what == "a statement has no end");
+}
+
+TEST_CASE("CAN FD is what the file's own list of frame formats calls so, by index, by name and by default") {
+  const std::string list =
+      "BO_ 7 A: 8 X\nBO_ 8 B: 8 X\nBA_DEF_ BO_ \"VFrameFormat\" ENUM "
+      "\"StandardCAN\",\"ExtendedCAN\",\"StandardCAN_FD\",\"ExtendedCAN_FD\";\n";
+  const auto is_fd = [](const std::string& text) {
+    const auto database = read_dbc(head + text, "fd.dbc");
+    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    return std::pair(database->messages[0].is_fd, database->messages[1].is_fd);
+  };
+  CHECK(is_fd(list) == std::pair(false, false));
+  CHECK(is_fd(list + "BA_ \"VFrameFormat\" BO_ 7 2;\nBA_ \"VFrameFormat\" BO_ 8 1;\n") == std::pair(true, false));
+  CHECK(is_fd(list + "BA_ \"VFrameFormat\" BO_ 8 \"ExtendedCAN_FD\";\n") == std::pair(false, true));
+  CHECK(is_fd(list + "BA_DEF_DEF_ \"VFrameFormat\" \"StandardCAN_FD\";\nBA_ \"VFrameFormat\" BO_ 7 0;\n") ==
+        std::pair(false, true));
+  CHECK(is_fd("BO_ 7 A: 8 X\nBO_ 8 B: 8 X\nBA_ \"VFrameFormat\" BO_ 7 14;\nBA_ \"VFrameFormat\" BO_ 8 2;\n") ==
+        std::pair(true, false));
+}
+
+TEST_CASE("a byte-order mark at the beginning of a file is skipped") {
+  const auto database = read_dbc(
+      "\xEF\xBB\xBF"
+      "VERSION \"\"\nBS_:\nBO_ 7 A: 8 X\n",
+      "marked.dbc");
+  REQUIRE(database.has_value());
+  CHECK(database->messages.size() == 1);
+}
+
+TEST_CASE("messages that no frame carries are read over with a notice, and the others are read") {
+  const std::string read =
+      "BO_ 7 A: 8 X\n SG_ s M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ t m3 : 8|8@1+ (1,0) [0|0] \"\" X\n";
+  const std::string long_one = "BO_ 8 LONG: 1785 X\n SG_ u : 14000|256@1+ (1,0) [0|0] \"\" X\n";
+  const std::string nested =
+      "BO_ 9 NESTED: 8 X\n SG_ v M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ w m0M : 8|8@1+ (1,0) [0|0] \"\" X\n";
+  const std::string ranges =
+      "BO_ 10 RANGES: 8 X\n SG_ x M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ y m0 : 8|8@1+ (1,0) [0|0] \"\" X\n";
+  const auto database = read_dbc(head + read + long_one + nested + ranges +
+                                     "SG_MUL_VAL_ 7 t s 3-3;\nSG_MUL_VAL_ 9 w v 0-0;\nSG_MUL_VAL_ 10 y x 0-0, 4-5;\n",
+                                 "large.dbc");
+  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE(database->messages.size() == 1);
+  CHECK(database->messages[0].signals.size() == 2);
+  REQUIRE(database->unread.size() == 3);
+  CHECK(database->unread[0].why.what == "LONG has 1785 bytes, which no frame has");
+  CHECK(database->unread[0].why.where == "large.dbc:8");
+  CHECK(database->unread[0].signals == std::vector<std::string>{"u"});
+  CHECK(database->unread[1].why.what == "w of NESTED is one of several selecting signals");
+  CHECK(database->unread[2].why.what == "y of RANGES is selected by more than one value");
+  CHECK(notice_of(*database)->what == "3 messages are not read; of the first, LONG has 1785 bytes, which no frame has");
+  CHECK_FALSE(notice_of(reference()).has_value());
 }
 
 TEST_CASE("signals on each other are found unless they are never in one frame") {
