@@ -93,8 +93,12 @@ typedef struct {
 /// As after a reset: all off, emergency stop taken for pressed until its contact has been closed for 50 ms.
 void septet_start(septet_device *device);
 
-/// An output report (ids 2 and 4), or the feature report that sets the watchdog (id 3), as it came. False: it is none, and nothing is changed.
+/// An output report (ids 2 and 4), or the feature report that sets the watchdog (id 3), as it came. False: it is none, and nothing of it is kept.
+/// One that comes after the watchdog's time does not undo the silence, also where no step has seen that.
 bool septet_take_report(septet_device *device, const uint8_t *report, uint32_t size, uint32_t now_ms);
+
+/// Whether the host has been silent for too long by now; whatever takes a report or steps asks it first.
+void septet_watch_host(septet_device *device, uint32_t now_ms);
 
 /// Debounces, watches, moves the outputs no faster than is safe: to 0 at once, to full in a second, the motor in 50 ms.
 void septet_step(septet_device *device, const septet_readings *readings, uint32_t now_ms, septet_outputs *outputs);

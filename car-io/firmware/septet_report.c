@@ -101,6 +101,8 @@ static void take_steering(septet_device *device, const uint8_t *report, uint32_t
 
 bool septet_take_report(septet_device *device, const uint8_t *report, uint32_t size, uint32_t now_ms) {
   bool taken = false;
+  // Before this report ends the silence.
+  septet_watch_host(device, now_ms);
   if ((report != (const uint8_t *)0) && (size > 0U)) {
     if ((report[0] == (uint8_t)SEPTET_ACTUATORS_ID) && (size == (uint32_t)SEPTET_ACTUATORS_BYTES)) {
       take_actuators(device, report, now_ms);

@@ -71,21 +71,26 @@ static int16_t turning(int16_t from, int16_t to, uint32_t step) {
   return (int16_t)((int32_t)from + way);
 }
 
+void septet_watch_host(septet_device *device, uint32_t now_ms) {
+  if ((device->state == SEPTET_RUNS) && ((uint32_t)(now_ms - device->fed_ms) > device->watchdog_ms)) {
+    device->state = SEPTET_HOST_SILENT;
+  }
+  if (device->has_steering && ((uint32_t)(now_ms - device->steering_ms) > device->watchdog_ms)) {
+    device->has_steering = false;
+    device->wanted_steering = 0;
+  }
+}
+
 static void watch(septet_device *device, uint32_t now_ms) {
   const bool is_stopped = (device->now.buttons & (1U << (uint32_t)SEPTET_EMERGENCY_STOP_BIT)) != 0U;
   if (is_stopped) {
     device->state = SEPTET_EMERGENCY_STOP;
   } else if (device->state == SEPTET_EMERGENCY_STOP) {
     device->state = SEPTET_NOT_ARMED;
-  } else if ((device->state == SEPTET_RUNS) && ((uint32_t)(now_ms - device->fed_ms) > device->watchdog_ms)) {
-    device->state = SEPTET_HOST_SILENT;
   } else {
     // As it was.
   }
-  if (device->has_steering && ((uint32_t)(now_ms - device->steering_ms) > device->watchdog_ms)) {
-    device->has_steering = false;
-    device->wanted_steering = 0;
-  }
+  septet_watch_host(device, now_ms);
 }
 
 void septet_step(septet_device *device, const septet_readings *readings, uint32_t now_ms, septet_outputs *outputs) {

@@ -113,6 +113,21 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a report that comes before the first step after a long silence does not undo the silence") {
+  DrivenCar car;
+  const Actuators all{.fan = 1.0, .vibration = 1.0, .vibration_hz = 30.0};
+  car.tell_for(1500, all, 0.5);
+  REQUIRE_FALSE(car.is_off());
+  car.now_ms += 10'000;  // Nobody steps.
+  car.tell(all, 0.5);
+  car.run(1);
+  CHECK(car.is_off());
+  CHECK(car.state() == SEPTET_HOST_SILENT);
+  car.tell_for(20, {});
+  car.tell_for(100, all);
+  CHECK_FALSE(car.is_off());
+}
+
 TEST_CASE("after a reset everything is off until a report at rest comes, whatever else comes") {
   SimulatedCar car;
   car.run(settled_ms);
