@@ -52,13 +52,19 @@ struct ActuatorWriter::State {
   /// All of it while somebody sets, then down to nothing.
   Actuators guarded() {
     const auto now = Clock::now();
-    const bool is_silent = now - set_at > duration(options.silent_after_s) && !is_rest(newest);
+    const bool is_silent = watch_silence(now);
     if (!is_silent && !options.sticky) guard.rearm();
-    if (guard.trip(is_silent) && options.sticky)
+    return guard.pass(newest, std::chrono::duration<double>(now - std::exchange(guarded_at, now)).count());
+  }
+
+  /// Whether nobody sets, which cuts.
+  bool watch_silence(Clock::time_point now) {
+    const bool is_silent = now - set_at > duration(options.silent_after_s) && !is_rest(newest);
+    if (guard.trip(is_silent) && options.sticky && options.tells_cut)
       problem = Error{fmt::format("fan, shaker and wheel force are cut, for the simulation was silent for {:.0f} ms",
                                   options.silent_after_s * 1000.0),
                       "the car's device", "look why; re-arm them, or pause the drive and go on"};
-    return guard.pass(newest, std::chrono::duration<double>(now - std::exchange(guarded_at, now)).count());
+    return is_silent;
   }
 
   std::optional<Error> write(const Actuators& actuators) {
@@ -144,8 +150,11 @@ ActuatorWriter::~ActuatorWriter() {
 void ActuatorWriter::set(const Actuators& actuators) {
   if (!state_) return;
   const std::lock_guard lock(state_->mutex);
+  const auto now = Clock::now();
+  // A whole program that was stopped may come here before the thread looks.
+  if (state_->options.sticky) state_->watch_silence(now);
   state_->newest = actuators;
-  state_->set_at = Clock::now();
+  state_->set_at = now;
   if (is_rest(actuators)) state_->guard.rearm();
 }
 

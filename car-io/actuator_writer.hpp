@@ -27,7 +27,8 @@ struct ActuatorWriterOptions {
   double silent_after_s = 0.2;
   double retry_s = 0.5;
   bool sticky = false;
-  double rise_s = 0.0;  ///< Of what comes back after a fault.
+  bool tells_cut = true;  ///< False: whoever asks `is_cut` says so itself.
+  double rise_s = 0.0;    ///< Of what comes back after a fault.
 };
 
 class ActuatorWriter {

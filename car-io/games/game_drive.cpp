@@ -12,11 +12,18 @@ constexpr double silent_after_s = 0.2, falls_asleep_in_s = 0.2, wakes_in_s = 1.0
 constexpr double fan_full_in_s = 1.0, vibration_full_in_s = 0.2, force_full_in_s = 0.05, dies_in_s = 0.09;
 constexpr double stop_within = 0.03;  // Of the wheel's way, before its end.
 
+bool carries(const TelemetryFormat& format, double GameTelemetry::*quantity) {
+  return std::ranges::any_of(format.fields, [&](const TelemetryField& field) { return field.quantity == quantity; });
+}
+
 double towards(double from, double to, double most) { return std::clamp(to, from - most, from + most); }
 
 }  // namespace
 
-bool GameDrive::is_told(double now_s) const { return told_s_ && now_s - *told_s_ <= silent_after_s; }
+/// A game whose speed has stopped is silent, whatever else goes on.
+std::optional<double> GameDrive::told_s() const { return speed_told_s_ ? speed_told_s_ : other_told_s_; }
+
+bool GameDrive::is_told(double now_s) const { return told_s() && now_s - *told_s() <= silent_after_s; }
 
 void GameDrive::receive(const TelemetryFormat& format, std::span<const std::byte> datagram, double now_s) {
   const auto read = decode_telemetry(format, datagram, now_);
@@ -25,11 +32,17 @@ void GameDrive::receive(const TelemetryFormat& format, std::span<const std::byte
     if (!std::exchange(has_told_refusal_, true)) messages_.push_back(describe(read.error()));
     return;
   }
-  const CarMotion felt = motion_of(*read, now_, told_s_ ? now_s - *told_s_ : 0.0);
-  bump_ = std::max(bump_, felt.bump);
-  blow_ = std::max(blow_, felt.blow);
+  const bool tells_speed = carries(format, &GameTelemetry::speed_mps);
+  const auto before = told_by_.find(format.name);
+  const bool is_first = before == told_by_.end();
+  // A jolt is between two words of one format: those of others come at any time in between.
+  const CarMotion felt =
+      motion_of(*read, is_first ? *read : before->second.telemetry, is_first ? 0.0 : now_s - before->second.at_s);
+  if (carries(format, &GameTelemetry::vertical_mps2)) bump_ = std::max(bump_, felt.bump);
+  if (tells_speed) blow_ = std::max(blow_, felt.blow);
   now_ = *read;
-  told_s_ = now_s;
+  told_by_.insert_or_assign(format.name, Told{*read, now_s});
+  (tells_speed ? speed_told_s_ : other_told_s_) = now_s;
 }
 
 void GameDrive::watch(const CarReading& reading, double dt_s) {
@@ -41,12 +54,28 @@ void GameDrive::watch(const CarReading& reading, double dt_s) {
   was_fresh_ = was_fresh_ || !reading.is_stale;
   if (guard_.trip(was_fresh_ && reading.is_stale))
     messages_.emplace_back("fan, shaker and wheel force are cut, for the car's reports have stopped");
+  const double held_before_s = rearm_held_s_;
   rearm_held_s_ = reading.switches.rearm && !reading.is_stale && !stop_is_pressed_ ? rearm_held_s_ + dt_s : 0.0;
-  if (rearm_held_s_ >= rearm_held_for_s) rearm();
+  if (held_before_s < rearm_held_for_s && rearm_held_s_ >= rearm_held_for_s) rearm();
+}
+
+void GameDrive::cut(const std::string& why) {
+  const bool rests = resting_s_ > 0.0;
+  if (!rests && guard_.trip(true))
+    messages_.push_back("fan, shaker and wheel force are cut, for " + why + "; look why, then re-arm them");
+}
+
+void GameDrive::set_bus_lost(bool is_lost) {
+  bus_is_lost_ = is_lost;
+  if (is_lost) cut("the CAN bus is lost");
 }
 
 void GameDrive::rearm() {
-  if (!guard_.is_cut || stop_is_pressed_) return;
+  if (stop_is_pressed_ || bus_is_lost_) {
+    messages_.emplace_back(stop_is_pressed_ ? "not re-armed: the emergency stop is still pressed"
+                                            : "not re-armed: the CAN bus is still lost");
+    return;
+  }
   guard_.rearm();
   resting_s_ = rests_for_s;
   messages_.emplace_back("fan, shaker and wheel force are re-armed");
@@ -75,10 +104,10 @@ Actuators GameDrive::actuate(const CarReading& reading, const ForceEffects& effe
   const double dt_s = std::clamp(stepped_s_ ? now_s - *stepped_s_ : 0.0, 0.0, 0.1);
   stepped_s_ = now_s;
   watch(reading, dt_s);
-  const bool is_silent = told_s_ && !is_told(now_s);
+  const bool is_silent = told_s() && !is_told(now_s);
   awake_ = std::clamp(awake_ + (is_silent ? -dt_s / falls_asleep_in_s : dt_s / wakes_in_s), 0.0, 1.0);
   const double left = std::exp(-dt_s / dies_in_s);
-  CarMotion motion = told_s_ ? motion_of(now_, now_, 0.0) : CarMotion{};
+  CarMotion motion = told_s() ? motion_of(now_, now_, 0.0) : CarMotion{};
   bump_ *= left, blow_ *= left;
   motion.bump = bump_, motion.blow = blow_;
   Actuators wanted = actuators_for(motion, limits_);

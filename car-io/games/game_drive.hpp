@@ -3,10 +3,12 @@
 ///
 /// Telemetry that is silent for 200 ms is a menu, or a game that has gone or hangs: fan, shaker and the game's force fade in 200 ms, and are back over a
 /// second when it goes on. A game that never told anything has its force all the same. The emergency stop, and a car whose reports stop, cut
-/// everything until the re-arm button has been held for a second. At the beginning and then a tenth of a second of rest is told, which is what arms a
-/// device (car-io/firmware), and everything rises over a second. No socket, device or clock of its own; one thread.
+/// everything until the re-arm button has been held for a second; so does whoever calls `cut`, and a lost CAN bus. At the beginning and then a tenth of a
+/// second of rest is told, which is what arms a device (car-io/firmware), and everything rises over a second. Of several formats the one that carries the
+/// speed is the game's word. No socket, device or clock of its own; one thread.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,7 +34,12 @@ class GameDrive {
   /// Nothing while no telemetry comes: then the cluster rests.
   std::optional<Instruments> instruments(double now_s) const;
 
-  /// Somebody at the console lets the actuators run again; while the emergency stop is pressed they do not.
+  /// What moves goes to 0 for this reason and waits to be re-armed; nothing new while it is cut, or rests to be armed.
+  void cut(const std::string& why);
+  /// Of the cluster: cuts when it is lost, and nobody re-arms before it is back.
+  void set_bus_lost(bool is_lost);
+  /// Somebody at the console lets the actuators run again, also a device that has cut itself off; while the emergency stop is pressed, or the
+  /// CAN bus lost, they do not.
   void rearm();
 
   std::uint64_t refused_datagrams() const { return refused_; }
@@ -40,6 +47,12 @@ class GameDrive {
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:
+  /// The last word of one format.
+  struct Told {
+    GameTelemetry telemetry;
+    double at_s = 0.0;
+  };
+  std::optional<double> told_s() const;
   bool is_told(double now_s) const;
   void watch(const CarReading& reading, double dt_s);
   double wheel_force(const CarReading& reading, const ForceEffects& effects, double now_s, double dt_s);
@@ -47,11 +60,12 @@ class GameDrive {
   rig::CarActuators limits_;
   double steering_lock_rad_;
   GameTelemetry now_;
-  double bump_ = 0.0, blow_ = 0.0;  ///< What is left of the last.
-  std::optional<double> told_s_, stepped_s_;
+  double bump_ = 0.0, blow_ = 0.0;                    ///< What is left of the last.
+  std::map<std::string, Told, std::less<>> told_by_;  ///< By the format's name.
+  std::optional<double> speed_told_s_, other_told_s_, stepped_s_;
   ActuatorGuard guard_;
   DoseLimit dose_;
-  bool was_fresh_ = false, stop_is_pressed_ = false, has_told_refusal_ = false;
+  bool was_fresh_ = false, stop_is_pressed_ = false, bus_is_lost_ = false, has_told_refusal_ = false;
   double awake_ = 1.0;  ///< 0: the telemetry has fallen silent.
   double resting_s_ = 0.1, rearm_held_s_ = 0.0, fan_ = 0.0, vibration_ = 0.0, force_ = 0.0;
   WheelPlace wheel_;

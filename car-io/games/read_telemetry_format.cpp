@@ -56,6 +56,8 @@ Expected<TelemetryFormat> read_telemetry_format(std::string_view toml, std::stri
       if (!table) continue;
       document::TableReader field(*table, name, fmt::format("telemetry.fields.{}", quantity), error);
       TelemetryField result{.quantity = member, .big_endian = big_endian};
+      if (!table->contains("byte"))
+        field.report("byte", fmt::format("{} has no byte", quantity), "say at which byte of the datagram it begins");
       result.byte = static_cast<std::size_t>(field.get_integer("byte", 0, 0, longest));
       result.kind =
           static_cast<NumberKind>(field.get_choice("type", 6, {"u8", "i8", "u16", "i16", "u32", "i32", "f32", "f64"}));

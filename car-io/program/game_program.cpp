@@ -65,7 +65,11 @@ Expected<GameSocket> open_game(const std::string& text, const std::string& liste
   const auto ip = net::parse_ip(listen, "--listen");
   if (!ip) return tl::unexpected(ip.error());
   auto socket = net::UdpSocket::open({.bind = {*ip, port}, .buffer_bytes = 1 << 18});
-  if (!socket) return tl::unexpected(socket.error());
+  if (!socket)
+    return failure(socket.error().what, "--game " + text + ", " + socket.error().where,
+                   fmt::format("give each --game a port of its own, --game {}=PORT, and set it in the game, too; "
+                               "`ss -lunp sport = :{}` names another program that has this one",
+                               text.substr(0, equals), port));
   tell_person(fmt::format("{} is heard at {}:{}", format->name, listen, port));
   return GameSocket{std::move(*format), std::move(*socket)};
 }
@@ -119,8 +123,11 @@ Expected<void> run_serve(const ServeOptions& options) {
   const double lock_rad = rig->car.calibration.steering_lock_rad;
   const auto calibration = is_joystick ? rig::CarCalibration{.steering_lock_rad = lock_rad} : rig->car.calibration;
   CarConnection car(open, {.layout = *layout, .calibration = calibration});
-  ActuatorWriter writer(
-      open, {.layout = *layout, .has_steering_force = rig->car.actuators.steering_most > 0.0, .rise_s = 1.0});
+  ActuatorWriter writer(open, {.layout = *layout,
+                               .has_steering_force = rig->car.actuators.steering_most > 0.0,
+                               .sticky = true,
+                               .tells_cut = false,
+                               .rise_s = 1.0});
   GameDrive drive(rig->car.actuators, lock_rad);
   ForceEffects effects;
   program::GoWord console;
@@ -137,6 +144,8 @@ Expected<void> run_serve(const ServeOptions& options) {
         if (!datagram) break;
         drive.receive(game.format, datagram->bytes, now_s);
       }
+    if (writer.is_cut()) drive.cut("septet-car was silent");
+    if (*instruments) drive.set_bus_lost((*instruments)->is_lost());
     writer.set(drive.actuate(reading, effects, now_s));
     if (*instruments) {
       if (const auto shown = drive.instruments(now_s)) (*instruments)->set(*shown);

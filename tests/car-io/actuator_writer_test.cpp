@@ -81,6 +81,18 @@ TEST_CASE("a sticky writer that was left alone stays at zero until what is at re
   }));
 }
 
+TEST_CASE("a sticky writer is cut by a silence also where it is set again before its thread has looked") {
+  SimulatedHidPort port;
+  port.plug();
+  ActuatorWriter writer(port.opener(), {.period_s = 600.0, .silent_after_s = 0.01, .sticky = true});
+  writer.set({.fan = 0.5, .vibration_hz = 20.0});
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));  // As a program that was stopped with all its threads.
+  writer.set({.fan = 0.5, .vibration_hz = 20.0});
+  CHECK(writer.is_cut());
+  writer.set({});
+  CHECK_FALSE(writer.is_cut());
+}
+
 TEST_CASE("a device that takes no output delays neither who sets nor who reads") {
   SimulatedHidPort port;
   port.plug();

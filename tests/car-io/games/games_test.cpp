@@ -132,6 +132,102 @@ TEST_CASE("any other format is a TOML file, whose mistakes are told by their pla
     CHECK_MESSAGE(!read_telemetry_format(wrong, "mine.toml").has_value(), wrong);
 }
 
+TEST_CASE("a field without its byte is refused with line and column") {
+  const auto read =
+      read_telemetry_format("[fields.engine_rpm]\nbyte = 4\n[fields.speed_mps]\ntype = \"f32\"\n", "mine.toml");
+  REQUIRE_FALSE(read.has_value());
+  CHECK(read.error().what == "speed_mps has no byte");
+  CHECK(read.error().where.starts_with("mine.toml:3:"));
+}
+
+TEST_CASE("braking is no blow where another format's datagrams come between those that tell the speed, and a wall is") {
+  for (const bool hits : {false, true}) {
+    CAPTURE(hits);
+    GameDrive drive({}, 7.85);
+    double most = 0.0, calm = 0.0, speed_mps = 40.0;
+    for (int ms = 0; ms < 3000; ++ms) {
+      const double now_s = 0.001 * ms;
+      if (ms % 20 == 0) drive.receive(format("outsim"), Datagram(64).put(36, 0.5f).bytes(), now_s);
+      if (ms % 20 == 2) {
+        if (ms > 1500) speed_mps = std::max(speed_mps - (hits && ms < 1600 ? 3.0 : 8.0 * 0.02), 0.0);
+        drive.receive(format("outgauge"), outgauge(static_cast<float>(speed_mps), 3000.0f), now_s);
+      }
+      const double vibration = drive.actuate(reading(), {}, now_s).vibration;
+      (ms <= 1500 ? calm : most) = std::max(ms <= 1500 ? calm : most, vibration);
+    }
+    CHECK((most > 1.2 * calm) == hits);
+  }
+}
+
+TEST_CASE("a kerb ends though the speed goes on where the format that told of it is silent") {
+  GameDrive drive({}, 7.85);
+  Actuators told;
+  const auto run = [&](int from_ms, int to_ms, float vertical_mps2) {
+    for (int ms = from_ms; ms < to_ms; ++ms) {
+      drive.receive(format("outgauge"), outgauge(25.0f, 3000.0f), 0.001 * ms);
+      if (vertical_mps2 > 0.0f)
+        drive.receive(format("outsim"), Datagram(64).put(36, vertical_mps2).bytes(), 0.001 * ms);
+      told = drive.actuate(reading(), {}, 0.001 * ms);
+    }
+  };
+  run(0, 2000, 0.1f);
+  const double calm = told.vibration;
+  run(2000, 2200, 30.0f);
+  CHECK(told.vibration > 1.2 * calm);
+  run(2200, 4200, 0.0f);
+  CHECK(told.vibration == doctest::Approx(calm));
+}
+
+TEST_CASE("a game whose speed falls silent is silent though another format goes on") {
+  GameDrive drive({.fan_full_speed_mps = 50.0, .fan_least = 0.2}, 7.85);
+  Actuators told;
+  const auto run = [&](int from_ms, int to_ms, bool tells_speed) {
+    for (int ms = from_ms; ms < to_ms; ms += 10) {
+      if (tells_speed) drive.receive(format("outgauge"), outgauge(25.0f, 3000.0f), 0.001 * ms);
+      drive.receive(format("outsim"), Datagram(64).put(36, 0.5f).bytes(), 0.001 * ms);
+      told = drive.actuate(reading(), {}, 0.001 * ms);
+    }
+  };
+  run(0, 2000, true);
+  CHECK(told.fan == doctest::Approx(0.6));
+  run(2000, 2420, false);
+  CHECK(told.fan == 0.0);
+  CHECK(told.vibration == 0.0);
+  CHECK_FALSE(drive.instruments(2.42).has_value());
+}
+
+TEST_CASE("a lost CAN bus cuts a game's fan and force with its reason, and nobody re-arms before it is back") {
+  GameDrive drive({.fan_full_speed_mps = 50.0, .fan_least = 0.2}, 7.85);
+  Actuators told;
+  double now_s = 0.0;
+  bool is_lost = false;
+  const auto run = [&](double seconds) {
+    for (const double end_s = now_s + seconds; now_s < end_s; now_s += 0.01) {
+      drive.receive(format("outgauge"), outgauge(25.0f, 3000.0f), now_s);
+      drive.set_bus_lost(is_lost);
+      told = drive.actuate(reading(), {}, now_s);
+    }
+  };
+  run(2.0);
+  CHECK(told.fan == doctest::Approx(0.6));
+  is_lost = true;
+  run(0.22);
+  CHECK(told.fan == 0.0);
+  const auto why = drive.take_messages();
+  REQUIRE(why.size() == 1);
+  CHECK(why[0].find("the CAN bus is lost") != std::string::npos);
+  drive.rearm();
+  run(1.0);
+  CHECK(told.fan == 0.0);
+  CHECK(drive.take_messages() == std::vector<std::string>{"not re-armed: the CAN bus is still lost"});
+  is_lost = false;
+  run(1.0);
+  CHECK(told.fan == 0.0);
+  drive.rearm();
+  run(2.0);
+  CHECK(told.fan == doctest::Approx(0.6));
+}
+
 TEST_CASE("fan and shaker follow a game's telemetry and rest 200 ms after its last word, with the cluster") {
   GameDrive drive({.fan_full_speed_mps = 50.0, .fan_least = 0.2}, 7.85);
   const ForceEffects none;
