@@ -1,8 +1,6 @@
 #include "logging/lesson/debrief.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,6 +17,7 @@
 #include "engine/document/markup.hpp"
 #include "engine/document/text_file.hpp"
 #include "logging/report/report_style.hpp"
+#include "logging/report/route_chart.hpp"
 
 namespace septet::logging {
 namespace {
@@ -48,40 +46,19 @@ std::vector<std::size_t> worst_tasks(const Lesson& lesson, const LessonMarks& ma
 
 /// The route from above with a number where each task went worst.
 std::string route(const LessonMarks& marks, std::span<const Sample> samples) {
-  constexpr double width = 960.0, height = 300.0, rim = 24.0;
-  if (samples.size() < 2) return "";
-  double low_x = samples[0].x_m, high_x = low_x, low_y = samples[0].y_m, high_y = low_y;
-  for (const Sample& sample : samples) {
-    low_x = std::min(low_x, sample.x_m), high_x = std::max(high_x, sample.x_m);
-    low_y = std::min(low_y, sample.y_m), high_y = std::max(high_y, sample.y_m);
-  }
-  const double scale = std::min((width - 2.0 * rim) / std::max(high_x - low_x, 1.0),
-                                (height - 2.0 * rim) / std::max(high_y - low_y, 1.0));
-  if (!std::isfinite(scale)) return "";
-  const auto at = [&](const Sample& sample) {
-    return std::array{rim + scale * (sample.x_m - low_x), height - rim - scale * (sample.y_m - low_y)};
-  };
-  std::string svg = fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\"><polyline class=\"line\" points=\"", width, height);
-  for (std::size_t i = 0; i < samples.size(); i += 5) {
-    const auto point = at(samples[i]);
-    svg += fmt::format("{:.1f},{:.1f} ", point[0], point[1]);
-  }
-  svg += "\"/>";
   std::map<double, std::string> numbers;  // Of one moment together.
   for (std::size_t i = 0; i < marks.tasks.size(); ++i)
     if (marks.tasks[i].severity != Severity::none)
       numbers[marks.tasks[i].worst_s] +=
           fmt::format("{}{}", numbers[marks.tasks[i].worst_s].empty() ? "" : ", ", i + 1);
-  for (const auto& [time_s, text] : numbers) {
-    const auto found = std::ranges::lower_bound(samples, time_s, {}, &Sample::simulated_time_s);
-    const auto point = at(found == samples.end() ? samples.back() : *found);
-    svg += fmt::format("<circle class=\"bar strong\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"/>", point[0], point[1]);
-    svg +=
-        fmt::format("<text class=\"mark-label\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", point[0], point[1] - 9.0, text);
-  }
+  std::vector<RouteMark> moments;
+  for (const auto& [time_s, text] : numbers)
+    moments.push_back({time_s, text, fmt::format("{:.1f} s: task {}", time_s, text)});
+  const std::string svg = route_svg(samples, moments, "Your way from above");
+  if (svg.empty()) return "";
   return "<figure>" + svg +
-         "</svg><figcaption>Your way from above; the numbers are the tasks, where each went "
-         "worst.</figcaption></figure>\n";
+         "<figcaption>The numbers are the tasks, where each went worst; the colour is your "
+         "speed.</figcaption></figure>\n";
 }
 
 /// What the screen ahead showed last before that moment, of the pictures that it has kept; before the first of them, that one.
@@ -114,21 +91,6 @@ std::string why(const LessonTask& task, const TaskMark& mark) {
 }
 
 }  // namespace
-
-std::vector<std::int64_t> picture_ticks_in(const std::filesystem::path& folder) {
-  std::vector<std::int64_t> ticks;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::filesystem::path name = entry->path().filename();
-    const std::string stem = name.stem().string();
-    std::int64_t tick = -1;
-    const auto [rest, mistake] = std::from_chars(stem.data(), stem.data() + stem.size(), tick);
-    if (name.extension() == ".png" && mistake == std::errc() && rest == stem.data() + stem.size() && tick >= 0)
-      ticks.push_back(tick);
-  }
-  std::ranges::sort(ticks);
-  return ticks;
-}
 
 Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
                                                    const std::string& picture_folder) {

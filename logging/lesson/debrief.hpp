@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "logging/lesson/lesson.hpp"
+#include "logging/report/drive_pictures.hpp"
 #include "logging/session_reader.hpp"
 
 namespace septet::logging {
@@ -19,9 +20,6 @@ struct DebriefPlace {
   std::vector<std::int64_t> picture_ticks;  ///< Of those that are there, ascending: about one a second.
   double ticks_per_second = 120.0;
 };
-
-/// The ticks of the pictures TICK.png in a folder, ascending; none where there is no such folder.
-std::vector<std::int64_t> picture_ticks_in(const std::filesystem::path& folder);
 
 std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::span<const Sample> samples,
                          const DebriefPlace& place);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -11,6 +12,8 @@
 #include "engine/document/markup.hpp"
 #include "engine/document/text_file.hpp"
 #include "logging/measures/order_statistics.hpp"
+#include "logging/report/drive_pages.hpp"
+#include "logging/report/lateral_histogram_chart.hpp"
 #include "logging/report/measure_list.hpp"
 #include "logging/report/report_style.hpp"
 #include "logging/statistics/compare.hpp"
@@ -79,24 +82,8 @@ LateralPositionHistogram pooled_histogram(const GroupReport& report) {
 
 /// Figure 5 of the paper, in its form.
 std::string figure_5(const LateralPositionHistogram& histogram) {
-  using Histogram = LateralPositionHistogram;
-  document::BarChart chart{
-      .title = "Relative lateral position of the car, all drives",
-      .x_label = "offset from the lane's centre, in lane widths",
-      .y_label = "% of samples",
-      .bars = {},
-      .x_low = 0.5,
-      .x_high = -0.5,
-      .x_ticks = {{0.5, "½ left line"}, {0.25, "¼"}, {0.0, "centre"}, {-0.25, "−¼"}, {-0.5, "right line −½"}},
-      .level = document::Level{25.0, "the paper's centre bar: almost 25 %"}};
-  for (std::size_t i = 0; i < Histogram::bins; ++i) {
-    const double percent = 100.0 * histogram.fraction(i);
-    chart.bars.push_back({Histogram::edge(i), Histogram::edge(i + 1), percent, i == Histogram::bins / 2,
-                          fmt::format("{:+.3f} to {:+.3f}: {} samples, {:.1f} %", Histogram::edge(i),
-                                      Histogram::edge(i + 1), histogram.counts[i], percent)});
-  }
   return framed(
-      document::to_svg(chart),
+      lateral_histogram_svg(histogram, "Relative lateral position of the car, all drives"),
       fmt::format(
           "In the form of figure 5 of Lebram, Engström and Gustavsson (SIGRAD 2006): 21 intervals across the lane, "
           "whichever lane, lane changes included, each bar over the number of all {} samples at 10 Hz. Beyond the "
@@ -327,6 +314,31 @@ std::string answers_section(const GroupReport& report) {
          "means.</p>\n";
 }
 
+/// Every drive that has a page of its own; of many, folded.
+std::string drive_links(const GroupReport& report) {
+  if (report.drive_pages.empty()) return "";
+  constexpr std::size_t many = 40;
+  std::string html = fmt::format(
+      "<h2>Drives</h2>\n<details{}><summary>{} drives, a page each</summary>\n<table><tr><th>Driver</th><th>Group</th>"
+      "<th>Pages</th></tr>\n",
+      report.drive_pages.size() <= many ? " open" : "", report.drive_pages.size());
+  for (const PooledSubject& subject : report.subjects) {
+    std::string links;
+    for (const PooledDrive& drive : subject.drives)
+      for (std::size_t i = 0; i < drive.sessions.size(); ++i) {
+        const auto page = report.drive_pages.find(drive.sessions[i]);
+        if (page == report.drive_pages.end()) continue;
+        std::string name = drive.label.empty() ? "drive" : drive.label;
+        if (drive.sessions.size() > 1) name += fmt::format(" {}", i + 1);
+        links +=
+            fmt::format("{}<a href=\"{}\">{}</a>", links.empty() ? "" : " · ", escaped(page->second), escaped(name));
+      }
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(subject.subject.participant),
+                        escaped(subject.subject.group), links);
+  }
+  return html + "</table></details>\n";
+}
+
 }  // namespace
 
 std::string to_html(const GroupReport& report) {
@@ -348,6 +360,7 @@ std::string to_html(const GroupReport& report) {
   if (unclean > 0)
     body +=
         fmt::format("<p class=\"warning\">{} drivers have a drive whose recording has no clean end.</p>\n", unclean);
+  body += drive_links(report);
   const auto histogram = pooled_histogram(report);
   if (totals.samples > 0) body += figure_5(histogram) + beside_the_paper(report, histogram);
   body += survival_section(report) + answers_section(report);
@@ -365,13 +378,16 @@ std::string to_html(const GroupReport& report) {
       "<title>{}</title>\n<style>{}svg circle {{ fill: var(--line); fill-opacity: 0.75; }} svg .s1 {{ stroke: "
       "var(--mark); }} svg circle.s1 {{ fill: var(--mark); stroke: none; }} svg .s2 {{ stroke: var(--ink); }} svg "
       "circle.s2 {{ fill: var(--ink); stroke: none; }} svg .s3, svg .s4, svg .s5 {{ stroke: var(--ink); }} svg .dashed "
-      "{{ stroke-dasharray: 7 4; }} svg .level {{ fill: var(--mark); }} h3 {{ font-size: 15px; margin: 28px 0 8px; }} "
+      "{{ stroke-dasharray: 7 4; }} h3 {{ font-size: 15px; margin: 28px 0 8px; }} "
       "table.wide {{ font-size: 13px; }} table.wide td {{ "
       "padding: 4px 10px 4px 0; }}</style></head>\n<body><main>\n{}</main></body></html>\n",
       escaped(report.title), report_style, body);
 }
 
-Expected<void> write_group_report(const GroupReport& report, const std::filesystem::path& folder) {
+Expected<void> write_group_report(GroupReport report, const std::filesystem::path& folder) {
+  auto pages = write_drive_pages(report.subjects, report.settings, folder);
+  if (!pages) return tl::unexpected(pages.error());
+  report.drive_pages = std::move(*pages);
   return document::write_text_files(
       folder, {{"report.html", to_html(report)}, {"subjects.csv", to_csv(report)}, {"subjects.json", to_json(report)}});
 }

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/core.h>
 
 #include "engine/document/chart.hpp"
 #include "engine/document/markup.hpp"
 #include "engine/document/text_file.hpp"
+#include "logging/report/event_section.hpp"
+#include "logging/report/lateral_histogram_chart.hpp"
 #include "logging/report/measure_table.hpp"
 #include "logging/report/report_style.hpp"
+#include "logging/report/route_chart.hpp"
 #include "logging/subject.hpp"
 
 namespace septet::logging {
@@ -120,7 +122,24 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   return html + "</div>\n";
 }
 
-std::string speed_chart(const ReportData& data, const DriveMeasures& measures) {
+/// Where it was driven, how fast, and where something happened.
+std::string route_chart(const ReportData& data, const std::vector<ToldEvent>& events) {
+  std::vector<RouteMark> marks;
+  for (const ToldEvent& event : events)
+    marks.push_back(
+        {event.time_s, std::string(event.row->sign), fmt::format("{:.1f} s: {}", event.time_s, event.says)});
+  const std::string svg = route_svg(data.samples, marks, "Route from above");
+  if (svg.empty()) return "";
+  std::string signs;
+  for (const EventRow& row : event_rows())
+    if (!row.sign.empty()) signs += fmt::format(", {} {}", row.sign, row.title);
+  return figure(
+      svg, fmt::format(
+               "The colour is the speed. A dot is where something was logged{}; hold the pointer over it to read what.",
+               signs));
+}
+
+std::string speed_chart(const ReportData& data, const DriveMeasures& measures, const std::vector<ToldEvent>& events) {
   document::LineChart chart;
   chart.title = "Speed";
   chart.x_label = "simulated time, s";
@@ -133,8 +152,11 @@ std::string speed_chart(const ReportData& data, const DriveMeasures& measures) {
     if (event.kind == "collision")
       chart.marks.push_back(
           {event.simulated_time_s, "✕", "collision at " + fmt::format("{:.1f} s", event.simulated_time_s)});
-  return figure(document::to_svg(chart),
-                "Speed of the driver's car along its own axis, ten samples a second. ✕ marks a collision.");
+  const document::Range time_s{data.samples.front().simulated_time_s, data.samples.back().simulated_time_s};
+  return figure(
+      document::to_svg(chart) + event_strip(events, time_s),
+      "Speed of the driver's car along its own axis, ten samples a second. ✕ marks a collision. Below it, each "
+      "event of the log at its time; the table at the end says what it was.");
 }
 
 std::string lateral_position_chart(const ReportData& data, const DriveMeasures& measures) {
@@ -172,22 +194,7 @@ std::string lateral_position_chart(const ReportData& data, const DriveMeasures& 
 std::string histogram_chart(const DriveMeasures& measures) {
   using Histogram = LateralPositionHistogram;
   const Histogram& histogram = measures.histogram;
-  // Mirrored, so that the left-hand line is at the left, as the driver sees it.
-  document::BarChart chart{
-      .title = "Lateral position within the lane",
-      .x_label = "offset from the lane's centre, in lane widths",
-      .y_label = "% of samples",
-      .bars = {},
-      .x_low = 0.5,
-      .x_high = -0.5,
-      .x_ticks = {{0.5, "½ left line"}, {0.25, "¼"}, {0.0, "centre"}, {-0.25, "−¼"}, {-0.5, "right line −½"}}};
-  for (std::size_t i = 0; i < Histogram::bins; ++i) {
-    const double percent = 100.0 * histogram.fraction(i);
-    chart.bars.push_back({Histogram::edge(i), Histogram::edge(i + 1), percent, i == Histogram::bins / 2,
-                          fmt::format("{:+.3f} to {:+.3f}: {} samples, {:.1f} %", Histogram::edge(i),
-                                      Histogram::edge(i + 1), histogram.counts[i], percent)});
-  }
-  return figure(document::to_svg(chart),
+  return figure(lateral_histogram_svg(histogram, "Lateral position within the lane"),
                 fmt::format("21 equal intervals across the lane, closed at their right-hand edge, "
                             "the centre one dark; lane changes included. Of {} samples "
                             "{:.1f} % lie in the centre interval, {} beyond the left-hand line, {} "
@@ -195,20 +202,10 @@ std::string histogram_chart(const DriveMeasures& measures) {
                             "Figure 5 of Lebram, Engström and Gustavsson (SIGRAD 2006) is of the "
                             "same kind and yet another measurement: 413 973 samples at "
                             "10 Hz of 24 people in almost 12 hours, close to 25 % of them in the "
-                            "centre interval, its edges and reference point not stated; "
+                            "centre interval (the line), its edges, its reference point and its other bars not stated; "
                             "here it is one drive, and nothing is fitted to that figure.",
                             histogram.total(), 100.0 * histogram.fraction(Histogram::bins / 2), histogram.overflow,
                             histogram.underflow, histogram.off_lane));
-}
-
-std::string event_table(const std::vector<Event>& events) {
-  std::map<std::string, int> counts;
-  for (const Event& event : events) ++counts[event.kind];
-  if (counts.empty()) return "";
-  std::string html = "<h2>Events in the log</h2>\n<table><tr><th>Kind</th><th>Count</th></tr>\n";
-  for (const auto& [kind, count] : counts)
-    html += fmt::format("<tr><td class=\"name\">{}</td><td class=\"value\">{}</td></tr>\n", escaped(kind), count);
-  return html + "</table>\n";
 }
 
 std::string answer_table(const std::vector<QuestionnaireRecord>& answers) {
@@ -251,13 +248,14 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
 
 std::string to_html(const ReportData& data) {
   const DriveMeasures measures = compute_drive_measures(data, data.settings);
+  const std::vector<ToldEvent> events = tell_events(data.events);
   std::string body = head(data, measures);
   if (data.samples.empty())
     body += "<p class=\"warning\">The session holds no samples: nothing was driven.</p>\n";
   else
-    body += speed_chart(data, measures) + lateral_position_chart(data, measures) + histogram_chart(measures) +
-            measure_table(measures, data.settings);
-  body += screen_table(data) + event_table(data.events) + answer_table(data.answers);
+    body += route_chart(data, events) + speed_chart(data, measures, events) + lateral_position_chart(data, measures) +
+            histogram_chart(measures) + measure_table(measures, data.settings);
+  body += picture_section(data.pictures) + answer_table(data.answers) + event_table(events) + screen_table(data);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">\n"
@@ -271,6 +269,7 @@ Expected<void> write_report(const SessionReader& reader, const std::filesystem::
   auto data = read_report_data(reader);
   if (!data) return tl::unexpected(data.error());
   if (!data->outcome) data->outcome = outcome;
+  data->pictures = find_drive_pictures(data->info, data->events, path.parent_path(), path.parent_path());
   return document::write_text_file(path, to_html(*data));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// report.html: one drive as a page that needs nothing beside it: charts, measures and how each of
-/// them is defined.
+/// report.html: one drive as a page: its route, time lines with events, measures and how each of them is defined, and pictures. These
+/// alone lie beside the page; all else needs nothing.
 
 #include <filesystem>
 #include <optional>
@@ -10,6 +10,7 @@
 #include "engine/core/expected.hpp"
 #include "logging/outcome.hpp"
 #include "logging/report/drive_measures.hpp"
+#include "logging/report/drive_pictures.hpp"
 #include "logging/session_reader.hpp"
 
 namespace septet::logging {
@@ -21,6 +22,7 @@ struct ReportData : DriveRecords {
   std::uint64_t missing_ticks = 0;
   std::vector<QuestionnaireRecord> answers;
   MeasureSettings settings;
+  std::vector<DrivePicture> pictures;  ///< Found by whoever knows where session and page lie.
 };
 
 Expected<ReportData> read_report_data(const SessionReader& reader);
@@ -28,7 +30,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader);
 /// The whole page.
 std::string to_html(const ReportData& data);
 
-/// `outcome`: where the file does not hold it, because it could not be closed.
+/// A page beside the session. `outcome`: where the file does not hold it, because it could not be closed.
 Expected<void> write_report(const SessionReader& reader, const std::filesystem::path& path,
                             const std::optional<DriveOutcome>& outcome = std::nullopt);
 
