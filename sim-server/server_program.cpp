@@ -171,14 +171,15 @@ Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car,
     car.driver = driver;
   };
   if (!options.driver.empty()) let_drive(options.driver);
-  auto seat = open_driver_seat(car, options.seed, model, can_controls);
+  const bool is_real_time = !options.lockstep && !options.no_screens;
+  auto seat = open_driver_seat(car, options.seed, model, can_controls, is_real_time);
   if (!seat || seat->car) return seat;
   if (car.source == rig::CarSource::automatic) progress.message("the rig's car is not plugged in: a keyboard drives");
   car.source = rig::CarSource::keyboard;
-  if (!options.lockstep && !options.no_screens) return seat;
+  if (is_real_time) return seat;
   progress.message("without a window nobody can press keys: the simulated driver drives");
   let_drive(car.driver);
-  return open_driver_seat(car, options.seed, model);
+  return open_driver_seat(car, options.seed, model, {}, is_real_time);
 }
 
 Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program::ProgressLine& progress) {

@@ -40,6 +40,7 @@ struct DriverSeat {
   std::function<bool()> bus_is_lost;  ///< Of the CAN bus of that cluster, which was there. Empty: there is none.
   std::function<bool()>
       actuators_are_cut;              ///< By what writes to them, for the drive was silent. Empty: it never does that.
+  bool is_real_time = true;           ///< Only then is silence on the wall clock a fault.
   std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
   std::optional<car_io::HeadTracker> head;  ///< Nothing: the rig has no head tracker, or nobody's head to track.
 };

@@ -92,6 +92,16 @@ TEST_CASE("a simulated driver is always ready") {
   CHECK(seated(drive, std::move(*seat))->driver_is_ready(std::nullopt, 0.0));
 }
 
+TEST_CASE("silence on the wall clock is a fault of the actuators in real time, and none where time is simulated") {
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "seven-screens");
+  for (const bool is_real_time : {true, false}) {
+    const auto seat = open_driver_seat(drive.rig.car, 1, drive.model, {}, is_real_time);
+    REQUIRE(seat.has_value());
+    CHECK(seat->actuate);
+    CHECK(static_cast<bool>(seat->actuators_are_cut) == is_real_time);
+  }
+}
+
 TEST_CASE("a seat whose device may be missing is one at the keyboard without it") {
   const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   rig::Car car = drive.rig.car;
