@@ -1,6 +1,8 @@
 #include "logging/subject.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include <fmt/core.h>
@@ -50,6 +52,9 @@ Expected<void> add_to_subject(Subject& subject, const std::string& text) {
                    fmt::format("use at most {} characters, none of them a control character", most_characters));
   for (const auto& [name, field] : fields)
     if (key == name) {
+      if (key == "order" && !value.empty() && !is_order(value))
+        return failure(fmt::format("\"{}\" is no place in an order", printable(value, 60)), "order",
+                       "give a whole number from 1 on: 1 for the driver's first drive");
       subject.*field = value;
       return {};
     }
@@ -58,6 +63,11 @@ Expected<void> add_to_subject(Subject& subject, const std::string& text) {
                    "give a column of your own as NAME=VALUE");
   subject.columns[key.substr(column_prefix.size())] = value;
   return {};
+}
+
+bool is_order(std::string_view text) {
+  return !text.empty() && text.size() <= 9 && text.front() != '0' &&
+         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 bool is_personal(const std::string& meta_key) {

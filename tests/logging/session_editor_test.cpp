@@ -49,7 +49,8 @@ TEST_CASE("what is told of who drove lies in the session and reads back") {
   CHECK(subject.order == "2");
   CHECK(subject.columns.at("age") == "secret-age");
   Subject other;
-  for (const char* wrong : {"colour=red", "column.=3", "column.x", "note=two\nlines", "note=\x1b[2J"})
+  for (const char* wrong : {"order=x", "order=0", "order=-1", "order=1.5", "order=01", "order=1 ", "colour=red",
+                            "column.=3", "column.x", "note=two\nlines", "note=\x1b[2J"})
     CHECK_FALSE_MESSAGE(add_to_subject(other, wrong).has_value(), wrong);
 }
 
