@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include <utility>
+
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
@@ -186,6 +188,10 @@ std::vector<QuestionnaireRecord> records_of(const Questionnaire& questionnaire, 
                        ""});
   }
   return records;
+}
+
+QuestionnaireRecord drop_out(double observed_s, std::string reason) {
+  return {"drive_completed", "", std::nullopt, std::nullopt, observed_s, true, std::move(reason)};
 }
 
 }  // namespace septet::logging

@@ -49,4 +49,7 @@ std::map<std::string, std::optional<double>> scores_of(const Questionnaire& ques
 std::vector<QuestionnaireRecord> records_of(const Questionnaire& questionnaire, const Answers& answers,
                                             const std::string& prefix, double observed_s);
 
+/// The row of a participant who stopped before the drive's end: a drop-out, which reports take as censored.
+QuestionnaireRecord drop_out(double observed_s, std::string reason);
+
 }  // namespace septet::logging

@@ -17,6 +17,7 @@
 
 #include "engine/core/printable.hpp"
 #include "logging/drive_end.hpp"
+#include "logging/subject.hpp"
 #include "program/child_process.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"
@@ -24,6 +25,7 @@
 #include "program/temporary_folder.hpp"
 #include "sim-server/command/list_command.hpp"
 #include "sim-server/command/past_sessions.hpp"
+#include "sim-server/command/questionnaire_answers.hpp"
 #include "sim-server/page/request_checks.hpp"
 #include "sim-server/page/start_page.hpp"
 
@@ -97,6 +99,7 @@ std::optional<std::string> no_choice(const page::Choices& choices, const page::D
   if (!choice.rig.empty() && !is_one_of(choices.rigs, choice.rig)) return "there is no such rig";
   if (!choice.driver.empty() && !is_one_of(choices.drivers, choice.driver)) return "there is no such driver";
   if (!choice.vehicle.empty() && !is_one_of(choices.vehicles, choice.vehicle)) return "there is no such vehicle";
+  if (!choice.order.empty() && !logging::is_order(choice.order)) return "the order is a whole number from 1 on";
   return std::nullopt;
 }
 
@@ -118,10 +121,11 @@ fs::path new_folder(const fs::path& out, const std::string& scenario) {
 class Operation {
  public:
   Operation(OperateOptions options, page::ListeningSocket listening, page::Choices choices,
-            program::TemporaryFolder logs)
+            std::vector<logging::Questionnaire> questionnaires, program::TemporaryFolder logs)
       : options_(std::move(options)),
         listening_(std::move(listening)),
         choices_(std::move(choices)),
+        questionnaires_(std::move(questionnaires)),
         logs_(std::move(logs)),
         past_(options_.out) {}
 
@@ -133,6 +137,7 @@ class Operation {
   Expected<void> open_page();
   void show();
   void obey(const page::OperatorWish& wish);
+  std::optional<std::string> take_answers(const page::Answer& answer);
   Expected<void> start(const page::DriveChoice& choice);
   void attend_drive();
   void end_drive(const program::ChildExit& exit);
@@ -140,6 +145,7 @@ class Operation {
   OperateOptions options_;
   page::ListeningSocket listening_;
   page::Choices choices_;
+  std::vector<logging::Questionnaire> questionnaires_;
   program::TemporaryFolder logs_;
   std::string token_ = page::random_token();
   PastSessions past_;
@@ -188,6 +194,8 @@ void Operation::obey(const page::OperatorWish& wish) {
     why_not = drive_ ? "a drive is being started already" : no_choice(choices_, begin->choice);
     if (!why_not)
       if (const auto started = start(begin->choice); !started) why_not = describe(started.error());
+  } else if (const auto* answer = std::get_if<page::Answer>(&wish.wish)) {
+    why_not = take_answers(*answer);
   } else if (drive_) {  // Cancel.
     drive_->is_cancelled = true;
     drive_->process.send_signal(SIGTERM);
@@ -196,6 +204,15 @@ void Operation::obey(const page::OperatorWish& wish) {
   }
   page_->answer(wish, why_not);
   show();
+}
+
+std::optional<std::string> Operation::take_answers(const page::Answer& answer) {
+  const auto session = std::ranges::find(past_.sessions(), answer.session, &page::PastSession::id);
+  if (session == past_.sessions().end()) return "there is no such session any more";
+  const auto folder = past_.folders()[static_cast<std::size_t>(session - past_.sessions().begin())];
+  if (auto why_not = keep_answers(questionnaires_, answer, folder / "session.sqlite")) return why_not;
+  past_.look();
+  return std::nullopt;
 }
 
 void Operation::attend_drive() {
@@ -298,6 +315,9 @@ std::string typed(const std::vector<std::string>& command) {
 Expected<int> run_operate(OperateOptions options) {
   auto choices = find_choices();
   if (!choices) return tl::unexpected(choices.error());
+  auto questionnaires = find_questionnaires();
+  if (!questionnaires) return tl::unexpected(questionnaires.error());
+  choices->questionnaires = choices_of(*questionnaires);
   if (options.out.empty()) {
     const auto data = program::data_folder();
     if (!data) return tl::unexpected(data.error());
@@ -313,7 +333,8 @@ Expected<int> run_operate(OperateOptions options) {
   auto logs = program::TemporaryFolder::make("septet");
   if (!logs) return tl::unexpected(logs.error());
   program::catch_stop_signals();
-  Operation operation(std::move(options), std::move(*listening), std::move(*choices), std::move(*logs));
+  Operation operation(std::move(options), std::move(*listening), std::move(*choices), std::move(*questionnaires),
+                      std::move(*logs));
   program::announce("operator's page: " + operation.url());
   return operation.run().map([] { return logging::finished_status; });
 }

@@ -15,6 +15,8 @@ namespace septet::server {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t most_named_answers = 20;
+
 /// A file's name without folder and ending; "unknown" where the session has none of this role.
 std::string name_of(const logging::SessionInfo& info, const std::string& role) {
   const auto file = std::ranges::find(info.files, role, &logging::SourceFile::role);
@@ -34,6 +36,13 @@ page::PastSession session_of(const logging::SessionReader& reader) {
                             .participant = printable(info.participant, 400),
                             .ended = printable(row("ended_why"), 40)};
   if (!reader.ended_cleanly()) session.ended = "killed";
+  if (const auto rows = reader.questionnaire())
+    for (const auto& answer : *rows) {
+      const std::string name = printable(answer.item.substr(0, answer.item.find('.')), 60);
+      if (answer.value && std::ranges::find(session.answered, name) == session.answered.end() &&
+          session.answered.size() < most_named_answers)
+        session.answered.push_back(name);
+    }
   const double seconds = std::strtod(row("ended_simulated_time_s").c_str(), nullptr);
   if (std::isfinite(seconds)) session.simulated_s = seconds;
   return session;

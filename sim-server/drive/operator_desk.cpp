@@ -154,7 +154,8 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
     note(wish, "operator", "rearm");
   } else if (const auto* end = std::get_if<page::End>(&wish.wish)) {
     is_ended_ = true;
-    note(wish, "operator", "end reason=" + end->reason);
+    note(wish, "operator", (end->participant_stops ? "end participant_stops=1 reason=" : "end reason=") + end->reason);
+    if (end->participant_stops && log_) log_->record_answer(logging::drop_out(drive_.state().time_s(), end->reason));
   } else if (const auto* changed = std::get_if<page::Change>(&wish.wish)) {
     return change(wish, changed->command);
   } else if (const auto* rated = std::get_if<page::Rate>(&wish.wish)) {

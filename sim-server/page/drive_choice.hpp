@@ -15,10 +15,20 @@ struct Choice {
 struct ScenarioChoice : Choice {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< Name and the scenario's own value.
 };
-/// The lists that a drive is chosen from.
+/// A questionnaire that can be answered after a drive.
+struct QuestionnaireItemChoice {
+  std::string id, text;
+  int least = 0, most = 0;
+  std::vector<std::string> labels;  ///< From least to most; may be empty.
+};
+struct QuestionnaireChoice : Choice {
+  std::vector<QuestionnaireItemChoice> items;
+};
+/// The lists that a drive is chosen from, and what can be asked after it.
 struct Choices {
   std::vector<ScenarioChoice> scenarios;
   std::vector<Choice> rigs, drivers, vehicles;
+  std::vector<QuestionnaireChoice> questionnaires;
 };
 
 /// A drive as it was chosen. Texts are printable; an empty one leaves the choice to scenario and rig.
@@ -39,6 +49,7 @@ struct PastSession {
   std::string started_utc, scenario, rig, driver, participant, ended;
   double simulated_s = 0.0;
   bool has_report = false, has_debrief = false;
+  std::vector<std::string> answered;  ///< What answers are called that it holds: "paper", "ssq-before".
 };
 
 }  // namespace septet::page

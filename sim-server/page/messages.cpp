@@ -56,6 +56,22 @@ DriveChoice choice_of(const nlohmann::json& object) {
   return choice;
 }
 
+Answer answer_of(const nlohmann::json& object) {
+  Answer answer{.session = count_member(object, "session"),
+                .questionnaire = text_member(object, "questionnaire", 200),
+                .as = text_member(object, "as", 200),
+                .answers = {}};
+  if (const auto given = object.find("answers"); given != object.end() && given->is_object())
+    for (const auto& item : given->items()) {
+      if (answer.answers.size() >= 1000) break;
+      const auto& value = item.value();
+      std::optional<int> number;
+      if (value.is_number_integer() && std::abs(value.get<double>()) < 1e9) number = value.get<int>();
+      answer.answers.emplace_back(printable(item.key(), 200), number);
+    }
+  return answer;
+}
+
 /// Rounded: a state is sent ten times a second, and nobody reads a micrometre off a map.
 Json rounded(double value, double unit) {
   if (!std::isfinite(value)) return nullptr;
@@ -142,7 +158,7 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
   else if (wish == "rearm")
     message.wish = Rearm{};
   else if (wish == "end")
-    message.wish = End{text_member(json, "reason", most_note_characters)};
+    message.wish = End{text_member(json, "reason", most_note_characters), flag("participant_stops")};
   else if (wish == "mark")
     message.wish = Mark{text_member(json, "note", most_note_characters)};
   else if (wish == "change")
@@ -156,6 +172,8 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
     message.wish = Cancel{};
   else if (wish == "look")
     message.wish = Look{count_member(json, "session"), text_member(json, "file", 40)};
+  else if (wish == "answer")
+    message.wish = answer_of(json);
   else
     return no_message("nobody knows this message");
   return message;

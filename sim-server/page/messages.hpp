@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "engine/core/expected.hpp"
 #include "sim-server/page/drive_choice.hpp"
@@ -28,6 +30,7 @@ struct Rearm {};
 struct GoOn {};  ///< Also: drive without the screens that are missing.
 struct End {
   std::string reason;
+  bool participant_stops = false;  ///< A drop-out, which counts as such: the reason is the participant's.
 };
 struct Mark {
   std::string note;
@@ -51,7 +54,14 @@ struct Look {
   std::uint64_t session = 0;
   std::string file;
 };
-using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look>;
+/// What a driver has answered after a drive of the past.
+struct Answer {
+  std::uint64_t session = 0;
+  std::string questionnaire;
+  std::string as;  ///< What its answers are called; empty: as the questionnaire is.
+  std::vector<std::pair<std::string, std::optional<int>>> answers;  ///< By item. Nothing: it was no whole number.
+};
+using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look, Answer>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Which the answer names.

@@ -38,6 +38,9 @@ constexpr std::string_view operator_js =
 constexpr std::string_view start_js =
 #include "sim-server/page/web/start.js.inc"
     ;
+constexpr std::string_view questionnaire_js =
+#include "sim-server/page/web/questionnaire.js.inc"
+    ;
 constexpr std::string_view page_js =
 #include "sim-server/page/web/page.js.inc"
     ;
@@ -57,6 +60,7 @@ std::vector<Resource> page_files() {
           {"/things.js", script, things_js},
           {"/operator.js", script, operator_js},
           {"/start.js", script, start_js},
+          {"/questionnaire.js", script, questionnaire_js},
           {"/page.js", script, page_js}};
 }
 

@@ -28,6 +28,15 @@ std::string start_hello_text(const Choices& choices, std::uint64_t browser) {
     for (const auto& [name, value] : scenario.parameters) parameters.push_back({{"name", name}, {"value", value}});
     scenarios.push_back({{"name", scenario.name}, {"about", scenario.about}, {"parameters", std::move(parameters)}});
   }
+  Json questionnaires = Json::array();
+  for (const QuestionnaireChoice& questionnaire : choices.questionnaires) {
+    Json items = Json::array();
+    for (const QuestionnaireItemChoice& item : questionnaire.items)
+      items.push_back(
+          {{"id", item.id}, {"text", item.text}, {"least", item.least}, {"most", item.most}, {"labels", item.labels}});
+    questionnaires.push_back(
+        {{"name", questionnaire.name}, {"about", questionnaire.about}, {"items", std::move(items)}});
+  }
   return words_of({{"type", "hello"},
                    {"schema", schema},
                    {"you", browser},
@@ -35,7 +44,8 @@ std::string start_hello_text(const Choices& choices, std::uint64_t browser) {
                     {{"scenarios", std::move(scenarios)},
                      {"rigs", list_of(choices.rigs)},
                      {"drivers", list_of(choices.drivers)},
-                     {"vehicles", list_of(choices.vehicles)}}}});
+                     {"vehicles", list_of(choices.vehicles)},
+                     {"questionnaires", std::move(questionnaires)}}}});
 }
 
 std::string start_state_text(const StartView& view, const std::optional<Commander>& commander, std::size_t browsers) {
@@ -51,7 +61,8 @@ std::string start_state_text(const StartView& view, const std::optional<Commande
                         {"ended", session.ended},
                         {"simulated_s", document::number(session.simulated_s)},
                         {"has_report", session.has_report},
-                        {"has_debrief", session.has_debrief}});
+                        {"has_debrief", session.has_debrief},
+                        {"answered", session.answered}});
   Json json = {{"type", "start_state"},
                {"starting", view.is_starting},
                {"command", view.command},

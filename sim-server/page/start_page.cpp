@@ -111,7 +111,8 @@ struct StartPage::Shared {
       answer(reply->why_not);
       return reply->why_not ? void() : send_state();
     }
-    if (!std::holds_alternative<Start>(message->wish) && !std::holds_alternative<Cancel>(message->wish))
+    if (!std::holds_alternative<Start>(message->wish) && !std::holds_alternative<Cancel>(message->wish) &&
+        !std::holds_alternative<Answer>(message->wish))
       return answer("no drive goes on");
     if (!wishes.put({browser, message->id, helm.commander()->name, std::move(message->wish)}))
       answer("what was asked before has not yet been done");

@@ -14,7 +14,7 @@
 
 namespace septet::page {
 
-/// Something that the one who commands wants: Start or Cancel without a drive; Pause, GoOn, Rearm, End, Mark, Rate or Change of one.
+/// Something that the one who commands wants: Start, Cancel or Answer without a drive; Pause, GoOn, Rearm, End, Mark, Rate or Change of one.
 struct OperatorWish {
   BrowserId browser = 0;
   std::uint64_t id = 0;

@@ -17,8 +17,14 @@ $('name').onchange = () => {
 };
 $('pause').onclick = () => command({ do: $('pause').textContent === 'Pause' ? 'pause' : 'go_on' });
 $('rearm').onclick = () => command({ do: 'rearm' });
-$('end').onclick = () => { $('ending').returnValue = ''; $('ending').showModal(); };
-$('ending').onclose = () => { if ($('ending').returnValue === 'yes') command({ do: 'end', reason: $('reason').value }); };
+/// `stops`: it is the participant who does, which makes the drive a drop-out.
+function offer_end(stops) {
+  $('ending').returnValue = '';
+  $('participantstops').checked = stops;
+  $('ending').showModal();
+}
+$('end').onclick = () => offer_end(false);
+$('ending').onclose = () => { if ($('ending').returnValue === 'yes') command({ do: 'end', reason: $('reason').value, participant_stops: $('participantstops').checked }); };
 $('markform').onsubmit = (event) => {
   event.preventDefault();
   command({ do: 'mark', note: $('note').value });

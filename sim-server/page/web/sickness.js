@@ -24,7 +24,7 @@ function rate(value) {
     if (!answer.ok) return log(null, `not done: ${answer.why}`, true);
     if (value < nausea) return;
     $('reason').value = `the participant felt sick (MISC ${value})`;
-    $('end').click();
+    offer_end(true);
   });
 }
 

@@ -85,6 +85,7 @@ function show_sessions() {
     cell(session.driver || 'a person');
     cell(session.simulated_s ? `${session.simulated_s.toFixed(0)} s` : '–');
     cell(session.ended.replaceAll('_', ' '));
+    cell(session.answered.join(', ') || '–');
     const files = cell('');
     for (const [file, name, is_there] of [['report.html', 'Report', session.has_report], ['debrief.html', 'Debrief', session.has_debrief]]) {
       if (!is_there) continue;
@@ -92,6 +93,14 @@ function show_sessions() {
       button.type = 'button';
       button.textContent = name;
       button.onclick = () => look(session.id, file);
+      files.append(button);
+    }
+    if (hello.choices.questionnaires.length) {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.className = 'questionnaire';
+      button.textContent = 'Questionnaire';
+      button.onclick = () => ask_driver(session);
       files.append(button);
     }
     return row;

@@ -13,6 +13,8 @@ TEST_CASE("each wish is read as it was written") {
   CHECK(!std::get<Take>(read_browser_message(R"({"id":1,"do":"take"})")->wish).by_force);
   CHECK(std::get<Mark>(read_browser_message(R"({"id":2,"do":"mark","note":"sneezed"})")->wish).note == "sneezed");
   CHECK(std::get<End>(read_browser_message(R"({"id":3,"do":"end","reason":"sick"})")->wish).reason == "sick");
+  CHECK_FALSE(std::get<End>(read_browser_message(R"({"id":3,"do":"end","reason":"sick"})")->wish).participant_stops);
+  CHECK(std::get<End>(read_browser_message(R"({"id":3,"do":"end","participant_stops":true})")->wish).participant_stops);
   CHECK(std::get<Change>(read_browser_message(R"({"id":4,"do":"change","command":"traffic vehicles=3"})")->wish)
             .command == "traffic vehicles=3");
   CHECK(std::holds_alternative<Pause>(read_browser_message(R"({"id":5,"do":"pause"})")->wish));
@@ -21,6 +23,20 @@ TEST_CASE("each wish is read as it was written") {
   CHECK(std::holds_alternative<Release>(read_browser_message(R"({"id":7,"do":"release"})")->wish));
   CHECK(read_browser_message(R"({"id":18446744073709551615,"do":"pause"})")->id ==
         std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST_CASE("answers to a questionnaire are read by item, and what is no whole number is kept as none") {
+  const auto message = read_browser_message(
+      R"({"id":8,"do":"answer","session":7,"questionnaire":"paper","as":"paper-2","answers":{"a":3,"b":-1,"c":2.5,"d":"4","e":1e300}})");
+  REQUIRE(message.has_value());
+  const auto& answer = std::get<Answer>(message->wish);
+  CHECK(answer.session == 7);
+  CHECK(answer.questionnaire == "paper");
+  CHECK(answer.as == "paper-2");
+  const std::vector<std::pair<std::string, std::optional<int>>> expected{
+      {"a", 3}, {"b", -1}, {"c", std::nullopt}, {"d", std::nullopt}, {"e", std::nullopt}};
+  CHECK(answer.answers == expected);
+  CHECK(std::get<Answer>(read_browser_message(R"({"id":8,"do":"answer","answers":[1]})")->wish).answers.empty());
 }
 
 TEST_CASE("what is no message is refused, and what is said becomes one printable line") {

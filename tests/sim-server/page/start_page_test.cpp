@@ -99,6 +99,8 @@ TEST_CASE("who does not command starts nothing, and who does hands over what was
   CHECK(hear_of(anna, "answer")["ok"] == true);
   bo.say(R"({"id":1,"do":"start","scenario":"a"})");
   CHECK(hear_of(bo, "answer")["ok"] == false);
+  bo.say(R"({"id":2,"do":"answer","session":1,"questionnaire":"paper","answers":{"fun":3}})");
+  CHECK(hear_of(bo, "answer")["ok"] == false);
   anna.say(R"({"id":2,"do":"pause"})");
   CHECK(hear_of(anna, "answer")["ok"] == false);
   anna.say(
@@ -109,6 +111,10 @@ TEST_CASE("who does not command starts nothing, and who does hands over what was
   CHECK(choice.scenario == "a");
   CHECK(choice.seed == "18446744073709551615");
   CHECK(choice.seconds.empty());  // No text.
+  anna.say(R"({"id":4,"do":"answer","session":1,"questionnaire":"paper","answers":{"fun":3}})");
+  std::vector<OperatorWish> answers;
+  while (answers.empty()) answers = waiting.page->take_wishes();
+  CHECK(std::get<Answer>(answers.front().wish).session == 1);
   CHECK(choice.parameters == std::vector<std::pair<std::string, std::string>>{{"x", "2"}});
 }
 
