@@ -27,6 +27,12 @@ struct CanFrame {
   bool operator==(const CanFrame&) const = default;
 };
 
+/// What a controller says of its bus.
+struct CanNotice {
+  Error told;           ///< For a person.
+  bool is_off = false;  ///< It has left the bus (bus-off) and sends nothing; otherwise it is there again.
+};
+
 class CanBus {
  public:
   virtual ~CanBus() = default;
@@ -34,8 +40,8 @@ class CanBus {
   virtual Expected<bool> send(const CanFrame& frame) = 0;
   /// The next frame that waits, or nothing. Never waits.
   virtual Expected<std::optional<CanFrame>> receive() = 0;
-  /// What the controller has said of the bus since the last call (bus-off, restarted), for a person.
-  virtual std::optional<Error> take_notice() = 0;
+  /// What the controller has said of the bus since the last call (bus-off, restarted); of several the last.
+  virtual std::optional<CanNotice> take_notice() = 0;
 };
 
 using OpenCanBus = std::function<Expected<std::unique_ptr<CanBus>>()>;

@@ -85,6 +85,8 @@ bool InstrumentSender::is_open(double now_s) {
 
 void InstrumentSender::lose(const Error& error, double now_s) {
   bus_.reset();
+  is_off_ = is_stuck_ = false;
+  full_since_s_.reset();
   ++counts_.lost;
   next_try_s_ = now_s + options_.retry_s;
   tell(error);
@@ -101,10 +103,16 @@ void InstrumentSender::send(std::size_t message, const Instruments& instruments,
   if (*sent) {
     ++counts_.sent;
     ++sent_of_[message];
+    // A controller that leaves the bus takes frames until its queue is full; after that one that is taken means that it is back.
+    if (full_since_s_) is_off_ = false;
+    is_stuck_ = false;
+    full_since_s_.reset();
     if (std::exchange(is_full_, false)) tell({"the instruments' frames leave again", "CAN bus", "nothing to do"});
     return;
   }
   ++counts_.dropped;
+  if (!full_since_s_) full_since_s_ = now_s;
+  is_stuck_ = now_s - *full_since_s_ >= options_.stuck_after_s;
   if (!std::exchange(is_full_, true))
     tell({"its queue is full and the instruments' frames are dropped", "CAN bus",
           "check that a cluster with power is connected, the bit rate, and both 120 ohm resistors"});
@@ -132,7 +140,11 @@ double InstrumentSender::pump(double now_s) {
       }
       if (!*received) break;
     }
-    if (auto notice = bus_ ? bus_->take_notice() : std::nullopt) tell(std::move(*notice));
+    if (auto notice = bus_ ? bus_->take_notice() : std::nullopt) {
+      is_off_ = notice->is_off;
+      if (is_off_) full_since_s_.reset();  // What was refused before says nothing of its coming back.
+      tell(std::move(notice->told));
+    }
   }
   return next_s;
 }

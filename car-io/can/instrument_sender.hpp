@@ -20,6 +20,7 @@ namespace septet::car_io {
 struct InstrumentSenderOptions {
   double silent_after_s = 0.2;
   double retry_s = 0.5;
+  double stuck_after_s = 0.25;  ///< A queue that is full for so long: nobody acknowledges.
 };
 
 class InstrumentSender {
@@ -39,8 +40,8 @@ class InstrumentSender {
                   lost = 0;  ///< Frames sent, dropped at a full queue, and times the interface was lost.
   };
   const Counts& counts() const { return counts_; }
-  /// The interface was there, and is not now.
-  bool is_lost() const { return counts_.lost > 0 && !bus_; }
+  /// Nothing reaches the cluster: the interface was there and is not now, the controller is off the bus, or the queue stays full.
+  bool is_lost() const { return (counts_.lost > 0 && !bus_) || is_off_ || is_stuck_; }
 
  private:
   void send(std::size_t message, const Instruments& instruments, double now_s);
@@ -57,7 +58,8 @@ class InstrumentSender {
   std::vector<std::uint8_t> sent_of_;         ///< Frames of each, wrapping.
   Instruments newest_;
   std::optional<double> set_at_s_;
-  bool is_full_ = false;
+  bool is_full_ = false, is_off_ = false, is_stuck_ = false;
+  std::optional<double> full_since_s_;
   Counts counts_;
   std::vector<Error> errors_;
   std::string last_reason_;

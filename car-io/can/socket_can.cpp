@@ -61,7 +61,7 @@ class SocketCan final : public CanBus {
     return std::nullopt;
   }
 
-  std::optional<Error> take_notice() override { return std::exchange(notice_, std::nullopt); }
+  std::optional<CanNotice> take_notice() override { return std::exchange(notice_, std::nullopt); }
 
  private:
   static constexpr int most_at_once = 256;
@@ -74,18 +74,20 @@ class SocketCan final : public CanBus {
   }
   void note(std::uint32_t id) {
     if ((id & CAN_ERR_BUSOFF) != 0)
-      notice_ =
+      notice_ = CanNotice{
           Error{"the controller is off the bus after too many errors", "CAN interface " + name_,
                 fmt::format("check bit rate, wiring and both 120 ohm resistors; `ip link set {} type can restart-ms "
                             "100` lets it come back by itself",
-                            name_)};
+                            name_)},
+          true};
     else if ((id & CAN_ERR_RESTARTED) != 0)
-      notice_ = Error{"the controller is on the bus again", "CAN interface " + name_, "nothing to do"};
+      notice_ = CanNotice{
+          Error{"the controller is on the bus again", "CAN interface " + name_, "nothing to do"}, false};
   }
 
   int socket_;
   std::string name_;
-  std::optional<Error> notice_;
+  std::optional<CanNotice> notice_;
 };
 
 tl::unexpected<Error> refused(const std::string& interface, const std::string& what, std::string remedy) {

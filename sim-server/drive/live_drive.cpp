@@ -139,6 +139,7 @@ std::optional<std::string> LiveDrive::rearm_actuators(const std::string& by) {
   if (!seat_.actuate && !cut_why_) return "this drive moves no actuators";
   if (stop_is_pressed_) return "the emergency stop is still pressed";
   if (is_stale_) return "the controls are still silent";
+  if (seat_.bus_is_lost && seat_.bus_is_lost()) return "the CAN bus is still lost";
   is_stopped_ = false;
   cut_why_.reset();
   guard_.rearm();
@@ -157,9 +158,7 @@ std::string LiveDrive::alarm() const {
 /// What has stopped beside the simulation since the last tick.
 void LiveDrive::watch_faults() {
   if (is_stale_) cut_actuators("the controls have stopped");
-  const bool bus_is_lost = seat_.bus_is_lost && seat_.bus_is_lost();
-  if (bus_is_lost && !std::exchange(bus_was_lost_, bus_is_lost)) cut_actuators("the CAN bus is lost");
-  bus_was_lost_ = bus_is_lost;
+  if (seat_.bus_is_lost && seat_.bus_is_lost()) cut_actuators("the CAN bus is lost");
   // It has said so itself.
   if (!cut_why_ && resting_ticks_ == 0 && seat_.actuators_are_cut && seat_.actuators_are_cut()) {
     cut_why_ = "the simulation was silent";

@@ -104,7 +104,6 @@ class LiveDrive final : public TickSource {
   bool was_fresh_ = false, is_stale_ = false;  ///< Whether the controls have ever come, and whether they have stopped.
   bool stop_is_pressed_ = false,
        is_stopped_ = false;  ///< The emergency stop now, and since it was pressed until re-armed.
-  bool bus_was_lost_ = false;
   int rearm_held_ticks_ = 0, resting_ticks_ = 0;
   std::optional<std::string> cut_why_;
   car_io::ActuatorGuard guard_;

@@ -155,16 +155,16 @@ TEST_CASE("an error frame of the controller is a notice and a request for a fram
   for (const auto& sent : {error, request, frame}) peer.send(sent);
   CHECK(await(**bus).id == 0x123);
   CHECK((*bus)->receive().value() == std::nullopt);
-  CHECK((*bus)->take_notice().value().what == "the controller is off the bus after too many errors");
+  CHECK((*bus)->take_notice().value().told.what == "the controller is off the bus after too many errors");
   error.can_id = CAN_ERR_FLAG | CAN_ERR_RESTARTED;
   peer.send(error);
-  std::optional<Error> notice;
+  std::optional<car_io::CanNotice> notice;
   CHECK(becomes_true([&] {
     CHECK((*bus)->receive().value() == std::nullopt);
     notice = (*bus)->take_notice();
     return notice.has_value();
   }));
-  CHECK(notice.value().what == "the controller is on the bus again");
+  CHECK(notice.value().told.what == "the controller is on the bus again");
 }
 
 TEST_CASE("an interface that cannot be used says why") {

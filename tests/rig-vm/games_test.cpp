@@ -189,7 +189,16 @@ TEST_CASE(
   const double hung_s = time_until([&] { return is_at_rest() && device.actuators().steering == 0.0; });
   measured("septet-car serve hung to fan, shaker and wheel at rest", 1000.0 * hung_s, "ms");
   CHECK(hung_s < 0.3);
+  // It goes on, and everything waits until the re-arm button has been held for a second.
   car.send_signal(SIGCONT);
+  CHECK(becomes_true([&] { return said().find("for septet-car was silent") != std::string::npos; }));
+  const auto moves_at_all = [&] { return !is_at_rest() || device.actuators().steering != 0.0; };
+  bool has_moved = false;
+  for (const double until_s = now_s() + 1.0; now_s() < until_s; sleep_s(0.01)) has_moved = has_moved || moves_at_all();
+  CHECK_FALSE(has_moved);
+  device.set(input, {.rearm = true});
+  CHECK(becomes_true(is_moved));
+  device.set(input);
 
   car.send_signal(SIGTERM);
   CHECK(pipeline::exit_code(car) == 0);

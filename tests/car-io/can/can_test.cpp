@@ -191,9 +191,47 @@ TEST_CASE("an interface that goes down is opened again and what is sent then is 
 TEST_CASE("a controller that leaves the bus is told") {
   SimulatedCanBus bus;
   InstrumentSender sender(bus.opener(), cluster_plan());
-  bus.notice = failure("off the bus", "test0", "check").value();
+  bus.notice = CanNotice{{"off the bus", "test0", "check"}, true};
   sender.pump(0.0);
   CHECK(sender.take_error().value().what == "off the bus");
+}
+
+TEST_CASE("a controller off the bus is a lost bus until it says that it is back, or sends again what it had refused") {
+  for (const bool says_so : {true, false}) {
+    CAPTURE(says_so);
+    SimulatedCanBus bus;
+    InstrumentSender sender(bus.opener(), cluster_plan());
+    run(sender, 0.0, 0.5, nullptr);
+    CHECK_FALSE(sender.is_lost());
+    bus.notice = CanNotice{{"off the bus", "test0", "check"}, true};
+    run(sender, 0.5, 0.6, nullptr);  // Frames go into its queue still.
+    CHECK(sender.is_lost());
+    bus.is_full = true;
+    run(sender, 0.6, 2.0, nullptr);
+    CHECK(sender.is_lost());
+    if (says_so) {
+      bus.notice = CanNotice{{"on the bus again", "test0", "nothing to do"}, false};
+      run(sender, 2.0, 2.05, nullptr);
+      CHECK(sender.is_lost());  // What had been queued waits.
+    }
+    bus.is_full = false;
+    run(sender, 2.05, 2.2, nullptr);
+    CHECK_FALSE(sender.is_lost());
+  }
+}
+
+TEST_CASE("a queue that is full for a quarter of a second is a lost bus until a frame leaves") {
+  SimulatedCanBus bus;
+  InstrumentSender sender(bus.opener(), cluster_plan());
+  run(sender, 0.0, 0.5, nullptr);
+  bus.is_full = true;
+  run(sender, 0.5, 0.7, nullptr);
+  CHECK_FALSE(sender.is_lost());  // A moment's overload.
+  run(sender, 0.7, 0.81, nullptr);
+  CHECK(sender.is_lost());
+  bus.is_full = false;
+  run(sender, 0.81, 0.85, nullptr);
+  CHECK_FALSE(sender.is_lost());
 }
 
 TEST_CASE("the rig gives other signals their quantities and constants") {
@@ -407,8 +445,15 @@ TEST_CASE("frames pass a socket in the kernel's own form and a full one drops") 
   CHECK(bus->receive().value() == classic);
   CHECK(bus->receive().value() == fd);
   CHECK(bus->receive().value() == std::nullopt);
-  CHECK(bus->take_notice().value().what == "the controller is off the bus after too many errors");
+  const auto off = bus->take_notice();
+  REQUIRE(off.has_value());
+  CHECK(off->told.what == "the controller is off the bus after too many errors");
+  CHECK(off->is_off);
   CHECK_FALSE(bus->take_notice().has_value());
+  error.can_id = CAN_ERR_FLAG | CAN_ERR_RESTARTED;
+  REQUIRE(write(ends[1], &error, sizeof error) == sizeof error);
+  CHECK(bus->receive().value() == std::nullopt);
+  CHECK_FALSE(bus->take_notice().value().is_off);
 
   bool is_full = false;
   for (int i = 0; i < 100'000 && !is_full; ++i) is_full = !bus->send(fd).value();

@@ -16,7 +16,7 @@ struct SimulatedCanBus {
   std::vector<CanFrame> sent;
   std::deque<CanFrame> waiting;
   bool is_up = true, is_full = false;
-  std::optional<Error> notice;
+  std::optional<CanNotice> notice;
   int opened = 0;
 
   OpenCanBus opener() {
@@ -42,7 +42,7 @@ struct SimulatedCanBus {
       bus.waiting.pop_front();
       return frame;
     }
-    std::optional<Error> take_notice() override { return std::exchange(bus.notice, std::nullopt); }
+    std::optional<CanNotice> take_notice() override { return std::exchange(bus.notice, std::nullopt); }
     SimulatedCanBus& bus;
   };
 };

@@ -167,11 +167,27 @@ TEST_CASE("a lost instruments' bus and sound that has stopped cut fan and shaker
   };
   seated.drive(60, true);
   seated.bus_is_lost = true;
-  falls("the CAN bus is lost");  // Lost for good, and yet the operator has decided to go on.
-  seated.bus_is_lost = false;
   seated.drive(1, true);
+  seated.bus_is_lost = false;
+  falls("the CAN bus is lost");
   seated.live->cut_actuators("the sound has stopped");
   falls("the sound has stopped");
+}
+
+TEST_CASE("while the CAN bus is lost neither the operator nor a pause brings fan and shaker back") {
+  SeatedDrive seated({});
+  seated.drive(60, true);
+  seated.bus_is_lost = true;
+  seated.drive(30, true);
+  CHECK(seated.live->rearm_actuators("operator") == "the CAN bus is still lost");
+  seated.live->stand_still();
+  seated.drive(140, true);
+  CHECK(seated.is_off());
+  CHECK(seated.live->actuators_cut() == "the CAN bus is lost");
+  seated.bus_is_lost = false;
+  CHECK_FALSE(seated.live->rearm_actuators("operator").has_value());
+  seated.drive(140, true);
+  CHECK(seated.told.fan > 0.19);
 }
 
 TEST_CASE("controls that stand still and a car that is pulled out light the cluster's lamp until they are back") {
