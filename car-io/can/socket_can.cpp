@@ -81,8 +81,8 @@ class SocketCan final : public CanBus {
                             name_)},
           true};
     else if ((id & CAN_ERR_RESTARTED) != 0)
-      notice_ = CanNotice{
-          Error{"the controller is on the bus again", "CAN interface " + name_, "nothing to do"}, false};
+      notice_ =
+          CanNotice{Error{"the controller is on the bus again", "CAN interface " + name_, "nothing to do"}, false};
   }
 
   int socket_;

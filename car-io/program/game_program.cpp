@@ -82,6 +82,7 @@ Expected<std::unique_ptr<InstrumentThread>> open_instruments(const rig::Rig& rig
   if (!text) return tl::unexpected(text.error());
   const auto database = dbc::read_dbc(*text, path.string());
   if (!database) return tl::unexpected(database.error());
+  if (const auto notice = dbc::notice_of(*database)) tell_person(describe(*notice));
   auto plan = plan_can(*database, *rig.can);
   if (!plan) return tl::unexpected(plan.error());
   if (plan->sent.empty()) return std::unique_ptr<InstrumentThread>();

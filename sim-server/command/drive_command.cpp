@@ -20,6 +20,8 @@
 #include "engine/net/keys.hpp"
 #include "engine/rig/rig.hpp"
 #include "logging/drive_end.hpp"
+#include "logging/report/report.hpp"
+#include "logging/session_reader.hpp"
 #include "program/child_process.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"
@@ -314,8 +316,14 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   }
   const fs::path session = options.out / "session.sqlite";
   std::error_code ignored;
+  if (fs::exists(options.out / "panorama.png", ignored) && fs::exists(options.out / "report.html", ignored)) {
+    // Written when the panorama was not yet there; a session that could not be closed keeps what its server knew of its end.
+    const auto reader = logging::SessionReader::open(session);
+    if (reader && reader->ended_cleanly())
+      if (auto renewed = logging::write_report(*reader, options.out / "report.html"); !renewed && done) done = renewed;
+  }
   if (fs::exists(options.out / "report.html", ignored))
-    tell(options.out / "report.html", "speed, lateral position and its histogram");
+    tell(options.out / "report.html", "route, speed, events, lateral position and its histogram, pictures");
   if (fs::exists(session, ignored))
     tell(session, fmt::format("{}{}", status == logging::failed_status ? "what was logged" : "the whole drive",
                               options.log == "samples" ? std::string(", to be measured")

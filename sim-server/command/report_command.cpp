@@ -1,5 +1,7 @@
 #include "sim-server/command/report_command.hpp"
 
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "engine/document/text_file.hpp"
@@ -22,9 +24,12 @@ Expected<int> report_group(const ReportOptions& options, const std::vector<fs::p
                               .subjects = std::move(*subjects),
                               .settings = settings};
   const fs::path folder = options.out.empty() ? fs::path("group-report") : options.out;
-  if (auto written = logging::write_group_report(report, folder); !written) return tl::unexpected(written.error());
-  program::announce(fmt::format("{}: {} drivers of {} sessions; beside it subjects.csv and subjects.json",
-                                (folder / "report.html").string(), report.subjects.size(), sessions.size()));
+  const std::size_t drivers = report.subjects.size();
+  if (auto written = logging::write_group_report(std::move(report), folder); !written)
+    return tl::unexpected(written.error());
+  program::announce(fmt::format(
+      "{}: {} drivers of {} sessions, with a link to the page of each; beside it subjects.csv and subjects.json",
+      (folder / "report.html").string(), drivers, sessions.size()));
   return 0;
 }
 
@@ -47,6 +52,8 @@ Expected<int> run_report(const ReportOptions& options) {
         auto data = logging::read_report_data(reader);
         if (!data) return tl::unexpected(data.error());
         data->settings = settings;
+        data->pictures =
+            logging::find_drive_pictures(data->info, data->events, session.parent_path(), path.parent_path());
         return document::write_text_file(path, logging::to_html(*data));
       });
   if (!written) return tl::unexpected(written.error());
