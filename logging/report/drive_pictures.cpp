@@ -30,7 +30,9 @@ std::pair<fs::path, std::vector<std::int64_t>> screen_of(const SessionInfo& info
   if (const auto file = std::ranges::find(info.files, "rig", &SourceFile::role); file != info.files.end())
     if (const auto rig = rig::read_rig(file->content, file->name)) {
       const std::string& ahead = rig::screen_ahead(*rig).name;
-      std::ranges::stable_partition(folders, [&](const fs::path& folder) { return folder.filename() == ahead; });
+      // clang 14 takes no subrange of libstdc++ 12.
+      std::stable_partition(folders.begin(), folders.end(),
+                            [&](const fs::path& folder) { return folder.filename() == ahead; });
     }
   for (const fs::path& folder : folders)
     if (auto ticks = picture_ticks_in(folder); !ticks.empty()) return {folder, std::move(ticks)};
