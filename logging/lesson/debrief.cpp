@@ -52,6 +52,7 @@ std::string route(const LessonMarks& marks, std::span<const Sample> samples) {
       numbers[marks.tasks[i].worst_s] +=
           fmt::format("{}{}", numbers[marks.tasks[i].worst_s].empty() ? "" : ", ", i + 1);
   std::vector<RouteMark> moments;
+  moments.reserve(numbers.size());
   for (const auto& [time_s, text] : numbers)
     moments.push_back({time_s, text, fmt::format("{:.1f} s: task {}", time_s, text)});
   const std::string svg = route_svg(samples, moments, "Your way from above");

@@ -125,6 +125,7 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
 /// Where it was driven, how fast, and where something happened.
 std::string route_chart(const ReportData& data, const std::vector<ToldEvent>& events) {
   std::vector<RouteMark> marks;
+  marks.reserve(events.size());
   for (const ToldEvent& event : events)
     marks.push_back(
         {event.time_s, std::string(event.row->sign), fmt::format("{:.1f} s: {}", event.time_s, event.says)});

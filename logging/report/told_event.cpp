@@ -150,6 +150,7 @@ const std::vector<EventRow>& event_rows() {
 
 std::vector<ToldEvent> tell_events(const std::vector<Event>& events) {
   std::vector<ToldEvent> told;
+  told.reserve(events.size());
   for (const Event& event : events)
     told.push_back(
         {event.simulated_time_s, &event_rows()[static_cast<std::size_t>(row_of(event.kind))], text_of(event)});
