@@ -208,11 +208,11 @@ struct Geometry::Parts {
   }
 
   /// The mesh's own hierarchy, for instances.
-  RTCScene hierarchy(Mesh& mesh, bool fades) {
-    Scene& scene = fades ? mesh.fading : mesh.scene;
+  RTCScene hierarchy(Mesh& mesh, bool is_fading) {
+    Scene& scene = is_fading ? mesh.fading : mesh.scene;
     if (scene) return scene.get();
     scene.reset(rtcNewScene(device.get()));
-    RTCGeometry geometry = triangles_of(device.get(), mesh, fades);
+    RTCGeometry geometry = triangles_of(device.get(), mesh, is_fading);
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene.get());
