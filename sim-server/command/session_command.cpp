@@ -207,15 +207,13 @@ Expected<int> run_session_stop(const StopOptions& options) {
   if (!seen_s) return tl::unexpected(seen_s.error());
   if (options.at_s && *options.at_s > *seen_s)
     return failure(fmt::format("the session ends after {:.1f} s", *seen_s), "--at", "give a time within it");
-  const auto added = logging::add_answers(
-      options.session,
-      {{"drive_completed", "", std::nullopt, std::nullopt, options.at_s.value_or(*seen_s), true, options.reason}},
-      "drive_completed");
+  const double at_s = options.at_s.value_or(*seen_s);
+  const auto added =
+      logging::add_answers(options.session, {logging::drop_out(at_s, options.reason)}, "drive_completed");
   if (!added) return tl::unexpected(added.error());
   if (auto renewed = renew_results(options.session.parent_path(), options.session); !renewed)
     return tl::unexpected(renewed.error());
-  program::announce(
-      fmt::format("{}: dropped out after {:.1f} s", options.session.string(), options.at_s.value_or(*seen_s)));
+  program::announce(fmt::format("{}: dropped out after {:.1f} s", options.session.string(), at_s));
   return 0;
 }
 
