@@ -11,13 +11,15 @@ namespace septet::raytrace {
 
 inline constexpr int most_sheets_passed = 64;  ///< Of glass, on one edge.
 
-/// More than a place is uncertain by.
-inline float margin_m(const glm::vec3& position_m) {
-  return 1e-4f + 2e-6f * std::max({std::abs(position_m.x), std::abs(position_m.y), std::abs(position_m.z)});
+/// More than a place is uncertain by, or eight are.
+template <typename Vector>
+inline auto margin_m(const Vector& position_m) {
+  return 1e-4f + 2e-6f * larger(larger(magnitude(position_m.x), magnitude(position_m.y)), magnitude(position_m.z));
 }
 
 /// Beside the surface by that.
-inline glm::vec3 beside(const glm::vec3& position_m, const glm::vec3& normal) {
+template <typename Vector>
+inline Vector beside(const Vector& position_m, const Vector& normal) {
   return position_m + normal * margin_m(position_m);
 }
 

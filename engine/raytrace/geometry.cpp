@@ -163,18 +163,22 @@ void set_ray(RTCRay& ray, const Four& begin, const Four& way, float to_m, unsign
   ray.flags = 0;
 }
 
-/// `valid`: -1 for rays whose bit is set in `which`, else 0.
-void set_rays(RTCRay8& rays, std::uint32_t which, const Packet<Ray>& from, unsigned mask, int* valid) {
-  for (std::size_t n = 0; n < packet_size; ++n) {
-    const Ray& ray = from[n];
-    valid[n] = (which >> n & 1u) != 0 ? -1 : 0;
-    rays.org_x[n] = ray.origin_m.x, rays.org_y[n] = ray.origin_m.y, rays.org_z[n] = ray.origin_m.z;
-    rays.dir_x[n] = ray.direction.x, rays.dir_y[n] = ray.direction.y, rays.dir_z[n] = ray.direction.z;
-    rays.tnear[n] = ray.from_m, rays.tfar[n] = ray.to_m;
-    rays.time[n] = ray.time;
-    rays.mask[n] = mask;
-    rays.id[n] = rays.flags[n] = 0;
-  }
+void set_rays(RTCRay8& to, const RayPacket& rays, unsigned mask) {
+  const auto put = [](float* row, Float8 numbers) { std::memcpy(row, &numbers, sizeof numbers); };
+  put(to.org_x, rays.origin_m.x), put(to.org_y, rays.origin_m.y), put(to.org_z, rays.origin_m.z);
+  put(to.dir_x, rays.direction.x), put(to.dir_y, rays.direction.y), put(to.dir_z, rays.direction.z);
+  put(to.tnear, rays.from_m), put(to.tfar, rays.to_m), put(to.time, rays.time);
+  std::fill_n(to.mask, packet_size, mask);
+  std::fill_n(to.id, packet_size, 0u);
+  std::fill_n(to.flags, packet_size, 0u);
+}
+
+template <typename Eight, typename Number>
+Eight eight_of(const Number* row) {
+  static_assert(sizeof(Eight) == packet_size * sizeof(Number));
+  Eight numbers;
+  std::memcpy(&numbers, row, sizeof numbers);
+  return numbers;
 }
 
 /// What only throws a shadow is met by rays for shadows alone: one hierarchy serves both, where Embree was built to look at masks.
@@ -197,13 +201,11 @@ struct Geometry::Parts {
   bool has_masks = false;
   bool fades = false;  ///< Some place does.
 
-  Packet<float> thresholds(const Packet<Ray>& rays) const {
+  Packet<float> thresholds(const RayPacket& rays) const {
     Packet<float> thresholds{};
     if (!fades) return thresholds;
-    for (std::size_t n = 0; n < packet_size; ++n) {
-      const glm::vec3& way = rays[n].direction;
-      thresholds[n] = threshold_of(way.x, way.y, way.z);
-    }
+    const Vec8& way = rays.direction;
+    for (std::size_t n = 0; n < packet_size; ++n) thresholds[n] = threshold_of(way.x[n], way.y[n], way.z[n]);
     return thresholds;
   }
 
@@ -334,36 +336,35 @@ float Geometry::unshadowed(Four begin, Four way, float to_m) const {
   return found.tfar < 0.0f ? 0.0f : let_through;
 }
 
-std::uint32_t Geometry::intersect(std::uint32_t which, const Packet<Ray>& rays, Packet<Hit>& hits) const {
+std::uint32_t Geometry::intersect(std::uint32_t which, const RayPacket& rays, Together together,
+                                  HitPacket& hits) const {
   const Packet<float> thresholds = parts_->thresholds(rays);
   Query query(parts_->openings, parts_->standing, thresholds.data(), nullptr);
-  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  alignas(32) Packet<int> valid;
+  query.context.flags =
+      together == Together::side_by_side ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  const Int8 valid = truths_of(which);
   RTCRayHit8 found;
-  set_rays(found.ray, which, rays, for_seeing, valid.data());
+  set_rays(found.ray, rays, for_seeing);
   std::fill_n(found.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(found.hit.instID[0], packet_size, RTC_INVALID_GEOMETRY_ID);
-  rtcIntersect8(valid.data(), parts_->seen.get(), &query.context, &found);
-  std::uint32_t met = 0;
-  for (std::size_t n = 0; n < packet_size; ++n) {
-    const unsigned instance = found.hit.instID[0][n], geometry = found.hit.geomID[n];
-    met |= std::uint32_t{geometry != RTC_INVALID_GEOMETRY_ID} << n;
-    hits[n] = {found.ray.tfar[n], instance != RTC_INVALID_GEOMETRY_ID ? instance : geometry, found.hit.primID[n],
-               found.hit.u[n], found.hit.v[n]};
-  }
-  return met & which;
+  rtcIntersect8(reinterpret_cast<const int*>(&valid), parts_->seen.get(), &query.context, &found);
+  const Bits8 none = std::bit_cast<Bits8>(eight(static_cast<std::int32_t>(RTC_INVALID_GEOMETRY_ID)));
+  const Bits8 geometry = eight_of<Bits8>(found.hit.geomID), instance = eight_of<Bits8>(found.hit.instID[0]);
+  hits = {eight_of<Float8>(found.ray.tfar), eight_of<Float8>(found.hit.u), eight_of<Float8>(found.hit.v),
+          instance != none ? instance : geometry, eight_of<Bits8>(found.hit.primID)};
+  return bits_of(geometry != none) & which;
 }
 
-void Geometry::unshadowed(std::uint32_t which, const Packet<Ray>& rays, Packet<float>& shares) const {
+Float8 Geometry::unshadowed(std::uint32_t which, const RayPacket& rays) const {
+  alignas(Float8) Packet<float> shares;
   shares.fill(1.0f);
   const Packet<float> thresholds = parts_->thresholds(rays);
   Query query(parts_->openings, parts_->standing, thresholds.data(), shares.data());
-  alignas(32) Packet<int> valid;
+  const Int8 valid = truths_of(which);
   RTCRay8 found;
-  set_rays(found, which, rays, for_shadows, valid.data());
-  rtcOccluded8(valid.data(), parts_->shadows.get(), &query.context, &found);
-  for (std::size_t n = 0; n < packet_size; ++n)
-    if (found.tfar[n] < 0.0f) shares[n] = 0.0f;
+  set_rays(found, rays, for_shadows);
+  rtcOccluded8(reinterpret_cast<const int*>(&valid), parts_->shadows.get(), &query.context, &found);
+  return eight_of<Float8>(found.tfar) < 0.0f ? Float8{} : eight_of<Float8>(shares.data());
 }
 
 }  // namespace septet::raytrace

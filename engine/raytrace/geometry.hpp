@@ -20,6 +20,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/instant/level_fade.hpp"
+#include "engine/raytrace/eight.hpp"
 #include "engine/raytrace/motion.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
@@ -38,11 +39,32 @@ struct Hit {
   float u = 0.0f, v = 0.0f;    ///< Weights of its second and third corner.
 };
 
-/// Eight rays that begin alike are traced at once, in less than half of the time that they take one by one. Which of them are asked
+/// Eight rays are traced at once, in less than half of the time that they take one by one where they begin alike. Which of them are asked
 /// for may tell in the last digit of a hit, so whoever wants the same picture again makes the same packets again.
 inline constexpr std::size_t packet_size = 8;
 template <typename Value>
 using Packet = std::array<Value, packet_size>;
+
+struct RayPacket {
+  Vec8 origin_m, direction;
+  Float8 from_m, to_m, time;
+
+  void set(std::size_t n, const Ray& ray) {
+    origin_m.set(n, ray.origin_m), direction.set(n, ray.direction);
+    from_m[n] = ray.from_m, to_m[n] = ray.to_m, time[n] = ray.time;
+  }
+  Ray operator[](std::size_t n) const { return {origin_m[n], direction[n], from_m[n], to_m[n], time[n]}; }
+};
+
+struct HitPacket {
+  Float8 distance_m, u, v;
+  Bits8 place, triangle;
+
+  Hit operator[](std::size_t n) const { return {distance_m[n], place[n], triangle[n], u[n], v[n]}; }
+};
+
+/// Whether rays of a packet lie side by side, or begin anywhere.
+enum class Together : std::uint8_t { side_by_side, anywhere };
 
 /// Where a mesh stands: a vertex at origin_m + turn · position_m.
 struct Place {
@@ -87,9 +109,9 @@ class Geometry {
   /// Share of the light that comes along the ray from its far end, which is not before its beginning.
   float unshadowed(const Ray& ray) const { return unshadowed(begin_of(ray), way_of(ray), ray.to_m); }
 
-  /// Both for those rays whose bit is set in `which`. Bits of those that met something.
-  std::uint32_t intersect(std::uint32_t which, const Packet<Ray>& rays, Packet<Hit>& hits) const;
-  void unshadowed(std::uint32_t which, const Packet<Ray>& rays, Packet<float>& shares) const;
+  /// Both for those rays whose bit is set in `which`. Bits of those that met something; of the other hits nothing is told.
+  std::uint32_t intersect(std::uint32_t which, const RayPacket& rays, Together together, HitPacket& hits) const;
+  Float8 unshadowed(std::uint32_t which, const RayPacket& rays) const;
 
  private:
   struct Parts;

@@ -1,348 +1,14 @@
 #include "engine/raytrace/path_tracer.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
-#include "engine/instant/headlight_beam.hpp"
-#include "engine/raytrace/crossing.hpp"
-#include "engine/raytrace/drawn_lights.hpp"
-#include "engine/raytrace/photon_map.hpp"
+#include "engine/raytrace/matt_paths.hpp"
+#include "engine/raytrace/path.hpp"
 
 namespace septet::raytrace {
 namespace {
-
-/// One thread's walk along one path: by turns it arrives at the end of an edge, looks at a light from there, and leaves.
-class Path {
- public:
-  Path(const World& world, const PathSettings& settings, PathStart& start)
-      : world_(world),
-        photons_(world.photons()),
-        settings_(settings),
-        random_(start.random),
-        ray_(start.ray),
-        time_(start.ray.time),
-        from_share_of_sky_(world.eye_share_of_sky()) {}
-
-  /// At what the ray has met. False: the path ends there.
-  bool arrive(bool met, Hit& hit, FirstSeen* first);
-  /// Whether a light is looked at from its first point, along `shadow`; to be told how much of it comes through.
-  bool looks() const { return looks_; }
-  const Ray& shadow() const { return shadow_; }
-  void take_light(float let_through) { take_light(shadow_, estimate_, let_through); }
-  /// From its first point to its end.
-  void go_on();
-  const glm::vec3& light() const { return light_; }
-
- private:
-  enum class Kind : std::uint8_t { sun, sky, lamp, headlight };
-
-  float chance(Kind kind) const { return chances_[static_cast<std::size_t>(kind)]; }
-  void choose_chances(const SurfacePoint& point);
-  void meet_sky(const glm::vec3& direction);
-  void meet_lamp(const Ray& ray, const SurfacePoint& point);
-  void look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer);
-  void add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
-                 float distance_m);
-  void note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point, float edge_m, FirstSeen& first) const;
-  bool meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point);
-  bool take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, float edge_m);
-  bool leave(Ray& next);
-  void take_light(const Ray& shadow, const glm::vec3& estimate, float let_through);
-
-  const World& world_;
-  const PhotonMaps* photons_;
-  const PathSettings& settings_;
-  PathRandom& random_;
-  Ray ray_;                   ///< The edge's, from the last surface that let it through.
-  SurfacePoint point_;        ///< Where it ends.
-  Ray shadow_;                ///< Of the first point.
-  glm::vec3 estimate_{0.0f};  ///< What comes along it if nothing is in its way.
-  std::uint32_t edge_ = 1;
-  bool looks_ = false;
-  bool is_clear_ = false;  ///< The point is a clear body's, and ray_ goes on from there.
-  glm::vec3 light_{0.0f}, throughput_{1.0f};
-  float time_;                      ///< While the shutter is open.
-  float from_share_of_sky_;         ///< Where the edge begins.
-  float pdf_ = 0.0f;                ///< With which the last direction was drawn; 0: it was no matter of chance.
-  glm::vec3 from_m_{0.0f};          ///< The last point that scattered.
-  LampWeights lamp_weights_;        ///< From there.
-  float headlight_sum_ = 0.0f;      ///< Of their strengths there.
-  std::array<float, 4> chances_{};  ///< With which each kind of light is looked at from there.
-  bool scattered_ = false;          ///< It has been at a surface that scatters.
-  bool looks_alone_ = false;        ///< It ends here: nothing is met by chance any more.
-  bool has_caustics_ =
-      false;  ///< At the last point that scattered the light through clear bodies is known: photons have brought it.
-  bool gathers_ = false;  ///< From a matt surface, on which what comes from another one is taken from photons there.
-};
-
-void Path::meet_sky(const glm::vec3& direction) {
-  const Sky& sky = world_.sky();
-  if (scattered_ && !sky.shines() && !sky.has_sun()) return;
-  const glm::vec3 sky_light = sky.radiance(direction), sun_light = sky.sun_radiance(direction);
-  if (pdf_ <= 0.0f) {
-    // The sun through a clear body onto a rough surface is met so seldom that it would be a spark, not a caustic.
-    if (scattered_) {
-      light_ += throughput_ * sky_light;
-      return;
-    }
-    const instant::CloudSeen cloud = world_.cloud(direction);
-    light_ +=
-        throughput_ * (glm::mix(sky_light, cloud.radiance, cloud.cover) + sun_light * (1.0f - 0.97f * cloud.cover));
-    return;
-  }
-  light_ += throughput_ * sky_light * mis_weight(pdf_, chance(Kind::sky) * sky.pdf(direction));
-  if (sun_light != glm::vec3(0.0f))
-    light_ += throughput_ * sun_light * mis_weight(pdf_, chance(Kind::sun) * sky.sun_pdf(direction));
-}
-
-void Path::meet_lamp(const Ray& ray, const SurfacePoint& point) {
-  if (point.emission == glm::vec3(0.0f)) return;
-  if (has_caustics_ && pdf_ <= 0.0f && point.lamp != no_lamp) return;
-  float weight = 1.0f;
-  if (pdf_ > 0.0f && point.lamp != no_lamp && lamp_weights_.sum() > 0.0f) {
-    const Lamp& lamp = world_.lamps()[point.lamp];
-    const glm::vec3 way = point.position_m - from_m_;
-    const float cosine = std::max(1e-6f, -glm::dot(point.flat_normal, ray.direction));
-    const float per_sr = glm::dot(way, way) / (cosine * lamp.area_m2);
-    weight = mis_weight(pdf_, chance(Kind::lamp) * lamp_weights_.chance(point.lamp) * per_sr);
-  }
-  light_ += throughput_ * point.emission * (weight * (scattered_ ? point.lights_up : 1.0f));
-}
-
-void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
-                     float distance_m) {
-  if (!(light.pdf > 0.0f) || light.radiance == glm::vec3(0.0f)) return;
-  if (!point.in_smoke && glm::dot(light.direction, point.flat_normal) <= 0.0f) return;
-  Scattering scattered = point.in_smoke ? Scattering{point.surface.diffuse * evenly_per_sr, evenly_per_sr}
-                                        : scattering(point.surface, to_viewer, light.direction);
-  if (kind == Kind::headlight && !point.in_smoke) {
-    const float cosine = std::max(glm::dot(light.direction, point.surface.normal), 1e-3f);
-    scattered.value *= instant::beam::facing(cosine) / cosine;
-    // Beads and prisms send it back to the lamp, beside which the eye is; what they light elsewhere does not count.
-    if (!scattered_)
-      scattered.value += point.retroreflection * instant::beam::returned(1.0f - glm::dot(light.direction, to_viewer));
-  }
-  if (scattered.value == glm::vec3(0.0f)) return;
-  const float pdf = light.pdf * chance(kind);
-  const bool also_by_chance = kind != Kind::headlight && !looks_alone_;
-  const float share = also_by_chance ? pdf / std::max(pdf * pdf + scattered.pdf * scattered.pdf, 1e-37f) : 1.0f / pdf;
-  const glm::vec3 estimate = throughput_ * scattered.value * light.radiance * share;
-  Ray shadow;
-  shadow.origin_m = beside(point.position_m, point.flat_normal);
-  shadow.direction = light.direction;
-  shadow.time = time_;
-  if (distance_m < std::numeric_limits<float>::infinity()) {
-    // To the very place that was drawn, from where the ray begins: beside it, a lamp seen at a grazing angle would shade itself.
-    const glm::vec3 at = point.position_m + light.direction * distance_m, way = at - shadow.origin_m;
-    const float square = glm::dot(way, way), per_m = 1.0f / std::sqrt(std::max(square, 1e-30f));
-    shadow.direction = way * per_m;
-    shadow.to_m = std::max(0.0f, square * per_m - 3.0f * margin_m(at));
-  }
-  looks_ = edge_ == 1;
-  if (!looks_) return take_light(shadow, estimate, world_.geometry().unshadowed(shadow));
-  shadow_ = shadow;
-  estimate_ = estimate;
-}
-
-void Path::take_light(const Ray& shadow, const glm::vec3& estimate, float let_through) {
-  if (let_through <= 0.0f) return;
-  const float clear = world_.smoke().empty() ? 1.0f : std::exp(-world_.smoke().optical_depth(shadow));
-  light_ += estimate * (let_through * clear);
-}
-
-/// Half by what each kind of light would give if nothing shaded it, half evenly, for something may.
-void Path::choose_chances(const SurfacePoint& point) {
-  if (world_.lamps_alone_shine()) {
-    world_.lamp_row().weigh_for_choice(point.position_m, point.flat_normal, time_, lamp_weights_);
-    chances_ = {0.0f, 0.0f, 1.0f, 0.0f};
-    return;
-  }
-  const Sky& sky = world_.sky();
-  const instant::SkyLight& light = *world_.instant().light;
-  const float seen_sky = std::max(point.share_of_sky, 0.02f);
-  world_.lamp_row().weigh(point.position_m, point.flat_normal, time_, lamp_weights_);
-  headlight_sum_ = world_.headlights().sum(point.position_m, time_);
-  chances_ = {
-      sky.has_sun()
-          ? luminance(light.light_irradiance) * seen_sky *
-                (point.in_smoke ? 1.0f : std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f))
-          : 0.0f,
-      sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_.sum(),
-      headlight_sum_};
-  float sum = 0.0f;
-  for (const float weight : chances_) sum += weight;
-  if (!(sum > 0.0f)) return;
-  int count = 0;
-  for (const float weight : chances_) count += weight > 0.01f * sum;
-  const float share = 0.5f / sum, evenly = 0.5f / static_cast<float>(count);
-  for (float& weight : chances_) weight = share * weight + (weight > 0.01f * sum ? evenly : 0.0f);
-}
-
-void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer) {
-  std::size_t n = static_cast<std::size_t>(Kind::lamp);
-  if (!world_.lamps_alone_shine()) {
-    float rest = random_.uniform();
-    n = 0;
-    while (n < chances_.size() && (rest -= chances_[n]) >= 0.0f) ++n;
-  }
-  if (n == chances_.size()) return;  // Nothing shines; or, once in millions, the chances' sum is rounded below 1.
-  const auto kind = static_cast<Kind>(n);
-  float distance_m = std::numeric_limits<float>::infinity();
-  LightSample light;
-  switch (kind) {
-    case Kind::sun:
-      light = world_.sky().sample_sun(random_.pair());
-      break;
-    case Kind::sky: {
-      const float cell = random_.uniform();
-      light = world_.sky().sample(random_.pair(), cell);
-      break;
-    }
-    case Kind::lamp:
-      light = draw_lamp(world_, lamp_weights_, point.position_m, time_, random_, distance_m);
-      break;
-    case Kind::headlight:
-      light = draw_headlight(world_, headlight_sum_, point.position_m, time_, random_, distance_m);
-      // It shines from before its lamp's glass, which would shade it.
-      distance_m = std::max(0.0f, distance_m - 0.3f);
-      break;
-  }
-  add_light(point, to_viewer, kind, light, distance_m);
-}
-
-/// Adds the light that photons have brought there. True where that is all: the path ends.
-bool Path::take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, float edge_m) {
-  const bool is_matt = !point.in_smoke && is_rough(point.surface);
-  // Near a corner the photons around lie on two walls, of which each is asked for its own: there the path goes on.
-  if (gathers_ && is_matt && edge_m > 2.0f * photons_->global.reach_m()) {
-    light_ += throughput_ * photons_->global.radiance(point, to_viewer);
-    return true;
-  }
-  gathers_ = is_matt && !photons_->global.empty();
-  has_caustics_ = !point.in_smoke && photons_->has_caustics;
-  if (has_caustics_) light_ += throughput_ * photons_->caustic.radiance(point, to_viewer);
-  return false;
-}
-
-/// Takes what flames on the edge give. True where the path turns before the edge's end: `point` is there then.
-bool Path::meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point) {
-  Ray edge = ray;
-  edge.origin_m = from_m;
-  edge.to_m = edge_m;
-  const SmokeWalk walk = world_.smoke().walk(edge, -std::log(1.0f - random_.uniform()));
-  light_ += throughput_ * walk.emitted;
-  if (!walk.scatters) return false;
-  point = {};
-  point.in_smoke = true;
-  point.surface.diffuse = walk.albedo;
-  point.position_m = from_m + ray.direction * walk.distance_m;
-  return true;
-}
-
-void Path::note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point, float edge_m, FirstSeen& first) const {
-  first.distance_m = edge_m;
-  first.normal = point.surface.normal;
-  first.albedo = point.surface.diffuse + point.surface.f0;
-  first.object = world_.object(point.place);
-  first.participant = world_.participant(point.place);
-  if (!first.asks_way) return;
-  Ray then = ray;
-  SurfacePoint there;
-  then.time = 0.0f;
-  world_.point(then, hit, there);
-  first.from_m = there.position_m;
-  then.time = 1.0f;
-  world_.point(then, hit, there);
-  first.to_m = there.position_m;
-}
-
-bool Path::arrive(bool met, Hit& hit, FirstSeen* first) {
-  const glm::vec3 edge_from_m = ray_.origin_m;
-  for (int passed = 0; met;) {
-    world_.point(ray_, hit, point_);
-    if (point_.opacity >= 1.0f || random_.uniform() < point_.opacity) break;
-    ray_.origin_m = beside(point_.position_m, -point_.flat_normal);
-    if (++passed == most_sheets_passed) break;
-    met = world_.geometry().intersect(ray_, hit);
-  }
-  float edge_m = met ? glm::length(point_.position_m - edge_from_m) : std::numeric_limits<float>::infinity();
-  if (first && met) note_first(ray_, hit, point_, edge_m, *first);
-  if (!world_.smoke().empty() && meet_smoke(edge_from_m, ray_, edge_m, point_)) {
-    met = true;
-    edge_m = glm::length(point_.position_m - edge_from_m);
-  }
-  if (const float fog = world_.fog_per_m(); fog > 0.0f && met) {
-    const float clear = std::exp(-fog * edge_m);
-    light_ +=
-        throughput_ * (1.0f - clear) * world_.fog_radiance(ray_.direction, from_share_of_sky_, point_.share_of_sky);
-    throughput_ *= clear;
-  }
-  if (!met) {
-    meet_sky(ray_.direction);
-    return false;
-  }
-  from_share_of_sky_ = point_.share_of_sky;
-  if (point_.dielectric && !point_.from_front) throughput_ *= glm::exp(-point_.absorption_per_m * edge_m);
-  meet_lamp(ray_, point_);
-  if (edge_ == settings_.longest) return false;
-  is_clear_ = point_.dielectric;
-  if (is_clear_) {
-    ray_ = enter_or_leave(point_, ray_, random_);
-    pdf_ = 0.0f;
-    return true;
-  }
-  const glm::vec3 to_viewer = -ray_.direction;
-  if (photons_ && take_photons(point_, to_viewer, edge_m)) return false;
-  choose_chances(point_);
-  // All that the last edge would add is a second estimate of the same light; late in a path, at a rough surface, it is worth less
-  // than it costs.
-  looks_alone_ =
-      edge_ > 2 && edge_ + 1 == settings_.longest && is_rough(point_.surface) && world_.all_light_can_be_drawn();
-  look_at_a_light(point_, to_viewer);
-  return true;
-}
-
-/// Along the next edge. False: the path ends.
-bool Path::leave(Ray& next) {
-  if (is_clear_) {
-    next = ray_;
-    return true;
-  }
-  if (looks_alone_) return false;
-  const glm::vec3 to_viewer = -ray_.direction;
-  const Scattered scattered =
-      point_.in_smoke ? scatter_evenly(point_.surface.diffuse, random_) : scatter(point_.surface, to_viewer, random_);
-  throughput_ *= scattered.weight;
-  if (throughput_ == glm::vec3(0.0f)) return false;
-  if (!point_.in_smoke && glm::dot(scattered.direction, point_.flat_normal) <= 0.0f) return false;
-  if (edge_ >= settings_.roulette_from) {
-    const float goes_on = std::min(0.95f, std::max({throughput_.x, throughput_.y, throughput_.z}));
-    if (random_.uniform() >= goes_on) return false;
-    throughput_ /= goes_on;
-  }
-  pdf_ = scattered.pdf;
-  scattered_ = true;
-  from_m_ = point_.position_m;
-  next = {};
-  next.time = time_;
-  next.origin_m = beside(point_.position_m, point_.flat_normal);
-  next.direction = scattered.direction;
-  return true;
-}
-
-void Path::go_on() {
-  const Geometry& geometry = world_.geometry();
-  Ray next;  // Traced before it is stored: see Geometry::Four.
-  while (leave(next)) {
-    ++edge_;
-    Hit hit;
-    const bool met = geometry.intersect(next, hit);
-    ray_ = next;
-    if (!arrive(met, hit, nullptr)) return;
-  }
-}
 
 template <std::size_t... N>
 Packet<Path> paths_of(const World& world, const PathSettings& settings, Packet<PathStart>& starts,
@@ -350,32 +16,31 @@ Packet<Path> paths_of(const World& world, const PathSettings& settings, Packet<P
   return {Path(world, settings, starts[N])...};
 }
 
-constexpr bool holds(std::uint32_t bits, std::size_t n) { return (bits >> n & 1u) != 0; }
-
 }  // namespace
 
 void trace_paths(const World& world, const PathSettings& settings, std::uint32_t begun, std::uint32_t wanted,
                  Packet<PathStart>& starts) {
   if (settings.longest == 0) return;
+  if (world.matt_faces() && !world.photons()) return trace_matt_paths(world, settings, begun, wanted, starts);
   const Geometry& geometry = world.geometry();
-  Packet<Ray> rays;
-  Packet<Hit> hits;
-  for (std::size_t n = 0; n < packet_size; ++n) rays[n] = starts[n].ray;
-  const std::uint32_t met = geometry.intersect(begun, rays, hits);
+  RayPacket rays;
+  HitPacket hits;
+  for (std::size_t n = 0; n < packet_size; ++n) rays.set(n, starts[n].ray);
+  const std::uint32_t met = geometry.intersect(begun, rays, Together::side_by_side, hits);
   Packet<Path> paths = paths_of(world, settings, starts, std::make_index_sequence<packet_size>());
   std::uint32_t go_on = 0, look = 0;
   for (std::size_t n = 0; n < packet_size; ++n) {
     if (!holds(begun, n)) continue;
     Path& path = paths[n];
-    if (!path.arrive(holds(met, n), hits[n], &starts[n].first)) continue;
+    Hit hit = hits[n];
+    if (!path.arrive(holds(met, n), hit, &starts[n].first)) continue;
     go_on |= 1u << n;
     if (!path.looks()) continue;
     look |= 1u << n;
-    rays[n] = path.shadow();
+    rays.set(n, path.shadow());
   }
   if (look) {
-    Packet<float> shares;
-    geometry.unshadowed(look, rays, shares);
+    const Float8 shares = geometry.unshadowed(look, rays);
     for (std::size_t n = 0; n < packet_size; ++n)
       if (holds(look, n)) paths[n].take_light(shares[n]);
   }

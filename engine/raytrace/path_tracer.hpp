@@ -34,8 +34,8 @@ struct PathStart {
   glm::vec3 radiance{0.0f};  ///< In the units of engine/instant.
 };
 
-/// Eight paths that begin alike, as a pixel's samples do: their first edges and first looks at a light are traced as packets, since
-/// further on they part. `begun`: bits of those that begin; a path may depend on which these are (packet_size), so they are the same
+/// Eight paths that begin alike, as a pixel's samples do: their first edges and first looks at a light are traced as packets, and all
+/// others where World::matt_faces tells it (matt_paths.hpp). `begun`: bits of those that begin; a path may depend on which these are (packet_size), so they are the same
 /// whenever it is traced. `wanted`: bits of those of them that are traced to their ends; of the others nothing is told.
 void trace_paths(const World& world, const PathSettings& settings, std::uint32_t begun, std::uint32_t wanted,
                  Packet<PathStart>& starts);

@@ -103,6 +103,7 @@ World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const i
   add_headlights(later);
   geometry_.place(places, this);
   add_lamps(places);
+  add_matt_faces();
 }
 
 World::Corners World::corners(const PlacedSurface& placed, std::uint32_t triangle) const {

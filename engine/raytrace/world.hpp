@@ -13,6 +13,7 @@
 #include "engine/raytrace/geometry.hpp"
 #include "engine/raytrace/headlights.hpp"
 #include "engine/raytrace/lamps.hpp"
+#include "engine/raytrace/matt_faces.hpp"
 #include "engine/raytrace/sky.hpp"
 #include "engine/raytrace/smoke.hpp"
 #include "engine/raytrace/surface.hpp"
@@ -90,6 +91,8 @@ class World : public Openings {
   bool all_light_can_be_drawn() const { return all_lamps_are_drawn_ && smoke_.empty() && fog_per_m() <= 0.0f; }
   /// No sky, no sun, no headlights: what is looked at is a lamp.
   bool lamps_alone_shine() const { return lamps_alone_shine_; }
+  /// For eight paths at once; null where they are not traced so: something else than still lamps of one colour each shines, or there is smoke or fog.
+  const MattFaces* matt_faces() const { return matt_faces_ ? &*matt_faces_ : nullptr; }
   const HeadlightRow& headlights() const { return headlights_; }
   /// A sphere around each clear body, wherever it is while the shutter is open.
   struct ClearBodySphere {
@@ -155,6 +158,8 @@ class World : public Openings {
   void add_soups(std::vector<Place>& places, const instant::Instant* later, std::span<const ClearBody> bodies);
   void add_lamps(const std::vector<Place>& places);
   void add_lamps(std::uint32_t place, const scene::MeshPart& part);
+  void add_matt_faces();
+  Face matt_face(const PlacedSurface& placed, std::uint32_t triangle) const;
   Corners corners(const PlacedSurface& placed, std::uint32_t triangle) const;
   const scene::SurfaceMaterial& material_of(const PlacedSurface& placed, std::uint32_t triangle) const;
   /// Place in the material's image: of several pictures in it, that of the participant.
@@ -185,6 +190,7 @@ class World : public Openings {
   HeadlightRow headlights_;
   std::vector<Lamp> lamps_;
   LampRow lamp_row_;
+  std::optional<MattFaces> matt_faces_;
   const PhotonMaps* photons_ = nullptr;
   bool all_lamps_are_drawn_ = true, lamps_alone_shine_ = false;
   scene::SurfaceMaterial no_material_;

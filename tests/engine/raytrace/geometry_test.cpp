@@ -68,32 +68,35 @@ TEST_CASE("rays in a packet meet and see what each meets and sees alone, through
   geometry->place(places, &sieve);
   for (const std::uint32_t which : {0xffu, 0x5au, 0x01u}) {
     CAPTURE(which);
-    Packet<Ray> rays;
-    for (std::size_t n = 0; n < packet_size; ++n) {
-      const float side = static_cast<float>(n);
-      rays[n].origin_m = {0.1f, 0.05f, -2.0f};
-      rays[n].direction = glm::normalize(glm::vec3(0.13f * side - 0.4f, 0.3f - 0.07f * side, 1.0f));
-      rays[n].time = side / 8.0f;
-      if (n == 6) rays[n].to_m = 2.5f;
-    }
-    Packet<Hit> hits;
-    Packet<float> shares;
-    const std::uint32_t met = geometry->intersect(which, rays, hits);
-    geometry->unshadowed(which, rays, shares);
-    for (std::size_t n = 0; n < packet_size; ++n) {
-      CAPTURE(n);
-      const bool asked = (which >> n & 1u) != 0;
-      Hit alone;
-      const bool meets = geometry->intersect(rays[n], alone);
-      CHECK(((met >> n & 1u) != 0) == (asked && meets));
-      if (!asked) continue;
-      CHECK(shares[n] == doctest::Approx(geometry->unshadowed(rays[n])));
-      if (!meets) continue;
-      CHECK(hits[n].place == alone.place);
-      CHECK(hits[n].triangle == alone.triangle);
-      CHECK(hits[n].distance_m == doctest::Approx(alone.distance_m));
-      CHECK(hits[n].u == doctest::Approx(alone.u));
-      CHECK(hits[n].v == doctest::Approx(alone.v));
+    for (const Together together : {Together::side_by_side, Together::anywhere}) {
+      RayPacket rays;
+      for (std::size_t n = 0; n < packet_size; ++n) {
+        const float side = static_cast<float>(n);
+        Ray ray;
+        ray.origin_m = {0.1f, 0.05f, -2.0f};
+        ray.direction = glm::normalize(glm::vec3(0.13f * side - 0.4f, 0.3f - 0.07f * side, 1.0f));
+        ray.time = side / 8.0f;
+        if (n == 6) ray.to_m = 2.5f;
+        rays.set(n, ray);
+      }
+      HitPacket hits;
+      const std::uint32_t met = geometry->intersect(which, rays, together, hits);
+      const Float8 shares = geometry->unshadowed(which, rays);
+      for (std::size_t n = 0; n < packet_size; ++n) {
+        CAPTURE(n);
+        const bool asked = (which >> n & 1u) != 0;
+        Hit alone;
+        const bool meets = geometry->intersect(rays[n], alone);
+        CHECK(((met >> n & 1u) != 0) == (asked && meets));
+        if (!asked) continue;
+        CHECK(shares[n] == doctest::Approx(geometry->unshadowed(rays[n])));
+        if (!meets) continue;
+        CHECK(hits[n].place == alone.place);
+        CHECK(hits[n].triangle == alone.triangle);
+        CHECK(hits[n].distance_m == doctest::Approx(alone.distance_m));
+        CHECK(hits[n].u == doctest::Approx(alone.u));
+        CHECK(hits[n].v == doctest::Approx(alone.v));
+      }
     }
   }
 }

@@ -52,6 +52,15 @@ inline scene::ResolvedScene ball_scene(const scene::SurfaceMaterial& material, i
   return scene;
 }
 
+/// The same to the eye, with a white image on what is lit: no surface is a matt colour alone, and each path goes by itself.
+inline scene::ResolvedScene each_alone(scene::ResolvedScene scene) {
+  for (scene::SurfaceMaterial& material : scene.materials)
+    if (material.emission == glm::vec3(0.0f))
+      material.base_color_image = static_cast<std::int32_t>(scene.images.size());
+  scene.images.push_back({.width = 1, .height = 1, .rgba = {255, 255, 255, 255}});
+  return scene;
+}
+
 /// As large as the first view, on all cores, with the photons that the settings ask for.
 inline TracedPicture traced(const scene::ResolvedScene& scene, const instant::Instant& instant,
                             const TraceSettings& settings, std::vector<ClearBody> bodies = {}) {
