@@ -1,5 +1,6 @@
 #include "engine/render/view_drawing.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 
@@ -10,8 +11,12 @@ ViewBindings view_bindings(const RendererState& state) {
 }
 
 SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool lit_by_lamps) {
-  return {instant.environment.road_wetness > 0.0, lit_by_headlights, lit_by_lamps, instant.environment.snow_cover > 0.0,
-          !instant.soot.cover.empty()};
+  return {instant.environment.road_wetness > 0.0,
+          lit_by_headlights,
+          lit_by_lamps,
+          instant.environment.snow_cover > 0.0,
+          !instant.soot.cover.empty(),
+          std::ranges::any_of(instant.headlights, [](const Headlight& light) { return light.main_beam > 0.0f; })};
 }
 
 namespace {

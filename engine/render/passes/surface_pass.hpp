@@ -22,9 +22,14 @@ struct SurfaceLight {
   bool headlights = false, standing_lamps = false;  ///< Light what they reach.
   bool snowy = false;
   bool sooty = false;           ///< FrameInput::soot is bound.
+  bool main_beams = false;      ///< Some headlights have theirs on.
   bool mirror_of_road = false;  ///< Drawn as what a wet road mirrors: with an alpha of its own.
 
-  std::uint32_t lamps() const { return std::uint32_t{headlights} | std::uint32_t{standing_lamps} << 1; }
+  /// As in shaders/surface.frag.
+  std::uint32_t lamps() const {
+    return std::uint32_t{headlights} | std::uint32_t{standing_lamps} << 1 |
+           std::uint32_t{headlights && main_beams} << 2;
+  }
 };
 
 /// Draws the parts of one kind, in the list's order (blended: in reverse, so farthest first).

@@ -13,13 +13,15 @@ layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along
 layout(constant_id = 1) const uint cut = 0;       // Alpha cuts holes, both sides are drawn: 1 by coverage, 2 by pixels.
 layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky: 1 by its own layer, 2 by a clear coat, 3 by both.
 layout(constant_id = 3) const uint blended = 0;
-layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 standing lamps, 3 both.
+layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 standing lamps, 3 both; 5 and 7: some headlights' main beams, too.
 layout(constant_id = 5) const uint snowy = 0;
 layout(constant_id = 6) const uint sooty = 0;
 layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels; drawn wider than it is where it is thin.
 layout(constant_id = 8) const uint road = 0;            // Gets wet; wheels run on it.
 layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn as what a wet road mirrors.
 layout(constant_id = 10) const uint fading = 0;         // Some pixels show another level of detail.
+
+layout(constant_id = 11) const uint retroreflective = 0;
 
 const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of what surfaces mirror in tunnels.
 
@@ -82,11 +84,13 @@ vec4 headlight(vec4 position, vec4 direction, vec3 n) {
   vec3 to_surface = relative - position.xyz;
   float square = dot(to_surface, to_surface);
   vec3 ray = to_surface * inversesqrt(square);
-  float light = position.w * beam_share(direction.xyz, ray, direction.w) / (square + 1.0);
+  float light = position.w * beam_share(direction.xyz, ray, (lamps & 4) != 0 ? direction.w : 0.0) / (square + 1.0);
   // Rough asphalt sends more light back than a matt surface would at so low an angle.
   float facing = max(0.0, -dot(n, ray)) * 0.7 + 0.3;
+  vec3 lit = vec3(1.0, 0.93, 0.80) * facing;
+  if (retroreflective == 0) return vec4(light * lit, 0.0);
   float back = 1.0 - dot(ray, normalize(relative));  // Half the square of the angle between lamp and eye.
-  return light * vec4(vec3(1.0, 0.93, 0.80) * facing, 1.0 / (1.0 + back * 26000.0));
+  return light * vec4(lit, 1.0 / (1.0 + back * 26000.0));
 }
 
 // Irradiance from headlights, and in w what of the lamps beside the eye comes back to it from retroreflectors, per unit of retroreflection: as lx.
@@ -188,7 +192,8 @@ void main() {
     irradiance += beams.rgb;
     radiance *= irradiance;
     // Water over beads mirrors the light away.
-    radiance += base.rgb * min(material.light.y * beams.w * (stripe != 0 ? 1.0 - 0.8 * wet : 1.0), 2.0 * view.light_irradiance.w);
+    if (retroreflective != 0)
+      radiance += base.rgb * min(material.light.y * beams.w * (stripe != 0 ? 1.0 - 0.8 * wet : 1.0), 2.0 * view.light_irradiance.w);
   } else {
     radiance *= irradiance;
   }
