@@ -208,9 +208,12 @@ void draw_frame(RendererState& state, const Instant& instant) {
   state.exposure = instant.exposure;
   const bool new_lamps = renew_lamps(state, world_eye(instant.views.front()));
   FrameTargets& targets = state.targets;
-  Frame frame{state,   context,
-              instant, prepare_frame(context, state.scene, instant, state.lamps, targets.width, targets.height),
-              {},      {}};
+  const SeenFrame seen = seen_frame(instant, state.scene.revision.value_or(0));
+  const glm::vec2 offset_px = state.temporal_pass.present() ? begin_frame(state.temporal_pass, seen) : glm::vec2(0.0f);
+  Frame frame{
+      state,   context,
+      instant, prepare_frame(context, state.scene, instant, state.lamps, targets.width, targets.height, offset_px),
+      {},      {}};
   const bool new_text = lay_out(*state.overlay_pass, instant.overlay);
   prepare_rare_targets(state, context, instant, frame.prepared);
 
@@ -224,6 +227,9 @@ void draw_frame(RendererState& state, const Instant& instant) {
   frame.graph.add_pass("views",
                        {frame.view_reads, {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
                        [&frame] { draw_views(frame.state, frame.context, frame.prepared, frame.instant); });
+  if (state.temporal_pass.present())
+    add_temporal_passes(frame.graph, state.temporal_pass, context, targets, radiance, depth, seen,
+                        instant.exposure.scale());
   if (state.bloom_pass.present()) add_bloom_passes(frame.graph, state.bloom_pass, context, radiance, targets.radiance);
   add_picture(frame, radiance, picture);
   add_overlay(frame, picture, new_text);

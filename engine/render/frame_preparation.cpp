@@ -20,7 +20,7 @@ namespace {
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
                           const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
                           std::span<const SmokePuff> smoke, const LampField& lamps, const DetailOf& detail = {},
-                          const RoadMirror& mirror = {}) {
+                          const RoadMirror& mirror = {}, const glm::vec2& offset_px = glm::vec2(0.0f)) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -36,7 +36,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.draws = prepare_draws(
       context, scene, instant.parts, dynamic, eye_m, is_seen,
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; }, detail, &volume);
-  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, mirror);
+  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, mirror, offset_px);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.lit_by_lamps = lamps.shine(instant.light->night);
   prepared.mirrored_by_road = mirror.present;
@@ -124,7 +124,8 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
 }  // namespace
 
 PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant,
-                            const LampField& lamps, std::uint32_t width, std::uint32_t height) {
+                            const LampField& lamps, std::uint32_t width, std::uint32_t height,
+                            const glm::vec2& offset_px) {
   const Vec3 eye_m = world_eye(instant.views.front());
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant);
   const std::vector<SmokePuff> smoke = merged_puffs(instant.smoke, eye_m);
@@ -134,7 +135,7 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
     frame.road_mirror = prepare_road_mirror(context, scene, instant, frame.shadows, dynamic, lamps, width, height);
   for (const FrameView& view : instant.views)
     frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps, {},
-                                       {frame.road_mirror && frame.views.empty(), width, height}));
+                                       {frame.road_mirror && frame.views.empty(), width, height}, offset_px));
   for (const MirrorGlass& mirror : instant.mirrors)
     frame.mirror_views.push_back(prepare_view(context, scene, instant, mirror.picture, frame.shadows, dynamic, smoke,
                                               lamps, mirror_detail(mirror.picture)));

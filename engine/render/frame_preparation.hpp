@@ -49,8 +49,9 @@ struct PreparedFrame {
   std::uint32_t surroundings() const { return static_cast<std::uint32_t>(around.size() / 6); }
 };
 
-/// For a target of this size; `lamps` are those around the first view's eye.
+/// For a target of this size; `lamps` are those around the first view's eye. `offset_px`: as view_uniforms has it.
 PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant,
-                            const LampField& lamps, std::uint32_t width, std::uint32_t height);
+                            const LampField& lamps, std::uint32_t width, std::uint32_t height,
+                            const glm::vec2& offset_px);
 
 }  // namespace septet::render

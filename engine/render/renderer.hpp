@@ -34,6 +34,7 @@ enum class Antialiasing : std::uint8_t {
   none,
   smoothing,     ///< After drawing, from the picture alone.
   multisampled,  ///< Four samples a pixel.
+  temporal,  ///< What stands still from the frames before, too (passes/temporal_pass.hpp); the rest as by smoothing.
 };
 
 /// Light that the eye scatters around what is bright (passes/bloom_pass.hpp).

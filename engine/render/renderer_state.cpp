@@ -28,7 +28,8 @@ void create_state(RendererState& state, const RendererOptions& wanted) {
     antialiasing = software ? Antialiasing::smoothing : Antialiasing::multisampled;
   const bool multisampled = antialiasing == Antialiasing::multisampled && (samples & VK_SAMPLE_COUNT_4_BIT);
   state.formats.samples = multisampled ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
-  state.smoothed = antialiasing == Antialiasing::smoothing;
+  state.formats.marks = antialiasing == Antialiasing::temporal;
+  state.smoothed = antialiasing == Antialiasing::smoothing || antialiasing == Antialiasing::temporal;
   state.refinements.soft_shadows =
       wanted.shadow_edges == ShadowEdges::soft || (wanted.shadow_edges == ShadowEdges::automatic && !software);
   state.refinements.clustered_headlights =
@@ -58,6 +59,10 @@ void create_state(RendererState& state, const RendererOptions& wanted) {
   create_mirror_pass(state.mirror_pass, state.device, state.layout, state.formats);
   create_precipitation_pass(state.precipitation_pass, state.device, state.layout, state.formats);
   create_smoke_pass(state.smoke_pass, state.device, state.layout, state.formats);
+  if (state.formats.marks) {
+    create_temporal_pass(state.temporal_pass, state.device, state.layout, state.formats);
+    create_temporal_targets(state.temporal_pass, state.memory, state.formats, wanted.width, wanted.height);
+  }
   if (wanted.bloom == Bloom::present || (wanted.bloom == Bloom::automatic && !software)) {
     create_bloom_pass(state.bloom_pass, state.device, state.layout, state.formats);
     create_bloom_targets(state.bloom_pass, state.memory, state.formats, wanted.width, wanted.height);
@@ -80,6 +85,7 @@ RendererState::~RendererState() {
   destroy_smoothing_pass(smoothing_pass, device);
   destroy_tone_mapping_pass(tone_mapping_pass, device);
   destroy_bloom_pass(bloom_pass, device, memory);
+  destroy_temporal_pass(temporal_pass, device, memory);
   destroy_ice_pass(ice_pass, device, memory);
   destroy_road_mirror(road_mirror_pass, device, memory);
   destroy_mirror_pass(mirror_pass, device, memory);
@@ -107,6 +113,10 @@ void resize_targets(RendererState& state, std::uint32_t width, std::uint32_t hei
   wait_for_frames(state.ring, state.device);
   destroy_frame_targets(state.targets, state.memory);
   create_frame_targets(state.targets, state.memory, state.formats, width, height, state.smoothed);
+  if (state.temporal_pass.present()) {
+    destroy_temporal_targets(state.temporal_pass, state.memory);
+    create_temporal_targets(state.temporal_pass, state.memory, state.formats, width, height);
+  }
   if (state.bloom_pass.present()) {
     destroy_bloom_targets(state.bloom_pass, state.memory);
     create_bloom_targets(state.bloom_pass, state.memory, state.formats, width, height);

@@ -22,6 +22,7 @@
 #include "engine/render/passes/smoke_pass.hpp"
 #include "engine/render/passes/smoothing_pass.hpp"
 #include "engine/render/passes/surface_pass.hpp"
+#include "engine/render/passes/temporal_pass.hpp"
 #include "engine/render/passes/tone_mapping_pass.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/render/vulkan/swapchain.hpp"
@@ -53,6 +54,7 @@ struct RendererState {
   RoadMirrorPass road_mirror_pass;
   MirrorPass mirror_pass;
   IcePass ice_pass;
+  TemporalPass temporal_pass;
   BloomPass bloom_pass;
   ToneMappingPass tone_mapping_pass;
   SmoothingPass smoothing_pass;

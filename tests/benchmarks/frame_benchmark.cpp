@@ -114,9 +114,9 @@ FrameInput traffic_in(const Weather& weather) {
 }
 
 void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, std::string_view name,
-                          bool timed = false) {
-  auto renderer = must(
-      Renderer::create({width, height, DevicePreference::software, false, Antialiasing::automatic, nullptr, timed}));
+                          bool timed = false, Antialiasing antialiasing = Antialiasing::automatic) {
+  auto renderer =
+      must(Renderer::create({width, height, DevicePreference::software, false, antialiasing, nullptr, timed}));
   must(renderer.upload(motorway().scene));
   const Weather weather = weather_named(name);
   FrameInput input = traffic_in(weather);
@@ -200,6 +200,8 @@ void thirty_frames_thrice(benchmark::internal::Benchmark* frame) {
 
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420, 640, 420, "day")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 320x240, 320, 240, "day")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_temporal, 640, 420, "day", false, Antialiasing::temporal)
+    ->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_dusk, 640, 420, "dusk")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_rain_at_dusk, 640, 420, "rain_at_dusk")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_night, 640, 420, "night")->Apply(thirty_frames_thrice);

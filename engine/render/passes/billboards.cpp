@@ -13,6 +13,7 @@ VkPipeline create_billboard_pipeline(const vulkan::Device& device, const vulkan:
   description.fragment_code = fragment_code;
   description.vertex_input = vulkan::VertexInput::none;
   description.color_format = formats.radiance;
+  description.marks = formats.marks;
   description.depth_format = formats.depth;
   description.samples = formats.samples;
   description.blend = blend;

@@ -13,7 +13,9 @@ namespace septet::render {
 
 void create_contact_pass(ContactPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                          const TargetFormats& formats, const Refinements& refinements) {
-  pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::contact_vert(), shaders::contact_frag(),
+  TargetFormats unmarked = formats;  // It lies on what stands still, as other shadows do.
+  unmarked.marks = false;
+  pass.pipeline = create_billboard_pipeline(device, layout, unmarked, shaders::contact_vert(), shaders::contact_frag(),
                                             vulkan::Blend::over, refinements);
 }
 

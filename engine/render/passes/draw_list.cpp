@@ -43,7 +43,8 @@ float detail_range_m(const PlacedMesh& placed, const glm::vec3& origin_m, const 
 }
 
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
-                    const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep, const Detail& detail) {
+                    const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep, const Detail& detail,
+                    bool still) {
   struct Run {
     std::vector<InstanceRecord> records;
     float nearest_m = 1e30f;
@@ -56,7 +57,7 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
       Run& run = runs[fading];
       if (run.records.empty()) continue;
       list.batches.push_back({run_mesh, static_cast<std::uint32_t>(list.records.size()),
-                              static_cast<std::uint32_t>(run.records.size()), run.nearest_m, fading != 0,
+                              static_cast<std::uint32_t>(run.records.size()), run.nearest_m, fading != 0, still,
                               run_reshaped});
       list.records.insert(list.records.end(), run.records.begin(), run.records.end());
       run.records.clear();

@@ -40,6 +40,7 @@ struct Batch {
   std::uint32_t first = 0, count = 0;
   float nearest_m = 0.0f;  ///< From the eye to the nearest bounding sphere's middle, so that wide ground comes late.
   bool fading = false;     ///< Its records show only some pixels of what they place.
+  bool still = false;      ///< It belongs to the scene and stands where it stood.
   const scene::SurfaceMesh* reshaped = nullptr;
 };
 
@@ -65,7 +66,7 @@ float detail_range_m(const PlacedMesh& placed, const glm::vec3& origin_m, const 
 /// in its place, lie in a batch of their own.
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
                     const std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>& keep,
-                    const Detail& detail = {});
+                    const Detail& detail = {}, bool still = false);
 
 bool intersects(const ViewVolume& volume, const glm::vec3& centre_m, float radius_m);
 

@@ -27,6 +27,7 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
   description.samples = formats.samples;
   description.usage =
       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  if (formats.marks) description.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   targets.radiance = create_image(memory, description);
   description.format = formats.depth;
   description.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;

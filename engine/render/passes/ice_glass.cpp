@@ -20,6 +20,7 @@ VkPipeline glass_pipeline(IcePass& pass, PassContext& context, ice::OnGlass what
   description.fragment_code = shaders::ice_glass_frag();
   description.vertex_input = vulkan::VertexInput::ice;
   description.color_format = context.formats.radiance;
+  description.marks = context.formats.marks;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
   description.blend = vulkan::Blend::over;

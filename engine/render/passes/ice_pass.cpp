@@ -97,6 +97,7 @@ VkPipeline front_pipeline(IcePass& pass, PassContext& context, const ice::IceBod
   description.fragment_code = shaders::ice_frag();
   description.vertex_input = vulkan::VertexInput::ice;
   description.color_format = context.formats.radiance;
+  description.marks = context.formats.marks;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
   if (body.look.thin) description.blend = vulkan::Blend::over;

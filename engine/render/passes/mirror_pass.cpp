@@ -36,6 +36,7 @@ void create_mirror_pass(MirrorPass& pass, const vulkan::Device& device, const vu
   description.fragment_code = shaders::mirror_glass_frag();
   description.vertex_input = vulkan::VertexInput::none;
   description.color_format = formats.radiance;
+  description.marks = formats.marks;
   description.depth_format = formats.depth;
   description.samples = formats.samples;
   pass.pipeline = create_pipeline(device, layout, description);

@@ -104,9 +104,9 @@ void push_records(PassContext& context, const FrameData& records) {
   push(context, {&storage, 1});
 }
 
-void push_image(PassContext& context, VkImageView view, VkSampler sampler) {
+void push_image(PassContext& context, VkImageView view, VkSampler sampler, std::uint32_t binding) {
   const VkDescriptorImageInfo info{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-  VkWriteDescriptorSet image = write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+  VkWriteDescriptorSet image = write(binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
   image.pImageInfo = &info;
   push(context, {&image, 1});
 }

@@ -33,6 +33,8 @@ struct TargetFormats {
       VK_FORMAT_R8G8B8A8_UNORM;  ///< Holds sRGB codes: the tone curve encodes, at no cost (shaders/tone_curve.glsl).
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
+  bool marks =
+      false;  ///< The radiance's alpha tells what its pixel has of what does not stand still (passes/temporal_pass.hpp).
 };
 
 /// What a graphics card draws beyond the software device, and that one where it is asked to; nothing of it differs in what a driver acts on.
@@ -82,7 +84,8 @@ void push_view(PassContext& context, const ViewBindings& bindings);
 void push_records(PassContext& context, const FrameData& records);
 /// What is drawn many times: InstanceRecords for the pipelines that take them.
 void bind_instances(PassContext& context, const FrameData& records);
-void push_image(PassContext& context, VkImageView view, VkSampler sampler);
+void push_image(PassContext& context, VkImageView view, VkSampler sampler,
+                std::uint32_t binding = vulkan::binding_image);
 void push_constants(PassContext& context, std::span<const std::byte> bytes);
 void set_viewport(PassContext& context, const PixelRectangle& rectangle);
 

@@ -72,6 +72,9 @@ constexpr std::uint32_t bloom_down_samples_frag_code[] = {
 constexpr std::uint32_t bloom_up_frag_code[] = {
 #include "engine/render/shaders/bloom_up.frag.inc"
 };
+constexpr std::uint32_t temporal_frag_code[] = {
+#include "engine/render/shaders/temporal.frag.inc"
+};
 constexpr std::uint32_t smoothing_frag_code[] = {
 #include "engine/render/shaders/smoothing.frag.inc"
 };
@@ -138,6 +141,7 @@ std::span<const std::uint32_t> bloom_down_frag() { return bloom_down_frag_code; 
 std::span<const std::uint32_t> bloom_down_samples_frag() { return bloom_down_samples_frag_code; }
 std::span<const std::uint32_t> bloom_up_frag() { return bloom_up_frag_code; }
 std::span<const std::uint32_t> smoothing_frag() { return smoothing_frag_code; }
+std::span<const std::uint32_t> temporal_frag() { return temporal_frag_code; }
 std::span<const std::uint32_t> tone_mapping_frag() { return tone_mapping_frag_code; }
 std::span<const std::uint32_t> tone_mapping_samples_frag() { return tone_mapping_samples_frag_code; }
 std::span<const std::uint32_t> ice_vert() { return ice_vert_code; }

@@ -36,6 +36,7 @@ std::span<const std::uint32_t> bloom_down_frag();
 std::span<const std::uint32_t> bloom_down_samples_frag();
 std::span<const std::uint32_t> bloom_up_frag();
 std::span<const std::uint32_t> smoothing_frag();
+std::span<const std::uint32_t> temporal_frag();
 std::span<const std::uint32_t> tone_mapping_frag();
 std::span<const std::uint32_t> tone_mapping_samples_frag();
 std::span<const std::uint32_t> ice_vert();

@@ -19,6 +19,7 @@ void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry) {
     description.fragment_code = shaders::sky_frag();
     description.vertex_input = vulkan::VertexInput::none;
     description.color_format = context.formats.radiance;
+    description.marks = context.formats.marks;
     description.depth_format = context.formats.depth;
     description.samples = context.formats.samples;
     description.depth_write = false;  // At depth 0 it passes only where the depth is still cleared.

@@ -42,7 +42,7 @@ void add_batch(std::vector<SurfaceDraw>& list, const Triangles& mesh, const Batc
       continue;
     }
     list.push_back({mesh.vertices, mesh.indices, mesh.indices_at, mesh.vertices_at, part.first_index, part.index_count,
-                    batch.first, batch.count, group, batch.fading});
+                    batch.first, batch.count, group, batch.fading, batch.still});
     open = true;
   }
 }
@@ -54,7 +54,7 @@ SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::
                            const DetailOf& detail, const ViewVolume* volume) {
   SurfaceDraws draws;
   DrawList instanced;
-  append_visible(instanced, scene.placed, eye_m, keep, detail.still);
+  append_visible(instanced, scene.placed, eye_m, keep, detail.still, true);
   append_visible(instanced, participants, eye_m, keep, detail.participants);
   sort_by_distance(instanced);
   for (const Batch& batch : instanced.batches)
@@ -70,7 +70,7 @@ SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::
                                                             static_cast<std::uint32_t>(instanced.records.size()));
     if (added) instanced.records.push_back(record_of(scene.still.blocks[draw.block], eye_m, draw.fade));
     draws.list.push_back({scene.still_vertices[draw.block].buffer, indices.buffer, indices.offset, 0, draw.first_index,
-                          draw.index_count, found->second, 1, draw.group, !draw.fade.all()});
+                          draw.index_count, found->second, 1, draw.group, !draw.fade.all(), true});
   }
   draws.records = store(context, std::span<const InstanceRecord>(instanced.records));
   return draws;

@@ -18,7 +18,7 @@ struct SurfaceDraw {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t first_instance = 0, instance_count = 0;
   std::uint32_t material = 0;
-  bool fading = false;  ///< As of Batch.
+  bool fading = false, still = false;  ///< As of Batch.
 };
 
 struct SurfaceDraws {

@@ -12,12 +12,12 @@ struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
   std::uint32_t lamps;     ///< Likewise.
   std::uint32_t glossy;    ///< Likewise.
-  bool snowy, sooty, road, mirror, fading, retroreflective;
+  bool snowy, sooty, road, mirror, fading, retroreflective, moving;
   SurfaceKind kind;
   std::uint32_t key() const {
     return textured | lamps << 2 | glossy << 5 | std::uint32_t{snowy} << 7 | std::uint32_t{sooty} << 8 |
            static_cast<std::uint32_t>(kind) << 9 | std::uint32_t{road} << 11 | std::uint32_t{mirror} << 12 |
-           std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14;
+           std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 | std::uint32_t{moving} << 15;
   }
 };
 
@@ -41,13 +41,24 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   // What one sees through is opaque in a puddle.
   description.blend = variant.mirror ? vulkan::Blend::data : blended ? vulkan::Blend::over : vulkan::Blend::none;
   description.depth_write = variant.mirror || !blended;
+  // What still stripes and panes lie before keeps its marks.
+  description.marks = context.formats.marks && (variant.moving || !blended);
   description.alpha_to_coverage = cut && multisampled;
-  description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u,
-                           variant.glossy,   blended,
-                           variant.lamps,    variant.snowy,
-                           variant.sooty,    stripe,
-                           variant.road,     variant.mirror,
-                           variant.fading,   variant.retroreflective};
+  description.constants = {variant.textured,
+                           cut ? (multisampled ? 1u : 2u) : 0u,
+                           variant.glossy,
+                           blended,
+                           variant.lamps,
+                           variant.snowy,
+                           variant.sooty,
+                           stripe,
+                           variant.road,
+                           variant.mirror,
+                           variant.fading,
+                           variant.retroreflective,
+                           !context.formats.marks ? 0u
+                           : variant.moving       ? 2u
+                                                  : 1u};
   description.constants[shaders::clustered_headlights_constant] = context.refinements.clustered_headlights;
   description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
@@ -77,11 +88,12 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
     const std::uint32_t glossy =
         std::uint32_t{material.glossy || (light.wet && material.wettable)} | std::uint32_t{material.coated} << 1;
+    const bool moving = context.formats.marks && !draw.still;
     const bool retroreflective = light.headlights && material.constants.light.y > 0.0f;
     const VkPipeline pipeline =
         pipeline_of(pass, context,
                     {texturing, light.lamps(), glossy, light.snowy, light.sooty, material.wettable,
-                     light.mirror_of_road, draw.fading, retroreflective, kind});
+                     light.mirror_of_road, draw.fading, retroreflective, moving, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

@@ -57,15 +57,26 @@ void set_water(ViewUniforms& uniforms, const Vec3& eye_m, const Instant& instant
 
 }  // namespace
 
+glm::dmat4 clip_from_relative(const FrameView& view) {
+  const glm::dmat4 clip = view.projection.clip_from_eye_relative *
+                          glm::dmat4(glm::mat4_cast(glm::conjugate(view.world_from_car.orientation)));
+  return view.mirrored ? glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * clip : clip;
+}
+
+double kept_depth(const FrameView& view) {
+  const OffAxisView& projection = view.projection;
+  return 1.0 - 2.0 * (projection.top_slope - projection.bottom_slope) / std::max(1u, view.viewport.height);
+}
+
 ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
-                           const LampField& lamps, const RoadMirror& mirror) {
+                           const LampField& lamps, const RoadMirror& mirror, const glm::vec2& offset_px) {
   const SkyLight& light = *instant.light;
   ViewUniforms uniforms{};
   const OffAxisView& projection = view.projection;
   const Quat world_from_car = view.world_from_car.orientation;
-  glm::dmat4 clip = projection.clip_from_eye_relative * glm::dmat4(glm::mat4_cast(glm::conjugate(world_from_car)));
-  if (view.mirrored) clip = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * clip;
-  uniforms.clip_from_relative = glm::mat4(clip);
+  uniforms.clip_from_relative = glm::mat4(clip_from_relative(view));
+  const glm::vec2 size_px(std::max(1u, view.viewport.width), std::max(1u, view.viewport.height));
+  uniforms.offset = glm::vec4(2.0f * offset_px / size_px, static_cast<float>(kept_depth(view)), 0.0f);
 
   const Vec3 eye_m = world_eye(view);
   uniforms.shadow_from_relative = texture_from_relative(shadows.cascades[0], glm::vec3(eye_m - shadows.eye_m));

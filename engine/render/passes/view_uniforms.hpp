@@ -29,8 +29,9 @@ struct ViewUniforms {
   glm::vec4 soot_x, soot_y, soot_z, soot_size;
   glm::vec4 lamp_field, lamp_hue;
   glm::vec4 road, water, target;
+  glm::vec4 offset;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 21 + 2 * most_headlights + 6 + 3) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 21 + 2 * most_headlights + 6 + 4) * 16);
 
 /// Where the wet road's mirror image of a view lies in a picture.
 struct RoadMirror {
@@ -38,8 +39,15 @@ struct RoadMirror {
   std::uint32_t width = 1, height = 1;  ///< Of the picture, pixels.
 };
 
-/// Of the headlights the nearest count.
+/// From what is relative to the eye, along the world's axes.
+glm::dmat4 clip_from_relative(const FrameView& view);
+/// What stands still has this much of its (reversed) depth where its samples are shifted: half a pixel aside, a face that is seen at up to 76° would
+/// else come before what lies on it and is not shifted.
+double kept_depth(const FrameView& view);
+
+/// Of the headlights the nearest count. `offset_px`: of the samples of what stands still, from the middles of their pixels.
 ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
-                           const LampField& lamps, const RoadMirror& mirror = {});
+                           const LampField& lamps, const RoadMirror& mirror = {},
+                           const glm::vec2& offset_px = glm::vec2(0.0f));
 
 }  // namespace septet::render

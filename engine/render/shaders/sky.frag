@@ -51,5 +51,5 @@ void main() {
     radiance += vec3(smoothstep(0.0, 0.15, d.z) * star * 0.05 * depth * (1.0 - smoothstep(0.0, 0.3, cover)) * clear);
   }
   radiance += sun_color * ((disc * 60.0 + glare) * clear * step(-0.01, d.z) * (1.0 - 0.97 * cover));
-  result = vec4(radiance, 1.0);
+  result = vec4(radiance, 0.0);
 }

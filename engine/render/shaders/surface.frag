@@ -22,6 +22,7 @@ layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn as what a wet r
 layout(constant_id = 10) const uint fading = 0;         // Some pixels show another level of detail.
 
 layout(constant_id = 11) const uint retroreflective = 0;
+layout(constant_id = 12) const uint over_frames = 0;  // As in surface.vert.
 
 const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of what surfaces mirror in tunnels.
 
@@ -234,4 +235,5 @@ void main() {
   if (mirror_of_road != 0) alpha = 1.0;
   result = vec4(radiance, alpha);
   if (blended != 0) result.rgb *= alpha;
+  if (over_frames != 0 && blended == 0 && mirror_of_road == 0) result.a = over_frames == 2 ? 1.0 : 0.0;
 }

@@ -7,6 +7,7 @@
 layout(constant_id = 7) const uint stripe = 0;
 layout(constant_id = 9) const uint mirror_of_road = 0;
 layout(constant_id = 10) const uint fading = 0;
+layout(constant_id = 12) const uint over_frames = 0;  // passes/temporal_pass.hpp: 1 its pixels come of frames before, too, 2 of this one alone.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
@@ -63,4 +64,8 @@ void main() {
   out_fog = fog_radiance(out_relative / max(length(out_relative), 1e-3), out_emission.w);
   vec3 drawn = mirror_of_road != 0 ? below_road(out_relative) : out_relative * (1.0 - nearer);
   gl_Position = view.clip_from_relative * vec4(drawn, 1.0);
+  if (over_frames == 1) {
+    gl_Position.xy += view.offset.xy * gl_Position.w;
+    gl_Position.z *= view.offset.z;
+  }
 }

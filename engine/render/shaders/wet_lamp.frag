@@ -13,5 +13,6 @@ void main() {
   float tilt = 0.5 * (grazing - heights.y / (heights.z - at.y)) / 0.06;
   float side = at.x * heights.z / (heights.w * at.y);
   float mirrored = 0.02 + 0.98 * fifth_power(1.0 - grazing);
-  result = vec4(color * (mirrored * exp2(-1.44 * (tilt * tilt + side * side))), 0.0);
+  float share = exp2(-1.44 * (tilt * tilt + side * side));
+  result = vec4(color * (mirrored * share), smoothstep(0.02, 0.1, share));
 }

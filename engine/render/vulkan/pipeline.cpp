@@ -19,18 +19,19 @@ VkShaderModule create_module(const Device& device, std::span<const std::uint32_t
   return result;
 }
 
-VkPipelineColorBlendAttachmentState blend_state(Blend blend) {
+VkPipelineColorBlendAttachmentState blend_state(Blend blend, bool marks) {
   VkPipelineColorBlendAttachmentState state{};
-  // The target stays opaque: alpha serves blending and coverage only.
+  // Without marks the target stays opaque: alpha serves blending and coverage only.
   state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
-  if (blend == Blend::data || blend == Blend::layer) state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
+  if (marks || blend == Blend::data || blend == Blend::layer) state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
   state.blendEnable = blend != Blend::none && blend != Blend::data;
   // Colours come premultiplied.
   state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
   state.dstColorBlendFactor = blend == Blend::add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.colorBlendOp = VK_BLEND_OP_ADD;
-  state.srcAlphaBlendFactor = blend == Blend::layer ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
-  state.dstAlphaBlendFactor = blend == Blend::layer ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+  const bool layered = marks || blend == Blend::layer;
+  state.srcAlphaBlendFactor = layered ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
+  state.dstAlphaBlendFactor = layered ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
   state.alphaBlendOp = VK_BLEND_OP_ADD;
   return state;
 }
@@ -146,7 +147,7 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   depth.depthTestEnable = description.depth_format != VK_FORMAT_UNDEFINED;
   depth.depthWriteEnable = description.depth_write;
   depth.depthCompareOp = description.depth_compare;
-  const VkPipelineColorBlendAttachmentState attachment = blend_state(description.blend);
+  const VkPipelineColorBlendAttachmentState attachment = blend_state(description.blend, description.marks);
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = description.color_format != VK_FORMAT_UNDEFINED ? 1 : 0;
   blend.pAttachments = &attachment;

@@ -29,7 +29,9 @@ enum Binding : std::uint32_t {
   binding_ripples = 14,          ///< and the slopes of the water on it.
   binding_shadow_depths = 15,    ///< The shadow map, not compared.
   binding_light_clusters = 16,   ///< Storage: which headlights light where (passes/light_clusters.hpp).
-  binding_count = 17,
+  binding_history = 17,          ///< The picture before (passes/temporal_pass.hpp),
+  binding_depth = 18,            ///< and this one's depth.
+  binding_count = 19,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;
@@ -60,6 +62,7 @@ struct PipelineDescription {
   bool depth_write = true;
   VkCompareOp depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;  ///< Depth is reversed.
   bool alpha_to_coverage = false;
+  bool marks = false;  ///< Alpha is stored, too: blended by itself, however the others are.
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
   std::array<std::uint32_t, 16> constants{};  ///< Specialization constants 0 to 15 of both stages.

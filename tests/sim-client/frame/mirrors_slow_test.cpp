@@ -179,7 +179,7 @@ TEST_CASE("a mirror shows things as bright as they are but for what silver takes
   const rig::Rig rig = small_monitors();
   const Snapshot shown = by_night();
   for (const render::Antialiasing antialiasing :
-       {render::Antialiasing::smoothing, render::Antialiasing::multisampled}) {
+       {render::Antialiasing::smoothing, render::Antialiasing::multisampled, render::Antialiasing::temporal}) {
     Stage left(rig, rig.screens[0], shown, {}, antialiasing), ahead(rig, rig.screens[1], shown, {}, antialiasing);
     const Seen direct = ahead.with({12.0, 0.8, 1.6}, 0.5), mirrored = left.with({-12.0, 3.4, 1.4}, 0.6);
     CHECK(double(mirrored.most) == relative(0.9 * double(direct.most), 0.03));

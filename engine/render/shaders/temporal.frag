@@ -1,0 +1,71 @@
+#version 460
+
+// What this frame and those before have seen of a pixel: see passes/temporal_pass.hpp.
+
+layout(set = 0, binding = 5) uniform sampler2D radiance;   // Of this frame; alpha: marks.
+layout(set = 0, binding = 17) uniform sampler2D history;   // Of the frame before, resolved; alpha: marks.
+layout(set = 0, binding = 18) uniform sampler2D depth;     // Reversed; 0: the sky.
+layout(push_constant) uniform Reprojection {
+  mat4 before_from_now;  // Clip coordinates.
+  vec4 viewport;         // Left, top, width, height, pixels.
+  vec4 more;             // x: from radiance to the tone curve. y: 1 where there is a frame before. zw: how far what stands still is shifted, pixels.
+};
+
+layout(location = 0) out vec4 result;
+
+const float least_mark = 0.25;  // What hides less is kept from trailing by its neighbours alone.
+
+// Brought within 0 and 1, so that one bright sample does not outweigh all others (Karis), and back.
+vec3 weighed(vec3 light) {
+  light = max(light, vec3(0.0)) * more.x;
+  return light / (1.0 + max(light.r, max(light.g, light.b)));
+}
+vec3 unweighed(vec3 w) { return w / (max(1.0 - max(w.r, max(w.g, w.b)), 1e-4) * more.x); }
+
+// Of the frame before, between its pixels: Catmull and Rom's spline, which blurs less than a line from pixel to pixel, by five samples that are
+// themselves between two (Jimenez, "Filmic SMAA", 2016, leaves the corners out likewise).
+vec3 seen_before(vec2 at) {
+  vec2 size = vec2(textureSize(history, 0)), middle = floor(at - 0.5) + 0.5, f = at - middle;
+  vec2 w0 = f * (-0.5 + f * (1.0 - 0.5 * f)), w3 = f * f * (-0.5 + 0.5 * f), w12 = 1.0 - w0 - w3;
+  vec2 w2 = f * (0.5 + f * (2.0 - 1.5 * f));
+  vec2 low = (middle - 1.0) / size, between = (middle + w2 / w12) / size, high = (middle + 2.0) / size;
+  vec3 sum = vec3(0.0);
+  float weight = 0.0;
+  vec3 taps[5] = vec3[](vec3(between, w12.x * w12.y), vec3(low.x, between.y, w0.x * w12.y), vec3(high.x, between.y, w3.x * w12.y),
+                        vec3(between.x, low.y, w12.x * w0.y), vec3(between.x, high.y, w12.x * w3.y));
+  for (int i = 0; i < 5; ++i) {
+    sum += taps[i].z * weighed(textureLod(history, taps[i].xy, 0.0).rgb);
+    weight += taps[i].z;
+  }
+  return sum / weight;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(radiance, 0) - 1;
+  vec4 now = texelFetch(radiance, at, 0);
+  vec3 here = weighed(now.rgb), least = here, most = here;
+  float nearest = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    ivec2 beside = clamp(at + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+    vec4 light = texelFetch(radiance, beside, 0);
+    vec3 w = weighed(light.rgb);
+    least = min(least, w);
+    most = max(most, w);
+    if (light.a <= least_mark) nearest = max(nearest, texelFetch(depth, beside, 0).r);
+  }
+  // Alone, what stands still is put back where it is; what does not was not shifted.
+  bool still = now.a <= least_mark;
+  vec3 alone = still ? textureLod(radiance, (gl_FragCoord.xy + more.zw) / vec2(last + 1), 0.0).rgb : now.rgb;
+  result = vec4(alone, still ? 0.0 : 1.0);
+  if (more.y == 0.0 || !still) return;
+  // An edge goes with what is nearer.
+  vec4 before = before_from_now * vec4((gl_FragCoord.xy - viewport.xy) / viewport.zw * 2.0 - 1.0, nearest, 1.0);
+  vec2 then = (before.xy / before.w * 0.5 + 0.5) * viewport.zw;
+  if (before.w <= 0.0 || any(lessThan(then, vec2(0.5))) || any(greaterThan(then, viewport.zw - 0.5))) return;
+  then += viewport.xy;
+  if (textureLod(history, then / vec2(textureSize(history, 0)), 0.0).a > least_mark) return;
+  vec3 seen = clamp(seen_before(then), least, most);
+  // What moves over the screen is blurred a little each time that it is taken over: it is taken over less often.
+  float share_of_now = mix(0.1, 0.25, clamp(0.5 * length(then - gl_FragCoord.xy), 0.0, 1.0));
+  result.rgb = unweighed(mix(seen, here, share_of_now));
+}
