@@ -12,7 +12,7 @@ import sys
 ALLOWED_IN_HEADERS = ("glm/", "tl/expected.hpp", "fmt/", "Eigen/")
 # Headers that only their own folder, or only the programs' mains, include may show the library that they are made for.
 ALLOWED_IN_FOLDER = {"engine/render/vulkan/": "volk.h", "engine/document/json.hpp": "nlohmann/json_fwd.hpp", "engine/gltf/container.hpp": "nlohmann/json_fwd.hpp",
-                     "program/command_line.hpp": "CLI/CLI.hpp"}
+                     "program/command_line.hpp": "CLI/CLI.hpp", "engine/raytrace/eight.hpp": "immintrin.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Programs join everything: tests, and the folder of a program's own main.
 FREE = ("tests/",)
