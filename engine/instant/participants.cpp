@@ -175,6 +175,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     const float sky = share_of_sky(participant.world_from_vehicle);
     Vec3 lamps_m(0.0);
     int head_lamps = 0;
+    const float main_beam = participant.lamps.has(Lamp::high_beam) ? 1.0f : 0.0f;
     const std::vector<scene::Instance>& parts = prototypes[participant.prototype].parts;
     for (const scene::Instance& part : parts) {
       if (part.mesh >= meshes.size() || distance_m - margin_m >= gone_from_m(part.visible_to_m)) continue;
@@ -203,13 +204,13 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
         result.glows.push_back({participant.world_from_vehicle * middle_m, part.role == PartRole::lamp_head,
                                 glm::vec3(participant.world_from_vehicle.orientation * facing(part.role, middle_m.x)),
                                 mesh.emission * lit, glow_radius_m(part.role),
-                                participant.world_from_vehicle.position_m.z});
+                                participant.world_from_vehicle.position_m.z, main_beam});
     }
     if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
       const Vec3 lamp_m = head_lamps > 0 ? lamps_m / double(head_lamps) + Vec3(0.15, 0, 0) : Vec3(3.6, 0, 0.65);
       result.headlights.push_back({participant.world_from_vehicle * lamp_m,
                                    glm::vec3(participant.world_from_vehicle.orientation * Vec3(1, 0, 0)),
-                                   beam::pair_intensity, participant.lamps.has(Lamp::high_beam) ? 1.0f : 0.0f});
+                                   beam::pair_intensity, main_beam});
     }
   }
   std::stable_sort(result.meshes.begin(), result.meshes.end(),

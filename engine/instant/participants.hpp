@@ -17,7 +17,8 @@ struct LampGlow {
   glm::vec3 facing{0.0f};  ///< Unit, world axes; zero: all around.
   glm::vec3 color{1.0f};   ///< Emission of its material, radiance.
   float radius_m = 0.3f;
-  double road_z_m = 0.0;  ///< World; of the road below it, which mirrors it when it is wet.
+  double road_z_m = 0.0;   ///< World; of the road below it, which mirrors it when it is wet.
+  float main_beam = 0.0f;  ///< Of a headlamp: how far its main beam is lit beside the dipped one, 0 to 1.
 };
 
 /// Where the headlights of one vehicle stand and point: a pair of beams (headlight_beam.hpp).

@@ -34,8 +34,11 @@ struct SeenGlow {
   double brightest = 0.0;  ///< Pixel.
 };
 
-/// Of the tail lamps of a car, seen from behind by night: the picture with their glows less that without.
-SeenGlow glow_of_tail_lamps(render::Renderer& renderer, const scene::ResolvedScene& scene, double distance_m) {
+enum class From : std::uint8_t { behind, ahead };
+
+/// Of the lamps of a car, seen by night: the picture with their glows less that without.
+SeenGlow glow_of_lamps(render::Renderer& renderer, const scene::ResolvedScene& scene, double distance_m,
+                       From from = From::behind, bool main_beam = false) {
   instant::FrameInput input;
   input.environment.sun_elevation_rad = -0.4;
   input.environment.sun_illuminance_lux = 0.0;
@@ -48,7 +51,13 @@ SeenGlow glow_of_tail_lamps(render::Renderer& renderer, const scene::ResolvedSce
   Participant car{.id = 1, .model = *find_vehicle_model("saloon")};
   const VehicleModel& model = vehicle_models()[car.model];
   car.world_from_vehicle.position_m = {distance_m + model.rear_overhang_m, 0.0, 0.0};
+  if (from == From::ahead) {
+    // In the lane beside.
+    car.world_from_vehicle.position_m = {distance_m + model.rear_overhang_m, 3.5, 0.0};
+    car.world_from_vehicle.orientation = orientation_from_angles(std::numbers::pi, 0.0, 0.0);
+  }
   car.lamps.set(Lamp::low_beam, true);
+  car.lamps.set(Lamp::high_beam, main_beam);
   const auto prototype = std::ranges::find(scene.prototypes, model.name, &scene::Prototype::name);
   REQUIRE(prototype != scene.prototypes.end());
   input.participants = {
@@ -74,17 +83,28 @@ SeenGlow glow_of_tail_lamps(render::Renderer& renderer, const scene::ResolvedSce
 
 }  // namespace
 
+/// A renderer that has the vehicles' scene.
+struct GlowScreen {
+  scene::ResolvedScene scene;
+  render::Renderer renderer;
+
+  static GlowScreen with_vehicles() {
+    scene::Store store;
+    scene::SceneBuilder builder(store);
+    scenery::build_vehicles(builder);
+    GlowScreen screen{scene::resolve(store),
+                      *render::Renderer::create({glow_side_px, glow_side_px, render::DevicePreference::software, true,
+                                                 render::Antialiasing::none, nullptr})};
+    REQUIRE(screen.renderer.upload(screen.scene).has_value());
+    return screen;
+  }
+};
+
 TEST_CASE(
     "by night the glow of tail lamps takes up an area that falls with the square of the distance until it is a few "
     "pixels wide and its light goes on falling so to four hundred metres") {
-  scene::Store store;
-  scene::SceneBuilder builder(store);
-  scenery::build_vehicles(builder);
-  const scene::ResolvedScene scene = scene::resolve(store);
-  render::Renderer renderer = *render::Renderer::create(
-      {glow_side_px, glow_side_px, render::DevicePreference::software, true, render::Antialiasing::none, nullptr});
-  REQUIRE(renderer.upload(scene).has_value());
-  const auto seen = [&](double distance_m) { return glow_of_tail_lamps(renderer, scene, distance_m); };
+  GlowScreen screen = GlowScreen::with_vehicles();
+  const auto seen = [&](double distance_m) { return glow_of_lamps(screen.renderer, screen.scene, distance_m); };
   // The two lamps' glows; a hundredth of the light is left at the root of 0.231 of the radius, 0.22 m times 1.9 by night.
   const auto area_px = [](double distance_m) {
     const double radius_px = std::max(0.418 / (distance_m * glow_pixel_rad), 3.2);
@@ -105,6 +125,20 @@ TEST_CASE(
       CHECK(glow.light < nearer.light);
     }
     nearer = glow;
+  }
+}
+
+TEST_CASE("an oncoming main beam dazzles: its glow is several times as large and as bright as a dipped beam's") {
+  GlowScreen screen = GlowScreen::with_vehicles();
+  for (const double distance_m : {50.0, 100.0, 200.0, 400.0}) {
+    CAPTURE(distance_m);
+    const SeenGlow dipped = glow_of_lamps(screen.renderer, screen.scene, distance_m, From::ahead),
+                   main = glow_of_lamps(screen.renderer, screen.scene, distance_m, From::ahead, true);
+    CAPTURE(dipped.area_px);
+    CAPTURE(main.area_px);
+    CHECK(main.brightest > 4.0 * dipped.brightest);
+    CHECK(main.light > 15.0 * dipped.light);
+    if (distance_m <= 100.0) CHECK(main.area_px > 3.0 * dipped.area_px);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/instant/headlight_beam.hpp"
 #include "engine/instant/wet_road.hpp"
 #include "engine/render/passes/billboards.hpp"
 #include "engine/render/passes/shaders.hpp"
@@ -34,6 +35,13 @@ constexpr float lens_seen_m = 50.0f;
 /// The integral of what shaders/glow.frag makes of a glow of radius 1 and radiance 1 in its middle.
 constexpr float glow_integral = 0.133f;
 
+/// How many times the dipped beam's light goes this way (unit, from the lamp) with the main beam beside it.
+float main_beam_times(const LampGlow& glow, const glm::vec3& way) {
+  namespace beam = instant::beam;
+  if (!glow.beam || glow.main_beam <= 0.0f) return 1.0f;
+  return std::max(1.0f, beam::share(glow.facing, way, glow.main_beam) / std::max(beam::share(glow.facing, way), 1e-6f));
+}
+
 /// The glow of a lamp, whatever lies between it and the eye; black where it faces away.
 struct Shine {
   glm::vec3 radiance{0.0f};
@@ -54,9 +62,12 @@ Shine shine(const LampGlow& glow, const glm::vec3& toward_eye, float exposure, f
   // By day a lamp is hardly more than its lens, a tail lamp the least of all; a beacon is made to be seen.
   const float by_day = glow.beam ? 0.7f : std::min(1.3f, std::sqrt(brightest / 3.5f));
   const float strength = around ? 3.2f + 0.4f * dark : glm::mix(by_day, glow.beam ? 4.0f : 3.0f, dark);
-  const glm::vec3 brightness = hue * (turned * strength * std::min(1.0f, distance_m / lens_seen_m));
+  // As an eye has it that sees both: the root of light, and a disc that grows by its root again (to 80 times the dipped beam's light, and three times as wide).
+  const float wider = std::pow(std::min(main_beam_times(glow, toward_eye), 80.0f), 0.25f);
+  const glm::vec3 brightness = hue * (turned * strength * wider * std::min(1.0f, distance_m / lens_seen_m));
   // As it looks: about the root of light, 1 white.
-  return {brightness * brightness / exposure, glow.radius_m * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark)};
+  return {brightness * brightness / exposure,
+          glow.radius_m * wider * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark)};
 }
 
 }  // namespace

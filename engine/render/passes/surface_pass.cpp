@@ -89,7 +89,7 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const std::uint32_t glossy =
         std::uint32_t{material.glossy || (light.wet && material.wettable)} | std::uint32_t{material.coated} << 1;
     const bool moving = context.formats.marks && !draw.still;
-    const bool retroreflective = light.headlights && material.constants.light.y > 0.0f;
+    const bool retroreflective = material.constants.light.y > 0.0f;
     const VkPipeline pipeline =
         pipeline_of(pass, context,
                     {texturing, light.lamps(), glossy, light.snowy, light.sooty, material.wettable,

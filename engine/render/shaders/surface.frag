@@ -129,7 +129,8 @@ void main() {
   // What stands still and lies lower than the road is not mirrored by it.
   if (mirror_of_road != 0 && snowed > 0.5 && dot(view.road.xyz, relative) < view.road.w) discard;
   vec4 base = color;
-  if (textured == 1) base *= decoded(texture(image, uv));
+  // What is written on signs and plates is sharper by a finer mip level, which so plain a picture can bear.
+  if (textured == 1) base *= decoded(texture(image, uv, retroreflective != 0 ? -0.7 : 0.0));
   if (textured == 2) base *= decoded(along_footprint(uv));
   float alpha = base.a;
   if (stripe != 0) alpha *= on_stripe(uv.x, uv.y);
