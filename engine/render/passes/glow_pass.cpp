@@ -62,9 +62,10 @@ Shine shine(const LampGlow& glow, const glm::vec3& toward_eye, float exposure, f
   // By day a lamp is hardly more than its lens, a tail lamp the least of all; a beacon is made to be seen.
   const float by_day = glow.beam ? 0.7f : std::min(1.3f, std::sqrt(brightest / 3.5f));
   const float strength = around ? 3.2f + 0.4f * dark : glm::mix(by_day, glow.beam ? 4.0f : 3.0f, dark);
-  // As an eye has it that sees both: the root of light, and a disc that grows by its root again (to 80 times the dipped beam's light, and three times as wide).
-  const float wider = std::pow(std::min(main_beam_times(glow, toward_eye), 80.0f), 0.25f);
-  const glm::vec3 brightness = hue * (turned * strength * wider * std::min(1.0f, distance_m / lens_seen_m));
+  // To 80 times the dipped beam's light: nine times the radiance, 1.7 times as wide, for more would hide the car and the road beside it.
+  const float brighter = std::pow(std::min(main_beam_times(glow, toward_eye), 80.0f), 0.25f),
+              wider = std::sqrt(brighter);
+  const glm::vec3 brightness = hue * (turned * strength * brighter * std::min(1.0f, distance_m / lens_seen_m));
   // As it looks: about the root of light, 1 white.
   return {brightness * brightness / exposure,
           glow.radius_m * wider * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark)};
