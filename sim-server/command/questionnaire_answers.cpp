@@ -11,6 +11,7 @@
 #include "logging/session_reader.hpp"
 #include "program/resources.hpp"
 #include "sim-server/command/list_command.hpp"
+#include "sim-server/command/renewed_results.hpp"
 
 namespace septet::server {
 namespace {
@@ -91,6 +92,7 @@ std::optional<std::string> keep_answers(const std::vector<logging::Questionnaire
   const auto added =
       logging::add_answers(session, logging::records_of(*questionnaire, *answers, as, observed_s), as + '.');
   if (!added) return describe(added.error());
+  if (const auto renewed = renew_results(session.parent_path(), session); !renewed) return describe(renewed.error());
   return std::nullopt;
 }
 

@@ -20,7 +20,7 @@ Expected<std::vector<logging::Questionnaire>> find_questionnaires();
 /// How the page shows them.
 std::vector<page::QuestionnaireChoice> choices_of(const std::vector<logging::Questionnaire>& questionnaires);
 
-/// Writes the answers into the session's file, in place of earlier ones of that name. Nothing where it was done, else why not: another
+/// Writes the answers into the session's file, in place of earlier ones of that name, and renews summary and report beside it. Nothing where it was done, else why not: another
 /// questionnaire, item or value, a name that is no plain word, a drive that goes on.
 std::optional<std::string> keep_answers(const std::vector<logging::Questionnaire>& questionnaires,
                                         const page::Answer& answer, const std::filesystem::path& session);

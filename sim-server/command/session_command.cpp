@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <iostream>
 #include <set>
 #include <utility>
@@ -16,13 +15,12 @@
 #include "engine/document/text_file.hpp"
 #include "logging/best_list.hpp"
 #include "logging/questionnaire.hpp"
-#include "logging/report/report.hpp"
-#include "logging/report/summary.hpp"
 #include "logging/session_editor.hpp"
 #include "logging/session_reader.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"
 #include "sim-server/command/experiment_study.hpp"
+#include "sim-server/command/renewed_results.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -65,28 +63,6 @@ void leave_person_out(document::Json& summary) {
   for (const auto& item : summary["subject"].items())
     if (item.key().starts_with("column.")) own.push_back(item.key());
   for (const auto& key : own) summary["subject"].erase(key);
-}
-
-/// Summary and report in `folder`, where they are there, tell again what `session` tells now, which may lie elsewhere; `change`: what else the summary is to lose.
-Expected<void> renew_results(const fs::path& folder, const fs::path& session,
-                             const std::function<void(document::Json&)>& change = {}) {
-  std::error_code ignored;
-  const fs::path summary = folder / "summary.json", report = folder / "report.html";
-  if (!fs::exists(summary, ignored) && !fs::exists(report, ignored)) return {};
-  const auto reader = logging::SessionReader::open(session);
-  if (!reader) return tl::unexpected(reader.error());
-  if (fs::exists(summary, ignored)) {
-    const auto text = read_regular_file(summary);
-    auto json = text ? document::Json::parse(*text, nullptr, false) : document::Json();
-    if (!json.is_object()) return failure("it is no summary", summary.string(), "remove it");
-    const auto answers = reader->questionnaire();
-    if (!answers) return tl::unexpected(answers.error());
-    json["answers"] = logging::answers_json(*answers);
-    if (change) change(json);
-    if (auto written = document::write_text_file(summary, document::text_of(json)); !written) return written;
-  }
-  if (fs::exists(report, ignored)) return logging::write_report(*reader, report);
-  return {};
 }
 
 /// A folder that is called by the participant, as those of an experiment are, gets a name that tells nothing.

@@ -5,7 +5,11 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
+#include "engine/core/regular_file.hpp"
+#include "engine/document/json.hpp"
+#include "engine/document/text_file.hpp"
 #include "logging/session_reader.hpp"
 #include "tests/logging/session_fixture.hpp"
 
@@ -50,6 +54,20 @@ TEST_CASE("answers from the page lie in the session, and what cannot be is refus
   REQUIRE(rows().size() == 2);
   CHECK_FALSE(rows()[0].value.has_value());
   CHECK(rows()[1].value == 1.0);
+}
+
+TEST_CASE("answers from the page stand in the summary that lies beside the session, too") {
+  const TemporaryFolder folder;
+  const auto session = folder / "session.sqlite", summary = folder / "summary.json";
+  REQUIRE(logging::SessionWriter::create(session, logging::example_info())->finish().has_value());
+  REQUIRE(document::write_text_file(summary, "{\"answers\": {}, \"seed\": 7}").has_value());
+  const auto questionnaires = find_questionnaires();
+  REQUIRE(questionnaires.has_value());
+  const page::Answer answer{.session = 1, .questionnaire = "paper", .as = "paper-after", .answers = {{"fun", 5}}};
+  CHECK_FALSE(keep_answers(*questionnaires, answer, session).has_value());
+  const auto renewed = document::Json::parse(read_regular_file(summary).value());
+  CHECK(renewed["seed"] == 7);
+  CHECK(renewed["answers"].dump().find("paper-after.fun") != std::string::npos);
 }
 
 }  // namespace septet::server
