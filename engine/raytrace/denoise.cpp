@@ -1,8 +1,11 @@
 #include "engine/raytrace/denoise.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "engine/core/parallel_for.hpp"
@@ -15,16 +18,41 @@ constexpr int reach_px = 7, patch_px = 1, strip_rows = 16;
 
 constexpr float strictness = 0.55f;  ///< Of the light: smaller keeps more, noise too.
 constexpr float normal_sigma = 0.2f, albedo_sigma = 0.15f;
-constexpr float least_albedo = 0.02f;
-constexpr float even_variance = 1e-9f;  ///< After exposure: far below a display's code.
+constexpr float least_albedo =
+    0.1f;  ///< What is darker mirrors more light than it scatters, which its albedo tells nothing about.
+constexpr int spark_reach_px = 2;
+constexpr std::size_t spark_rank = 3;       ///< A spark is brighter than all but so many around it,
+constexpr float spark_uncertainty = 0.25f;  ///< and its deviation at least this share of it: a lamp's is far less.
+constexpr float even_variance = 1e-9f;      ///< After exposure: far below a display's code.
 
 /// What is compared of a pixel.
 struct Guide {
   glm::vec3 light{0.0f};  ///< By the albedo, after exposure.
   glm::vec3 modulation{1.0f};
-  float luminance = 0.0f, variance = 0.0f;
+  float luminance = 0.0f, variance = 0.0f;  ///< Of the light as it is compared: l / (1 + l).
   glm::vec3 normal{0.0f}, albedo{0.0f};
 };
+
+/// What is left of a pixel's light: a spark, which few of its samples have met by chance, is no brighter than those around, for a filter would make
+/// a patch of it.
+float share_without_spark(const TracedPicture& picture, int x, int y) {
+  const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
+  const auto pixel_at = [&](int column, int row) -> const TracedPixel& {
+    return picture.pixels[static_cast<std::size_t>(row) * picture.width + static_cast<std::size_t>(column)];
+  };
+  const TracedPixel& here = pixel_at(x, y);
+  const float light = luminance(here.radiance);
+  if (!(here.variance > spark_uncertainty * spark_uncertainty * light * light)) return 1.0f;
+  std::array<float, spark_rank> brightest{};  // Of those around, falling.
+  for (int row = std::max(0, y - spark_reach_px); row <= std::min(height - 1, y + spark_reach_px); ++row)
+    for (int column = std::max(0, x - spark_reach_px); column <= std::min(width - 1, x + spark_reach_px); ++column) {
+      if (row == y && column == x) continue;
+      float other = luminance(pixel_at(column, row).radiance);
+      for (float& rank : brightest)
+        if (other > rank) std::swap(rank, other);
+    }
+  return light > brightest.back() ? brightest.back() / light : 1.0f;
+}
 
 class Guides {
  public:
@@ -32,13 +60,18 @@ class Guides {
       : width_(static_cast<int>(picture.width)), height_(static_cast<int>(picture.height)) {
     guides_.reserve(picture.pixels.size());
     for (const TracedPixel& pixel : picture.pixels) {
+      const auto n = static_cast<int>(guides_.size());
+      const float left = share_without_spark(picture, n % width_, n / width_);
       Guide guide;
       // A pixel is sky by as much as its normals, which the sky has none of, are short of one.
       const float sky = std::max(0.0f, 1.0f - glm::length(pixel.normal));
       guide.modulation = glm::max(pixel.albedo + sky, glm::vec3(least_albedo));
-      guide.light = pixel.radiance * scale / guide.modulation;
-      guide.luminance = luminance(guide.light);
-      const float share = scale / luminance(guide.modulation);
+      guide.light = pixel.radiance * (left * scale) / guide.modulation;
+      // Lamps that some samples met and others missed vary by thousands of whites: what is far beyond white differs by little, or the dark around
+      // them would be like them.
+      const float light = luminance(guide.light), beyond = 1.0f + light;
+      guide.luminance = light / beyond;
+      const float share = left * scale / (luminance(guide.modulation) * beyond * beyond);
       guide.variance = pixel.variance * share * share;
       guide.normal = pixel.normal, guide.albedo = pixel.albedo;
       guides_.push_back(guide);

@@ -4,7 +4,8 @@
 /// Alike are pixels whose surroundings of 3 × 3 differ by no more than their variances explain, as Rousselle, Knaus and Zwicker weigh them in
 /// "Adaptive Rendering with Non-Local Means Filtering" (2012), and whose first surfaces have the same normal and about the same albedo.
 /// Light is divided by the albedo before and multiplied after, so that what is painted on a surface stays sharp. Where there is no
-/// variance nothing changes. What is seen in mirrors and through glass has no guide but its own light.
+/// variance nothing changes. Sparks, of which few samples know by chance, are first made as bright as what is around them, so a picture of few samples
+/// loses some of the light that only such chances bring. What is seen in mirrors and through glass has no guide but its own light.
 ///
 /// A picture's pixels depend on the picture alone; it runs on this machine's cores.
 

@@ -51,7 +51,7 @@ std::string progress_text(const FilmMade& so_far, double elapsed_s) {
   if (so_far.bad_samples > 0) text += fmt::format(", {} samples without light that is a number", so_far.bad_samples);
   if (so_far.workers > 1) text += fmt::format(" by {} programs", so_far.workers);
   const double drawn = done - static_cast<double>(so_far.kept) - so_far.kept_of_next;
-  if (!(drawn > 0.0)) return text;
+  if (!(drawn > 1e-3)) return text;  // What is left of rounding tells no time.
   const double left_s = elapsed_s * (static_cast<double>(so_far.planned) - done) / drawn;
   return text +
          (left_s < 90.0 ? fmt::format(", {:.0f} s left", left_s) : fmt::format(", {:.0f} min left", left_s / 60.0));

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -75,6 +76,57 @@ TEST_CASE("an edge that is painted on a surface or between two of them stays sha
     CHECK(right == relative(painted ? 0.2 : 0.16, 0.06));
     CHECK(std::abs(clean.at(23, 16).radiance.x - left) < 0.15 * left);
   }
+}
+
+TEST_CASE("a spark that few samples met makes no patch and what is smooth keeps its light") {
+  const glm::vec3 smooth(0.2f);
+  TracedPicture picture(48, 48);
+  for (std::uint32_t n = 0; n < picture.pixels.size(); ++n) {
+    PathRandom random(2, n, 0, 0);
+    TracedPixel& pixel = picture.pixels[n];
+    pixel.object = 1, pixel.albedo = glm::vec3(0.2f), pixel.normal = glm::vec3(0, 0, 1);
+    pixel.radiance = smooth * (1.0f + 0.4f * (random.uniform() - 0.5f));
+    pixel.variance = 0.2f * 0.2f * 0.16f / 12.0f;
+  }
+  // One of 16 samples met light of 160: the mean is 10 and its deviation as much.
+  for (const auto& [x, y] : {std::pair{12u, 12u}, {30u, 20u}, {20u, 36u}}) {
+    TracedPixel& spark = picture.pixels[y * 48 + x];
+    spark.radiance += glm::vec3(10.0f), spark.variance = 100.0f;
+  }
+  const TracedPicture clean = denoised(picture, exposure);
+  double mean = 0.0;
+  float brightest = 0.0f;
+  for (const TracedPixel& pixel : clean.pixels) {
+    mean += pixel.radiance.x / static_cast<double>(clean.pixels.size());
+    brightest = std::max(brightest, pixel.radiance.x);
+  }
+  CHECK(mean == relative(0.2, 0.01));
+  CHECK(brightest < 0.25f);
+}
+
+TEST_CASE("lamps that some samples met and others missed leave the dark around them dark") {
+  TracedPicture picture(48, 48);
+  for (std::uint32_t n = 0; n < picture.pixels.size(); ++n) {
+    PathRandom random(3, n, 0, 0);
+    TracedPixel& pixel = picture.pixels[n];
+    pixel.object = 1, pixel.albedo = glm::vec3(0.2f), pixel.normal = glm::vec3(0, 0, 1);
+    pixel.radiance = glm::vec3(0.01f * (1.0f + 0.4f * (random.uniform() - 0.5f)));
+    pixel.variance = 1e-4f * 0.16f / 12.0f;
+  }
+  // Five lamps in a row, of one sample in 16 to three of four.
+  for (std::uint32_t n = 0; n < 5; ++n) {
+    TracedPixel& lamp = picture.pixels[20 * 48 + 18 + 3 * n];
+    const float share = 0.0625f + 0.17f * static_cast<float>(n);
+    lamp.radiance += glm::vec3(1000.0f * share);
+    lamp.variance = 1e6f * share * (1.0f - share) / 16.0f;
+  }
+  const TracedPicture clean = denoised(picture, exposure);
+  float brightest = 0.0f;
+  for (std::uint32_t y = 0; y < 48; ++y)
+    for (std::uint32_t x = 0; x < 48; ++x)
+      if (y < 18 || y > 22) brightest = std::max(brightest, clean.at(x, y).radiance.x);
+  CHECK(brightest < 0.02f);
+  CHECK(clean.at(30, 20).radiance.x > 100.0f);
 }
 
 TEST_CASE("the noise goes the same way bit for bit each time and numbers stay numbers") {
