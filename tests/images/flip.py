@@ -5,15 +5,14 @@ Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A
 
     flip.py REFERENCE.png PICTURE.png [--most X]     mean over the pixels that the reference's alpha marks
 
-Also PNG files in and out (8 bit, not interlaced), so that numpy is all it needs.
+Also PNG files of 8 bits in and out.
 """
 
 import math
-import struct
 import sys
-import zlib
 
 import numpy
+from PIL import Image
 
 PIXELS_PER_DEGREE = 0.7 * 3840 / 0.7 * math.pi / 180
 XYZ_OF_RGB = numpy.array([[10135552 / 24577794, 8788810 / 24577794, 4435075 / 24577794],
@@ -24,55 +23,14 @@ WHITE = XYZ_OF_RGB.sum(axis=1)
 
 def read_png(path):
     """Rows of pixels of 3 or 4 numbers from 0 to 1."""
-    data = open(path, "rb").read()
-    at, packed = 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, colour, _, _, interlaced = struct.unpack(">IIBBBBB", body)
-            if depth != 8 or interlaced or colour not in (2, 6):
-                raise ValueError(f"{path}: neither RGB nor RGBA of 8 bits")
-        packed += body if kind == b"IDAT" else b""
-        at += 12 + length
-    channels = 3 if colour == 2 else 4
-    lines = numpy.frombuffer(zlib.decompress(packed), numpy.uint8).reshape(height, 1 + width * channels)
-    before = numpy.zeros((width, channels), numpy.int32)
-    rows = []
-    for line in lines:
-        raw = line[1:].reshape(width, channels).astype(numpy.int32)
-        if line[0] == 0:
-            row = raw
-        elif line[0] == 1:
-            row = numpy.cumsum(raw, axis=0) % 256
-        elif line[0] == 2:
-            row = (raw + before) % 256
-        else:
-            row = numpy.zeros_like(raw)
-            left = corner = numpy.zeros(channels, numpy.int32)
-            for x in range(width):
-                above = before[x]
-                if line[0] == 3:
-                    guess = (left + above) // 2
-                else:
-                    p = left + above - corner
-                    a, b, c = abs(p - left), abs(p - above), abs(p - corner)
-                    guess = numpy.where((a <= b) & (a <= c), left, numpy.where(b <= c, above, corner))
-                left, corner = (raw[x] + guess) % 256, above
-                row[x] = left
-        rows.append(row)
-        before = row
-    return numpy.array(rows) / 255.0
+    with Image.open(path) as image:
+        if image.tile[0][3] not in ("RGB", "RGBA"):  # How its pixels lie in the file; another depth has another name.
+            raise ValueError(f"{path}: neither RGB nor RGBA of 8 bits")
+        return numpy.asarray(image) / 255.0
 
 
 def write_png(path, pixels):
-    codes = numpy.clip(numpy.rint(pixels * 255), 0, 255).astype(numpy.uint8)
-    height, width, channels = codes.shape
-    lines = b"".join(b"\0" + row.tobytes() for row in codes)
-    chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2 if channels == 3 else 6, 0, 0, 0))
-                   + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
+    Image.fromarray(numpy.clip(numpy.rint(pixels * 255), 0, 255).astype(numpy.uint8)).save(path)
 
 
 def linear(codes):
@@ -105,23 +63,23 @@ def colour_distance(a, b):
     return (abs(d[..., 0]) + numpy.hypot(d[..., 1], d[..., 2])) ** 0.7
 
 
-def filtered(plane, kernel):
-    radius = kernel.shape[0] // 2
-    wide = numpy.pad(plane, radius, mode="edge")
+def filtered(plane, down, across):
+    """By the kernel that is the product of a column and a row, the edges' pixels repeated."""
     height, width = plane.shape
-    return sum(kernel[j, i] * wide[j:j + height, i:i + width]
-               for j in range(kernel.shape[0]) for i in range(kernel.shape[1]) if kernel[j, i] != 0)
+    wide = numpy.pad(plane, len(down) // 2, mode="edge")
+    columns = sum(weight * wide[j:j + height] for j, weight in enumerate(down))
+    return sum(weight * columns[:, i:i + width] for i, weight in enumerate(across))
 
 
 def as_seen(codes):
     """What is left of a picture at that distance, as linear light."""
     radius = math.ceil(3 * math.sqrt(0.04 / (2 * math.pi ** 2)) * PIXELS_PER_DEGREE)
     steps = numpy.arange(-radius, radius + 1) / PIXELS_PER_DEGREE
-    square = steps[None, :] ** 2 + steps[:, None] ** 2
     planes = opponent(linear(codes))
     for c, terms in enumerate([[(1, 0.0047)], [(1, 0.0053)], [(34.1, 0.04), (13.5, 0.025)]]):
-        kernel = sum(a * math.sqrt(math.pi / b) * numpy.exp(-math.pi ** 2 * square / b) for a, b in terms)
-        planes[..., c] = filtered(planes[..., c], kernel / kernel.sum())
+        bells = [(a * math.sqrt(math.pi / b), numpy.exp(-math.pi ** 2 * steps ** 2 / b)) for a, b in terms]
+        whole = sum(weight * bell.sum() ** 2 for weight, bell in bells)
+        planes[..., c] = sum(weight / whole * filtered(planes[..., c], bell, bell) for weight, bell in bells)
     return numpy.clip(rgb_of_opponent(planes), 0, 1)
 
 
@@ -131,13 +89,14 @@ def features(codes):
     deviation = 0.5 * 0.082 * PIXELS_PER_DEGREE
     radius = math.ceil(3 * deviation)
     steps = numpy.arange(-radius, radius + 1)
-    bell = numpy.exp(-(steps[None, :] ** 2 + steps[:, None] ** 2) / (2 * deviation ** 2))
+    bell = numpy.exp(-steps ** 2 / (2 * deviation ** 2))
+    bell /= bell.sum()
     result = []
     for weight in (-steps, steps ** 2 / deviation ** 2 - 1):
-        kernel = weight[None, :] * bell
-        positive, negative = kernel[kernel > 0].sum(), -kernel[kernel < 0].sum()
-        kernel = numpy.where(kernel > 0, kernel / positive, kernel / negative)
-        result.append(numpy.hypot(filtered(lightness, kernel), filtered(lightness, kernel.T)))
+        derived = weight * bell
+        positive, negative = derived[derived > 0].sum(), -derived[derived < 0].sum()
+        derived = numpy.where(derived > 0, derived / positive, derived / negative)
+        result.append(numpy.hypot(filtered(lightness, bell, derived), filtered(lightness, derived, bell)))
     return result
 
 
