@@ -105,7 +105,9 @@ Expected<Database> Database::open(const std::filesystem::path& path, OpenMode mo
     return failure("the file exists already, and a log is never overwritten", where,
                    "choose another name or remove it");
   if (mode == OpenMode::read && !std::filesystem::is_regular_file(path, ignored))
-    return failure("there is no such file", where, "check the path");
+    return std::filesystem::exists(path, ignored)
+               ? failure("this is no file that can be read as a log", where, "give the log itself")
+               : failure("there is no such file", where, "check the path");
 
   const auto open_with = [&](const std::string& name, int flags) {
     sqlite3* handle = nullptr;

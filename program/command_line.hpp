@@ -49,15 +49,32 @@ inline std::optional<std::string> commands_instead_of(const CLI::App& app, int a
   return commands;
 }
 
-/// Reads the command line, then does the work; returns the exit status. 0 after --help and --version, 2 for a wrong command line.
-inline int run(std::string_view name, CLI::App& app, int argc, char** argv,
+/// Throws where a word after an option of `app`, or of the command that was given, is empty, as of a shell's variable that nobody set:
+/// else it would read as if the option were not there.
+inline void refuse_empty_words(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& word : option->results())
+      if (word.empty()) throw CLI::ValidationError(option->get_name(), "the word after it is empty");
+  for (const CLI::App* command : app.get_subcommands()) refuse_empty_words(*command);
+}
+
+/// Reads the command line by `parse`, of `app`, then does the work; returns the exit status. 0 after --help and --version, 2 for a wrong command line.
+inline int run(std::string_view name, const CLI::App& app, const std::function<void()>& parse,
                const std::function<Expected<int>()>& work) {
   try {
-    app.parse(argc, argv);
+    parse();
+    refuse_empty_words(app);
   } catch (const CLI::ParseError& error) {
     return app.exit(error, std::cout, std::cerr) == 0 ? status_after_output(name, 0) : wrong_use_status;
   }
   return run(name, work);
+}
+
+/// The same, of the program's own command line.
+inline int run(std::string_view name, CLI::App& app, int argc, char** argv,
+               const std::function<Expected<int>()>& work) {
+  return run(
+      name, app, [&] { app.parse(argc, argv); }, work);
 }
 
 }  // namespace septet::program

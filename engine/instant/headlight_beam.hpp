@@ -31,14 +31,14 @@ inline constexpr float main_peak = 4.0f;
 inline float share(const glm::vec3& level, const glm::vec3& direction, float main_beam = 0.0f) {
   // Without a branch, so that eight are found at a time.
   const float cosine = glm::dot(direction, level), ahead = std::max(cosine, 1e-6f);
-  const float down = level.z * ahead - direction.z;
-  const float aside = std::max(0.0f, 1.0f - down * down - ahead * ahead) / (ahead * ahead);
+  const float down = level.z * ahead - direction.z, down2 = down * down, ahead2 = ahead * ahead;
+  const float aside = std::max(0.0f, 1.0f - down2 - ahead2), falls = 1.0f + down2 * (400.0f + down2 * 20000.0f);
   const float t = std::clamp((down - 0.004f) / 0.0085f, 0.0f, 1.0f);
-  const float below = t * t * (3.0f - 2.0f * t) / (1.0f + down * down * (400.0f + down * down * 20000.0f));
-  const float above = 0.03f / (1.0f + std::max(-down, 0.0f) * 33.0f);
-  const float dipped = std::max(below, above) / (1.0f + aside * 59.0f);
-  const float ahead_alone = 1.0f / (1.0f + aside * 500.0f + down * down * (900.0f + down * down * 1e6f));
-  const float share = dipped + main_beam * main_peak * ahead_alone;
+  // All fractions are one, as divisions cost most.
+  const float dipped = std::max(t * t * (3.0f - 2.0f * t), 0.03f * falls);
+  const float over = falls * (1.0f + std::max(-down, 0.0f) * 33.0f) * (ahead2 + aside * 59.0f);
+  const float over_main = ahead2 + aside * 500.0f + ahead2 * down2 * (900.0f + down2 * 1e6f);
+  const float share = ahead2 * (dipped * over_main + main_beam * main_peak * over) / (over * over_main);
   return cosine > 0.0f ? share : 0.0f;
 }
 

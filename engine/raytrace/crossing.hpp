@@ -41,4 +41,20 @@ inline Ray enter_or_leave(const SurfacePoint& point, const Ray& ray, PathRandom&
   return next;
 }
 
+/// At a translucent sheet: half of the light that leaves comes from its other side. There the sheet is seen from that side, as `direction`, the
+/// ray's, is turned.
+inline void take_a_side(SurfacePoint& point, glm::vec3& direction, PathRandom& random) {
+  if (random.uniform() < 0.5f) return;
+  direction -= 2.0f * glm::dot(direction, point.flat_normal) * point.flat_normal;
+  point.flat_normal = -point.flat_normal;
+  point.surface.normal = -point.surface.normal;
+}
+
+/// The side of the surface on which this direction leads away from it; zero where it leads into it.
+inline glm::vec3 side_towards(const SurfacePoint& point, const glm::vec3& direction) {
+  const float out = glm::dot(direction, point.flat_normal);
+  if (out > 0.0f) return point.flat_normal;
+  return point.face_in_sheet && out < 0.0f ? -point.flat_normal : glm::vec3(0.0f);
+}
+
 }  // namespace septet::raytrace

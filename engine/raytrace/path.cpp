@@ -46,7 +46,8 @@ void Path::meet_lamp(const Ray& ray, const SurfacePoint& point) {
 void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
                      float distance_m) {
   if (!(light.pdf > 0.0f) || light.radiance == glm::vec3(0.0f)) return;
-  if (!point.in_smoke && glm::dot(light.direction, point.flat_normal) <= 0.0f) return;
+  const glm::vec3 side = side_towards(point, light.direction);
+  if (!point.in_smoke && side == glm::vec3(0.0f)) return;
   Scattering scattered = point.in_smoke ? Scattering{point.surface.diffuse * evenly_per_sr, evenly_per_sr}
                                         : scattering(point.surface, to_viewer, light.direction);
   if (kind == Kind::headlight && !point.in_smoke) {
@@ -62,7 +63,7 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   const float share = also_by_chance ? pdf / std::max(pdf * pdf + scattered.pdf * scattered.pdf, 1e-37f) : 1.0f / pdf;
   const glm::vec3 estimate = throughput_ * scattered.value * light.radiance * share;
   Ray shadow;
-  shadow.origin_m = beside(point.position_m, point.flat_normal);
+  shadow.origin_m = beside(point.position_m, side);
   shadow.direction = light.direction;
   shadow.time = time_;
   if (distance_m < std::numeric_limits<float>::infinity()) {
@@ -96,13 +97,13 @@ void Path::choose_chances(const SurfacePoint& point) {
   const float seen_sky = std::max(point.share_of_sky, 0.02f);
   world_.lamp_row().weigh(point.position_m, point.flat_normal, time_, lamp_weights_);
   headlight_sum_ = world_.headlights().sum(point.position_m, time_);
-  chances_ = {
-      sky.has_sun()
-          ? luminance(light.light_irradiance) * seen_sky *
-                (point.in_smoke ? 1.0f : std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f))
-          : 0.0f,
-      sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_.sum(),
-      headlight_sum_};
+  chances_ = {sky.has_sun() ? luminance(light.light_irradiance) * seen_sky *
+                                  (point.in_smoke || point.face_in_sheet
+                                       ? 1.0f
+                                       : std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f))
+                            : 0.0f,
+              sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_.sum(),
+              headlight_sum_};
   float sum = 0.0f;
   for (const float weight : chances_) sum += weight;
   if (!(sum > 0.0f)) return;
@@ -225,6 +226,7 @@ bool Path::arrive(bool met, Hit& hit, FirstSeen* first) {
     pdf_ = 0.0f;
     return true;
   }
+  if (point_.translucent) take_a_side(point_, ray_.direction, random_);
   const glm::vec3 to_viewer = -ray_.direction;
   if (photons_ && take_photons(point_, to_viewer, edge_m)) return false;
   choose_chances(point_);
@@ -248,7 +250,8 @@ bool Path::leave(Ray& next) {
       point_.in_smoke ? scatter_evenly(point_.surface.diffuse, random_) : scatter(point_.surface, to_viewer, random_);
   throughput_ *= scattered.weight;
   if (throughput_ == glm::vec3(0.0f)) return false;
-  if (!point_.in_smoke && glm::dot(scattered.direction, point_.flat_normal) <= 0.0f) return false;
+  const glm::vec3 side = side_towards(point_, scattered.direction);
+  if (!point_.in_smoke && side == glm::vec3(0.0f)) return false;
   if (edge_ >= settings_.roulette_from) {
     const float goes_on = std::min(0.95f, std::max({throughput_.x, throughput_.y, throughput_.z}));
     if (random_.uniform() >= goes_on) return false;
@@ -259,7 +262,7 @@ bool Path::leave(Ray& next) {
   from_m_ = point_.position_m;
   next = {};
   next.time = time_;
-  next.origin_m = beside(point_.position_m, point_.flat_normal);
+  next.origin_m = beside(point_.position_m, side);
   next.direction = scattered.direction;
   return true;
 }

@@ -195,15 +195,17 @@ void PhotonLights::follow(Flight flight, PhotonKind kind, PathRandom& random, st
       if (!point.from_front) flight.power *= glm::exp(-point.absorption_per_m * edge_m);
       ray = enter_or_leave(point, ray, random);
     } else {
+      if (point.translucent) take_a_side(point, ray.direction, random);
       photons.push_back({point.position_m, flight.power, point.flat_normal, -ray.direction});
       if (of_caustic) return;
       const Scattered scattered = scatter(point.surface, -ray.direction, random);
       flight.power *= scattered.weight;
-      if (!(glm::dot(scattered.direction, point.flat_normal) > 0.0f)) return;
+      const glm::vec3 side = side_towards(point, scattered.direction);
+      if (side == glm::vec3(0.0f)) return;
       const float time = ray.time;
       ray = Ray{};
       ray.time = time;
-      ray.origin_m = beside(point.position_m, point.flat_normal);
+      ray.origin_m = beside(point.position_m, side);
       ray.direction = scattered.direction;
     }
     const float goes_on = std::max({flight.power.x, flight.power.y, flight.power.z}) / begun_with;

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/instant/glass_cover.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/instant/wet_road.hpp"
 
@@ -225,6 +226,7 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
 
   Surface& surface = point.surface;
   surface.normal = normal;
+  if (placed.on_glass) return lie_on_glass(placed, ray, hit, point);
   point.share_of_sky = material.share_of_sky * placed.share_of_sky;
   if (nothing_lies_on_it_ && &material != &no_material_ &&
       index_.plain[static_cast<std::size_t>(&material - scene_.materials.data())]) {
@@ -248,8 +250,10 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   const glm::vec3 color = base;
   const float share_of_sky = point.share_of_sky;
   const Environment& weather = instant_.environment;
-  if (weather.snow_cover > 0.0) lay_snow(placed, material, uv, normal.z, share_of_sky, base);
-  const float wet = material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky : 0.0f;
+  const float snow_lies =
+      weather.snow_cover > 0.0 ? lay_snow(placed, material, uv, normal.z, share_of_sky, base) : 0.0f;
+  const float wet =
+      material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky * (1.0f - snow_lies) : 0.0f;
   const float under_water = wet > 0.0f ? instant::puddle(cloud_noise_, origin_m_.x + double(point.position_m.x),
                                                          origin_m_.y + double(point.position_m.y),
                                                          textured ? instant::rut_at(uv.x) : 0.0f, wet)
@@ -292,6 +296,34 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   }
 }
 
+void World::lie_on_glass(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const {
+  const ice::IceVertex* corner = &placed.on_glass->vertices[std::size_t{3} * hit.triangle];
+  const auto between = [&](glm::vec3 ice::IceVertex::*what) {
+    return (1.0f - hit.u - hit.v) * corner[0].*what + hit.u * corner[1].*what + hit.v * corner[2].*what;
+  };
+  const glm::vec3 rest_m = between(&ice::IceVertex::rest_m);
+  point.share_of_sky = placed.share_of_sky;
+  point.surface.normal = point.flat_normal;
+  if (placed.on_glass->look.on_glass == ice::OnGlass::frost) {
+    point.opacity = instant::frost_hides(cloud_noise_, rest_m);
+    point.translucent = true;
+    point.surface.diffuse = glm::vec3(instant::frost_albedo);
+    return;
+  }
+  const instant::CrackSeen crack =
+      instant::crack_seen(cloud_noise_, rest_m, glm::normalize(between(&ice::IceVertex::normal)));
+  point.opacity = crack.hides;
+  point.translucent = crack.crushed;
+  point.face_in_sheet = !crack.crushed;
+  if (crack.crushed) {
+    point.surface.diffuse = glm::vec3(crack.albedo);
+    return;
+  }
+  point.surface.normal = glm::dot(crack.normal, ray.direction) > 0.0f ? -crack.normal : crack.normal;
+  point.surface.f0 = glm::vec3(1.0f);
+  point.surface.alpha = instant::crack_roughness * instant::crack_roughness;
+}
+
 glm::vec2 World::ripple(const glm::vec3& position_m) const {
   const Vec3 tiles = (origin_m_ + Vec3(position_m)) / instant::ripple_tile_m;
   const auto texel = [](double tile) {
@@ -314,19 +346,21 @@ glm::vec3 World::open_fog_radiance(const glm::vec3& direction) const {
 }
 
 /// As in shaders/surface.frag. Leaves wither, and snow lies on twigs whichever way their picture looks. Wheels keep two tracks of a
-/// lane bare; what drives has blown it off, and one sees through what is clear.
-void World::lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
-                     float share_of_sky, glm::vec3& albedo) const {
+/// lane bare; what drives has blown it off, and one sees through what is clear. Returns the share of the place on which it lies.
+float World::lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
+                      float up, float share_of_sky, glm::vec3& albedo) const {
   const auto cover = static_cast<float>(instant_.environment.snow_cover);
   float snow = step_between(0.35f, 0.8f, up);
   if (&material != &no_material_ && index_.cut[static_cast<std::size_t>(&material - scene_.materials.data())]) {
     albedo = glm::mix(albedo, glm::vec3(0.11f, 0.09f, 0.07f) * (0.4f + 2.0f * albedo.g), 0.9f * cover);
     snow = std::max(snow, 0.35f);
   }
-  if (!placed.snowed_on || material.opacity < opaque_from) return;
+  if (!placed.snowed_on || material.opacity < opaque_from) return 0.0f;
   if (material.wettable && material.base_color_image >= 0)
     snow *= 0.3f + 0.7f * step_between(0.07f, 0.13f, std::abs(std::abs(uv.x - 0.5f) - 0.23f));
-  albedo = glm::mix(albedo, glm::vec3(0.85f, 0.88f, 0.92f), cover * share_of_sky * snow);
+  const float lies = cover * share_of_sky * snow;
+  albedo = glm::mix(albedo, glm::vec3(0.85f, 0.88f, 0.92f), lies);
+  return lies;
 }
 
 bool World::is_hole(std::uint32_t place, std::uint32_t triangle, float u, float v) const {
@@ -341,7 +375,7 @@ float World::share_let_through(std::uint32_t place, std::uint32_t triangle, floa
                                const glm::vec3& direction) const {
   const PlacedSurface& placed = placed_[place];
   const scene::SurfaceMaterial& material = material_of(placed, triangle);
-  if (material.opacity >= opaque_from) return is_hole(place, triangle, u, v) ? 1.0f : 0.0f;
+  if (material.opacity >= opaque_from && !placed.on_glass) return is_hole(place, triangle, u, v) ? 1.0f : 0.0f;
   Hit hit{0.0f, place, triangle, u, v};
   Ray ray;
   ray.direction = direction;

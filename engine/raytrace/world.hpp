@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "engine/effects/ice/ice_body.hpp"
 #include "engine/instant/clouds.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/geometry.hpp"
@@ -35,6 +36,10 @@ struct SurfacePoint {
   glm::vec3 retroreflection{0.0f};  ///< cd/(lx m²), to where light comes from.
   float opacity = 1.0f;             ///< Share of the rays that it stops; the others go straight on.
   bool in_smoke = false;  ///< No surface: a place in the air that scatters evenly to all sides, surface.diffuse of it.
+  /// A sheet that scatters what falls on either side to both alike: `surface.diffuse` is the share of both.
+  bool translucent = false;
+  /// A crack's, which stands in it: light leaves on whichever side of the sheet that leads.
+  bool face_in_sheet = false;
   bool dielectric = false;  ///< A body to see into: `index` and `absorption_per_m` are its inside's.
   float index = 1.5f;
   glm::vec3 absorption_per_m{0.0f};
@@ -142,6 +147,7 @@ class World : public Openings {
     std::uint32_t object = 0;  ///< TracedPixel::object.
     std::optional<Motion> motion{};
     std::span<const scene::SurfaceVertex> later{};  ///< Its vertices at time 1, if they move.
+    const ice::IceBody* on_glass = nullptr;         ///< What lies on a pane, if it is that.
     bool is_turned = turn != glm::mat3(1.0f);
 
     glm::vec3 turned(const glm::vec3& way) const { return is_turned ? turn * way : way; }
@@ -165,10 +171,11 @@ class World : public Openings {
   /// Place in the material's image: of several pictures in it, that of the participant.
   static glm::vec2 in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv);
   glm::vec4 texel(const scene::SurfaceMaterial& material, const glm::vec2& at) const;
-  void lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
-                float share_of_sky, glm::vec3& albedo) const;
+  float lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
+                 float share_of_sky, glm::vec3& albedo) const;
   float soot(const glm::vec3& position_m) const;
   glm::vec2 ripple(const glm::vec3& position_m) const;
+  void lie_on_glass(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const;
 
   const scene::ResolvedScene& scene_;
   const SceneIndex& index_;
@@ -185,6 +192,7 @@ class World : public Openings {
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
   std::vector<std::vector<scene::SurfaceVertex>> later_soups_;
+  std::vector<std::vector<scene::SurfaceVertex>> panes_;        ///< What lies on glass, now and at time 1 by turns.
   std::uint32_t next_mesh_ = 0;                                 ///< Of those added behind the scene's.
   std::vector<std::vector<std::uint32_t>> reshaped_materials_;  ///< Of what stands in for a mesh, its triangles'.
   HeadlightRow headlights_;

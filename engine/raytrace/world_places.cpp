@@ -19,6 +19,14 @@ namespace septet::raytrace {
 namespace {
 
 constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
+
+std::vector<scene::SurfaceVertex> as_soup(const ice::IceBody& body) {
+  std::vector<scene::SurfaceVertex> vertices;
+  vertices.reserve(body.vertices.size());
+  for (const ice::IceVertex& vertex : body.vertices) vertices.push_back({vertex.position_m, vertex.normal, {}});
+  return vertices;
+}
+
 /// Vertices as they are then, from the origin that they have now; none where they are others.
 std::vector<scene::SurfaceVertex> vertices_from(const Vec3& origin_m, std::size_t count, const Vec3& then_origin_m,
                                                 std::span<const scene::SurfaceVertex> then) {
@@ -102,15 +110,16 @@ void World::add_soups(std::vector<Place>& places, const instant::Instant* later,
   std::size_t longest = 0;
   for (const instant::LooseMesh& loose : instant_.loose) longest = std::max(longest, loose.mesh.vertices.size());
   for (const ClearBody& body : bodies) longest = std::max(longest, body.vertices.size());
+  for (const ice::IceBody& pane : instant_.glass) longest = std::max(longest, pane.vertices.size());
   loose_indices_.resize(longest);
   std::iota(loose_indices_.begin(), loose_indices_.end(), 0u);
   loose_parts_.reserve(instant_.loose.size());
   later_soups_.reserve(instant_.loose.size());
   const auto add_soup = [&](const Vec3& origin_m, std::span<const scene::SurfaceVertex> vertices, bool seen,
-                            std::span<const scene::SurfaceVertex> moved) -> PlacedSurface& {
+                            std::span<const scene::SurfaceVertex> moved, bool open = false) -> PlacedSurface& {
     const glm::vec3 origin(origin_m - origin_m_);
     const std::span indices(loose_indices_.data(), vertices.size() / 3 * 3);
-    geometry_.add_mesh(vertices, indices, false, moved);
+    geometry_.add_mesh(vertices, indices, open, moved);
     places.push_back({next_mesh_++, origin, glm::mat3(1.0f), seen});
     PlacedSurface soup;
     soup.vertices = vertices;
@@ -139,6 +148,19 @@ void World::add_soups(std::vector<Place>& places, const instant::Instant* later,
     PlacedSurface& soup = add_soup(body.origin_m, body.vertices, true, body.later);
     soup.body = &body;
     soup.object = static_cast<std::uint32_t>(ice);
+  }
+  const bool same_panes = later && later->glass.size() == instant_.glass.size();
+  panes_.reserve(2 * instant_.glass.size());
+  for (std::size_t n = 0; n < instant_.glass.size(); ++n) {
+    const ice::IceBody& pane = instant_.glass[n];
+    if (pane.look.on_glass == ice::OnGlass::nothing) continue;
+    const auto& now = panes_.emplace_back(as_soup(pane));
+    auto& then = panes_.emplace_back();
+    if (same_panes) then = vertices_from(pane.origin_m, now.size(), later->glass[n].origin_m, as_soup(later->glass[n]));
+    PlacedSurface& soup = add_soup(pane.origin_m, now, true, then, true);
+    soup.on_glass = &pane;
+    soup.share_of_sky = pane.look.share_of_sky;
+    soup.object = static_cast<std::uint32_t>(ice + 1);
   }
 }
 

@@ -100,6 +100,7 @@ void add_road_mirror(Frame& frame) {
   RoadMirrorPass& pass = frame.state.road_mirror_pass;
   const ResourceId image = frame.graph.add_image("road mirror", pass.image, pass.image_access),
                    depth = frame.graph.add_image("road mirror depth", pass.depth, pass.depth_access),
+                   spread = frame.graph.add_image("road mirror, spread", pass.spread, pass.spread_access),
                    ripples = frame.graph.add_image("ripples", pass.ripples, pass.ripples_access);
   frame.graph.add_pass("ripples", {{}, {{ripples, Access::transfer_destination}}},
                        [&frame, &pass] { upload_ripples(pass, frame.context, frame.instant); });
@@ -111,10 +112,13 @@ void add_road_mirror(Frame& frame) {
                                           view_bindings(frame.state),
                                           store(frame.context, std::span<const std::uint8_t>(frame.instant.soot.cover)),
                                           surface_light(frame.instant, mirror.lit_by_headlights, mirror.lit_by_lamps));
+                       });
+  frame.graph.add_pass("road mirror, spread", {{{image, Access::sampled}}, {{spread, Access::color_attachment}}},
+                       [&frame, &pass] {
+                         spread_road_mirror(pass, frame.context, frame.instant.views.front());
                          mark_pass(frame.context, "road mirror");
                        });
-  frame.view_reads.push_back({image, Access::sampled});
-  frame.view_reads.push_back({ripples, Access::sampled});
+  for (const ResourceId read : {image, depth, spread, ripples}) frame.view_reads.push_back({read, Access::sampled});
 }
 
 void add_mirrors(Frame& frame) {

@@ -17,6 +17,12 @@
 namespace septet::render {
 namespace {
 
+/// Of a road on which snow may lie, but for the wheels' tracks (shaders/surface.frag).
+float mirroring_wetness(const Environment& environment) {
+  constexpr double snowed_share = 0.72;
+  return static_cast<float>(environment.road_wetness * (1.0 - snowed_share * environment.snow_cover));
+}
+
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
                           const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
                           std::span<const SmokePuff> smoke, const LampField& lamps, const DetailOf& detail = {},
@@ -55,8 +61,8 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.contacts = store(context, std::span<const ContactRecord>(contacts));
   prepared.contact_count = static_cast<std::uint32_t>(contacts.size());
   const std::vector<WetLampRecord> wet_lamps =
-      wet_lamp_records(instant.lamps, eye_m, static_cast<float>(instant.environment.road_wetness),
-                       instant.exposure.scale(), instant.emission_share, mirror.present);
+      wet_lamp_records(instant.lamps, eye_m, mirroring_wetness(instant.environment), instant.exposure.scale(),
+                       instant.emission_share, mirror.present);
   prepared.wet_lamps = store(context, std::span<const WetLampRecord>(wet_lamps));
   prepared.wet_lamp_count = static_cast<std::uint32_t>(wet_lamps.size());
   const std::vector<StreakRecord> streaks = streak_records(instant, view, eye_m);
@@ -152,6 +158,7 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
                                                 surroundings_detail(instant.ice_surroundings_px)));
   }
   frame.glass = upload_glass(context, instant.glass);
+  if (!casts_shadows(*instant.light)) return frame;
   for (std::size_t i = 0; i < cascade_count; ++i)
     frame.casters[i] = prepare_casters(context, scene, instant, frame.shadows, i, dynamic);
   return frame;

@@ -14,6 +14,7 @@ SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool 
   return {instant.environment.road_wetness > 0.0,
           lit_by_headlights,
           lit_by_lamps,
+          !casts_shadows(*instant.light),
           instant.environment.snow_cover > 0.0,
           !instant.soot.cover.empty(),
           std::ranges::any_of(instant.headlights, [](const Headlight& light) { return light.main_beam > 0.0f; })};
@@ -33,6 +34,8 @@ void draw_view(RendererState& state, PassContext& context, const PreparedView& p
   bindings.light_clusters = prepared.light_clusters;
   if (prepared.mirrored_by_road) {
     bindings.road_mirror = state.road_mirror_pass.image.view;
+    bindings.road_mirror_spread = state.road_mirror_pass.spread.view;
+    bindings.road_mirror_depth = state.road_mirror_pass.depth.view;
     bindings.ripples = state.road_mirror_pass.ripples.view;
   }
   push_view(context, bindings);

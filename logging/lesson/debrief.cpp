@@ -24,7 +24,11 @@ namespace {
 
 using document::escaped;
 
-std::string mark_text(const std::optional<double>& mark) { return mark ? fmt::format("{:.1f}", *mark) : "not seen"; }
+/// What was driven for too short a time has no mark, also none of a task that was seen.
+std::string mark_text(const std::optional<double>& mark, bool taken) {
+  if (!taken) return "–";
+  return mark ? fmt::format("{:.1f}", *mark) : "not seen";
+}
 
 std::string value_text(const LessonTask& task, double value) {
   return task.measure == LessonMeasure::collision ? fmt::format("{:.0f}", value)
@@ -115,8 +119,9 @@ Expected<std::optional<std::string>> write_debrief(const SessionReader& session,
 }
 
 std::string marks_in_a_line(const Lesson& lesson, const LessonMarks& marks) {
-  std::string text = marks.mark ? fmt::format("mark {:.1f} of 10, {}", *marks.mark, outcome_of(marks))
-                                : std::string("nothing that the lesson marks was seen");
+  std::string text = marks.mark     ? fmt::format("mark {:.1f} of 10, {}", *marks.mark, outcome_of(marks))
+                     : !marks.taken ? std::string(outcome_of(marks))
+                                    : std::string("nothing that the lesson marks was seen");
   if (const auto worst = worst_tasks(lesson, marks); !worst.empty())
     text += fmt::format("; worst: {} ({})", lesson.tasks[worst[0]].says,
                         why(lesson.tasks[worst[0]], marks.tasks[worst[0]]));
@@ -135,10 +140,11 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
       "<p class=\"warning\">Before you read on: which mark would you give yourself, and why?</p>\n"
       "<details><summary>My own mark is said: show what the lesson marks</summary>\n";
   html += "<div class=\"tiles\">\n";
-  html +=
-      fmt::format("<div class=\"tile\"><b>{} <small>of 10</small></b><span>mark</span></div>\n", mark_text(marks.mark));
-  html += fmt::format("<div class=\"tile\"><b>{}</b><span>{:.1f} is needed, and nothing dangerous</span></div>\n",
-                      outcome_of(marks), lesson.pass_mark);
+  html += fmt::format("<div class=\"tile\"><b>{} <small>of 10</small></b><span>mark</span></div>\n",
+                      mark_text(marks.mark, marks.taken));
+  html += fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", outcome_of(marks),
+                      marks.taken ? fmt::format("{:.1f} is needed, and nothing dangerous", lesson.pass_mark)
+                                  : fmt::format("{:g} s are needed", lesson.shortest_s));
   html += "</div>\n<h2>To take home</h2>\n";
   const auto worst = worst_tasks(lesson, marks);
   if (worst.empty()) html += "<p>Nothing was beyond its bound.</p>\n";
@@ -154,7 +160,7 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
     const LessonTask& task = lesson.tasks[i];
     const TaskMark& mark = marks.tasks[i];
     html += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"value\">{}</td><td>{}</td><td>{}</td></tr>\n", i + 1,
-                        escaped(task.says), mark_text(mark.mark), name_of(mark.severity),
+                        escaped(task.says), mark_text(mark.mark, marks.taken), name_of(mark.severity),
                         mark.mark ? why(task, mark) : std::string("no occasion"));
   }
   html +=

@@ -43,7 +43,7 @@ struct LessonTask {
 struct Lesson {
   std::string title, aim;
   double pass_mark = 6.0;   ///< Of the weighted mean, where nothing was dangerous.
-  double shortest_s = 0.0;  ///< Whoever drove for less has not taken it: marks are told, but none is a pass.
+  double shortest_s = 0.0;  ///< Whoever drove for less has not taken it, and gets no mark.
   std::vector<LessonTask> tasks;
 };
 
@@ -67,12 +67,12 @@ struct TaskMark {
 
 struct LessonMarks {
   std::vector<TaskMark> tasks;  ///< As Lesson::tasks.
-  std::optional<double> mark;   ///< Weighted mean of what was seen.
+  std::optional<double> mark;   ///< Weighted mean of what was seen; none of a lesson that was not taken.
   bool taken = false;           ///< It was driven for long enough.
   bool passed = false;
 };
 
-/// "passed", "not passed", or "ended too early to be passed".
+/// "passed", "not passed", or "too short to be marked".
 std::string_view outcome_of(const LessonMarks& marks);
 
 /// Whether the head's direction was measured is told by whether it ever moved: where it did not, glances are not marked.

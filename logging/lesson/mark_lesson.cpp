@@ -338,16 +338,16 @@ LessonMarks mark_lesson(const Lesson& lesson, std::span<const Sample> samples, s
     sum += task.weight * *mark.mark;
     weights += task.weight;
   }
-  if (weights > 0.0) marks.mark = sum / weights;
   const double driven_s = samples.empty() ? 0.0 : samples.back().simulated_time_s - samples.front().simulated_time_s;
   marks.taken = driven_s >= lesson.shortest_s;
+  if (marks.taken && weights > 0.0) marks.mark = sum / weights;
   marks.passed = marks.taken && marks.mark && *marks.mark >= lesson.pass_mark && !danger;
   return marks;
 }
 
 std::string_view outcome_of(const LessonMarks& marks) {
   if (marks.passed) return "passed";
-  return marks.taken ? "not passed" : "ended too early to be passed";
+  return marks.taken ? "not passed" : "too short to be marked";
 }
 
 }  // namespace septet::logging

@@ -149,6 +149,7 @@ std::optional<double> trigonometric_tlc_s(const PathAndLine& path) {
 TlcMeasures compute_tlc(std::span<const Sample> samples, std::span<const LaneChange> changes,
                         const TlcSettings& settings) {
   TlcMeasures measures;
+  measures.half_width_m = settings.half_width_m;
   std::array<Collector, 4> collectors{Collector(settings), Collector(settings), Collector(settings),
                                       Collector(settings)};
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -44,7 +44,7 @@ struct PathAndLine {
 std::optional<double> trigonometric_tlc_s(const PathAndLine& path);
 
 struct TlcSettings {
-  double half_width_m = 0.915;  ///< Of the car: the Volvo S80 is 1.83 m wide.
+  double half_width_m = 0.915;  ///< Of a car that is not known: the Volvo S80 is 1.83 m wide.
   double least_speed_mps = 1.0;
   double short_s = 1.0;  ///< The share of time below this is given.
   /// Longer ones are no approach to a line: they are not counted among the minima.
@@ -67,6 +67,7 @@ struct TlcStatistics {
 
 struct TlcMeasures {
   TlcStatistics simple, quadratic, van_winsum, trigonometric;
+  double half_width_m = 0.0;  ///< Of the car, as it was taken.
   std::size_t over_line = 0;  ///< A side of the car was beyond the line already.
   std::size_t excluded_lane_change = 0;
   std::size_t missing = 0;  ///< Off every lane, at a gap of the log, too slow.

@@ -51,7 +51,9 @@ DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureS
     measures.between_glances_s = measures.duration_s / static_cast<double>(measures.glances.size());
   measures.following = compute_following(samples, settings.following);
   measures.ttc = compute_time_to_collision(samples, settings.ttc);
-  measures.tlc = compute_tlc(samples, measures.lane_changes, settings.tlc);
+  TlcSettings tlc = settings.tlc;
+  if (records.car_width_m) tlc.half_width_m = *records.car_width_m / 2.0;
+  measures.tlc = compute_tlc(samples, measures.lane_changes, tlc);
   auto limits_mps = records.speed_limits_mps;
   limits_mps.resize(samples.size());
   measures.speeding = compute_speeding(samples, limits_mps, settings.speeding);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/opendrive_reader.hpp"
 
@@ -23,6 +24,13 @@ std::vector<std::optional<double>> speed_limits_of(const SessionInfo& info, cons
   return limits_mps;
 }
 
+std::optional<double> car_width_of(const SessionInfo& info) {
+  const auto file = std::ranges::find(info.files, "vehicle", &SourceFile::role);
+  if (file == info.files.end()) return std::nullopt;
+  const auto car = vehicle::read_vehicle(file->content, file->name);
+  return car && car->body.width_m > 0.0 ? std::optional(car->body.width_m) : std::nullopt;
+}
+
 Expected<DriveRecords> read_drive_records(const SessionReader& reader) {
   auto samples = reader.samples();
   if (!samples) return tl::unexpected(samples.error());
@@ -31,8 +39,9 @@ Expected<DriveRecords> read_drive_records(const SessionReader& reader) {
   auto events = reader.events();
   if (!events) return tl::unexpected(events.error());
   DriveRecords records{
-      std::move(*samples), std::move(*inputs), std::move(*events), {}, reader.info().ticks_per_second, {}};
+      std::move(*samples), std::move(*inputs), std::move(*events), {}, reader.info().ticks_per_second, {}, {}};
   records.speed_limits_mps = speed_limits_of(reader.info(), records.samples);
+  records.car_width_m = car_width_of(reader.info());
   const auto& files = reader.info().files;
   if (const auto file = std::ranges::find(files, "rig", &SourceFile::role); file != files.end())
     if (const auto rig = rig::read_rig(file->content, file->name)) records.glance_areas = glance_areas(*rig);

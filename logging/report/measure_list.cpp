@@ -114,7 +114,7 @@ void list_lane_keeping(const DriveMeasures& m, const MeasureSettings& settings, 
         definition +
             fmt::format(" From the side of the car, {:g} m from its middle; van Winsum et al. 1998, 2000. Missing: {} "
                         "over the line, {} within {:g} s of a lane change, {} without a derivative.",
-                        settings.tlc.half_width_m, tlc.over_line, tlc.excluded_lane_change,
+                        tlc.half_width_m, tlc.over_line, tlc.excluded_lane_change,
                         settings.tlc.exclude_around_lane_change_s, tlc.missing));
     list.add("tlc_" + key + "_minimum_median_s", "TLC " + name + ", median of minima", "s", statistics.minimum_median_s,
              fmt::format("Of {} local minima up to {:g} s.", statistics.minima, settings.tlc.longest_s));

@@ -89,6 +89,7 @@ void append(DriveRecords& all, DriveRecords next) {
   move_behind(all.inputs, next.inputs);
   move_behind(all.events, next.events);
   move_behind(all.speed_limits_mps, next.speed_limits_mps);
+  all.car_width_m = std::max(all.car_width_m, next.car_width_m);  // Parts of one drive are of one car.
 }
 
 Expected<std::vector<PooledSubject>> pool_sessions(std::span<const std::filesystem::path> sessions,

@@ -1,8 +1,10 @@
 #include "sim-client/film/film_arguments.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <system_error>
 
 #include "program/command_line.hpp"
 #include "sim-client/film/film_program.hpp"
@@ -145,6 +147,10 @@ Expected<void> settle(const CLI::App& app, FilmArguments& arguments) {
                    "leave out --error and --within");
   if (options.sample_sets > options.samples)
     return failure("there are more sets than samples", "--sample-sets", "choose at most as many as --samples");
+  std::error_code ignored;
+  if (const auto folder = options.statistics.parent_path();
+      !folder.empty() && !std::filesystem::is_directory(folder, ignored))
+    return failure("there is no such folder", folder.string(), "make it, or choose another file with --statistics");
   if (arguments.within_s > 0.0 && !traced)
     return failure("only what is traced takes the time that it is given", "--within", "add --renderer traced");
   arguments.ranks.out = options.out, arguments.ranks.resume = options.resume;

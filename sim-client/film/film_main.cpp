@@ -24,15 +24,15 @@ Expected<int> queue(const film::QueueArguments& arguments) {
   CLI::App app("", "septet film queue");
   film::FilmArguments film;
   film::add_film_options(app, film);
-  std::vector<std::string> words(arguments.film.rbegin(), arguments.film.rend());
-  try {
-    app.parse(words);
-  } catch (const CLI::ParseError& error) {
-    return failure(error.what(), "septet film queue", "septet film --help shows a film's options");
-  }
-  if (auto settled = film::settle(app, film); !settled) return tl::unexpected(settled.error());
-  if (const auto frames = film::FilmFrames::open(film.film); !frames) return tl::unexpected(frames.error());
-  return film::queue_film(arguments, film.film.out);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("septet: septet film queue: {}; septet film --help shows a film's options\n", error.what());
+  });
+  const auto parse = [&] { app.parse(std::vector<std::string>(arguments.film.rbegin(), arguments.film.rend())); };
+  return program::run("septet", app, parse, [&]() -> Expected<int> {
+    if (auto settled = film::settle(app, film); !settled) return tl::unexpected(settled.error());
+    if (const auto frames = film::FilmFrames::open(film.film); !frames) return tl::unexpected(frames.error());
+    return film::queue_film(arguments, film.film.out);
+  });
 }
 
 }  // namespace
@@ -49,8 +49,10 @@ int main(int argc, char** argv) {
       "  pitch_deg = -12.0\n  [[shot.turn]]              # half of the way round, speeding up\n  heading_deg = 10.0\n"
       "  sigma = 1.0\n",
       "septet film"};
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("septet: {}; septet film --help shows the options\n", error.what());
+  app.failure_message([](const CLI::App* self, const CLI::Error& error) {
+    const std::vector<CLI::App*> chosen = self->get_subcommands();
+    return fmt::format("septet: {}; septet film{} --help shows the options\n", error.what(),
+                       chosen.empty() ? "" : " " + chosen.front()->get_name());
   });
   app.option_defaults()->always_capture_default();
   app.set_version_flag("--version", version_text());

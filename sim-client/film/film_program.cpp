@@ -81,9 +81,10 @@ Expected<int> film_here(const FilmOptions& options, Machines* others) {
     program::say(fmt::format("septet: {} samples had no light that is a number; they are black", made->bad_samples));
   std::string text =
       fmt::format("{}: {} pictures, {} a second", options.out.string(), made->frames, options.frames_per_second);
-  if (made->samples >= 2.0)
-    text += fmt::format(", an error of {:.2g} by {:.0f} samples a pixel", made->error, made->samples);
   if (made->kept > 0) text += fmt::format(", {} of them drawn before", made->kept);
+  if (made->samples >= 2.0)
+    text += fmt::format(", {}an error of {:.2g} by {:.0f} samples a pixel", made->kept > 0 ? "the others with " : "",
+                        made->error, made->samples);
   if (!made->encoding) text += "; as one film: --out film.mp4";
   program::announce(text);
   return 0;

@@ -1,6 +1,7 @@
 #include "sim-client/screen/screen_session.hpp"
 
 #include <chrono>
+#include <functional>
 #include <future>
 #include <stop_token>
 #include <thread>
@@ -55,9 +56,12 @@ class Session {
   Expected<void> draw_real_time(double now_s);
   Expected<void> draw_lost(double now_s);
   Expected<void> draw(const Snapshot& snapshot, const std::optional<std::string>& message);
-  /// In a thread of its own: keys are read meanwhile, however long a picture takes.
-  Expected<void> draw_beside_keys(instant::FrameInput input, double speed_mps);
-  void send_controls(double speed_mps);
+  /// Does the renderer's `work` in a thread of its own: meanwhile keys are read and the server hears that this screen is there,
+  /// however long a picture or a scene takes. `work` leaves the link alone; after it the link may belong to another drive.
+  Expected<void> beside_lane(const std::function<Expected<void>()>& work);
+  void send_controls();
+  /// The server was started again beside the renderer's work: what was drawn before is not to be gone on with.
+  bool has_begun_anew() const { return link_.welcomes() != welcomes_ || link_.history().empty(); }
   void count_frame();
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
@@ -137,32 +141,33 @@ Expected<void> Session::bring_scene_up() {
   const auto& scene = resolver_.scene();
   if (scene.revision == uploaded_revision_) return {};
   uploaded_revision_ = scene.revision;
-  return display_->renderer().upload(scene);
+  return beside_lane([&] { return display_->renderer().upload(scene); });
 }
 
 Expected<void> Session::draw(const Snapshot& snapshot, const std::optional<std::string>& message) {
   const double begun_s = program::monotonic_s();
   auto input = screen_frames_.frame(snapshot, resolver_.scene(), message);
   if (!message) add_driver_texts(input, snapshot);
-  const double speed_mps = snapshot.driver_car.speed_mps;
-  const bool is_watched = display_->paces_itself() && !link_.server_is_gone() && !link_.welcome()->lockstep;
-  auto drawn = is_watched ? draw_beside_keys(std::move(input), speed_mps) : display_->renderer().draw(std::move(input));
-  if (!drawn) return drawn;
+  if (auto drawn = beside_lane([&] { return display_->renderer().draw(std::move(input)); }); !drawn) return drawn;
   last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
 }
 
-Expected<void> Session::draw_beside_keys(instant::FrameInput input, double speed_mps) {
-  auto drawing = std::async(std::launch::async, [&] { return display_->renderer().draw(std::move(input)); });
-  while (drawing.wait_for(keys_every) != std::future_status::ready) {
-    display_->attend();
-    send_controls(speed_mps);
+Expected<void> Session::beside_lane(const std::function<Expected<void>()>& work) {
+  const bool is_driven_at = display_->paces_itself() && !link_.server_is_gone() && !link_.welcome()->lockstep;
+  auto working = std::async(std::launch::async, work);
+  while (working.wait_for(keys_every) != std::future_status::ready) {
+    if (is_driven_at) {
+      display_->attend();
+      send_controls();
+    }
     link_.pump(program::monotonic_s());
   }
-  return drawing.get();
+  return working.get();
 }
 
-void Session::send_controls(double speed_mps) {
+void Session::send_controls() {
+  const double speed_mps = last_shown_ ? last_shown_->driver_car.speed_mps : 0.0;
   if (auto controls = display_->controls(program::monotonic_s(), speed_mps))
     link_.send(control::Controls{*controls}, net::Reliability::unreliable);
 }
@@ -214,13 +219,12 @@ Expected<void> Session::keep_picture(Tick tick) {
 
 Expected<void> Session::draw_lockstep() {
   if (!link_.scene_arrived() || link_.history().empty()) return {};
-  const frame::HistoryTick& newest = link_.history().newest();
-  const Tick tick = newest.snapshot.tick;
+  const Tick tick = link_.history().newest().snapshot.tick;
   if (drawn_tick_ && *drawn_tick_ >= tick) return {};
-  if (auto scene = bring_scene_up(); !scene) return scene;
-  take_effects(newest.snapshot);
-  if (auto drawn = draw(newest.snapshot, std::nullopt); !drawn) return drawn;
-  last_shown_ = newest.snapshot;
+  last_shown_ = link_.history().newest().snapshot;  // The history goes on meanwhile.
+  if (auto scene = bring_scene_up(); !scene || has_begun_anew()) return scene;
+  take_effects(*last_shown_);
+  if (auto drawn = draw(*last_shown_, std::nullopt); !drawn) return drawn;
   drawn_tick_ = tick;
   count_frame();
   const std::uint32_t every = link_.welcome()->picture_every_ticks;
@@ -237,7 +241,7 @@ Expected<void> Session::draw_real_time(double now_s) {
     wait(0.002);
     return {};
   }
-  if (auto scene = bring_scene_up(); !scene) return scene;
+  if (auto scene = bring_scene_up(); !scene || has_begun_anew()) return scene;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
   const auto shown =
       frame::show(link_.history(), *frame::playout_time_s(link_.history(), frame::frame_number(*server_s)), tick_s);
@@ -252,7 +256,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   if (every != 0 && (!drawn_tick_ || shown.tick / every != *drawn_tick_ / every))
     if (auto kept = keep_picture(shown.tick); !kept) return kept;
   drawn_tick_ = shown.tick;
-  send_controls(shown.snapshot.driver_car.speed_mps);
+  send_controls();
   if (!display_->paces_itself()) wait(1.0 / frame::frame_rate_hz - 1e-3 * last_submit_ms_);
   return {};
 }

@@ -342,12 +342,22 @@ bool ScreenHost::all_presented(Tick tick) const {
 }
 
 void ScreenHost::leave_behind(Tick tick) {
+  for (HostedScreen& screen : screens_)
+    if (!keeps_up(screen, tick)) leave_behind(screen, tick);
+}
+
+void ScreenHost::leave_silent_behind(Tick tick, double since_s) {
   for (HostedScreen& screen : screens_) {
-    if (keeps_up(screen, tick)) continue;
-    screen.left_behind = true;
-    remember(screen.left_behind_s, simulated_time_s());
-    messages_.push_back(fmt::format("screen {} has not shown tick {}: the others go on without it", screen.name, tick));
+    if (keeps_up(screen, tick) || !screen.live() || !screen.has_presented) continue;
+    const auto* info = lane_.info(*screen.client);
+    if (!info || info->heard_s < since_s) leave_behind(screen, tick);
   }
+}
+
+void ScreenHost::leave_behind(HostedScreen& screen, Tick tick) {
+  screen.left_behind = true;
+  remember(screen.left_behind_s, simulated_time_s());
+  messages_.push_back(fmt::format("screen {} has not shown tick {}: the others go on without it", screen.name, tick));
 }
 
 std::optional<DriverInput> ScreenHost::take_controls() { return std::exchange(controls_, std::nullopt); }

@@ -106,6 +106,8 @@ class ScreenHost {
   bool all_presented(Tick tick) const;
   /// Who has not shown the tick is not waited for again before it shows one.
   void leave_behind(Tick tick);
+  /// The same of who has not been heard since then either. Before its first picture a screen may be silent: it takes in the scene.
+  void leave_silent_behind(Tick tick, double since_s);
   /// Whether the person at one of the screens has ended the drive, and how.
   std::optional<logging::DriveEnd> end_requested() const { return end_requested_; }
   /// Whether the person at one of the screens wants the world to stand still.
@@ -129,6 +131,7 @@ class ScreenHost {
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:
+  void leave_behind(HostedScreen& screen, Tick tick);
   void on_connected(const net::ServerEvent& event);
   void on_message(const net::ServerEvent& event, double now_s);
   void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);

@@ -138,13 +138,6 @@ bool wait_for_screens(ScreenLoop& loop) {
   return true;
 }
 
-/// Somebody who is waited for has shown nothing yet: its first frame takes as long as a start does.
-bool awaits_first_frame(const ScreenHost& host) {
-  return std::ranges::any_of(host.screens(), [](const HostedScreen& screen) {
-    return screen.live() && !screen.has_presented && !screen.left_behind;
-  });
-}
-
 /// The world stands still, seen on all screens, for as long as the operator or the driver wants. What moves in the driver's seat rests.
 void stand_still(ScreenLoop& loop) {
   const control::Notice before = loop.host.notice();
@@ -194,11 +187,13 @@ void run_lockstep(ScreenLoop& loop) {
     if (tick % loop.options.draw_every_ticks != 0) continue;
     loop.host.publish(snapshot, loop.environment.now_s());
     const double asked_s = loop.environment.now_s();
-    const double patience_s =
-        awaits_first_frame(loop.host) ? loop.options.patience_s : loop.options.lockstep_patience_s;
-    const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, patience_s, 0.1,
-                                          [&] { loop.host.repeat_newest(); });
-    if (!together && loop.environment.now_s() - asked_s > patience_s) loop.host.leave_behind(tick);
+    const auto look = [&] {
+      loop.host.leave_silent_behind(tick, loop.environment.now_s() - loop.options.longest_silence_s);
+      loop.host.repeat_newest();
+    };
+    const bool together =
+        loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.patience_s, 0.1, look);
+    if (!together && loop.environment.now_s() - asked_s > loop.options.patience_s) loop.host.leave_behind(tick);
     loop.report("driving");
   }
 }

@@ -23,13 +23,13 @@ struct ServeOptions {
   std::uint64_t draw_every_ticks = 8;  ///< In lockstep.
   std::uint64_t ticks = 0;             ///< 0: until stopped.
   double patience_s =
-      60.0;  ///< In lockstep for the screens to be ready at the start (then the drive fails if not one came), and for a screen's first frame.
+      60.0;  ///< In lockstep for the screens to be ready at the start (then the drive fails if not one came), and for each frame.
   std::string
       wait_for_driver;  ///< In real time: what to tell a driver for whom the world waits; empty: it begins at once.
   std::string about;    ///< What he reads below that: what he is about to drive; empty: nothing.
   double wait_for_screens_s = 0.0;  ///< The same in real time; then it drives without those that are missing.
-  double lockstep_patience_s =
-      10.0;  ///< For one frame that is not a screen's first; then whoever has not answered is left behind.
+  double longest_silence_s =
+      10.0;  ///< In lockstep: whoever owes a frame that is not its first, and is not heard either, is left behind.
 };
 
 struct Progress {

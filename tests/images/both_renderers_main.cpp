@@ -1,12 +1,13 @@
 /// Draws the motorway in one weather by both renderers, from one description of the instant:
 ///
-///     both_renderers noon|dusk|night|rain|snow|tunnel FOLDER SAMPLES     FOLDER/raster.png, FOLDER/traced.png
+///     both_renderers noon|dusk|night|rain|snow|tunnel|frost FOLDER SAMPLES     FOLDER/raster.png, FOLDER/traced.png
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
+#include "engine/effects/ice/glass.hpp"
 #include "engine/image/png.hpp"
 #include "engine/instant/scene_summary.hpp"
 #include "engine/raytrace/displayed.hpp"
@@ -26,6 +27,20 @@ void must(const Expected<void>& done) {
   if (!done) must(Expected<int>(tl::unexpected(done.error())));
 }
 
+/// A windscreen before the eye, on which the blower has worked for two minutes.
+ice::IceBody frosted_pane(const instant::FrameView& view) {
+  ice::Frost frost = ice::morning_frost(268.15, 3);
+  for (int i = 0; i < 480; ++i) ice::warm(frost, 268.15, 8.0, 0.25);
+  const auto turned = [&](const Vec3& way) { return view.world_from_car.orientation * way; };
+  ice::IceBody pane;
+  pane.look.on_glass = ice::OnGlass::frost;
+  pane.origin_m = instant::world_eye(view);
+  pane.vertices = ice::frost_surface(ice::pane_between(turned({1.3, -0.9, -0.3}), turned({1.3, 0.9, -0.3}),
+                                                       turned({1.0, -0.9, 0.6}), turned({1.0, 0.9, 0.6}), 0.0),
+                                     frost);
+  return pane;
+}
+
 instant::FrameInput frame(const Motorway& motorway, std::string_view weather) {
   const bool night = weather == "night", rain = weather == "rain", tunnel = weather == "tunnel";
   instant::FrameInput input = motorway.frame({"", tunnel ? 3350.0 : 800.0, 0.0, night, rain});
@@ -39,6 +54,7 @@ instant::FrameInput frame(const Motorway& motorway, std::string_view weather) {
     input.environment.temperature_k = 268.0;
     input.environment.visibility_m = 4000.0;
   }
+  if (weather == "frost") input.glass.push_back(frosted_pane(input.views.front()));
   return input;
 }
 

@@ -210,7 +210,8 @@ TEST_CASE("a brake lamp that is switched on or off is so in the very next pictur
   const Motorway motorway;
   for (const MotorwayInstant& instant : {noon, night}) {
     CAPTURE(instant.name);
-    AntialiasedScreen temporal(motorway, render::Antialiasing::temporal), fresh(motorway, render::Antialiasing::none);
+    AntialiasedScreen temporal(motorway, render::Antialiasing::temporal), fresh(motorway, render::Antialiasing::none),
+        ever_lit(motorway, render::Antialiasing::temporal), never_lit(motorway, render::Antialiasing::temporal);
     instant::FrameInput dark = motorway.frame(instant), braking = dark;
     dark.participants[0].lamps.set(Lamp::brake, false);
     braking.participants[0].lamps.set(Lamp::brake, true);
@@ -224,12 +225,15 @@ TEST_CASE("a brake lamp that is switched on or off is so in the very next pictur
     temporal.picture(std::string(instant.name) + " braking");
     temporal.draw(dark);
     const std::vector<glm::vec3> off = temporal.codes();
+    for (int frame = 0; frame < 13; ++frame) ever_lit.draw(braking);
+    for (int frame = 0; frame < 14; ++frame) never_lit.draw(dark);
+    const std::vector<glm::vec3> always = ever_lit.codes(), never = never_lit.codes();
     int lamp = 0, late = 0, lasting = 0;
     for (std::size_t n = 0; n < lit.size(); ++n) {
       if (apart(lit[n], unlit[n]) < 25.0f) continue;
       ++lamp;
-      late += apart(on[n], lit[n]) > 3.0f;
-      lasting += apart(off[n], unlit[n]) > 3.0f;
+      late += apart(on[n], always[n]) > 3.0f;
+      lasting += apart(off[n], never[n]) > 3.0f;
     }
     CAPTURE(lamp);
     CHECK(lamp > 30);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -16,7 +17,9 @@
 #include "logging/measures/time_to_line_crossing.hpp"
 #include "logging/report/drive_measures.hpp"
 #include "tests/logging/sample_series.hpp"
+#include "tests/logging/session_fixture.hpp"
 #include "tests/relative.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::logging {
 namespace {
@@ -102,6 +105,31 @@ TEST_CASE("TLC along a straight lane is the distance from the car's side to the 
   samples.erase(samples.begin() + 10);
   CHECK(compute_tlc(samples, {}).missing == 4);
   CHECK(compute_tlc(samples, {}).simple.samples == 16);
+}
+
+TEST_CASE(
+    "TLC of a session is from the side of the vehicle that was driven, and where it holds none from the Volvo's") {
+  const TemporaryFolder folder;
+  const auto smallest_s = [&](const std::string& vehicle) {
+    SessionInfo info = example_info();
+    if (!vehicle.empty()) info.files.push_back({"vehicle", vehicle, shipped_text("vehicles/" + vehicle)});
+    const auto path = folder / ("of-" + vehicle + ".sqlite");
+    auto writer = SessionWriter::create(path, info);
+    REQUIRE(writer.has_value());
+    for (int i = 0; i < 21; ++i) {
+      Sample sample = sample_at(i, -1, 0.02 * i);
+      sample.speed_mps = 20.0;
+      writer->record(sample);
+    }
+    REQUIRE(writer->finish().has_value());
+    const auto records = read_drive_records(must_open(path));
+    REQUIRE(records.has_value());
+    return compute_drive_measures(*records).tlc.simple.smallest_s.value();
+  };
+  // At the last sample with a derivative: 0.38 m left of the centre, 0.2 m/s.
+  CHECK(smallest_s("commonroad-vanagon.toml") == exactly((1.75 - 1.844 / 2.0 - 0.38) / 0.2));
+  CHECK(smallest_s("commonroad-bmw-320i.toml") == exactly((1.75 - 1.61 / 2.0 - 0.38) / 0.2));
+  CHECK(smallest_s("") == exactly((1.75 - 0.915 - 0.38) / 0.2));
 }
 
 TEST_CASE("a drift that turns back before the line is one minimum of TLC") {

@@ -219,17 +219,24 @@ TEST_CASE("a collision is dangerous, whatever the rest is worth") {
   CHECK_FALSE(marks.passed);
 }
 
-TEST_CASE("a drive that ends too early is marked and not passed, and the debrief says so") {
+TEST_CASE("a drive that ends too early has no mark, and line and debrief say that it was too short to be marked") {
   Lesson lesson = lesson_of("speed", 100.0, 10.0);
   const auto samples = good_drive();
   lesson.shortest_s = samples.back().simulated_time_s - samples.front().simulated_time_s;
-  CHECK(mark_lesson(lesson, samples, {}).passed);
+  const LessonMarks taken = mark_lesson(lesson, samples, {});
+  CHECK(taken.passed);
+  CHECK(marks_in_a_line(lesson, taken).starts_with("mark 10.0 of 10, passed"));
+  CHECK(debrief_page(lesson, taken, samples, {}).find(">10.0<") != std::string::npos);
   lesson.shortest_s += 0.1;
   const LessonMarks marks = mark_lesson(lesson, samples, {});
-  CHECK(marks.mark == doctest::Approx(10.0));
+  CHECK_FALSE(marks.mark.has_value());
   CHECK_FALSE(marks.passed);
-  CHECK(marks_in_a_line(lesson, marks).find("ended too early to be passed") != std::string::npos);
-  CHECK(debrief_page(lesson, marks, samples, {}).find("ended too early") != std::string::npos);
+  CHECK(marks_in_a_line(lesson, marks).starts_with("too short to be marked"));
+  const std::string page = debrief_page(lesson, marks, samples, {});
+  CHECK(page.find("<b>too short to be marked</b>") != std::string::npos);
+  CHECK(page.find(">10.0<") == std::string::npos);
+  CHECK(page.find("<b>–") != std::string::npos);
+  CHECK(page.find("is needed, and nothing dangerous") == std::string::npos);
 }
 
 TEST_CASE("an empty drive is not seen, and not passed") {

@@ -1,6 +1,10 @@
 #include "program/command_line.hpp"
 
+#include <string>
+#include <vector>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 using namespace septet::program;
 
@@ -18,5 +22,28 @@ TEST_CASE("a seed is a whole number of 64 bits without a sign") {
   for (const char* bad : {"-1", "+1", "18446744073709551616", "99999999999999999999999", "1e3", "0x10", "", " 1"}) {
     CAPTURE(bad);
     CHECK(!seed_number()(bad).empty());
+  }
+}
+
+TEST_CASE("a word of the command line that is empty is wrong use of the option that it follows, and a flag has none") {
+  const auto status_of = [](const std::vector<std::string>& words) {
+    CLI::App app;
+    std::string folder, name;
+    bool loud = false;
+    app.add_option("--out", folder);
+    app.add_flag("--loud", loud);
+    app.add_subcommand("go")->add_option("name", name);
+    const auto parse = [&] { app.parse(std::vector<std::string>(words.rbegin(), words.rend())); };
+    return run("test", app, parse, [] { return 0; });
+  };
+  for (const auto& good : std::vector<std::vector<std::string>>{
+           {}, {"--out", "a"}, {"--loud"}, {"--out", "a", "--loud", "go", "b"}, {"go"}}) {
+    CAPTURE(fmt::format("{}", fmt::join(good, " ")));
+    CHECK(status_of(good) == 0);
+  }
+  for (const auto& bad : std::vector<std::vector<std::string>>{
+           {"--out", ""}, {"--out="}, {"go", ""}, {"--loud", "go", "b", "--out", ""}}) {
+    CAPTURE(fmt::format("{}", fmt::join(bad, " ")));
+    CHECK(status_of(bad) == wrong_use_status);
   }
 }

@@ -75,8 +75,10 @@ struct ViewBindings {
   FrameData uniforms;
   VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE,
               lamp_field = VK_NULL_HANDLE;
-  FrameData light_clusters;                                            ///< None: the uniforms take their place, unread.
-  VkImageView road_mirror = VK_NULL_HANDLE, ripples = VK_NULL_HANDLE;  ///< None: the noise takes their place, unread.
+  FrameData light_clusters;  ///< None: the uniforms take their place, unread.
+  /// None: the noise takes their place, unread.
+  VkImageView road_mirror = VK_NULL_HANDLE, road_mirror_spread = VK_NULL_HANDLE, road_mirror_depth = VK_NULL_HANDLE,
+              ripples = VK_NULL_HANDLE;
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -13,6 +14,8 @@
 #include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/light_clusters.hpp"
+#include "engine/render/passes/shaders.hpp"
+#include "engine/render/passes/whole_target.hpp"
 
 namespace septet::render {
 namespace {
@@ -21,6 +24,9 @@ namespace {
 constexpr float still_range_m = 120.0f, vehicle_range_m = 250.0f;
 /// Half the size and spread by the water, an image needs no more than what is drawn further off.
 constexpr DetailOf mirror_detail{{0.0f, 3.0f}, {40.0f, 2.0f}};
+
+/// Deviation of the tilts of the film's facets along the way of the light, rad: of stones as rough as it is.
+constexpr float film_spread_rad = 0.7f * instant::film_roughness * instant::film_roughness;
 
 constexpr std::uint32_t half(std::uint32_t px) { return std::max(1u, (px + 1) / 2); }
 
@@ -43,17 +49,21 @@ void prepare_road_mirror_targets(RoadMirrorPass& pass, vulkan::MemoryPool& memor
                                  std::uint32_t width, std::uint32_t height) {
   destroy_image(memory, pass.image);
   destroy_image(memory, pass.depth);
+  destroy_image(memory, pass.spread);
   vulkan::ImageDescription description;
   description.width = half(width);
   description.height = half(height);
   description.format = formats.radiance;
   description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   pass.image = create_image(memory, description);
+  description.height = half(description.height);
+  pass.spread = create_image(memory, description);
+  description.height = half(height);
   description.format = formats.depth;
-  description.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  description.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   description.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
   pass.depth = create_image(memory, description);
-  pass.image_access = pass.depth_access = Access::none;
+  pass.image_access = pass.depth_access = pass.spread_access = Access::none;
   if (pass.ripples.image != VK_NULL_HANDLE) return;
   description.width = description.height = instant::ripple_side;
   description.format = VK_FORMAT_R16G16_SFLOAT;
@@ -64,7 +74,9 @@ void prepare_road_mirror_targets(RoadMirrorPass& pass, vulkan::MemoryPool& memor
 
 void destroy_road_mirror(RoadMirrorPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory) {
   destroy_surface_pass(pass.surfaces, device);
-  for (vulkan::DeviceImage* image : {&pass.image, &pass.depth, &pass.ripples}) destroy_image(memory, *image);
+  if (pass.spreading) vkDestroyPipeline(device.device, pass.spreading, nullptr);
+  for (vulkan::DeviceImage* image : {&pass.image, &pass.depth, &pass.spread, &pass.ripples})
+    destroy_image(memory, *image);
   pass = {};
 }
 
@@ -127,6 +139,18 @@ void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceSc
   for (const SurfaceKind kind : {SurfaceKind::opaque, SurfaceKind::cut, SurfaceKind::blended})
     draw_surfaces(pass.surfaces, mirror, scene, prepared.draws, kind, mirrored);
   vkCmdEndRendering(context.slot.commands);
+}
+
+void spread_road_mirror(RoadMirrorPass& pass, PassContext& context, const FrameView& view) {
+  if (!pass.spreading)
+    pass.spreading = create_whole_target_pipeline(context.device, context.layout, context.formats.radiance,
+                                                  shaders::road_mirror_spread_frag(), vulkan::Blend::data);
+  const OffAxisView& projection = view.projection;
+  const auto texels_per_rad =
+      static_cast<float>(halved(view.viewport).height / std::max(1e-3, projection.top_slope - projection.bottom_slope));
+  const auto [width, height] = std::pair(pass.spread.description.width, pass.spread.description.height);
+  draw_whole_target(pass.spreading, context, pass.image.view, pass.spread.view, width, height,
+                    glm::vec4(width, height, film_spread_rad * texels_per_rad, 0.0f));
 }
 
 void upload_ripples(const RoadMirrorPass& pass, PassContext& context, const Instant& instant) {

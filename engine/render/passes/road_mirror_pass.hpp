@@ -3,9 +3,9 @@
 /// rings of rain on its water.
 ///
 /// Every vehicle is mirrored in the road that it stands on, what stands still in the plane of the road near the eye (Instant::road), no
-/// further than the road is about flat. The road's shader reads the picture where its pixels lie, shifted and spread as its water is tilted
-/// (shaders/wet_road.glsl). Only a frame's first view has one: mirrors over it are small. Screens of a rig draw the same geometry, so that it
-/// meets at their edges.
+/// further than the road is about flat. The road's shader reads the picture where its pixels lie, shifted as its water is tilted
+/// (shaders/wet_road.glsl): puddles as it is, the film between them spread upwards and downwards as the stones below it are rough. Only a frame's
+/// first view has one: mirrors over it are small. Screens of a rig draw the same geometry, so that it meets at their edges.
 
 #include "engine/instant/instant.hpp"
 #include "engine/render/passes/lamp_field.hpp"
@@ -15,9 +15,11 @@
 namespace septet::render {
 
 struct RoadMirrorPass {
-  SurfacePass surfaces;  ///< Pipelines for one sample a pixel.
-  vulkan::DeviceImage image, depth, ripples;
-  Access image_access = Access::none, depth_access = Access::none, ripples_access = Access::none;
+  SurfacePass surfaces;                   ///< Pipelines for one sample a pixel.
+  VkPipeline spreading = VK_NULL_HANDLE;  ///< Made when first drawn.
+  vulkan::DeviceImage image, depth, spread, ripples;
+  Access image_access = Access::none, depth_access = Access::none, spread_access = Access::none,
+         ripples_access = Access::none;
 };
 
 /// What it draws of a frame.
@@ -43,6 +45,8 @@ PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& 
 void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceScene& scene,
                       const PreparedRoadMirror& prepared, const FrameView& view, const ViewBindings& bindings,
                       const FrameData& soot, const SurfaceLight& light);
+/// After it: the picture as the film of water shows it.
+void spread_road_mirror(RoadMirrorPass& pass, PassContext& context, const FrameView& view);
 void upload_ripples(const RoadMirrorPass& pass, PassContext& context, const Instant& instant);
 
 }  // namespace septet::render

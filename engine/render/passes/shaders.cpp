@@ -69,6 +69,9 @@ constexpr std::uint32_t bloom_down_frag_code[] = {
 constexpr std::uint32_t bloom_down_samples_frag_code[] = {
 #include "engine/render/shaders/bloom_down_samples.frag.inc"
 };
+constexpr std::uint32_t road_mirror_spread_frag_code[] = {
+#include "engine/render/shaders/road_mirror_spread.frag.inc"
+};
 constexpr std::uint32_t bloom_up_frag_code[] = {
 #include "engine/render/shaders/bloom_up.frag.inc"
 };
@@ -139,6 +142,7 @@ std::span<const std::uint32_t> wet_lamp_frag() { return wet_lamp_frag_code; }
 std::span<const std::uint32_t> whole_target_vert() { return whole_target_vert_code; }
 std::span<const std::uint32_t> bloom_down_frag() { return bloom_down_frag_code; }
 std::span<const std::uint32_t> bloom_down_samples_frag() { return bloom_down_samples_frag_code; }
+std::span<const std::uint32_t> road_mirror_spread_frag() { return road_mirror_spread_frag_code; }
 std::span<const std::uint32_t> bloom_up_frag() { return bloom_up_frag_code; }
 std::span<const std::uint32_t> smoothing_frag() { return smoothing_frag_code; }
 std::span<const std::uint32_t> temporal_frag() { return temporal_frag_code; }

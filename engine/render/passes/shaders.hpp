@@ -10,6 +10,7 @@ namespace septet::render::shaders {
 /// Of shaders/surface.frag.
 inline constexpr std::size_t clustered_headlights_constant = 14;
 /// Of those that include shaders/sunlit.glsl.
+inline constexpr std::size_t unshaded_constant = 13;
 inline constexpr std::size_t soft_shadows_constant = 15;
 
 std::span<const std::uint32_t> surface_vert();
@@ -34,6 +35,7 @@ std::span<const std::uint32_t> wet_lamp_frag();
 std::span<const std::uint32_t> whole_target_vert();
 std::span<const std::uint32_t> bloom_down_frag();
 std::span<const std::uint32_t> bloom_down_samples_frag();
+std::span<const std::uint32_t> road_mirror_spread_frag();
 std::span<const std::uint32_t> bloom_up_frag();
 std::span<const std::uint32_t> smoothing_frag();
 std::span<const std::uint32_t> temporal_frag();

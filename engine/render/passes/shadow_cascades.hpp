@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/instant/atmosphere.hpp"
 #include "engine/math/rigid_transform.hpp"
 
 namespace septet::render {
@@ -31,6 +32,11 @@ struct ShadowCascades {
   Vec3 eye_m{0.0};  ///< World.
   std::array<Cascade, cascade_count> cascades;
 };
+
+/// Whether its shadows can be seen; else nothing casts one and none is looked up (shaders/sunlit.glsl).
+inline bool casts_shadows(const instant::SkyLight& light) {
+  return light.light_irradiance.g >= 0.002f * light.sky_irradiance.g;
+}
 
 ShadowCascades shadow_cascades(const Vec3& eye_m, const glm::vec3& to_light);
 

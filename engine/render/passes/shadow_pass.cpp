@@ -66,7 +66,7 @@ void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScen
   set_viewport(context, {0, 0, cascade_texels, cascade_texels});
   vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
   vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-  bind_instances(context, draws.records);
+  if (!draws.list.empty()) bind_instances(context, draws.records);
   const CascadeConstants constants{clip_from_relative(cascade), cascade.first_texel};
   push_constants(context, std::as_bytes(std::span(&constants, 1)));
   VkPipeline bound_pipeline = VK_NULL_HANDLE;

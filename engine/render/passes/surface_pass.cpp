@@ -12,12 +12,13 @@ struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
   std::uint32_t lamps;     ///< Likewise.
   std::uint32_t glossy;    ///< Likewise.
-  bool snowy, sooty, road, mirror, fading, retroreflective, moving;
+  bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving;
   SurfaceKind kind;
   std::uint32_t key() const {
     return textured | lamps << 2 | glossy << 5 | std::uint32_t{snowy} << 7 | std::uint32_t{sooty} << 8 |
            static_cast<std::uint32_t>(kind) << 9 | std::uint32_t{road} << 11 | std::uint32_t{mirror} << 12 |
-           std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 | std::uint32_t{moving} << 15;
+           std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 | std::uint32_t{moving} << 15 |
+           std::uint32_t{unshaded} << 16;
   }
 };
 
@@ -60,6 +61,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
                            : variant.moving       ? 2u
                                                   : 1u};
   description.constants[shaders::clustered_headlights_constant] = context.refinements.clustered_headlights;
+  description.constants[shaders::unshaded_constant] = variant.unshaded;
   description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
@@ -92,7 +94,7 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const bool retroreflective = material.constants.light.y > 0.0f;
     const VkPipeline pipeline =
         pipeline_of(pass, context,
-                    {texturing, light.lamps(), glossy, light.snowy, light.sooty, material.wettable,
+                    {texturing, light.lamps(), glossy, light.unshaded, light.snowy, light.sooty, material.wettable,
                      light.mirror_of_road, draw.fading, retroreflective, moving, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;

@@ -20,6 +20,7 @@ void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device);
 struct SurfaceLight {
   bool wet = false;                                 ///< Wettable materials mirror.
   bool headlights = false, standing_lamps = false;  ///< Light what they reach.
+  bool unshaded = false;                            ///< No shadow of the sun or moon can be seen.
   bool snowy = false;
   bool sooty = false;           ///< FrameInput::soot is bound.
   bool main_beams = false;      ///< Some headlights have theirs on.

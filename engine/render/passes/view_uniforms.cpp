@@ -76,7 +76,8 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   const Quat world_from_car = view.world_from_car.orientation;
   uniforms.clip_from_relative = glm::mat4(clip_from_relative(view));
   const glm::vec2 size_px(std::max(1u, view.viewport.width), std::max(1u, view.viewport.height));
-  uniforms.offset = glm::vec4(2.0f * offset_px / size_px, static_cast<float>(kept_depth(view)), 0.0f);
+  uniforms.offset =
+      glm::vec4(2.0f * offset_px / size_px, static_cast<float>(kept_depth(view)), casts_shadows(light) ? 1.0f : 0.0f);
 
   const Vec3 eye_m = world_eye(view);
   uniforms.shadow_from_relative = texture_from_relative(shadows.cascades[0], glm::vec3(eye_m - shadows.eye_m));

@@ -23,8 +23,9 @@ vec2 random_place(vec2 cell) {
   return vec2(h >> 16, (h * 747796405u) >> 16) / 65536.0;
 }
 
-// How much of the frost's mass lies here: feathers, each a stem with barbs at 60° to it, that grew until they met. About 1 on average.
-float feathers(vec2 place, float pixel_m) {
+// How much of the frost's mass lies here: feathers, each a stem with barbs at 60° to it, that grew until they met; 0.79 on average. And its
+// variance within the pixel over its mean: what is finer than the pixel fades to its mean.
+vec2 feathers(vec2 place, float pixel_m) {
   const float cell_m = 0.034;
   // Of the four cells around a place one has the feather that reaches it, or nearly.
   vec2 cell = floor(place / cell_m - 0.5);
@@ -40,16 +41,16 @@ float feathers(vec2 place, float pixel_m) {
     nearest = min(nearest, far);
   }
   float aside = abs(feather.y), along = feather.x - 0.577 * aside;
-  // Each fades to its mean where a pixel no longer tells one from the next.
   float fine = 1.0 - smoothstep(0.0007, 0.0020, pixel_m), coarse = 1.0 - smoothstep(0.004, 0.015, pixel_m);
   float grain = textureLod(noise, place * 7.0, 0.0).r, wander = 6.0 * grain;
-  if (coarse <= 0.0) return 1.0;
+  float unseen = 0.28 * (1.0 - fine) + 0.1 * (1.0 - coarse);
+  if (coarse <= 0.0) return vec2(0.79, unseen);
   float barbs = 0.5 + 0.5 * cos(along * (2.0 * pi / 0.0034) + wander);
   float twigs = 0.5 + 0.5 * cos((aside * 1.155 + 0.5 * along) * (2.0 * pi / 0.0013) + 2.0 * wander);
   float stem = exp(-aside * aside / (0.0007 * 0.0007));
   float seam = smoothstep(0.0, 0.004, second - nearest);
-  float lies = 1.0 + fine * (1.1 * (barbs * barbs * barbs - 0.3125) * (0.7 + 0.6 * twigs) + 0.8 * stem - 0.1) + coarse * (grain - 0.6);
-  return max(lies * mix(1.0, 0.55 + 0.45 * seam, coarse), 0.0);
+  float lies = 0.84 + fine * (1.1 * (barbs * barbs * barbs - 0.3125) * (0.7 + 0.6 * twigs) + 0.8 * stem - 0.044) + coarse * (grain - 0.492);
+  return vec2(max(lies * mix(0.94, 0.55 + 0.45 * seam, coarse), 0.0), max(unseen, 1e-3));
 }
 
 // Light that comes to a direction from the whole half space before it, over pi.
@@ -59,7 +60,9 @@ vec4 frost(vec3 eye, vec3 n, vec3 place) {
   vec2 across = dFdx(place.xy), down = dFdy(place.xy);
   if (place.z < 5e-5) return vec4(0.0);  // So little hides less than a code.
   float pixel_m = sqrt(max(abs(across.x * down.y - across.y * down.x), 1e-12));
-  float hidden = 1.0 - exp(-frost_m2pkg * place.z * feathers(place.xy, pixel_m));
+  // The mean of Beer's law over a mass spread as a gamma distribution.
+  vec2 lies = feathers(place.xy, pixel_m);
+  float hidden = 1.0 - pow(1.0 + lies.y * frost_m2pkg * place.z, -lies.x / lies.y);
   // Multiply scattered: what falls on either face leaves by both alike, and little is lost.
   float share = 0.88 * ice.origin.w;
   vec3 sunlight = view.light_irradiance.rgb * share;

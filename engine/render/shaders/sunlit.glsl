@@ -1,5 +1,6 @@
 // Share of the sun's light that arrives at a place: one of two cascades, four texels compared and blended by the sampler; where light grazes the surface,
 // a shadow's edge would show each texel many times as long, so that sixteen are. `n`: away from the surface.
+layout(constant_id = 13) const uint unshaded = 0;  // Known to be covered, as below.
 layout(constant_id = 15) const uint soft_shadows = 0;  // Edges are as wide as the sun makes them: for graphics cards.
 layout(set = 0, binding = 15) uniform sampler2DArray shadow_depths;  // The same texels, not compared.
 
@@ -39,6 +40,7 @@ float softly_lit(vec4 at, vec3 a, float texel_m) {
 }
 
 float sunlit(vec3 relative, vec3 n, float facing) {
+  if (unshaded != 0) return 1.0;
   // The receiver is moved off its surface by about two texels of the cascade that it lies in.
   vec3 near = (view.shadow_from_relative * vec4(relative, 1.0)).xyz;
   vec2 near_edge = abs(near.xy - 0.5);
@@ -51,7 +53,7 @@ float sunlit(vec3 relative, vec3 n, float facing) {
   vec4 at = is_near ? vec4(near.xy, 0.0, near.z) : vec4(far, 1.0, near.z);
   // A loop, not branches: a device of software leaves it early. Under a closed cover nothing is looked up.
   bool grazed = facing < 0.4;
-  bool covered = view.light_irradiance.g < 0.002 * view.sky_irradiance.g;
+  bool covered = view.offset.w == 0.0;
   if (soft_shadows != 0) return covered ? 1.0 : 1.0 - fade + fade * softly_lit(at, mat3(view.shadow_from_relative) * n, texel_m);
   int samples = covered ? 0 : grazed ? 4 : 1;
   float spacing = grazed ? 1.5 / float(textureSize(shadow_map, 0).x) : 0.0;

@@ -85,7 +85,7 @@ vec4 headlight(vec4 position, vec4 direction, vec3 n) {
   vec3 to_surface = relative - position.xyz;
   float square = dot(to_surface, to_surface);
   vec3 ray = to_surface * inversesqrt(square);
-  float light = position.w * beam_share(direction.xyz, ray, (lamps & 4) != 0 ? direction.w : 0.0) / (square + 1.0);
+  float light = position.w * beam_share(direction.xyz, ray, (lamps & 4) != 0 ? direction.w : 0.0, square + 1.0);
   // Rough asphalt sends more light back than a matt surface would at so low an angle.
   float facing = max(0.0, -dot(n, ray)) * 0.7 + 0.3;
   vec3 lit = vec3(1.0, 0.93, 0.80) * facing;
@@ -148,6 +148,7 @@ void main() {
   float roughness = material.emission.w;
   float share_of_sky = emission.w;
 
+  float snow_lies = 0.0;
   if (snowy != 0) {
     float snow = smoothstep(0.35, 0.8, n.z);
     // Leaves wither, and snow lies on twigs whichever way their picture looks. Wheels keep two tracks of a lane bare.
@@ -156,12 +157,13 @@ void main() {
       snow = max(snow, 0.35);
     }
     if (road != 0 && textured != 0) snow *= 1.0 - 0.7 * smoothstep(0.13, 0.07, abs(abs(uv.x - 0.5) - 0.23));
-    albedo = mix(albedo, vec3(0.85, 0.88, 0.92), view.weather.y * share_of_sky * snow * snowed);
+    snow_lies = view.weather.y * share_of_sky * snow * snowed;
+    albedo = mix(albedo, vec3(0.85, 0.88, 0.92), snow_lies);
   }
   float wet = 0.0, under_water = 0.0;
   vec2 slope = vec2(0.0);
   if (glossy != 0 && road != 0) {
-    wet = view.weather.x * share_of_sky;
+    wet = view.weather.x * share_of_sky * (1.0 - snow_lies);
     vec2 ground = relative.xy + view.water.xy;
     vec2 across = dFdx(ground), down = dFdy(ground);
     float footprint_m = sqrt(max(dot(across, across), dot(down, down)));
@@ -208,7 +210,7 @@ void main() {
     float fresnel = 0.02 + (0.98 - r) * fifth_power(1.0 - cosine);
     vec3 mirrored = reflect(-to_eye, facet);
     vec3 around = sky_radiance(normalize(vec3(mirrored.xy, max(mirrored.z, 0.02)))) * share_of_sky + under_roof * (1.0 - share_of_sky);
-    vec4 near_by = mirrored_on_road(normalize(relative.xy), slope, 0.85 * r * r);
+    vec4 near_by = mirrored_on_road(normalize(relative.xy), slope, under_water);
     around = around * (1.0 - near_by.a) + near_by.rgb;
     radiance += fresnel * around * mix(0.36 * wet, 0.95, under_water);
     radiance += shine(facet, to_eye, vec3(0.02), r) * sunlight * (max(facing, 0.0) * wet);

@@ -26,7 +26,7 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 road;    // xyz: normal of the road near the eye, w: its height along that from the eye.
   vec4 water;   // xy: the eye within a tile of puddles, m. z: 1 where mirror_image holds this view, w: where ripples hold rain.
   vec4 target;  // xy: a pixel as a share of the target's width and height. zw: the eye within a tile of ripples, tiles.
-  vec4 offset;  // xy: of the samples of what stands still, NDC. z: how much of its depth it keeps.
+  vec4 offset;  // xy: of the samples of what stands still, NDC. z: how much of its depth it keeps. w: 1 where the sun or moon casts shadows that can be seen.
 } view;
 
 layout(set = 0, binding = 2) uniform sampler2D sky_table;

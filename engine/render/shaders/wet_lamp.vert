@@ -12,22 +12,29 @@ layout(set = 0, binding = 1, std430) readonly buffer WetLamps { WetLamp lamps[];
 layout(location = 0) out vec2 out_at;  // Metres to the side of its middle and on the way to the lamp.
 layout(location = 1) flat out vec3 out_color;  // Radiance in the middle of a perfect mirror.
 layout(location = 2) flat out vec4 out_heights;  // Eye over the road, lamp over the road, way to the lamp, breadth of its light; m.
+layout(location = 3) flat out vec4 out_before;   // To the lamp on the level, the depth of what stands a metre before it, and the height of its road from the eye, m.
 
 void main() {
   WetLamp lamp = lamps[gl_InstanceIndex];
   const vec2 corners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1), vec2(-1, 1));
   vec2 at = corners[gl_VertexIndex];
   float road = lamp.energy_road.w, distance_m = length(lamp.position_size.xy);
+  // The road leads from below the eye to the lamp's foot as a slope, and not level.
+  float near_road = view.road.z > 0.0 ? view.road.w / view.road.z : road;
   vec2 ahead = lamp.position_size.xy / distance_m, aside = vec2(-ahead.y, ahead.x);
-  float along = mix(0.12 * distance_m, 0.98 * distance_m, at.y);
+  float along = mix(0.05 * distance_m, 0.98 * distance_m, at.y);
   // Of the light, spread by the water's tilt: to the sides by the lamp's height as often as it tilts, on the way to the lamp as often as both ends turn.
   float lamp_height = lamp.position_size.z - road, lens = 0.5 * lamp.position_size.w * lamp.position_size.w;
-  float turns = 0.12 * lamp_height, ways = turns * distance_m / (lamp_height - road);
-  float breadth = sqrt(lens + turns * turns);
+  float turns = 0.12 * lamp_height, ways = turns * distance_m / (lamp_height - near_road);
+  // Narrower than a pixel it would break into dashes.
+  float breadth = max(sqrt(lens + turns * turns), 0.6 * view.billboard_right.w * distance_m);
   float half_width = 2.5 * breadth * along / distance_m;
   out_at = vec2(at.x * half_width, along);
   out_color = lamp.energy_road.rgb * (exp2(-distance_m * view.sky_irradiance.w) / (pi * breadth * sqrt(lens + ways * ways)));
-  out_heights = vec4(-road, lamp_height, distance_m, breadth);
-  vec3 place = vec3(ahead * along + aside * out_at.x, road);
-  gl_Position = view.clip_from_relative * vec4(place * (1.0 - 0.02), 1.0);
+  vec4 before = view.clip_from_relative * vec4(ahead * (distance_m - min(1.0, 0.5 * distance_m)), road, 1.0);
+  out_before = vec4(ahead, before.z / before.w, road);
+  out_heights = vec4(-near_road, lamp_height, distance_m, breadth);
+  vec3 place = vec3(ahead * along + aside * out_at.x, mix(near_road, road, along / distance_m));
+  // Before the road, which is not as flat as it; what of it then comes before things that stand on it the fragment's shader leaves out.
+  gl_Position = view.clip_from_relative * vec4(place * (1.0 - 0.04), 1.0);
 }

@@ -1,6 +1,7 @@
 // Water on a road: the twin of engine/instant/wet_road.hpp.
 
 layout(set = 0, binding = 13) uniform sampler2D mirror_image;  // What the road mirrors, where the road is seen; alpha: there is something.
+layout(set = 0, binding = 19) uniform sampler2D mirror_spread; // The same, as rough as the film is.
 layout(set = 0, binding = 14) uniform sampler2D ripples;       // Slopes of water.
 
 // 1 where wheels run, across a lane's image.
@@ -19,12 +20,10 @@ vec2 ripple_slope(vec2 relative, float footprint_m) {
   return textureLod(ripples, relative + view.target.zw, 0.0).rg * (view.water.w * (1.0 - smoothstep(0.03, 0.3, footprint_m)));
 }
 
-// What stands over the road as its water shows it, times the share of the mirrored directions that it takes, which is alpha. Facets of the water
-// tilt by `slope` and, up to a deviation, by `spread` rad; by about half of what that turns the ray, the image shifts.
-vec4 mirrored_on_road(vec2 ahead, vec2 slope, float spread) {
-  float per_rad = view.target.y / view.billboard_right.w;
-  vec2 at = gl_FragCoord.xy * view.target.xy, up = vec2(0.0, spread * per_rad);
-  at.y += dot(slope, ahead) * per_rad;
-  vec4 sum = textureLod(mirror_image, at, 0.0) + textureLod(mirror_image, at - up, 0.0) + textureLod(mirror_image, at + up, 0.0);
-  return sum * (view.water.z / 3.0);
+// What stands over the road as its water shows it, times the share of the mirrored directions that it takes, which is alpha. By about half of
+// what a facet's tilt turns the ray, the image shifts. `under_water`: how far a puddle takes the place of the film.
+vec4 mirrored_on_road(vec2 ahead, vec2 slope, float under_water) {
+  vec2 at = gl_FragCoord.xy * view.target.xy;
+  at.y += dot(slope, ahead) * view.target.y / view.billboard_right.w;
+  return mix(textureLod(mirror_spread, at, 0.0), textureLod(mirror_image, at, 0.0), under_water) * view.water.z;
 }

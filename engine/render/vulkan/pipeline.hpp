@@ -21,17 +21,19 @@ enum Binding : std::uint32_t {
       6,                 ///< Ice (passes/ice_pass.hpp): normals and depth of its nearest front faces, of the back faces
   binding_ice_back = 7,  ///< behind them, what is inside it,
   binding_ice_inside = 8,
-  binding_surroundings = 9,      ///< and the cube map of what lies around it.
-  binding_ice_beyond = 10,       ///< Of the nearest front faces behind those back faces, and of the back faces
-  binding_ice_beyond_back = 11,  ///< behind these.
-  binding_lamps = 12,            ///< What standing lamps throw (passes/lamp_field.hpp).
-  binding_road_mirror = 13,      ///< What a wet road mirrors (passes/road_mirror_pass.hpp),
-  binding_ripples = 14,          ///< and the slopes of the water on it.
-  binding_shadow_depths = 15,    ///< The shadow map, not compared.
-  binding_light_clusters = 16,   ///< Storage: which headlights light where (passes/light_clusters.hpp).
-  binding_history = 17,          ///< The picture before (passes/temporal_pass.hpp),
-  binding_depth = 18,            ///< and this one's depth.
-  binding_count = 19,
+  binding_surroundings = 9,         ///< and the cube map of what lies around it.
+  binding_ice_beyond = 10,          ///< Of the nearest front faces behind those back faces, and of the back faces
+  binding_ice_beyond_back = 11,     ///< behind these.
+  binding_lamps = 12,               ///< What standing lamps throw (passes/lamp_field.hpp).
+  binding_road_mirror = 13,         ///< What a wet road mirrors (passes/road_mirror_pass.hpp),
+  binding_ripples = 14,             ///< and the slopes of the water on it.
+  binding_shadow_depths = 15,       ///< The shadow map, not compared.
+  binding_light_clusters = 16,      ///< Storage: which headlights light where (passes/light_clusters.hpp).
+  binding_history = 17,             ///< The picture before (passes/temporal_pass.hpp),
+  binding_depth = 18,               ///< and this one's depth.
+  binding_road_mirror_spread = 19,  ///< What a wet road mirrors, spread by its roughness, and its depth.
+  binding_road_mirror_depth = 20,
+  binding_count = 21,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;

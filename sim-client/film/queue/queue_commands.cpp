@@ -8,6 +8,7 @@
 
 #include "program/console.hpp"
 #include "program/stop_signal.hpp"
+#include "sim-client/film/film_file.hpp"
 #include "sim-client/film/queue/film_queue.hpp"
 #include "sim-client/film/queue/queue_runner.hpp"
 
@@ -83,17 +84,18 @@ Expected<int> cancel_films(const QueueArguments& arguments) {
     const auto film = std::ranges::find(films, number, &QueuedFilm::number);
     if (film == films.end())
       return failure(fmt::format("there is no film {}", number), queue->path().string(),
-                     "septet film status lists those there are");
+                     "septet film status lists those there are; none was cancelled");
     if (!waits(*film))
       return failure(fmt::format("film {} has ended already", number), film->out.string(),
-                     "septet film status lists those that wait");
+                     "septet film status lists those that wait; none was cancelled");
   }
   for (const std::uint64_t number : arguments.numbers) {
     if (auto asked = queue->ask_to_cancel(number); !asked) return tl::unexpected(asked.error());
     const auto film = std::ranges::find(films, number, &QueuedFilm::number);
+    const fs::path pictures = pictures_folder(film->out).value_or(film->out);
     program::announce(
         fmt::format("film {} is cancelled{}", number,
-                    film->state == FilmState::begun ? "; what there is of it stays in " + film->out.string() : ""));
+                    film->state == FilmState::begun ? "; what there is of it stays in " + pictures.string() : ""));
   }
   return 0;
 }

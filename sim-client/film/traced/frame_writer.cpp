@@ -58,7 +58,8 @@ ExrFacts exr_facts(const FilmOptions& options, const logging::SessionInfo& sessi
                  .ticks_per_second = session.ticks_per_second,
                  .frames_per_second = options.frames_per_second,
                  .samples = options.samples};
-  for (const auto& [name, seed] : session.seeds) facts.drive_seeds += fmt::format("{} {}\n", name, seed);
+  for (const auto& [name, seed] : session.seeds)
+    facts.drive_seeds += fmt::format("{}{} {}", facts.drive_seeds.empty() ? "" : "\n", name, seed);
   return facts;
 }
 

@@ -32,6 +32,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr std::size_t most_words_bytes = 600;
+constexpr int most_fruitless_starts = 3;
+
+/// Some program was ended by a signal: mpirun's own status tells so as shells do.
+bool is_of_signal(const program::ChildExit& end) { return end.signal != 0 || (end.code > 128 && end.code < 128 + 65); }
+
 /// Standard error of mpirun: what the programs say, and what it says itself.
 class Said {
  public:
@@ -44,23 +50,26 @@ class Said {
     std::string line;
     while (std::getline(stream, line) && !stream.eof()) {
       read_ += line.size() + 1;
+      if (line.ends_with('\r')) line.pop_back();
       line = printable(line);
       if (line.starts_with("septet: "))
         progress.message(line);
       else if (!line.empty() && std::isdigit(static_cast<unsigned char>(line.front())) && line.find(" of ") < 12)
         progress.show(line);
-      else if (first_of_mpirun_.empty() && line.find_first_not_of("- ") != std::string::npos)
-        first_of_mpirun_ = line;
+      else if (words_of_mpirun_.size() < most_words_bytes && line.find_first_not_of("- ") != std::string::npos)
+        words_of_mpirun_ += (words_of_mpirun_.empty() ? "" : " ") + line.substr(line.find_first_not_of(' '));
       says_why_ |= line.starts_with("septet: ");
     }
   }
-  const std::string& first_of_mpirun() const { return first_of_mpirun_; }
+  /// Of the programs that are started next.
+  void begin_anew() { words_of_mpirun_.clear(), says_why_ = false; }
+  const std::string& words_of_mpirun() const { return words_of_mpirun_; }
   bool says_why() const { return says_why_; }
 
  private:
   fs::path file_;
   std::uint64_t read_ = 0;
-  std::string first_of_mpirun_;
+  std::string words_of_mpirun_;
   bool says_why_ = false;
 };
 
@@ -78,7 +87,7 @@ std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
 
 struct StartEnd {
   std::optional<int> status;  ///< Of the film's first program; nothing: it was lost.
-  int of_mpirun = 0;
+  program::ChildExit of_mpirun;
   bool hosts_changed = false;
 };
 
@@ -105,7 +114,7 @@ Expected<StartEnd> start_once(const fs::path& mpirun, const RanksOptions& option
     hear(exit ? 0ms : 100ms);
     said.show(progress);
     if (exit) {
-      end.of_mpirun = exit->code;
+      end.of_mpirun = *exit;
       return end;
     }
     std::this_thread::sleep_for(20ms);
@@ -142,8 +151,10 @@ Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string
   program::catch_stop_signals();
   program::ProgressLine progress;
   Said said(log);
+  int fruitless = 0;  // Starts one after another that have brought nothing.
   for (bool first = true;; first = false) {
     const auto before = newest_in(*folder);
+    said.begin_anew();
     const auto end = start_once(*mpirun, options, all, log, said, progress);
     if (!end) return tl::unexpected(end.error());
     if (end->status && !end->hosts_changed) return *end->status;
@@ -153,19 +164,22 @@ Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string
       return program::failed_status;
     }
     const bool came = newest_in(*folder) > before;
+    fruitless = came || end->hosts_changed ? 0 : fruitless + 1;
     if (end->hosts_changed) {
       progress.message(fmt::format("septet: {} has changed; the film goes on with it", options.hosts.string()));
-    } else if (!came) {
-      progress.close();
-      if (end->status.value_or(end->of_mpirun) > 0 && said.says_why()) return program::failed_status;
-      return failure(
-          fmt::format("mpirun has ended with status {}: {}", end->of_mpirun,
-                      said.first_of_mpirun().empty() ? "it does not say why" : said.first_of_mpirun()),
-          options.hosts.empty() ? "--ranks" : options.hosts.string(),
-          first ? "try the same command after mpirun on its own" : "add --resume to go on: what is finished is kept");
-    } else {
+    } else if (came || (is_of_signal(end->of_mpirun) && fruitless < most_fruitless_starts)) {
       progress.message(
           "septet: the film's first program or mpirun was lost; what is finished is kept and the rest goes on");
+    } else {
+      progress.close();
+      if (end->of_mpirun.code != 0 && said.says_why()) return program::failed_status;
+      return failure(
+          fmt::format("mpirun has ended {}: {}",
+                      end->of_mpirun.signal ? fmt::format("by signal {}", end->of_mpirun.signal)
+                                            : fmt::format("with status {}", end->of_mpirun.code),
+                      said.words_of_mpirun().empty() ? "it does not say why" : said.words_of_mpirun()),
+          options.hosts.empty() ? "--ranks" : options.hosts.string(),
+          first ? "try the same command after mpirun on its own" : "add --resume to go on: what is finished is kept");
     }
     if (fs::exists(*folder / "film.json") && !options.resume && std::ranges::find(all, "--resume") == all.end())
       all.push_back("--resume");

@@ -2,8 +2,9 @@
 /// A film by several programs that mpirun starts, which is started anew where it ends before the film is whole.
 ///
 /// Open MPI is told to go on where a program dies (--enable-recovery): a worker that dies costs what it had in its hands. Where the
-/// master or mpirun itself dies, all are started again with --resume, which costs the tiles in all hands; as long as each start
-/// has brought something. The same is done when the file of hosts is written anew: so machines join a film that is being made, or leave it.
+/// master or mpirun itself dies, all are started again with --resume, which costs the tiles in all hands: while starts bring
+/// something, and twice more in a row where a signal has ended one that brought nothing. The same is done when the file of hosts is
+/// written anew: so machines join a film that is being made, or leave it.
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 """Draws the references that ice is compared with, by Mitsuba 3.5.2 (PyPI): a path tracer sees the same object in the same panorama.
 
-    python3 -m venv V && V/bin/pip install mitsuba==3.5.2 numpy
+    python3 -m venv V && V/bin/pip install mitsuba==3.5.2 numpy pillow
     V/bin/python ice_reference.py SEPTET_ICE OUT_FOLDER [SAMPLES [NAME...]]
 
 SEPTET_ICE writes object, panorama and camera (`--reference`). A smooth dielectric of 1.3091 in air of 1.0003, paths of up to

@@ -1,7 +1,7 @@
 """How fast the ray tracer is beside Mitsuba 3.9.1 (PyPI), on the Cornell box and on an exported motorway: samples a second and core, in
 one run.
 
-    python3 -m venv V && V/bin/pip install mitsuba==3.9.1 numpy
+    python3 -m venv V && V/bin/pip install mitsuba==3.9.1 numpy pillow
     V/bin/python ray_tracing.py SEPTET_BENCH SEPTET_PEER_SCENE [--rounds N]
 
 SEPTET_BENCH is what ./bench builds, SEPTET_PEER_SCENE is built when asked for. In the box all trace 256² pixels with 64 samples each by paths of six

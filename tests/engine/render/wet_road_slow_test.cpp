@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,6 +90,34 @@ glm::dvec3 mean_around(const RadianceImage& picture, std::pair<double, double> a
   return sum / double(count);
 }
 
+/// What a car that is added in this lane, with this word for its picture, makes of the light of a frame.
+struct WithoutAndWith {
+  FrameInput input;  ///< With it.
+  RadianceImage without, with;
+};
+WithoutAndWith add_car(Drawing& drawing, const Environment& environment, double ahead_m, const std::string& name = {}) {
+  FrameInput input = ahead(drawing, environment);
+  RadianceImage without = drawing.draw(input);
+  input.participants.push_back(reference_car(drawing.reference, {ahead_m, -1.875, 0.02}));
+  return {input, std::move(without), drawing.draw(input, name)};
+}
+
+/// The red light of the brake lamps of one more car in this lane, of each pixel from the row on where the road is seen at `from_m`; row by row.
+std::vector<std::vector<double>> brake_light(Drawing& drawing, FrameInput input, double ahead_m, double from_m,
+                                             const std::string& name) {
+  DrawnParticipant car = reference_car(drawing.reference, {ahead_m, -1.875, 0.02});
+  input.participants.push_back(car);
+  const RadianceImage unlit = drawing.draw(input);
+  input.participants.back().lamps.set(Lamp::brake, true);
+  const RadianceImage lit = drawing.draw(input, name);
+  std::vector<std::vector<double>> rows;
+  for (auto y = static_cast<std::uint32_t>(pixel_of(input, {from_m, 0.0, 0.0}).second); y < height; ++y) {
+    std::vector<double>& row = rows.emplace_back();
+    for (std::uint32_t x = 0; x < width; ++x) row.push_back(double(lit.at(x, y).r) - double(unlit.at(x, y).r));
+  }
+  return rows;
+}
+
 /// By how much the upper tenth of the pixels of the road before the eye differ, beside their mean. Streaks of rain cover fewer.
 double moved(const RadianceImage& a, const RadianceImage& b) {
   std::vector<double> away;
@@ -124,9 +153,7 @@ TEST_CASE("a wet road shows a car upside down below it, as bright as water mirro
   Drawing drawing = Drawing::make();
   const double car_x_m = 21.0;
   for (const double wetness : {0.0, 0.5}) {
-    FrameInput without = ahead(drawing, overcast(wetness)), with = without;
-    with.participants.push_back(reference_car(drawing.reference, {car_x_m, -1.875, 0.02}));
-    const RadianceImage empty = drawing.draw(without), full = drawing.draw(with, wetness > 0.0 ? "wet_mirror" : "");
+    const auto [with, empty, full] = add_car(drawing, overcast(wetness), car_x_m, wetness > 0.0 ? "wet_mirror" : "");
     // The back of the body, and its mirror image on the road before it.
     const Vec3 back_m(car_x_m - 1.0, -1.875, 0.02 + 0.62), image_m(car_x_m - 1.0, -1.875, 0.02 - 0.62);
     const auto at = pixel_of(with, image_m);
@@ -149,6 +176,22 @@ TEST_CASE("a wet road shows a car upside down below it, as bright as water mirro
   }
 }
 
+TEST_CASE("snow that lies on a wet road mirrors nothing") {
+  Drawing drawing = Drawing::make();
+  const auto mirrored = [&](double snow_cover) {
+    Environment environment = overcast(0.5);
+    environment.snow_cover = snow_cover;
+    const auto [with, empty, full] = add_car(drawing, environment, 21.0);
+    const auto at = pixel_of(with, {20.0, -1.875, 0.02 - 0.62});
+    const glm::dvec3 added = mean_around(full, at, 1) - mean_around(empty, at, 1);
+    return added.r - added.g;
+  };
+  const double wet = mirrored(0.0), snowed = mirrored(1.0);
+  CAPTURE(wet);
+  CHECK(wet > 0.0);
+  CHECK(std::abs(snowed) < 0.15 * wet);
+}
+
 TEST_CASE("a gantry is mirrored by the wet road before it") {
   Drawing drawing = Drawing::make();
   FrameInput input = ahead(drawing, overcast(1.0));
@@ -158,6 +201,55 @@ TEST_CASE("a gantry is mirrored by the wet road before it") {
   // Its sign hangs 5.2 to 7.6 m over the road, 45 m ahead.
   const auto at = pixel_of(input, {44.7, -2.0, -6.4});
   CHECK(mean_around(with, at, 2).g < 0.97 * mean_around(without, at, 2).g);
+}
+
+TEST_CASE("a lamp sends no streak over the road before what hides it, and one over all of it where nothing does") {
+  Drawing drawing = Drawing::make();
+  const auto streak = [&](bool hidden) {
+    FrameInput input = ahead(drawing, overcast(1.0));
+    input.environment.sun_elevation_rad = -0.3;
+    if (hidden) input.participants.push_back(reference_car(drawing.reference, {20.0, -1.875, 0.02}));
+    double sum = 0.0;
+    for (const auto& row : brake_light(drawing, input, 45.0, 17.0, hidden ? "hidden_lamp" : "shown_lamp"))
+      sum += std::accumulate(row.begin(), row.end(), 0.0);
+    return sum;
+  };
+  const double shown = streak(false), hidden = streak(true);
+  CAPTURE(shown);
+  CAPTURE(hidden);
+  CHECK(shown > 0.0);
+  CHECK(std::abs(hidden) < 0.01 * shown);
+}
+
+TEST_CASE("the film on a wet road shows a lens once, drawn out and not in copies") {
+  Drawing drawing = Drawing::make();
+  FrameInput input = ahead(drawing, overcast(0.45));
+  input.environment.sun_elevation_rad = -0.3;
+  const auto rows = brake_light(drawing, input, 21.0, 19.0, "one_lens");
+  // Of the columns the brightest.
+  std::vector<double> column;
+  for (std::uint32_t x = 0; x < width; ++x) {
+    std::vector<double> here;
+    here.reserve(rows.size());
+    for (const auto& row : rows) here.push_back(row[x]);
+    if (column.empty() || *std::ranges::max_element(here) > *std::ranges::max_element(column)) column = here;
+  }
+  const double brightest = *std::ranges::max_element(column);
+  REQUIRE(brightest > 0.0);
+  // Rises again after it fell, by more than a twentieth of the brightest.
+  int peaks = 0;
+  double lowest = 0.0, highest = 0.0;
+  bool rises = true;
+  for (const double light : column) {
+    if (rises) {
+      highest = std::max(highest, light);
+      if (light < highest - 0.05 * brightest) ++peaks, rises = false, lowest = light;
+    } else {
+      lowest = std::min(lowest, light);
+      if (light > lowest + 0.05 * brightest) rises = true, highest = light;
+    }
+  }
+  CHECK(peaks == 1);
 }
 
 TEST_CASE("rain rings the puddles, more of them the harder it rains, and moves them with simulated time") {

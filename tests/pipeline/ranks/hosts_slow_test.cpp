@@ -1,5 +1,5 @@
 /// A film on several machines. They are played on this one: each name of the file of hosts gets a daemon of Open MPI of its own, which a
-/// script starts in place of ssh, and what they say goes over TCP.
+/// script starts in place of ssh, with a folder of its own for what it notes, and what they say goes over TCP.
 
 #include <map>
 #include <set>
@@ -21,7 +21,8 @@ void write_hosts(const fs::path& file, const std::string& names) {
 
 /// The environment in which mpirun finds any machine here.
 std::map<std::string, std::string> machines_played_here(const fs::path& agent) {
-  write_text(agent, "#!/bin/sh\nshift\nexec /bin/sh -c \"$*\"\n");
+  // Daemons of one machine would trip over each other as they make and clear away the same folder.
+  write_text(agent, "#!/bin/sh\nexport TMPDIR=\"$0-$1\"\nmkdir -p \"$TMPDIR\"\nshift\nexec /bin/sh -c \"$*\"\n");
   fs::permissions(agent, fs::perms::owner_all);
   auto environment = for_mpirun;
   environment["OMPI_MCA_plm_rsh_agent"] = agent.string();

@@ -62,7 +62,12 @@ TEST_CASE(
   CHECK(queue.add("third", {"--ranks", "2"}).code == 0);
   // What is no film is told at once, and leaves the queue as it was.
   CHECK(queue.add("third").error.find("film 3 of the queue") != std::string::npos);
-  CHECK(queue.add("fourth", {"--sise", "1"}).error.find("--sise") != std::string::npos);
+  const Ended misspelled = queue.add("fourth", {"--sise", "1"});
+  CHECK(misspelled.code == 2);
+  CHECK(misspelled.error.find("--sise") != std::string::npos);
+  const Ended unnumbered = queue.say({"cancel"});
+  CHECK(unnumbered.code == 2);
+  CHECK(unnumbered.error.find("septet film cancel --help") != std::string::npos);
   CHECK(queue.add("fourth", {"--from", "30"}).code != 0);
   REQUIRE(queue.comes_to("1  being made"));
   REQUIRE(queue.comes_to("% of the next"));
@@ -74,7 +79,9 @@ TEST_CASE(
   REQUIRE(::kill(*runner, SIGKILL) == 0);
   REQUIRE(queue.comes_to("nobody makes them now"));
   CHECK(queue.status().find("1  interrupted") != std::string::npos);
-  CHECK(queue.say({"cancel", "1", "9"}).error.find("no film 9") != std::string::npos);
+  const Ended unknown = queue.say({"cancel", "1", "9"});
+  CHECK(unknown.error.find("no film 9") != std::string::npos);
+  CHECK(unknown.error.find("none was cancelled") != std::string::npos);
   CHECK(queue.say({"queue"}).code == 0);
   REQUIRE(queue.comes_to("1  being made"));
   CHECK(queue.say({"cancel", "1"}).code == 0);
@@ -108,6 +115,9 @@ TEST_CASE(
   CHECK(pictures_in(out) == pictures);
   check_refused(film.make(film.folder / "short", {"--within", "1 fortnight"}), {"--within", "fortnight"},
                 film.folder / "short");
+  const std::string nowhere = film.folder / "nowhere";
+  check_refused(film.make(film.folder / "untold", {"--statistics", nowhere + "/tiles.json"}),
+                {"no such folder", nowhere}, film.folder / "untold");
 }
 
 }  // namespace septet::pipeline

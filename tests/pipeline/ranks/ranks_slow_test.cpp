@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -155,6 +156,46 @@ TEST_CASE("a full disk ends a film with one message and it goes on where there i
   CHECK(resumed.code == 0);
   CHECK(pictures_in(out) == pictures_in(film.folder / "alone"));
   if (is_mounted) CHECK(::umount2(disk.c_str(), MNT_DETACH) == 0);
+}
+
+/// The environment in which what is found as mpirun counts its starts in a file; the first of them crash before anything is there.
+std::map<std::string, std::string> mpirun_that_crashes(const fs::path& folder, int times) {
+  fs::create_directories(folder);
+  const fs::path mpirun = folder / "mpirun";
+  const char* path = std::getenv("PATH");
+  REQUIRE(path != nullptr);
+  write_text(mpirun, fmt::format("#!/bin/sh\n"
+                                 "echo . >> '{}/starts'\n"
+                                 "if [ $(wc -l < '{}/starts') -gt {} ]; then PATH='{}' exec mpirun \"$@\"; fi\n"
+                                 "printf -- '---\\r\\n*** Process received signal ***\\r\\nSignal: 11\\n' >&2\n"
+                                 "exit 139\n",
+                                 folder.string(), folder.string(), times, path));
+  fs::permissions(mpirun, fs::perms::owner_all);
+  auto environment = for_mpirun;
+  environment["PATH"] = folder.string() + ':' + path;
+  return environment;
+}
+
+TEST_CASE("a start of mpirun that crashes before a tile has come is tried again twice and no more") {
+  SmallFilm film;
+  film.samples = "2";
+  REQUIRE(film.make(film.folder / "alone").code == 0);
+  const fs::path out = film.folder / "film", err = film.folder / "err";
+  const Ended made =
+      run("septet-film", film.arguments(out, {"--ranks", "2"}), err, mpirun_that_crashes(film.folder / "twice", 2));
+  INFO(made.error);
+  CHECK(made.code == 0);
+  CHECK(count(made.error, "was lost") == 2);
+  CHECK(pictures_in(out) == pictures_in(film.folder / "alone"));
+
+  fs::remove(err);
+  const Ended lost = run("septet-film", film.arguments(film.folder / "never", {"--ranks", "2"}), err,
+                         mpirun_that_crashes(film.folder / "thrice", 3));
+  INFO(lost.error);
+  CHECK(lost.code == 1);
+  CHECK(count(text_of(film.folder / "thrice/starts"), ".") == 3);
+  CHECK(lost.error.find("mpirun has ended with status 139: *** Process received signal *** Signal: 11;") !=
+        std::string::npos);
 }
 
 TEST_CASE("what mpirun cannot do is said in one line") {
