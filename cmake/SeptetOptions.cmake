@@ -44,11 +44,10 @@ if(SEPTET_SANITIZE)
   add_link_options(-fsanitize=${SEPTET_SANITIZE})
   if(SEPTET_SANITIZE MATCHES "undefined")
     add_compile_options(-fno-sanitize-recover=undefined)  # What is only told fails no test.
+    # What the address sanitizer sees by itself, and an alignment that x86 does not ask for: checks at every access, a third of the compiler's time.
+    add_compile_options(-fno-sanitize=null,object-size,vptr,alignment)
   endif()
   set(CMAKE_CXX_FLAGS_RELEASE "-O1")
-endif()
-if(SEPTET_FUZZERS)
-  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
 # A build from nothing takes half the time with one precompiled header; repeated builds in several checkouts are faster with

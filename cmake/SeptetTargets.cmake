@@ -27,15 +27,11 @@ else()
 endif()
 list(APPEND SEPTET_HOT_OPTIONS -fno-math-errno -fno-trapping-math)
 # For what is compiled more often than it runs, as tests are: a third less of the compiler's time than with -O2. Where a sanitizer watches,
-# optimising a test takes as long again as all the rest, and a fuzzer's coverage as long as half of it.
+# optimising a test takes as long again as all the rest.
 if(SEPTET_SANITIZE)
   set(SEPTET_COLD_OPTIONS -O0)
 else()
   set(SEPTET_COLD_OPTIONS $<$<CONFIG:Release>:-O1>)
-endif()
-set(SEPTET_TEST_OPTIONS ${SEPTET_COLD_OPTIONS})
-if(SEPTET_FUZZERS)
-  list(APPEND SEPTET_TEST_OPTIONS -fno-sanitize=fuzzer-no-link)
 endif()
 # What was precompiled with other options crashes the compiler, so hot libraries and tests have their own.
 if(SEPTET_PRECOMPILE)
@@ -46,7 +42,7 @@ if(SEPTET_PRECOMPILE)
     target_precompile_headers(${precompiled} PRIVATE ${SEPTET_COMMON_HEADERS})
   endforeach()
   target_compile_options(septet_precompiled_hot PRIVATE ${SEPTET_HOT_OPTIONS})
-  target_compile_options(septet_precompiled_test PRIVATE ${SEPTET_TEST_OPTIONS})
+  target_compile_options(septet_precompiled_test PRIVATE ${SEPTET_COLD_OPTIONS})
   target_precompile_headers(septet_precompiled_test PRIVATE <doctest/doctest.h>)
 endif()
 function(septet_precompile target from)
@@ -82,8 +78,7 @@ function(septet_embedded_texts target)
 endfunction()
 
 # Each header includes what it needs: a file of the same name includes it first (tests/architecture), and without precompiled headers those that
-# have no such file are compiled alone (target lone_headers).
-add_custom_target(lone_headers)
+# have no such file become files of their own (.ci/alone reads them).
 function(septet_lone_headers library headers)
   if(SEPTET_PRECOMPILE)
     return()
@@ -102,7 +97,6 @@ function(septet_lone_headers library headers)
     add_library(${library}_headers OBJECT ${lone})
     target_compile_options(${library}_headers PRIVATE ${SEPTET_WARNINGS})
     target_link_libraries(${library}_headers PRIVATE ${library})
-    add_dependencies(lone_headers ${library}_headers)
   endif()
 endfunction()
 
@@ -161,11 +155,12 @@ function(septet_program name)
   endif()
 endfunction()
 
-# septet_test(NAME [DRAWS] [THREADS] [DEPENDS library…] [PRIVATE library…])
-# DRAWS: its slow tests draw within the program; the address sanitizer's build has these slow ones and no others (label slow-drawn).
-# THREADS: its fast tests start threads; the thread sanitizer's build has these and no others. One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files (a slow test starts processes, draws
-# frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that drive for hours; `./test --long`).
-# Every test case is one CTest test. The limits are for a hang, however busy the machine.
+# septet_test(NAME [HOT] [DRAWS] [THREADS] [DEPENDS library…] [PRIVATE library…])
+# One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files (a slow test starts processes,
+# draws frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that drive for hours; `./test --long`).
+# HOT: its tests reckon long themselves and are optimised as the product is. DRAWS: its slow tests draw within the program; the address sanitizer's
+# build has these slow ones and no others (label slow-drawn). THREADS: its fast tests start threads; the thread sanitizer's build has these and no
+# others. Every test case is one CTest test. The limits are for a hang, however busy the machine.
 function(septet_test name)
   file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB slow_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_slow_test.cpp)
@@ -181,17 +176,22 @@ function(septet_test name)
 endfunction()
 
 function(septet_test_program name label timeout_s sources)
-  cmake_parse_arguments(arg "DRAWS;THREADS" "" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "HOT;DRAWS;THREADS" "" "DEPENDS;PRIVATE" ${ARGN})
   if(NOT sources)
     return()
   endif()
   add_executable(${name} ${sources})
-  target_compile_options(${name} PRIVATE ${SEPTET_WARNINGS} ${SEPTET_TEST_OPTIONS})
+  target_compile_options(${name} PRIVATE ${SEPTET_WARNINGS})
+  if(arg_HOT)
+    septet_precompile(${name} septet_precompiled)
+  else()
+    target_compile_options(${name} PRIVATE ${SEPTET_COLD_OPTIONS})
+    septet_precompile(${name} septet_precompiled_test)
+  endif()
   target_compile_definitions(${name} PRIVATE SEPTET_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                              SEPTET_BINARY_DIR="${CMAKE_BINARY_DIR}")
   list(TRANSFORM arg_DEPENDS PREPEND septet_)
   target_link_libraries(${name} PRIVATE septet_test_main ${arg_DEPENDS} ${arg_PRIVATE})
-  septet_precompile(${name} septet_precompiled_test)
   if(SEPTET_SANITIZE STREQUAL "thread" AND NOT (arg_THREADS AND label STREQUAL "fast"))
     return()
   endif()

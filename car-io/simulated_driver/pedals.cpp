@@ -13,7 +13,7 @@ constexpr double coasting_mps2 = 0.35;      ///< Engine's drag with the foot off
 constexpr double emergency_mps2 =
     -3.5;  ///< Needed not to touch the one ahead: from here on the foot moves as fast as it can.
 constexpr double emergency_jerk_mps3 = 20.0;
-constexpr double hardest_mps2 = -9.0;
+constexpr double hardest_braking_mps2 = -9.0;
 constexpr double least_gap_m = 0.5;
 constexpr double braking_lasts_s = 1.0;  ///< For so long braking ahead is expected to go on.
 
@@ -52,11 +52,12 @@ double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_m
     gap_keeping = a * (1.0 - tightness * tightness);
   else
     gap_keeping = free > 0.0 ? free * (1.0 - std::pow(tightness, 2.0 * a / free)) : free;
-  gap_keeping = std::max({gap_keeping, hardest_mps2, -obstacle->worth_mps2});
+  gap_keeping = std::max({gap_keeping, hardest_braking_mps2, -obstacle->worth_mps2});
   const double heuristic = heuristic_acceleration_mps2(v, *obstacle);
   if (gap_keeping >= heuristic) return gap_keeping;
   const double calm = heuristic + b * std::tanh((gap_keeping - heuristic) / b);
-  return std::max({(1.0 - speed.coolness) * gap_keeping + speed.coolness * calm, hardest_mps2, -obstacle->worth_mps2});
+  return std::max(
+      {(1.0 - speed.coolness) * gap_keeping + speed.coolness * calm, hardest_braking_mps2, -obstacle->worth_mps2});
 }
 
 void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKnowledge& car, const OwnPlace& own,

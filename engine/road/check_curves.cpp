@@ -8,7 +8,7 @@
 namespace septet::road {
 namespace {
 
-constexpr double tolerated_length_m = 0.001, tolerated_m = 0.01, tolerated_rad = 0.01;
+constexpr double tolerated_length_m = 0.001, tolerated_beside_m = 0.01, tolerated_rad = 0.01;
 
 /// How long the curve is over the range of its parameter; the table runs through it at that many
 /// metres of curve per metre of road.
@@ -29,7 +29,7 @@ void check_curve(const CheckedFile& file, const pugi::xml_node& geometry, const 
   }
   constexpr std::string_view aligned = "asam.net:xodr:1.7.0:road.geometry.paramPoly3.valid_parameters";
   const auto& [u, v] = record.cubic;
-  if (const double beside = std::hypot(u[0], v[0]); beside > tolerated_m) {
+  if (const double beside = std::hypot(u[0], v[0]); beside > tolerated_beside_m) {
     file.findings.warning(geometry,
                           fmt::format("its curve begins {:.4g} m beside where it says that it starts", beside),
                           "let aU and aV be 0", aligned);

@@ -18,12 +18,12 @@ Orientation read_orientation(const pugi::xml_node& node) {
   return text == "-" ? Orientation::against : Orientation::both;
 }
 
-constexpr double tolerated_m = 0.01;
+constexpr double tolerated_past_end_m = 0.01;
 
 /// A station that a thing stands at; beyond the road: a warning and the road's end.
 double on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road, double s_m) {
   const double kept = std::clamp(s_m, 0.0, road.length_m);
-  if (std::abs(s_m - kept) > tolerated_m) {
+  if (std::abs(s_m - kept) > tolerated_past_end_m) {
     findings.warning(
         node, fmt::format("s={} is beyond the road, which is {} m long; it is taken to its end", s_m, road.length_m),
         "keep s within the road");
@@ -35,7 +35,7 @@ double on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& ro
 double length_on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road, double s_m) {
   const double length = findings.amount_or(node, "length", 0.0);
   const double kept = std::min(length, road.length_m - s_m);
-  if (length > kept + tolerated_m) {
+  if (length > kept + tolerated_past_end_m) {
     findings.warning(node, fmt::format("it reaches {:.4g} m beyond the road; it is cut off there", length - kept),
                      "keep s + length within the road");
   }

@@ -11,9 +11,6 @@
 namespace septet::scenario {
 namespace {
 
-constexpr int most_lanes = 1000;
-constexpr double most_mps = 1000.0;
-
 DynamicsShape read_shape(const Element& element) {
   return element.required_word<DynamicsShape>("dynamicsShape",
                                               {{"step", DynamicsShape::step},

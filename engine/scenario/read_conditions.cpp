@@ -58,15 +58,16 @@ ConditionVariant read_time_to_collision(Reading& reading, const Element& found) 
 }
 
 ConditionVariant read_clearance(Reading& reading, const Element& found) {
-  constexpr int most_lanes = 100;
+  constexpr int furthest_lane = 100;
   RelativeClearanceCondition condition;
   condition.forward_m = found.number_or("distanceForward", 0.0, 0.0);
   condition.backward_m = found.number_or("distanceBackward", 0.0, 0.0);
   condition.freespace = found.required_boolean("freeSpace", true);
   condition.opposite_lanes = found.required_boolean("oppositeLanes", false);
   for (const Element& range : found.children("RelativeLaneRange")) {
-    condition.lanes.push_back({range.has("from") ? range.integer("from", -most_lanes, most_lanes) : -most_lanes,
-                               range.has("to") ? range.integer("to", -most_lanes, most_lanes) : most_lanes});
+    condition.lanes.push_back(
+        {range.has("from") ? range.integer("from", -furthest_lane, furthest_lane) : -furthest_lane,
+         range.has("to") ? range.integer("to", -furthest_lane, furthest_lane) : furthest_lane});
   }
   for (const Element& reference : found.children("EntityRef")) {
     const EntityIndex entity = read_entity_reference(reading, reference);

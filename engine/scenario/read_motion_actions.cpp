@@ -3,7 +3,6 @@
 namespace septet::scenario {
 namespace {
 
-constexpr double most_mps = 1000.0;
 constexpr double most_m = 1e5, most_lateral_m = 1e3;
 constexpr double most_s = 1e6;
 

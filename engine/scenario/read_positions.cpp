@@ -3,8 +3,6 @@
 namespace septet::scenario {
 namespace {
 
-constexpr int most_lanes = 1000;
-
 WorldPosition read_world(const Element& element) {
   WorldPosition position;
   position.position_m = {element.number("x"), element.number("y"), element.number_or("z", 0.0)};

@@ -13,6 +13,10 @@
 
 namespace septet::scenario {
 
+/// Bounds of what a scenario may ask for.
+constexpr int most_lanes = 1000;
+constexpr double most_mps = 1000.0;
+
 struct Reading {
   const ScenarioFiles& files;
   Scenario scenario;

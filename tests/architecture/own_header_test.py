@@ -3,7 +3,7 @@
 
     own_header_test.py ROOT
 
-Headers without such a file are compiled alone by the plain preset (target lone_headers). Prints one line for each breach, and exits 1.
+Headers without such a file are read alone by .ci/alone. Prints one line for each breach, and exits 1.
 """
 import pathlib
 import re

@@ -35,6 +35,24 @@ enum class ScriptStep : std::uint8_t {
   count
 };
 
+/// A script from steps and numbers.
+template <class... Parts>
+Bytes script(Parts... parts) {
+  return {static_cast<std::byte>(parts)...};
+}
+
+/// That the client sends this message and the host reads it and publishes a tick.
+inline Bytes says(int client, const control::ControlMessage& message) {
+  const Bytes bytes = control::encode_control(message);
+  Bytes steps = script(ScriptStep::control, client, bytes.size() - 1);
+  steps.insert(steps.end(), bytes.begin() + 1, bytes.end());
+  for (const std::byte part : script(ScriptStep::pump, client, ScriptStep::end_of_pump, client, 0))
+    steps.push_back(part);
+  return steps;
+}
+
+constexpr int a = 0, b = 1, car = 2;  ///< Clients.
+
 class ClientScript {
  public:
   static constexpr std::size_t clients = 4;  ///< Screens a and b, the car, and another holder of a's key.

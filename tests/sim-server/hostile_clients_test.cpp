@@ -8,28 +8,13 @@ namespace {
 
 using enum ScriptStep;
 
-/// A script from steps and numbers.
-template <class... Parts>
-Bytes script(Parts... parts) {
-  return {static_cast<std::byte>(parts)...};
-}
-
 bool is_live(ClientScript& rig, std::string_view name) {
   for (const auto& screen : rig.host().screens())
     if (screen.name == name) return screen.live();
   return false;
 }
 
-/// That the client sends this message and the host reads it.
-Bytes says(int client, const control::ControlMessage& message) {
-  const Bytes bytes = control::encode_control(message);
-  Bytes steps = script(ScriptStep::control, client, bytes.size() - 1);
-  steps.insert(steps.end(), bytes.begin() + 1, bytes.end());
-  for (const std::byte part : script(pump, client, end_of_pump, client, 0)) steps.push_back(part);
-  return steps;
-}
-
-constexpr int a = 0, b = 1, car = 2, here = 0, elsewhere = 1;
+constexpr int here = 0, elsewhere = 1;
 
 }  // namespace
 

@@ -9,13 +9,13 @@ namespace {
 
 constexpr double least_time_between_shifts_s = 0.7;
 
-double between(double closed, double open, double pedal) { return closed + pedal * (open - closed); }
+double at_pedal(double closed, double open, double pedal) { return closed + pedal * (open - closed); }
 
 /// One gear up or down where the input shaft runs outside its band for this pedal.
 int automatic_gear(const PowertrainParameters& powertrain, int gear, double pedal, double output_radps) {
   if (gear < 1) return 1;
-  const double up = between(powertrain.upshift_closed_radps, powertrain.upshift_open_radps, pedal * pedal);
-  const double down = between(powertrain.downshift_closed_radps, powertrain.downshift_open_radps, pedal * pedal);
+  const double up = at_pedal(powertrain.upshift_closed_radps, powertrain.upshift_open_radps, pedal * pedal);
+  const double down = at_pedal(powertrain.downshift_closed_radps, powertrain.downshift_open_radps, pedal * pedal);
   const double input_radps = output_radps * powertrain.gear_ratio[gear - 1];
   if (gear < powertrain.gear_count && input_radps > up) return gear + 1;
   if (gear > 1 && input_radps < down && output_radps * powertrain.gear_ratio[gear - 2] < 0.93 * up) return gear - 1;

@@ -14,7 +14,7 @@ double over_load(double at_nominal, double at_double, double load_ratio) {
   return load_ratio * (at_nominal + bend - bend * load_ratio);
 }
 
-double between(double at_nominal, double at_double, double load_ratio) {
+double at_load(double at_nominal, double at_double, double load_ratio) {
   return at_nominal + (at_double - at_nominal) * (load_ratio - 1.0);
 }
 
@@ -28,9 +28,9 @@ SlipCurve curve_at(const SlipCurve& nominal, const SlipCurve& twice, double load
   const double slip_scale = friction_ratio / firmness;  // The same force, at more slip.
   return {
       .slope_n = firmness * beyond * over_load(nominal.slope_n, twice.slope_n, q),
-      .peak_slip = slip_scale * between(nominal.peak_slip, twice.peak_slip, slip_load),
+      .peak_slip = slip_scale * at_load(nominal.peak_slip, twice.peak_slip, slip_load),
       .peak_force_n = beyond * friction_ratio * over_load(nominal.peak_force_n, twice.peak_force_n, q),
-      .sliding_slip = slip_scale * between(nominal.sliding_slip, twice.sliding_slip, slip_load),
+      .sliding_slip = slip_scale * at_load(nominal.sliding_slip, twice.sliding_slip, slip_load),
       .sliding_force_n = beyond * friction_ratio * over_load(nominal.sliding_force_n, twice.sliding_force_n, q),
   };
 }

@@ -23,7 +23,7 @@ namespace {
 /// Beyond this what stands still is no longer mirrored: the road is not that flat, and pixels are too small to tell.
 constexpr float still_range_m = 120.0f, vehicle_range_m = 250.0f;
 /// Half the size and spread by the water, an image needs no more than what is drawn further off.
-constexpr DetailOf mirror_detail{{0.0f, 3.0f}, {40.0f, 2.0f}};
+constexpr DetailOf mirrored_detail{{0.0f, 3.0f}, {40.0f, 2.0f}};
 
 /// Deviation of the tilts of the film's facets along the way of the light, rad: of stones as rough as it is.
 constexpr float film_spread_rad = 0.7f * instant::film_roughness * instant::film_roughness;
@@ -107,7 +107,7 @@ PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& 
       [&](std::uint32_t material) {
         return material < scene.materials.size() && !scene.materials[material].wettable ? material : no_group;
       },
-      mirror_detail);
+      mirrored_detail);
   const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, {false, width, height});
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.lit_by_lamps = lamps.shine(instant.light->night);

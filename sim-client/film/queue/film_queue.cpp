@@ -56,7 +56,7 @@ std::string text_of(const QueuedFilm& film) {
   return document::text_of(json);
 }
 
-std::optional<QueuedFilm> read_film(const fs::path& file, std::uint64_t number) {
+std::optional<QueuedFilm> read_queued(const fs::path& file, std::uint64_t number) {
   const auto text = read_regular_file(file, longest_film_bytes);
   if (!text) return std::nullopt;
   const auto json = document::Json::parse(*text, nullptr, false);
@@ -104,7 +104,7 @@ std::vector<QueuedFilm> FilmQueue::films() const {
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
     if (entry.path().extension() != ".json") continue;
     const auto number = number_in(entry.path());
-    auto film = number ? read_film(entry.path(), *number) : std::nullopt;
+    auto film = number ? read_queued(entry.path(), *number) : std::nullopt;
     if (!film)
       ++nonsense_;
     else
