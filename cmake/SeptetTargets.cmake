@@ -77,10 +77,10 @@ function(septet_embedded_texts target)
   endforeach()
 endfunction()
 
-# Each header includes what it needs: a file of the same name includes it first (tests/architecture), and without precompiled headers those that
-# have no such file become files of their own (.ci/alone reads them).
+# Each header includes what it needs: a file of the same name includes it first (tests/architecture), and those that have no such file become
+# files of their own, which .ci/alone reads.
 function(septet_lone_headers library headers)
-  if(SEPTET_PRECOMPILE)
+  if(CMAKE_UNITY_BUILD)
     return()
   endif()
   set(lone)
@@ -94,9 +94,10 @@ function(septet_lone_headers library headers)
     endif()
   endforeach()
   if(lone)
-    add_library(${library}_headers OBJECT ${lone})
+    add_library(${library}_headers OBJECT EXCLUDE_FROM_ALL ${lone})
     target_compile_options(${library}_headers PRIVATE ${SEPTET_WARNINGS})
     target_link_libraries(${library}_headers PRIVATE ${library})
+    septet_precompile(${library}_headers septet_precompiled)
   endif()
 endfunction()
 

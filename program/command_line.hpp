@@ -2,6 +2,7 @@
 /// What every program asks of its command line beyond CLI11's own checks.
 
 #include <charconv>
+#include <cstdint>
 #include <functional>
 #include <iostream>
 #include <optional>

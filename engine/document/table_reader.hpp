@@ -2,6 +2,8 @@
 /// Reads one TOML table key by key, with ranges, and remembers the first thing that was wrong. For .cpp files that read a TOML
 /// file: toml++ types, which it only names, stay there.
 
+#include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>

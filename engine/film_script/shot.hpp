@@ -6,6 +6,7 @@
 /// tilts, so the horizon is level. Angles are radians: heading counter-clockwise, pitch positive upwards.
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <string>

@@ -6,6 +6,8 @@
 /// heading counter-clockwise from x. A transform `a_from_b` takes coordinates in b to coordinates in a, so that
 /// neighbouring names agree: world_from_wheel = world_from_vehicle * vehicle_from_wheel.
 
+#include <cmath>
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

@@ -1,5 +1,6 @@
 #include "engine/replication/replication_client.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <limits>
 #include <set>

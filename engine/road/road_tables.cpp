@@ -1,6 +1,7 @@
 #include "engine/road/road_tables.hpp"
 
 #include <array>
+#include <cmath>
 #include <istream>
 #include <numbers>
 #include <ostream>

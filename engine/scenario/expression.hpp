@@ -2,6 +2,7 @@
 /// Parameters and expressions in attribute values (OpenSCENARIO XML 1.3, "Parameters",
 /// "Expressions").
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>

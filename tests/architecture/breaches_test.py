@@ -32,6 +32,7 @@ BREACHES = {
     "one from within a folder": ("NOTES.md", "see `low/gone`\n", "named_paths", "there is no low/gone"),
     "a comment": ("engine/low/above.cpp", "/// As low/gone.hpp.\n", "named_paths", "above.cpp:1: there is no low/gone.hpp"),
     "a header that is not the first": ("engine/low/above.cpp", '#include <map>\n#include "engine/low/above.hpp"\n', "own_header", "does not include engine/low/above.hpp first"),
+    "a standard header left out": ("engine/low/above.cpp", '#include "engine/low/above.hpp"\nstd::vector<int> a;\n', "standard_headers", "uses std::vector and does not include <vector>"),
     "a loose tolerance": ("tests/a_test.cpp", "CHECK(x == doctest::Approx(f(0.1)).epsilon(0.1));\n", "tolerances", "tests/a_test.cpp:1: an epsilon without its scale"),
     "a folder's name with a slash": ("NOTES.md", "(`engine/gone/`.)\n", "named_paths", "there is no engine/gone"),
 }

@@ -1,5 +1,6 @@
 #include "engine/physics/vehicle/read_vehicle.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>

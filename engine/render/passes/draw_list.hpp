@@ -4,6 +4,7 @@
 /// Positions are double in the world and become float relative to the eye. The order of batches and records is a function
 /// of the scene and the eye alone.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>

@@ -1,6 +1,7 @@
 #include "engine/render/vulkan/device.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 

@@ -2,6 +2,7 @@
 /// The Vulkan instance, device and its one queue.
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>

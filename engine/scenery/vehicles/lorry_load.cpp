@@ -1,5 +1,6 @@
 #include "engine/scenery/vehicles/lorry_load.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
