@@ -12,13 +12,13 @@
 #include "engine/document/table_line.hpp"
 #include "engine/document/table_reader.hpp"
 #include "engine/document/toml_table.hpp"
+#include "logging/experiments_document.hpp"
 
 namespace septet::logging {
 namespace {
 
 using document::TableReader;
 
-constexpr const char* questionnaires_documented_in = "docs/experiments.md";
 constexpr std::int64_t largest = 1000;
 
 std::vector<std::string> read_texts(const toml::table& table, TableReader& reader, std::string_view key) {
@@ -75,7 +75,7 @@ QuestionnaireItem read_item(const toml::table& table, std::string_view file, std
   if (!item.labels.empty() && static_cast<int>(item.labels.size()) != item.most - item.least + 1)
     reader.report("least", fmt::format("{} labels for {} numbers", item.labels.size(), item.most - item.least + 1),
                   "give one label for each number of the scale, or none");
-  reader.finish(questionnaires_documented_in);
+  reader.finish(experiments_document);
   return item;
 }
 
@@ -98,7 +98,7 @@ QuestionnaireScore read_score(const toml::table& table, std::string_view file, c
                     "name scores that stand above it");
   if (score.items.empty() && score.scores.empty())
     reader.report("id", "the score is made of nothing", "list its items");
-  reader.finish(questionnaires_documented_in);
+  reader.finish(experiments_document);
   return score;
 }
 
@@ -119,7 +119,7 @@ Expected<Questionnaire> read_questionnaire(std::string_view text, std::string_vi
   if (questionnaire.items.empty()) reader.report("item", "the questionnaire asks nothing", "add an [[item]]");
   for (const toml::table* score : reader.get_tables("score"))
     questionnaire.scores.push_back(read_score(*score, name, questionnaire, taken, error));
-  reader.finish(questionnaires_documented_in);
+  reader.finish(experiments_document);
   if (!error.what.empty()) return tl::unexpected(error);
   return questionnaire;
 }

@@ -12,13 +12,13 @@
 #include "engine/core/random.hpp"
 #include "engine/document/table_reader.hpp"
 #include "engine/document/toml_table.hpp"
+#include "logging/experiments_document.hpp"
 
 namespace septet::logging {
 namespace {
 
 using document::TableReader;
 
-constexpr const char* documented_in = "docs/experiments.md";
 constexpr int most_subjects = 10'000;
 
 /// A word that may be part of a folder's name; an empty one where that is allowed.
@@ -65,7 +65,7 @@ ExperimentGroup read_group(const toml::table& table, std::string_view file, std:
   group.driver = reader.get_string("driver", "");
   if (table.contains("stops_mean_min")) group.stops_mean_min = reader.get_double("stops_mean_min", 0.0, 0.0, 1e4);
   group.stops_sd_min = reader.get_double("stops_sd_min", 0.0, 0.0, 1e4);
-  reader.finish(documented_in);
+  reader.finish(experiments_document);
   return group;
 }
 
@@ -81,7 +81,7 @@ ExperimentPart read_part(const toml::table& table, std::string_view file, std::s
     reader.report("seconds", "how long the part lasts is not clear",
                   "give either seconds (once) or up_to_min (free play), more than 0");
   part.parameters = read_parameters(reader);
-  reader.finish(documented_in);
+  reader.finish(experiments_document);
   return part;
 }
 
@@ -91,7 +91,7 @@ ExperimentCondition read_condition(const toml::table& table, std::string_view fi
   ExperimentCondition condition;
   condition.name = read_name(reader, "name", false, taken);
   condition.parameters = read_parameters(reader);
-  reader.finish(documented_in);
+  reader.finish(experiments_document);
   return condition;
 }
 
@@ -130,7 +130,7 @@ Expected<Experiment> read_experiment(std::string_view text, std::string_view nam
   if (experiment.groups.empty()) reader.report("group", "nobody takes part", "add a [[group]]");
   if (experiment.parts.empty()) reader.report("part", "nothing is to be done", "add a [[part]]");
   if (experiment.conditions.size() > 20) reader.report("condition", "there are more than 20 conditions", "use fewer");
-  reader.finish(documented_in);
+  reader.finish(experiments_document);
   if (!error.what.empty()) return tl::unexpected(error);
   return experiment;
 }
