@@ -50,12 +50,23 @@ if(SEPTET_SANITIZE)
   set(CMAKE_CXX_FLAGS_RELEASE "-O1")
 endif()
 
-# A build from nothing takes half the time with one precompiled header; repeated builds in several checkouts are faster with
-# ccache, which cannot share what was compiled with one. Without it every file must include what it uses.
-option(SEPTET_PRECOMPILE "Precompile the headers that most files include; OFF: use ccache, if it is installed" ON)
+# A build from nothing takes half the time with one precompiled header. Without it every file must include what it uses.
+option(SEPTET_PRECOMPILE "Precompile the headers that most files include" ON)
+
+# A machine compiles once what its checkouts have in common: paths below a checkout count from its root, in what is compiled too, and a precompiled
+# header is known by its bytes (gcc is told to name it, clang to leave the time out of it).
 find_program(SEPTET_CCACHE ccache)
-if(SEPTET_CCACHE AND NOT SEPTET_PRECOMPILE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${SEPTET_CCACHE})
+if(SEPTET_CCACHE)
+  foreach(language IN ITEMS C CXX)
+    set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
+        CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime CCACHE_MAXSIZE=20G ${SEPTET_CCACHE})
+  endforeach()
+endif()
+add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+else()
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()
 
 find_package(PkgConfig REQUIRED)

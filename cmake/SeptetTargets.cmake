@@ -189,8 +189,6 @@ function(septet_test_program name label timeout_s sources)
     target_compile_options(${name} PRIVATE ${SEPTET_COLD_OPTIONS})
     septet_precompile(${name} septet_precompiled_test)
   endif()
-  target_compile_definitions(${name} PRIVATE SEPTET_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-                                             SEPTET_BINARY_DIR="${CMAKE_BINARY_DIR}")
   list(TRANSFORM arg_DEPENDS PREPEND septet_)
   target_link_libraries(${name} PRIVATE septet_test_main ${arg_DEPENDS} ${arg_PRIVATE})
   if(SEPTET_SANITIZE STREQUAL "thread" AND NOT (arg_THREADS AND label STREQUAL "fast"))

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/checkout.hpp"
+
 namespace septet {
 
 /// The bytes of a file; none where it cannot be read.
@@ -19,7 +21,7 @@ inline std::string text_of(const std::filesystem::path& file) {
 
 /// A file of the source tree, such as "rigs/desktop.toml"; throws where there is none.
 inline std::string shipped_text(const std::string& name) {
-  std::string text = text_of(std::filesystem::path(SEPTET_SOURCE_DIR) / name);
+  std::string text = text_of(std::filesystem::path(source_folder()) / name);
   if (text.empty()) throw std::runtime_error(name + " is missing or empty");
   return text;
 }

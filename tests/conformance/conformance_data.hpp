@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/checkout.hpp"
+
 namespace septet {
 
 /// Folder of a set: "roads", "scenarios" or "vehicle".
@@ -15,7 +17,7 @@ inline std::filesystem::path conformance_data(const std::string& set) {
   const char* elsewhere = std::getenv("SEPTET_CONFORMANCE_DIR");
   const std::filesystem::path folder =
       (elsewhere != nullptr ? std::filesystem::path(elsewhere)
-                            : std::filesystem::path(SEPTET_SOURCE_DIR) / "tests/conformance/data") /
+                            : std::filesystem::path(source_folder()) / "tests/conformance/data") /
       set;
   REQUIRE_MESSAGE(std::filesystem::is_directory(folder), "no conformance data in " << folder.string());
   return folder;

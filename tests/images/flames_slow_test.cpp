@@ -12,6 +12,7 @@
 #include "engine/rig/rig.hpp"
 #include "engine/simulation/effects/fire_stage.hpp"
 #include "sim-client/frame/screen_frames.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/road/road_files.hpp"
 #include "tests/images/motorway_view.hpp"
 
@@ -82,7 +83,7 @@ TEST_CASE("flames of a van thirty metres ahead are seen within a second of its i
     for (std::uint32_t y = 0; y < picture.height; ++y)
       for (std::uint32_t x = 0; x < picture.width; ++x)
         flames_px += is_flame_coloured(picture.at(x, y)) && !is_flame_coloured(before.at(x, y));
-    image::write_png(std::string(SEPTET_BINARY_DIR) + "/images/" + instant.name + ".png", picture);
+    image::write_png(build_folder() + "/images/" + instant.name + ".png", picture);
     CAPTURE(instant.name);
     CAPTURE(flames_px);
     CHECK(flames_px > 200);

@@ -15,6 +15,7 @@
 #include "engine/render/renderer.hpp"
 #include "engine/rig/rig.hpp"
 #include "sim-client/frame/screen_frames.hpp"
+#include "tests/checkout.hpp"
 #include "tests/images/flip.hpp"
 #include "tests/images/motorway_view.hpp"
 #include "tests/relative.hpp"
@@ -121,8 +122,7 @@ TEST_CASE(
     "at "
     "noon, ahead at night, behind, and from the cockpit on a rainy night") {
   namespace fs = std::filesystem;
-  const fs::path golden = fs::path(SEPTET_SOURCE_DIR) / "tests/images/golden",
-                 made = fs::path(SEPTET_BINARY_DIR) / "images";
+  const fs::path golden = fs::path(source_folder()) / "tests/images/golden", made = fs::path(build_folder()) / "images";
   fs::create_directories(made);
   const bool renew = std::getenv("SEPTET_RENEW_IMAGES") != nullptr;
   const Motorway motorway;

@@ -10,6 +10,7 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/images/motorway_view.hpp"
 
 namespace septet {
@@ -37,9 +38,8 @@ TEST_CASE(
     REQUIRE(renderer.draw(input).has_value());
     CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
     if (with_van)
-      image::write_png(
-          std::string(SEPTET_BINARY_DIR) + (main_beam ? "/images/main_beam.png" : "/images/dipped_beam.png"),
-          *renderer.read_back());
+      image::write_png(build_folder() + (main_beam ? "/images/main_beam.png" : "/images/dipped_beam.png"),
+                       *renderer.read_back());
     return *renderer.read_radiance();
   };
   const render::RadianceImage empty = light(false, false), dipped = light(true, false), main = light(true, true);

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/regular_file.hpp"
+#include "tests/checkout.hpp"
 
 namespace septet::logging {
 namespace {
@@ -33,7 +34,7 @@ TEST_CASE("each condition comes as often in each place and of an even number as 
 }
 
 TEST_CASE("the shipped experiment is the paper's design") {
-  const std::string file = std::string(SEPTET_SOURCE_DIR) + "/scenarios/experiments/ambulance-24.toml";
+  const std::string file = source_folder() + "/scenarios/experiments/ambulance-24.toml";
   const auto experiment = read_experiment(read_regular_file(file).value(), file);
   REQUIRE_MESSAGE(experiment.has_value(), experiment.error().what);
   const auto plan = plan_of(*experiment);

@@ -13,6 +13,7 @@
 #include "engine/core/regular_file.hpp"
 #include "logging/lesson/debrief.hpp"
 #include "logging/lesson/lesson.hpp"
+#include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -298,7 +299,7 @@ TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
     CHECK_FALSE(lesson.error().remedy.empty());
   }
   for (const std::string name : {"first-lesson", "winter-lorry", "tunnel-fire", "behind-ambulance"}) {
-    const std::string path = fmt::format("{}/scenarios/{}/{}.lesson.toml", SEPTET_SOURCE_DIR, name, name);
+    const std::string path = fmt::format("{}/scenarios/{}/{}.lesson.toml", source_folder(), name, name);
     const auto text = read_regular_file(path);
     REQUIRE(text.has_value());
     const auto lesson = read_lesson(*text, path);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/math/rigid_transform.hpp"
+#include "tests/checkout.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::logging {
@@ -28,7 +29,7 @@ Snapshot busy_snapshot(Tick tick) {
 
 int run_check(const std::string& arguments) {
   return std::system(
-      ("/usr/bin/python3 " SEPTET_SOURCE_DIR "/tests/logging/python_reader_check.py " + arguments).c_str());
+      ("/usr/bin/python3 " + source_folder() + "/tests/logging/python_reader_check.py " + arguments).c_str());
 }
 
 }  // namespace

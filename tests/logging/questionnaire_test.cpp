@@ -6,12 +6,13 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/regular_file.hpp"
+#include "tests/checkout.hpp"
 
 namespace septet::logging {
 namespace {
 
 Questionnaire shipped(const std::string& name) {
-  const std::string file = std::string(SEPTET_SOURCE_DIR) + "/scenarios/questionnaires/" + name + ".toml";
+  const std::string file = source_folder() + "/scenarios/questionnaires/" + name + ".toml";
   const auto text = read_regular_file(file);
   REQUIRE(text.has_value());
   const auto questionnaire = read_questionnaire(*text, file);

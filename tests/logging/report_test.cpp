@@ -11,6 +11,7 @@
 #include "engine/document/text_file.hpp"
 #include "logging/drive_observer.hpp"
 #include "logging/report/summary.hpp"
+#include "tests/checkout.hpp"
 #include "tests/logging/count_of.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"
@@ -103,7 +104,7 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
   CHECK(json["lateral_position_m"]["few_samples"] == false);
   CHECK(json["events"]["collision"] == 1);
   // Every key is explained.
-  std::ifstream in(std::string(SEPTET_SOURCE_DIR) + "/logging/report/SUMMARY.md");
+  std::ifstream in(source_folder() + "/logging/report/SUMMARY.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   for (const auto& item : json.items()) CHECK_MESSAGE(page.find("`" + item.key()) != std::string::npos, item.key());
   for (const auto& item : json["screens"][0].items())

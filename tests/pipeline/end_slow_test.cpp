@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include "logging/session_reader.hpp"
+#include "tests/checkout.hpp"
 #include "tests/pipeline/process_rig.hpp"
 #include "tests/pipeline/x_display.hpp"
 
@@ -49,7 +50,7 @@ void check_results(const fs::path& out) {
 TEST_CASE("a drive ends when the scenario's StopTrigger fires and when its time is over and says so") {
   const TemporaryFolder folder;
   fs::create_directories(folder / "short");
-  for (const auto& entry : fs::directory_iterator(fs::path(SEPTET_SOURCE_DIR) / "scenarios/motorway-ambulance"))
+  for (const auto& entry : fs::directory_iterator(fs::path(source_folder()) / "scenarios/motorway-ambulance"))
     fs::copy(entry.path(), folder / "short" / entry.path().filename(), fs::copy_options::recursive);
   const fs::path scenario = folder / "short" / "motorway-ambulance.xosc";
   std::string text = text_of(scenario);
@@ -136,7 +137,7 @@ TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limi
       "/bin/sh",
       {"-c",
        fmt::format("ulimit -f 60000; exec '{}' drive --no-screens --scenario behind-ambulance --seconds 0 --out '{}'",
-                   (fs::path(SEPTET_BINARY_DIR) / "septet").string(), (folder / "limited").string())},
+                   (fs::path(build_folder()) / "septet").string(), (folder / "limited").string())},
       folder / "limited.err");
   CHECK(exit_code(limited) == 1);
   const std::string said = text_of(folder / "limited.err");
@@ -159,7 +160,7 @@ TEST_CASE("a killed drive's session is checked also where no file may grow") {
   fs::remove(session.string() + "-shm");  // The WAL's index, which whoever reads it makes anew.
   auto check = start("/bin/sh",
                      {"-c", fmt::format("ulimit -f 8; exec '{}' check '{}'",
-                                        (fs::path(SEPTET_BINARY_DIR) / "septet").string(), session.string())},
+                                        (fs::path(build_folder()) / "septet").string(), session.string())},
                      folder / "check.err");
   CHECK(exit_code(check) == 1);  // Not −1, ended by a signal.
   CHECK(last_words(check) == "1 files, 1 errors, 0 warnings");

@@ -6,6 +6,7 @@
 #include "car-io/driving_keys.hpp"
 #include "engine/core/version.hpp"
 #include "logging/session_reader.hpp"
+#include "tests/checkout.hpp"
 #include "tests/pipeline/process_rig.hpp"
 #include "tests/relative.hpp"
 
@@ -14,8 +15,7 @@ namespace {
 
 /// Standard output of a command that succeeds.
 std::string output_of(const std::string& command) {
-  FILE* pipe =
-      ::popen(fmt::format("SEPTET_DATA={} {}/{} 2>&1", SEPTET_SOURCE_DIR, SEPTET_BINARY_DIR, command).c_str(), "r");
+  FILE* pipe = ::popen(fmt::format("SEPTET_DATA={} {}/{} 2>&1", source_folder(), build_folder(), command).c_str(), "r");
   REQUIRE(pipe != nullptr);
   std::string output;
   char buffer[256];

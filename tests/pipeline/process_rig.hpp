@@ -17,6 +17,7 @@
 #include "engine/net/keys.hpp"
 #include "engine/net/udp_socket.hpp"
 #include "program/child_process.hpp"
+#include "tests/checkout.hpp"
 #include "tests/shipped_files.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -56,8 +57,8 @@ inline std::string small_rig(int screens, const std::string& network = "",
 
 inline program::ChildProcess start(const std::string& program, std::vector<std::string> arguments, const fs::path& log,
                                    std::map<std::string, std::string> environment = {}) {
-  environment.insert({{"LP_NUM_THREADS", "0"}, {"SEPTET_DATA", SEPTET_SOURCE_DIR}});
-  auto process = program::ChildProcess::start({.program = (fs::path(SEPTET_BINARY_DIR) / program).string(),
+  environment.insert({{"LP_NUM_THREADS", "0"}, {"SEPTET_DATA", source_folder()}});
+  auto process = program::ChildProcess::start({.program = (fs::path(build_folder()) / program).string(),
                                                .arguments = std::move(arguments),
                                                .environment = std::move(environment),
                                                .log = log});

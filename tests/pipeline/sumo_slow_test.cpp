@@ -5,13 +5,14 @@
 
 #include <csignal>
 
+#include "tests/checkout.hpp"
 #include "tests/pipeline/process_rig.hpp"
 
 namespace septet::pipeline {
 namespace {
 
 bool has_sumo() {
-  if (fs::exists(fs::path(SEPTET_BINARY_DIR) / "septet-sumo.so") && ::access("/usr/bin/sumo", X_OK) == 0) return true;
+  if (fs::exists(fs::path(build_folder()) / "septet-sumo.so") && ::access("/usr/bin/sumo", X_OK) == 0) return true;
   MESSAGE("skipped: SUMO is not installed");
   return false;
 }
@@ -48,10 +49,10 @@ TEST_CASE("without SUMO one message says what to install and nothing is left beh
   const TemporaryFolder folder;
   const auto log = folder / "err";
   auto process = program::ChildProcess::start(
-      {.program = SEPTET_BINARY_DIR "/septet",
+      {.program = build_folder() + "/septet",
        .arguments = {"drive", "--no-screens", "--seconds", "1", "--traffic", "sumo", "--out",
                      (folder / "out").string()},
-       .environment = {{"SEPTET_DATA", SEPTET_SOURCE_DIR}, {"PATH", (folder / "empty").string()}},
+       .environment = {{"SEPTET_DATA", source_folder()}, {"PATH", (folder / "empty").string()}},
        .log = log});
   REQUIRE(process.has_value());
   CHECK(exit_code(*process) == 1);

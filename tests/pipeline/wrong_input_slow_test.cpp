@@ -1,5 +1,6 @@
 #include <sys/mount.h>
 
+#include "tests/checkout.hpp"
 #include "tests/pipeline/process_rig.hpp"
 
 namespace septet::pipeline {
@@ -29,7 +30,7 @@ TEST_CASE("wrong input ends with one message that says what and where and what t
   check_refused(drive({"--rig", rig.string(), "--scenario", "no-such-scenario"}),
                 {"no-such-scenario", "motorway-ambulance"}, out);
   check_refused(with_scenario("<OpenSCENARIO>", ""), {"s.xosc:1"}, out);
-  std::string scenario = text_of(fs::path(SEPTET_SOURCE_DIR) / "scenarios/motorway-ambulance/motorway-ambulance.xosc");
+  std::string scenario = text_of(fs::path(source_folder()) / "scenarios/motorway-ambulance/motorway-ambulance.xosc");
   const auto road = scenario.find("motorway.xodr");
   REQUIRE(road != std::string::npos);
   scenario.replace(road, std::string("motorway.xodr").size(), "wrong.xodr");

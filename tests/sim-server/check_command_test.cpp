@@ -1,4 +1,5 @@
 #include "sim-server/command/check_command.hpp"
+#include "tests/checkout.hpp"
 
 #include <unistd.h>
 
@@ -13,7 +14,7 @@ namespace septet::server {
 namespace {
 namespace fs = std::filesystem;
 
-const fs::path tree = SEPTET_SOURCE_DIR;
+const fs::path tree = source_folder();
 
 struct Answer {
   int status;

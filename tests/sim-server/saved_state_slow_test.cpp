@@ -16,6 +16,7 @@
 #include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "sim-server/drive/driver_seat.hpp"
+#include "tests/checkout.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -141,7 +142,7 @@ TEST_CASE("a game that is saved after its second level has begun goes on as if n
 
 TEST_CASE("no shipped scenario is without a drive that is saved") {
   std::set<std::string> shipped;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SEPTET_SOURCE_DIR) / "scenarios"))
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(source_folder()) / "scenarios"))
     if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
       shipped.insert(entry.path().filename().string());
   CHECK(shipped == std::set<std::string>{"motorway-ambulance", "first-lesson", "behind-ambulance", "rescue-lane",

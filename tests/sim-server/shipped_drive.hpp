@@ -6,11 +6,12 @@
 #include <doctest/doctest.h>
 
 #include "sim-server/drive/drive_loader.hpp"
+#include "tests/checkout.hpp"
 
 namespace septet::server {
 
 inline LoadedDrive shipped_drive(const std::string& scenario, const std::string& rig, std::uint64_t seed = 1) {
-  const std::string root = SEPTET_SOURCE_DIR;
+  const std::string root = source_folder();
   auto drive = load_drive(
       DriveFiles{root + "/scenarios/" + scenario + "/" + scenario + ".xosc", root + "/rigs/" + rig + ".toml", seed});
   REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));

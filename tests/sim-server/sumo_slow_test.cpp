@@ -14,6 +14,7 @@
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
+#include "tests/checkout.hpp"
 
 namespace septet::server {
 namespace {
@@ -25,7 +26,7 @@ bool has_sumo() {
 }
 
 std::shared_ptr<const simulation::Model> motorway() {
-  ::setenv("SEPTET_DATA", SEPTET_SOURCE_DIR, 1);
+  ::setenv("SEPTET_DATA", source_folder().c_str(), 1);
   const auto scenario = program::find_resource("behind-ambulance", "scenarios", ".xosc");
   const auto rig = program::find_resource("desktop", "rigs", ".toml");
   REQUIRE(scenario.has_value());

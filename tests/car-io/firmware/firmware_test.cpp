@@ -16,6 +16,7 @@
 #include "car-io/car_report.hpp"
 #include "engine/core/random.hpp"
 #include "tests/car-io/firmware/simulated_car.hpp"
+#include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::car_io {
@@ -152,7 +153,7 @@ TEST_CASE("a report at rest beside a wheel that is still pulled arms nothing") {
 }
 
 TEST_CASE("the parts list is what its lines come to and less than the paper's 20 000 euros") {
-  std::ifstream readme(SEPTET_SOURCE_DIR "/car-io/firmware/README.md");
+  std::ifstream readme(source_folder() + "/car-io/firmware/README.md");
   const auto number = [](std::string text) {
     std::erase_if(text, [](char c) { return c < '0' || c > '9'; });
     return text.empty() ? 0 : std::stoi(text);

@@ -18,6 +18,7 @@
 #include "car-io/car_connection.hpp"
 #include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
+#include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -175,10 +176,11 @@ TEST_CASE("a closed terminal stops fan and shaker as Ctrl-C does, also where the
     std::ofstream(rig)
         << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[car]\nsource = \"hid\"\n[[screen]]\nname = \"a\"\n"
            "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
+    const std::string program = build_folder() + "/septet-car";
     const pid_t child = fork();
     if (child == 0) {
-      execl(SEPTET_BINARY_DIR "/septet-car", "septet-car", "try", "--rig", rig.c_str(), "--seconds", "60", "--fan",
-            "0.5", "--vibration", "0.25", nullptr);
+      execl(program.c_str(), "septet-car", "try", "--rig", rig.c_str(), "--seconds", "60", "--fan", "0.5",
+            "--vibration", "0.25", nullptr);
       _exit(127);
     }
     double fan = -1.0, vibration = -1.0;

@@ -13,13 +13,14 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/opendrive_reader.hpp"
+#include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::audio {
 namespace {
 
 road::RoadNetwork motorway() {
-  const std::string file = std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance/motorway.xodr";
+  const std::string file = source_folder() + "/scenarios/motorway-ambulance/motorway.xodr";
   const auto text = read_regular_file(file);
   REQUIRE(text);
   auto roads = road::read_opendrive(*text, file);

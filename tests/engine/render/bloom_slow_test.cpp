@@ -8,6 +8,7 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
@@ -38,8 +39,7 @@ RadianceImage lit_square(Bloom bloom, Antialiasing antialiasing) {
   REQUIRE(renderer.draw(input).has_value());
   REQUIRE(renderer.draw(input).has_value());
   CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
-  if (bloom == Bloom::present)
-    image::write_png(std::string(SEPTET_BINARY_DIR) + "/images/bloom.png", *renderer.read_back());
+  if (bloom == Bloom::present) image::write_png(build_folder() + "/images/bloom.png", *renderer.read_back());
   return *renderer.read_radiance();
 }
 

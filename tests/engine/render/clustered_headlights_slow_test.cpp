@@ -14,6 +14,7 @@
 #include "engine/instant/headlight_beam.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
@@ -63,7 +64,7 @@ RadianceImage light_of(Headlights headlights, int cars) {
   CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
   const std::string name = std::string(headlights == Headlights::clustered ? "clustered" : "nearest") + "_headlights_" +
                            std::to_string(cars) + ".png";
-  image::write_png(std::string(SEPTET_BINARY_DIR) + "/images/" + name, *renderer.read_back());
+  image::write_png(build_folder() + "/images/" + name, *renderer.read_back());
   return *renderer.read_radiance();
 }
 

@@ -12,6 +12,7 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 
@@ -51,7 +52,7 @@ TEST_CASE("where the sun grazes the foot of a straight barrier its shadow has an
   input.views[0].projection = symmetric_view({0, 0, 1.0}, 0.5 * std::numbers::pi, -0.3, 0.8, 0.4);
   REQUIRE(renderer.draw(input).has_value());
   CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
-  image::write_png(std::string(SEPTET_BINARY_DIR) + "/images/grazing_light.png", *renderer.read_back());
+  image::write_png(build_folder() + "/images/grazing_light.png", *renderer.read_back());
   const RadianceImage light = *renderer.read_radiance();
   // A row of pixels lies along the barrier: whatever differs along it is the shadow map's doing. The wall ends at row 30, the foot at 110.
   float brightest = 0.0f, darkest = 1e9f, largest_deviation = 0.0f;

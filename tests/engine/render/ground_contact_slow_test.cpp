@@ -7,6 +7,7 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::render {
@@ -70,7 +71,7 @@ TEST_CASE(
   Environment overcast = reference_day();
   overcast.cloud_cover = 1.0;
   const Ground closed = ground(renderer, reference, overcast);
-  image::write_png(std::string(SEPTET_BINARY_DIR) + "/images/contact.png", closed.picture);
+  image::write_png(build_folder() + "/images/contact.png", closed.picture);
   CAPTURE(closed.below);
   CAPTURE(closed.beside);
   CHECK(closed.below < 0.5f);

@@ -7,6 +7,7 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::render {
@@ -15,7 +16,7 @@ namespace {
 constexpr std::uint32_t picture_width = 960, picture_height = 540;
 
 void save(const image::Image& picture, const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(SEPTET_BINARY_DIR) / "images";
+  const std::filesystem::path folder = std::filesystem::path(build_folder()) / "images";
   std::filesystem::create_directories(folder);
   CHECK(image::write_png(folder / (name + ".png"), picture).has_value());
 }

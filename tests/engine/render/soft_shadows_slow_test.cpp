@@ -11,6 +11,7 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
@@ -63,7 +64,7 @@ Edge edge_of_shadow(ShadowEdges edges, float height_m) {
   CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
   const std::string name = std::string(edges == ShadowEdges::soft ? "soft" : "narrow") + "_shadow_" +
                            std::to_string(static_cast<int>(height_m)) + "_m.png";
-  image::write_png(std::string(SEPTET_BINARY_DIR) + "/images/" + name, *renderer.read_back());
+  image::write_png(build_folder() + "/images/" + name, *renderer.read_back());
   const RadianceImage light = *renderer.read_radiance();
   const auto at = [&](std::uint32_t column) { return double{light.at(column, edge_height_px / 2).g}; };
   const Edge ends{0.0, std::max(at(0), at(edge_width_px - 1)), std::min(at(0), at(edge_width_px - 1))};

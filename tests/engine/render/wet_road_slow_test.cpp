@@ -17,6 +17,7 @@
 #include "engine/instant/clouds.hpp"
 #include "engine/instant/wet_road.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
 
@@ -45,7 +46,7 @@ struct Drawing {
   RadianceImage draw(const FrameInput& input, const std::string& name = {}) {
     REQUIRE(renderer.draw(input).has_value());
     if (!name.empty()) {
-      const std::filesystem::path folder = std::filesystem::path(SEPTET_BINARY_DIR) / "images";
+      const std::filesystem::path folder = std::filesystem::path(build_folder()) / "images";
       std::filesystem::create_directories(folder);
       CHECK(image::write_png(folder / (name + ".png"), *renderer.read_back()).has_value());
     }

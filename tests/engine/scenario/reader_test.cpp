@@ -10,6 +10,7 @@
 
 #include "engine/core/random.hpp"
 #include "engine/scenario/expression.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 
 namespace septet::scenario {
@@ -27,7 +28,7 @@ bool has_finding(const std::vector<Finding>& findings, Severity severity, const 
   return false;
 }
 
-std::string motorway_folder() { return SEPTET_SOURCE_DIR "/scenarios/behind-ambulance"; }
+std::string motorway_folder() { return source_folder() + "/scenarios/behind-ambulance"; }
 std::string motorway_text() {
   std::ifstream in(motorway_folder() + "/behind-ambulance.xosc");
   return {std::istreambuf_iterator<char>(in), {}};
@@ -273,7 +274,7 @@ TEST_CASE("the motorway scenario loads without a warning") {
 TEST_CASE("no mutation of a scenario crashes the reader or the runtime") {
   const std::string original = motorway_text();
   REQUIRE_FALSE(original.empty());
-  std::ifstream in(SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance/motorway.xodr");
+  std::ifstream in(source_folder() + "/scenarios/motorway-ambulance/motorway.xodr");
   const auto network = road::read_opendrive(std::string{std::istreambuf_iterator<char>(in), {}}, "motorway.xodr");
   REQUIRE(network.has_value());
   Random random(7);

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/checkout.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 
@@ -248,7 +249,7 @@ TEST_CASE("an external entity is where it was put and triggers like any other") 
 }
 
 TEST_CASE("the ambulance of the motorway changes lanes and speed with its beacon and siren on") {
-  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/behind-ambulance";
+  const std::string folder = source_folder() + "/scenarios/behind-ambulance";
   const auto content = [&](const std::string& name) {
     std::ifstream in(folder + "/" + name);
     return std::string{std::istreambuf_iterator<char>(in), {}};

@@ -13,6 +13,7 @@
 #include "engine/scenario/scenario_reader.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
 #include "engine/traffic/traffic.hpp"
+#include "tests/checkout.hpp"
 #include "tests/engine/traffic/bodies.hpp"
 
 namespace septet::traffic {
@@ -54,7 +55,7 @@ class MakingWayCheck {
 }  // namespace
 
 TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touches anybody") {
-  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/behind-ambulance";
+  const std::string folder = source_folder() + "/scenarios/behind-ambulance";
   const auto scenario = scenario::read_scenario(content(folder + "/behind-ambulance.xosc"), "behind-ambulance.xosc",
                                                 scenario::files_in(folder));
   REQUIRE(scenario.has_value());

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/checkout.hpp"
 #include "tests/pipeline/ranks/film_of_ranks.hpp"
 
 namespace septet::pipeline {
@@ -141,7 +142,7 @@ TEST_CASE("a full disk ends a film with one message and it goes on where there i
   const bool is_mounted = ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=300k") == 0;
   if (!is_mounted) MESSAGE("no permission to mount a small disk: by one program, with a limit of a file's size");
   const Ended ended = is_mounted ? film.make(disk / "out", {"--ranks", "2"}) : [&] {
-    std::string command = "ulimit -f 300; exec " SEPTET_BINARY_DIR "/septet-film";
+    std::string command = "ulimit -f 300; exec " + build_folder() + "/septet-film";
     for (const std::string& argument : film.arguments(disk / "out", {})) command += " '" + argument + "'";
     return run("/bin/sh", {"-c", command}, film.log(out));
   }();

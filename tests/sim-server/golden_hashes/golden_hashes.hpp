@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 
 #include "sim-server/drive/driver_seat.hpp"
+#include "tests/checkout.hpp"
 #include "tests/sim-server/simulated_drive.hpp"
 
 namespace septet::server {
@@ -24,7 +25,7 @@ namespace septet::server {
 inline constexpr Tick last_fast_tick = 1200;
 
 inline std::filesystem::path golden_file() {
-  return std::filesystem::path(SEPTET_SOURCE_DIR) / "tests/sim-server/golden_hashes/golden_hashes";
+  return std::filesystem::path(source_folder()) / "tests/sim-server/golden_hashes/golden_hashes";
 }
 
 struct DriveKey {

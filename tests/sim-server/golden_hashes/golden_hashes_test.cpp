@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/checkout.hpp"
 #include "tests/sim-server/golden_hashes/golden_hashes.hpp"
 
 namespace septet::server {
@@ -15,7 +16,7 @@ TEST_CASE("every shipped scenario drives to its golden hashes with every compile
 
 TEST_CASE("no shipped scenario is without a golden hash") {
   std::set<std::string> shipped, golden;
-  for (const auto& entry : fs::directory_iterator(fs::path(SEPTET_SOURCE_DIR) / "scenarios"))
+  for (const auto& entry : fs::directory_iterator(fs::path(source_folder()) / "scenarios"))
     if (fs::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
       shipped.insert(entry.path().filename().string());
   for (const auto& [key, hashes] : read_golden().drives) golden.insert(key.scenario);
