@@ -47,15 +47,15 @@ inline Address client_address(std::uint32_t number) { return {0x0a000100 + numbe
 // One server and clients on a simulated network, each on a machine with a clock of its own; client n has identity 100 + n.
 class Site {
  public:
-  Site(std::size_t clients, const NetworkFaults& faults, const ChannelLimits& limits = {})
+  Site(std::size_t how_many, const NetworkFaults& faults, const ChannelLimits& limits = {})
       : limits_(limits),
         network(faults, 7),
         server_machine(machine_of_its_own(network, server_address.ip, server_address.ip, random_)),
         server_socket(server_machine->open(server_address.port)) {
-    for (std::size_t n = 0; n < clients; ++n)
+    for (std::size_t n = 0; n < how_many; ++n)
       allowed.push_back({identity_of(client_key(n)).public_key(), "client-" + std::to_string(n)});
     start_server(1);
-    for (std::size_t n = 0; n < clients; ++n) add_client(n, client_key(n));
+    for (std::size_t n = 0; n < how_many; ++n) add_client(n, client_key(n));
   }
 
   static std::uint8_t client_key(std::size_t n) { return static_cast<std::uint8_t>(100 + n); }
