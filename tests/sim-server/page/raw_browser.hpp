@@ -92,12 +92,12 @@ class RawConnection {
   std::string pending_;
 };
 
-inline std::string upgrade_request(std::uint16_t port, std::string_view token, std::string_view more = "") {
+inline std::string upgrade_request(std::uint16_t port, std::string_view key, std::string_view more = "") {
   return fmt::format(
       "GET /live HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
       "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
       "Sec-WebSocket-Protocol: septet, {}\r\n{}\r\n",
-      port, token, more);
+      port, key, more);
 }
 
 /// A frame as a browser sends it. `first` is the first byte: 0x81 a whole text.
@@ -119,8 +119,8 @@ inline std::string client_frame(std::string_view payload, unsigned char first = 
 /// A connection whose WebSocket is open.
 class RawBrowser {
  public:
-  RawBrowser(std::uint16_t port, std::string_view token, int receive_bytes = 0) : connection_(port, receive_bytes) {
-    REQUIRE(connection_.send(upgrade_request(port, token)));
+  RawBrowser(std::uint16_t port, std::string_view key, int receive_bytes = 0) : connection_(port, receive_bytes) {
+    REQUIRE(connection_.send(upgrade_request(port, key)));
     const std::string header = connection_.read_header();
     REQUIRE_MESSAGE(header.starts_with("HTTP/1.1 101"), header);
   }
