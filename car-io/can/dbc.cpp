@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t largest_file = 8u << 20, most_messages = 10'000, most_signals = 1024;
 constexpr std::uint64_t extended_flag = 1ull << 31;
-/// Vector's place for signals that belong to no message.
-constexpr std::uint64_t independent_signals = 0xC0000000;
+/// Vector's places for signals that belong to no message, today's and an older one.
+constexpr std::array<std::uint64_t, 2> independent_signals{0xC0000000, 0x40000000};
 
 constexpr std::string_view statements[] = {"VERSION",
                                            "NS_",
@@ -88,6 +88,7 @@ class Reader {
 
   void statement() {
     line_ = scan_.line();
+    if (scan_.peek() == '/') return scan_.skip_line();  // A person's remark; the format itself has CM_.
     const auto word = scan_.take_identifier();
     if (!word || !is_statement(*word)) {
       refuse(word ? fmt::format("\"{}\" begins no statement of a DBC file", printable(std::string(word->substr(0, 40))))
@@ -101,8 +102,7 @@ class Reader {
       }
     } else if (*word == "BU_") {
       scan_.take(':');
-      for (auto node = scan_.peek_identifier(); node && !is_statement(*node); node = scan_.peek_identifier())
-        scan_.take_identifier();
+      names_until_statement();
     } else if (*word == "BO_") {
       message();
     } else if (*word == "SG_") {
@@ -122,8 +122,30 @@ class Reader {
     }
   }
 
+  /// Past its `;`; where that is missing, up to the line that begins another statement, or to the end.
   void end_statement() {
-    if (!scan_.skip_statement()) refuse("a statement has no end", "end it with ;");
+    while (!scan_.take(';')) {
+      const int line = scan_.line();
+      if (scan_.at_end()) return;
+      const auto word = scan_.peek_identifier();
+      if (scan_.line() > line && word && is_statement(*word)) return;
+      if (!scan_.skip_word()) return refuse("a text in quotes has no end", "end it with \"");
+    }
+  }
+
+  std::optional<std::string_view> take_name_in_line() {
+    return !scan_.at_end() && scan_.line() == line_ ? scan_.take_name() : std::nullopt;
+  }
+
+  void skip_rest_of_line() {
+    if (scan_.line() == line_) scan_.skip_line();
+  }
+
+  void names_until_statement() {
+    for (auto word = scan_.peek_identifier(); !word || !is_statement(*word); word = scan_.peek_identifier()) {
+      if (!scan_.take_name()) return;
+      scan_.take(',');
+    }
   }
 
   /// A list of words that are statements elsewhere, until the first that is none of them.
@@ -134,70 +156,95 @@ class Reader {
       scan_.take_identifier();
   }
 
-  /// A message that is no frame of ours refuses the file only for who uses it.
-  void leave_unread(std::size_t message, std::string what, std::string remedy) {
+  /// A message with a fault, or that is no frame of ours, refuses the file only for a rig that names it.
+  void leave_unread(std::size_t message, std::string what,
+                    std::string remedy = "correct it, or export the file again") {
     unread_.try_emplace(message, Error{std::move(what), fmt::format("{}:{}", name_, line_), std::move(remedy)});
+  }
+  /// Both, for which of the two is meant nobody can tell.
+  void leave_both_unread(std::size_t one, std::size_t other, const std::string& what) {
+    leave_unread(one, what, "keep one of them");
+    leave_unread(other, what, "keep one of them");
   }
   bool is_unread(std::size_t message) const { return unread_.contains(message); }
 
   void message() {
     const auto id = scan_.take_unsigned();
-    const auto name = scan_.take_identifier();
-    if (!id || !name || !scan_.take(':')) return refuse("a BO_ is not of the form BO_ ID NAME: BYTES SENDER");
-    const auto bytes = scan_.take_unsigned();
-    if (!bytes || !scan_.take_identifier()) return refuse("a BO_ is not of the form BO_ ID NAME: BYTES SENDER");
-    ignored_ = *id == independent_signals;
-    if (ignored_) return;
-    Message message;
+    const auto name = take_name_in_line();
+    const bool has_colon = name && scan_.take(':');
+    const auto bytes = has_colon ? scan_.take_unsigned() : std::nullopt;
+    ignored_ = id && std::ranges::find(independent_signals, *id) != independent_signals.end();
+    if (ignored_) return skip_rest_of_line();
+    if (database_.messages.size() == most_messages) return refuse("the file has more than 10000 messages", "split it");
+    const std::size_t place = database_.messages.size();
+    Message& message = database_.messages.emplace_back();
+    if (name) message.name = *name;
+    if (!id || !name || !has_colon || !bytes) {
+      leave_unread(place, "a BO_ is not of the form BO_ ID NAME: BYTES SENDER");
+      return skip_rest_of_line();
+    }
+    // Its sender may be missing.
+    if (const auto sender = scan_.peek_identifier(); !sender || !is_statement(*sender)) scan_.take_name();
     const std::uint64_t number = *id & ~extended_flag;
     // Many files of other people leave the flag out.
     message.is_extended = (*id & extended_flag) != 0 || number > 0x7FFu;
-    if (number > 0x1FFFFFFFu)
-      return refuse(fmt::format("{} is no CAN identifier", *id), "use 11 bits, or 29 bits with bit 31 set");
     message.id = static_cast<std::uint32_t>(number);
-    message.name = *name;
     message.bytes = static_cast<std::uint8_t>(is_length(*bytes) ? *bytes : 0);
     message.is_fd = *bytes > 8;
-    if (database_.messages.size() == most_messages) return refuse("the file has more than 10000 messages", "split it");
-    if (!names_.insert(message.name).second) return refuse(fmt::format("two messages are called {}", message.name));
-    if (!numbers_.emplace(*id, database_.messages.size()).second)
-      return refuse(fmt::format("two messages have the identifier {}", *id));
+    if (number > 0x1FFFFFFFu)
+      leave_unread(place, fmt::format("{} is no CAN identifier", *id), "use 11 bits, or 29 bits with bit 31 set");
     if (!is_length(*bytes))
-      leave_unread(database_.messages.size(), fmt::format("{} has {} bytes, which no frame has", *name, *bytes),
+      leave_unread(place, fmt::format("{} has {} bytes, which no frame has", *name, *bytes),
                    "use a message of 0 to 8, 12, 16, 20, 24, 32, 48 or 64 bytes");
-    database_.messages.push_back(std::move(message));
+    if (const auto [other, is_new] = names_.emplace(message.name, place); !is_new)
+      leave_both_unread(place, other->second, fmt::format("two messages are called {}", message.name));
+    if (const auto [other, is_new] = numbers_.emplace(*id, place); !is_new)
+      leave_both_unread(place, other->second, fmt::format("two messages have the identifier {}", *id));
   }
 
   void signal() {
     if (database_.messages.empty() && !ignored_) return refuse("a SG_ stands before the first BO_");
-    const auto name = scan_.take_identifier();
-    if (!name) return refuse("a SG_ has no name");
     Signal signal;
-    signal.name = *name;
-    const auto multiplex = scan_.take_identifier();
-    const bool is_nested = multiplex && multiplex->size() > 2 && multiplex->ends_with('M');
-    if (is_nested) signal.selects = true;
-    if (multiplex && !read_multiplex(is_nested ? multiplex->substr(0, multiplex->size() - 1) : *multiplex, signal))
-      return refuse(fmt::format("{} is multiplexed by {}, which is not understood", *name, *multiplex),
-                    "use M or mNUMBER");
-    if (!read_place(signal) || !read_scale(signal))
-      return refuse(fmt::format("the signal {} is not of the form {}", *name, form));
-    receivers();
+    const auto fault = read_signal(signal);
     if (ignored_) return;
     Message& message = database_.messages.back();
     const std::size_t place = database_.messages.size() - 1;
-    if (is_nested ||
-        (signal.selects && std::ranges::find(message.signals, true, &Signal::selects) != message.signals.end()))
-      leave_unread(place, fmt::format("{} of {} is one of several selecting signals", *name, message.name), simple);
     if (message.signals.size() == most_signals)
       return refuse(fmt::format("{} has more than 1024 signals", message.name));
-    if (is_unread(place)) return message.signals.push_back(std::move(signal));
-    if (*bits_ > 64) return refuse(fmt::format("the signal {} is not of the form {}", *name, form));
-    if (signal.scale == 0.0 || !std::isnormal(signal.scale)) return refuse(fmt::format("the scale of {} is 0", *name));
-    if (!fits(signal, message.bytes))
-      return refuse(fmt::format("{} reaches beyond the {} bytes of {}", *name, message.bytes, message.name));
-    if (find_signal(message, signal.name)) return refuse(fmt::format("{} has two signals {}", message.name, *name));
+    if (fault)
+      leave_unread(place, *fault);
+    else if (is_nested_ ||
+             (signal.selects && std::ranges::find(message.signals, true, &Signal::selects) != message.signals.end()))
+      leave_unread(place, fmt::format("{} of {} is one of several selecting signals", signal.name, message.name),
+                   simple);
+    else if (!std::isnormal(signal.scale))
+      leave_unread(place, fmt::format("the scale of {} is 0", signal.name));
+    else if (!fits(signal, message.bytes))
+      leave_unread(place,
+                   fmt::format("{} reaches beyond the {} bytes of {}", signal.name, message.bytes, message.name));
+    else if (find_signal(message, signal.name))
+      leave_unread(place, fmt::format("{} has two signals {}", message.name, signal.name));
     message.signals.push_back(std::move(signal));
+  }
+
+  /// The fault, where it has one; what is behind it in its line is skipped then.
+  std::optional<std::string> read_signal(Signal& signal) {
+    const auto faulty = [&](std::string what) {
+      skip_rest_of_line();
+      return std::optional(std::move(what));
+    };
+    const auto name = take_name_in_line();
+    if (!name) return faulty("a SG_ has no name");
+    signal.name = *name;
+    const auto multiplex = scan_.take_identifier();
+    is_nested_ = multiplex && multiplex->size() > 2 && multiplex->ends_with('M');
+    if (is_nested_) signal.selects = true;
+    if (multiplex && !read_multiplex(is_nested_ ? multiplex->substr(0, multiplex->size() - 1) : *multiplex, signal))
+      return faulty(fmt::format("{} is multiplexed by {}, which is neither M nor mNUMBER", *name, *multiplex));
+    if (!read_place(signal) || !read_scale(signal))
+      return faulty(fmt::format("the signal {} is not of the form {}", *name, form));
+    names_until_statement();  // Its receivers.
+    return std::nullopt;
   }
 
   static constexpr const char* form = "SG_ NAME : START|BITS@ORDER SIGN (SCALE,OFFSET) [LOW|HIGH] \"UNIT\" RECEIVERS";
@@ -217,12 +264,11 @@ class Reader {
     const auto start = scan_.take_unsigned();
     if (!start || *start > 65535 || !scan_.take('|')) return false;
     const auto bits = scan_.take_unsigned();
-    bits_ = bits;
-    if (!bits || *bits < 1 || !scan_.take('@')) return false;
+    if (!bits || *bits < 1 || *bits > 64 || !scan_.take('@')) return false;
     const auto order = scan_.take_unsigned();
     if (!order || *order > 1) return false;
     signal.start_bit = static_cast<std::uint16_t>(*start);
-    signal.bits = static_cast<std::uint8_t>(std::min<std::uint64_t>(*bits, 64));
+    signal.bits = static_cast<std::uint8_t>(*bits);
     signal.order = *order == 1 ? ByteOrder::intel : ByteOrder::motorola;
     if (scan_.take('-'))
       signal.number = Number::signed_whole;
@@ -250,13 +296,6 @@ class Reader {
     return true;
   }
 
-  void receivers() {
-    for (auto word = scan_.peek_identifier(); word && !is_statement(*word); word = scan_.peek_identifier()) {
-      scan_.take_identifier();
-      scan_.take(',');
-    }
-  }
-
   /// BA_ "NAME" BO_ ID VALUE; the attributes of everything else are skipped.
   void attribute() {
     const auto name = scan_.take_string();
@@ -267,14 +306,14 @@ class Reader {
       const auto id = scan_.take_unsigned();
       const auto name_of_value = *name == frame_format ? scan_.take_string() : std::nullopt;
       const auto value = name_of_value ? std::optional(0.0) : scan_.take_number();
-      if (!id || !value)
-        return refuse(fmt::format("BA_ \"{}\" BO_ is not followed by an identifier and a number", *name));
-      const auto found = numbers_.find(*id);
+      const auto found = id ? numbers_.find(*id) : numbers_.end();
       if (found == numbers_.end()) return end_statement();
-      if (*name == frame_format)
+      if (!value)
+        leave_unread(found->second, fmt::format("BA_ \"{}\" BO_ {} is not followed by a number", *name, *id));
+      else if (*name == frame_format)
         formats_[found->second] = FrameFormat{*value, name_of_value};
       else
-        set_period(database_.messages[found->second], *value);
+        set_period(found->second, *value);
     }
     end_statement();
   }
@@ -316,15 +355,17 @@ class Reader {
   /// SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST,…; says again what mNUMBER does, or is extended multiplexing.
   void selected_values() {
     const auto id = scan_.take_unsigned();
-    const auto name = scan_.take_identifier();
-    const auto selecting = scan_.take_identifier();
+    const auto name = scan_.take_name();
+    const auto selecting = scan_.take_name();
     const auto first = scan_.take_unsigned();
     const bool has_range = scan_.take('-');
     const auto last = scan_.take_unsigned();
-    if (!id || !name || !selecting || !first || !has_range || !last)
-      return refuse("a SG_MUL_VAL_ is not of the form SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST;");
-    if (const auto found = numbers_.find(*id); found != numbers_.end()) {
+    if (const auto found = id ? numbers_.find(*id) : numbers_.end(); found != numbers_.end()) {
       const Message& message = database_.messages[found->second];
+      if (!name || !selecting || !first || !has_range || !last) {
+        leave_unread(found->second, "a SG_MUL_VAL_ is not of the form SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST;");
+        return end_statement();
+      }
       const Signal *signal = find_signal(message, *name), *by = find_signal(message, *selecting);
       if (signal && (scan_.peek() == ',' || *first != *last || signal->selected_by != first || !by || !by->selects))
         leave_unread(found->second, fmt::format("{} of {} is selected by more than one value", *name, message.name),
@@ -333,10 +374,11 @@ class Reader {
     end_statement();
   }
 
-  void set_period(Message& message, double value) {
+  void set_period(std::size_t place, double value) {
     constexpr double longest_ms = 600'000.0;
+    Message& message = database_.messages[place];
     if (value < 0.0 || value > longest_ms)
-      refuse(fmt::format("{} is sent every {} ms", message.name, value), "use 0 to 600000 ms");
+      leave_unread(place, fmt::format("{} is sent every {} ms", message.name, value), "use 0 to 600000 ms");
     else if (value > 0.0)
       message.period_s = value / 1000.0;
     else
@@ -357,18 +399,20 @@ class Reader {
   /// SIG_VALTYPE_ ID SIGNAL : 1 or 2;
   void value_type() {
     const auto id = scan_.take_unsigned();
-    const auto name = scan_.take_identifier();
+    const auto name = scan_.take_name();
     scan_.take(':');
     const auto type = scan_.take_unsigned();
-    if (!id || !name || !type || *type > 2 || !scan_.take(';'))
-      return refuse("a SIG_VALTYPE_ is not of the form SIG_VALTYPE_ ID SIGNAL : 0, 1 or 2;");
-    const auto message = numbers_.find(*id);
-    if (message == numbers_.end() || *type == 0 || is_unread(message->second)) return;
+    end_statement();
+    const auto message = id ? numbers_.find(*id) : numbers_.end();
+    if (message == numbers_.end() || type == 0u || is_unread(message->second)) return;
+    if (!name || !type || *type > 2)
+      return leave_unread(message->second, "a SIG_VALTYPE_ is not of the form SIG_VALTYPE_ ID SIGNAL : 0, 1 or 2;");
     auto& signals = database_.messages[message->second].signals;
     const auto signal = std::ranges::find(signals, *name, &Signal::name);
     if (signal == signals.end()) return;
     if (signal->bits != 32 * *type)
-      return refuse(fmt::format("{} is a float of {} bits", *name, signal->bits), "use 32 or 64 bits");
+      return leave_unread(message->second, fmt::format("{} is a float of {} bits", *name, signal->bits),
+                          "use 32 or 64 bits");
     signal->number = *type == 1 ? Number::float32 : Number::float64;
   }
 
@@ -405,14 +449,15 @@ class Reader {
   std::string name_;
   Database database_;
   std::map<std::uint64_t, std::size_t> numbers_;  ///< Messages by their identifier as the file writes it.
-  std::set<std::string> names_, periodless_;
+  std::map<std::string, std::size_t> names_;
+  std::set<std::string> periodless_;
   std::map<std::size_t, Error> unread_;  ///< Why, by the message's place in the database, likewise the next.
   std::map<std::size_t, FrameFormat> formats_;
   std::vector<std::string> frame_formats_;  ///< The names of VFrameFormat's values, where the file lists them.
   std::optional<FrameFormat> default_format_;
-  std::optional<std::uint64_t> bits_;  ///< Of the signal that is read, as the file has them.
-  int line_ = 1;                       ///< In which the statement begins.
-  bool ignored_ = false;               ///< The signals that follow belong to no message.
+  int line_ = 1;            ///< In which the statement begins.
+  bool ignored_ = false;    ///< The signals that follow belong to no message.
+  bool is_nested_ = false;  ///< The signal that was read is selected and selects.
   double default_period_ms_ = 0.0;
   Error error_;
 };

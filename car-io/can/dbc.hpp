@@ -3,7 +3,9 @@
 ///
 /// Read are messages, signals with their multiplexing, floating point signals (SIG_VALTYPE_), and the attributes GenMsgCycleTime and
 /// VFrameFormat (CAN FD is what its list of names calls `…_FD`; without a list 14 and 15); everything else that the format knows (comments,
-/// value tables, nodes, environment variables) is skipped, and so is a byte-order mark. The file comes from outside: whatever it holds, the
+/// value tables, nodes, environment variables) is skipped, and so are a byte-order mark, remarks that begin with `//`, a sender that is missing
+/// and a `;` that is missing before the next line's statement. Names may begin with a digit. Files of makers have faults in messages that a rig
+/// does not need: a message with a fault is left unread, with its reason and line, and the others are read. The file comes from outside: the
 /// outcome is a database whose signals all lie within their messages, or an Error with the line.
 
 #include <cstdint>
@@ -44,7 +46,7 @@ struct Message {
   std::vector<Signal> signals;
 };
 
-/// No frame that can be read: a transport message, extended multiplexing. Only who uses it has to know.
+/// A message with a fault, or that no frame carries (a transport message, extended multiplexing). It matters only to a rig that names it.
 struct UnreadMessage {
   std::string name;
   std::vector<std::string> signals;

@@ -41,10 +41,21 @@ bool Scanner::take(char wanted) {
 
 std::optional<std::string_view> Scanner::peek_identifier() {
   if (at_end() || !begins_identifier(text_[place_])) return std::nullopt;
-  std::size_t count = 1;
+  return peek_name();
+}
+
+std::optional<std::string_view> Scanner::peek_name() {
+  skip_space();
+  std::size_t count = 0;
   while (place_ + count < text_.size() && (begins_identifier(text_[place_ + count]) || is_digit(text_[place_ + count])))
     ++count;
-  return text_.substr(place_, count);
+  return count > 0 ? std::optional(text_.substr(place_, count)) : std::nullopt;
+}
+
+std::optional<std::string_view> Scanner::take_name() {
+  const auto found = peek_name();
+  if (found) advance(found->size());
+  return found;
 }
 
 std::optional<std::string_view> Scanner::take_identifier() {
@@ -97,10 +108,9 @@ bool Scanner::skip_word() {
   return true;
 }
 
-bool Scanner::skip_statement() {
-  while (!take(';'))
-    if (!skip_word()) return false;
-  return true;
+void Scanner::skip_line() {
+  const std::size_t end = text_.find('\n', place_);
+  advance(end == std::string_view::npos ? text_.size() - place_ : end - place_);
 }
 
 }  // namespace septet::car_io::dbc

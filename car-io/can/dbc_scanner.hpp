@@ -20,17 +20,20 @@ class Scanner {
   /// A C identifier, or nothing (and nothing is taken).
   std::optional<std::string_view> take_identifier();
   std::optional<std::string_view> peek_identifier();
+  /// An identifier that may begin with a digit, as people's names of messages and signals do; or nothing.
+  std::optional<std::string_view> take_name();
   /// A finite number, or nothing.
   std::optional<double> take_number();
   std::optional<std::uint64_t> take_unsigned();
   /// A text in quotes, which may go over several lines; nothing where it begins otherwise or never ends.
   std::optional<std::string> take_string();
-  /// Past the next `;` that stands in no quotes; false where there is none.
-  bool skip_statement();
-  /// One word of whatever kind; false at the end.
+  /// One word of any kind; false at the end, or where a text in quotes has none.
   bool skip_word();
+  /// Up to the end of the line.
+  void skip_line();
 
  private:
+  std::optional<std::string_view> peek_name();
   void skip_space();
   void advance(std::size_t count);
 

@@ -63,6 +63,13 @@ Expected<TelemetryFormat> read_telemetry_format(std::string_view toml, std::stri
           static_cast<NumberKind>(field.get_choice("type", 6, {"u8", "i8", "u16", "i16", "u32", "i32", "f32", "f64"}));
       result.scale = field.get_double("scale", 1.0, -1e9, 1e9);
       result.offset = field.get_double("offset", 0.0, -1e9, 1e9);
+      if (member == &T::gear) {
+        if (table->contains("reverse")) result.reverse = field.get_double("reverse", 0.0, -1e9, 1e9);
+        if (table->contains("neutral")) result.neutral = field.get_double("neutral", 0.0, -1e9, 1e9);
+        if (result.reverse && result.reverse == result.neutral)
+          field.report("neutral", "reverse and neutral are one number",
+                       "say which of them the game sends, or correct one");
+      }
       const std::size_t size = sizes[static_cast<std::size_t>(result.kind)];
       if (table->contains("bit"))
         result.bit = static_cast<int>(field.get_integer("bit", 0, 0, static_cast<std::int64_t>(8 * size) - 1));

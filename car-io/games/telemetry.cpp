@@ -121,9 +121,12 @@ Expected<GameTelemetry> decode_telemetry(const TelemetryFormat& format, std::spa
   GameTelemetry now = before;
   for (const TelemetryField& field : format.fields) {
     if (field.byte + bytes_of(field.kind) > datagram.size()) continue;
-    const double value = number_at(datagram, field) * field.scale + field.offset;
+    const double number = number_at(datagram, field);
+    const double value = number == field.reverse   ? -1.0
+                         : number == field.neutral ? 0.0
+                                                   : number * field.scale + field.offset;
     if (!(std::abs(value) <= largest)) return refused(format, "a datagram has a number that is none");
-    now.*field.quantity = field.reverse && value == *field.reverse ? -1.0 : value;
+    now.*field.quantity = value;
   }
   return now;
 }

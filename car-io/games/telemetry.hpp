@@ -41,7 +41,8 @@ struct TelemetryField {
   bool big_endian = false;
   double scale = 1.0, offset = 0.0;
   int bit = -1;
-  std::optional<double> reverse;  ///< Of a gear: a value that means reverse, beside −1.
+  /// Numbers of the datagram, before scale and offset, that mean these gears; beside −1 and 0 of the scaled value.
+  std::optional<double> reverse, neutral;
 };
 
 struct TelemetryFormat {

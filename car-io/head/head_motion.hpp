@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -34,8 +35,10 @@ struct HeadPlace {
 HeadPlace place_of(const TrackedPose& pose, const rig::HeadTracking& tracking);
 
 struct HeadMotion {
-  HeadPlace place;                  ///< Now.
-  HeadPlace told;                   ///< The last that the tracker said.
+  HeadPlace place;   ///< Now.
+  Vec3 told_m{0.0};  ///< Place that the tracker said last, from rest.
+  /// Heading that it said last, counted on past a half turn as the head went, so that it comes back the way that it went; within ±`furthest_rad`.
+  double told_rad = 0.0;
   std::optional<double> silence_s;  ///< Since then; nothing: it has said nothing yet.
   double share = 0.0;               ///< Of what was told; 0: at rest, 1: followed.
 };
@@ -43,6 +46,8 @@ struct HeadMotion {
 inline constexpr double tracker_is_lost_after_s = 0.5;
 inline constexpr double glide_s = 1.0;  ///< From what was told to rest, and back.
 inline constexpr double fastest_mps = 3.0, fastest_radps = 15.0;
+/// Body and neck turn no further than this; beyond it the tracker means the other way round.
+inline constexpr double furthest_rad = 1.5 * std::numbers::pi;
 
 bool is_tracked(const HeadMotion& motion);
 /// `dt_s` later; `heard`: the newest that has come meanwhile.

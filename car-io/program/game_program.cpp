@@ -15,8 +15,8 @@
 
 #include "car-io/actuator_writer.hpp"
 #include "car-io/can/can_bus.hpp"
-#include "car-io/can/dbc.hpp"
 #include "car-io/can/instrument_sender.hpp"
+#include "car-io/can/rig_can.hpp"
 #include "car-io/car_connection.hpp"
 #include "car-io/games/game_drive.hpp"
 #include "car-io/games/uinput_wheel.hpp"
@@ -77,19 +77,14 @@ Expected<GameSocket> open_game(const std::string& text, const std::string& liste
 /// The cluster of a rig with [can]; null without.
 Expected<std::unique_ptr<InstrumentThread>> open_instruments(const rig::Rig& rig, const std::filesystem::path& file) {
   if (!rig.can) return std::unique_ptr<InstrumentThread>();
-  const auto path = file.parent_path() / rig.can->dbc;
-  const auto text = read_regular_file(path);
-  if (!text) return tl::unexpected(text.error());
-  const auto database = dbc::read_dbc(*text, path.string());
-  if (!database) return tl::unexpected(database.error());
-  if (const auto notice = dbc::notice_of(*database)) tell_person(describe(*notice));
-  auto plan = plan_can(*database, *rig.can);
-  if (!plan) return tl::unexpected(plan.error());
-  if (plan->sent.empty()) return std::unique_ptr<InstrumentThread>();
-  const auto open = [interface = rig.can->interface, needs_fd = plan->needs_fd] {
+  auto can = read_rig_can(rig, file);
+  if (!can) return tl::unexpected(can.error());
+  if (can->notice) tell_person(describe(*can->notice));
+  if (can->plan.sent.empty()) return std::unique_ptr<InstrumentThread>();
+  const auto open = [interface = rig.can->interface, needs_fd = can->plan.needs_fd] {
     return open_socket_can(interface, needs_fd);
   };
-  return std::make_unique<InstrumentThread>(InstrumentSender(open, std::move(*plan)));
+  return std::make_unique<InstrumentThread>(InstrumentSender(open, std::move(can->plan)));
 }
 
 }  // namespace

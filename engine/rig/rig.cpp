@@ -93,6 +93,25 @@ Screen read_screen(const toml::table& table, const std::vector<Mirror>& mirrors,
   return screen;
 }
 
+/// An address in dotted form has four numbers up to 255; anything else may be a machine's name.
+bool is_wrong_address(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("0123456789.") != std::string_view::npos) return false;
+  int numbers = 0;
+  for (std::size_t begin = 0; begin <= text.size(); ++numbers) {
+    const std::size_t end = std::min(text.find('.', begin), text.size());
+    const std::string_view number = text.substr(begin, end - begin);
+    if (number.empty() || number.size() > 3 || (number.size() == 3 && number > "255")) return true;
+    begin = end + 1;
+  }
+  return numbers != 4;
+}
+
+void check_address(TableReader& reader, const char* key, const std::string& address) {
+  if (is_wrong_address(address))
+    reader.report(key, fmt::format("network.{} is \"{}\"", key, address),
+                  "write four numbers of 0 to 255, such as 10.7.0.3");
+}
+
 Network read_network(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "network", error);
   Network network;
@@ -101,6 +120,9 @@ Network read_network(const toml::table& table, std::string_view file, Error& err
   network.tick_group = reader.get_string("tick_group", network.tick_group);
   network.tick_port = static_cast<std::uint16_t>(reader.get_integer("tick_port", network.tick_port, 0, 65535));
   network.interface_address = reader.get_string("interface_address", network.interface_address);
+  check_address(reader, "server_address", network.server_address);
+  check_address(reader, "tick_group", network.tick_group);
+  check_address(reader, "interface_address", network.interface_address);
   network.transport =
       static_cast<TickTransport>(reader.get_choice("transport", 0, {"automatic", "multicast", "unicast"}));
   network.max_payload_bytes =

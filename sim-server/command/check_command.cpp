@@ -13,10 +13,10 @@
 #include "engine/document/toml_table.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
-#include "engine/rig/rig.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
 #include "logging/session_reader.hpp"
+#include "sim-server/command/check_rig.hpp"
 
 namespace septet::server {
 namespace {
@@ -57,7 +57,7 @@ void check_toml(const std::string& text, Checked& checked) {
   else if (has("body"))
     add_error(vehicle::read_vehicle(text, checked.file), checked);
   else
-    add_error(rig::read_rig(text, checked.file), checked);
+    checked.findings = check_rig(text, checked.file);
 }
 
 void check_session(Checked& checked) {

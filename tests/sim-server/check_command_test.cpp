@@ -56,6 +56,44 @@ TEST_CASE("every shipped file that check knows passes it as what it is") {
   }
 }
 
+TEST_CASE("a rig is checked with the files that it names and for screens that nobody means") {
+  const auto folder = fs::temp_directory_path() / ("check-rig-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const auto rig_with = [&](const std::string& car, const std::string& rest, const std::string& corners) {
+    std::ofstream(folder / "rig.toml") << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[car]\n" + car +
+                                              "\n[[screen]]\nname = \"a\"\n" + corners + rest;
+    return check({(folder / "rig.toml").string()});
+  };
+  const std::string upright = "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
+  const auto says = [](const Answer& answer, int status, const char* what) {
+    CAPTURE(answer.text);
+    CHECK(answer.status == status);
+    CHECK(answer.text.find(what) != std::string::npos);
+  };
+  says(rig_with("", "", upright), 0, "1 files, 0 errors, 0 warnings");
+  says(rig_with("vehicle = \"volvo-s81\"", "", upright), 1, "volvo-s81");
+  says(rig_with("driver = \"nobody\"", "", upright), 1, "nobody");
+  says(rig_with("layout = \"no-such\"", "", upright), 1, "no-such");
+  const std::string can = "[can]\ninterface = \"can0\"\ndbc = \"own.dbc\"\n[can.signals]\n\"";
+  says(rig_with("", can + "A.s\" = \"speed_kmh\"\n", upright), 1, "own.dbc");
+  const std::string good = "BS_:\nBU_: X\nBO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n";
+  std::ofstream(folder / "own.dbc") << good;
+  says(rig_with("", can + "A.s\" = \"speed_kmh\"\n", upright), 0, "0 errors, 0 warnings");
+  says(rig_with("", can + "A.t\" = \"speed_kmh\"\n", upright), 1, "A.t");
+  says(rig_with("source = \"can\"", can + "A.s\" = \"speed_kmh\"\n", upright), 1, "is a control of the car");
+  std::ofstream(folder / "own.dbc") << good + "BO_ 8 B: 1 X\n SG_ s : 4|8@1+ (1,0) [0|0] \"\" X\n";
+  says(rig_with("", can + "A.s\" = \"speed_kmh\"\n", upright), 0, "a message is not read: s reaches beyond");
+  says(rig_with("", can + "B.s\" = \"speed_kmh\"\n", upright), 1, "s reaches beyond the 1 bytes of B");
+  says(rig_with("", "", "lower_left_m = [2, 1, 1]\nlower_right_m = [2, -1, 1]\nupper_left_m = [2, 1, 0]\n"), 0,
+       "shows its back");
+  says(rig_with("", "", "lower_left_m = [2, -1, 1]\nlower_right_m = [2, 1, 1]\nupper_left_m = [2, -1, 0]\n"), 0,
+       "lies below its lower edge");
+  for (const char* address : {"10.7.0.300", "10.7.0", "10.7.0.3.1", "10..0.3", "1000"})
+    says(rig_with("", std::string("[network]\nserver_address = \"") + address + "\"\n", upright), 1, address);
+  says(rig_with("", "[network]\nserver_address = \"lab-server\"\n", upright), 0, "0 errors");
+  fs::remove_all(folder);
+}
+
 TEST_CASE("a film script is checked as one") {
   const Written good("good.toml", "[[shot]]\nfrom_s = 1\nto_s = 5\n"),
       bad("bad.toml", "[[shot]]\nfrom_s = 1\nto_s = 1\n");

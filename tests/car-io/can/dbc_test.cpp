@@ -129,21 +129,9 @@ TEST_CASE("data too short for a signal hold nothing for it and take nothing from
   CHECK(data == std::vector<std::byte>(2, std::byte{0xFF}));
 }
 
-TEST_CASE("what is wrong with a DBC file is said with its line") {
+TEST_CASE("a file that is no DBC file is refused with its line") {
   const std::pair<const char*, std::string_view> files[] = {
-      {"BO_ 7 A: 8 X\n SG_ s : 60|8@1+ (1,0) [0|0] \"\" X\n", "s reaches beyond the 8 bytes of A"},
-      {"BO_ 7 A: 8 X\n SG_ s : 60|14@0+ (1,0) [0|0] \"\" X\n", "s reaches beyond the 8 bytes of A"},
-      {"BO_ 7 A: 8 X\n SG_ s : 0|65@1+ (1,0) [0|0] \"\" X\n", "the signal s is not of the form"},
-      {"BO_ 7 A: 8 X\n SG_ s : 0|0@1+ (1,0) [0|0] \"\" X\n", "the signal s is not of the form"},
-      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (0,0) [0|0] \"\" X\n", "the scale of s is 0"},
-      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1e999,0) [0|0] \"\" X\n", "the signal s is not of the form"},
-      {"BO_ 7 A: 8 X\n SG_ s m : 0|8@1+ (1,0) [0|0] \"\" X\n", "s is multiplexed by m"},
       {"\nSG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n", "a SG_ stands before the first BO_"},
-      {"\nBO_ 1073741824 A: 8 X\n", "1073741824 is no CAN identifier"},
-      {"\nBO_ 18446744073709551615 A: 8 X\n", "18446744073709551615 is no CAN identifier"},
-      {"BO_ 7 A: 8 X\nBO_ 7 B: 8 X\n", "two messages have the identifier 7"},
-      {"BO_ 7 A: 8 X\nBO_ 8 A: 8 X\n", "two messages are called A"},
-      {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 -1;\n", "A is sent every -1 ms"},
       {"BO_ 7 A: 8 X\nHello;\n", "\"Hello\" begins no statement of a DBC file"},
       {"\n\x01\n", "a statement begins with"},
   };
@@ -153,7 +141,68 @@ TEST_CASE("what is wrong with a DBC file is said with its line") {
     CHECK_MESSAGE(error.what.starts_with(file.second), error.what);
     CHECK(error.where == "bad.dbc:6");
   }
-  CHECK(refusal("VERSION \"\"\nNS_ :\nBS_:\nBU_: A\nCM_ \"never ended;\n\n").what == "a statement has no end");
+  CHECK(refusal("VERSION \"\"\nNS_ :\nBS_:\nBU_: A\nCM_ \"never ended;\n\n").what == "a text in quotes has no end");
+}
+
+TEST_CASE("a message with a fault is left unread with its line, and every other one is read") {
+  const std::pair<const char*, std::string_view> faults[] = {
+      {"BO_ 7 A: 8 X\n SG_ s : 60|8@1+ (1,0) [0|0] \"\" X\n", "s reaches beyond the 8 bytes of A"},
+      {"BO_ 7 A: 8 X\n SG_ s : 60|14@0+ (1,0) [0|0] \"\" X\n", "s reaches beyond the 8 bytes of A"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|65@1+ (1,0) [0|0] \"\" X\n", "the signal s is not of the form"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|0@1+ (1,0) [0|0] \"\" X\n", "the signal s is not of the form"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (0,0) [0|0] \"\" X\n", "the scale of s is 0"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1e999,0) [0|0] \"\" X\n", "the signal s is not of the form"},
+      {"BO_ 7 A: 8 X\n SG_ s m : 0|8@1+ (1,0) [0|0] \"\" X\n", "s is multiplexed by m"},
+      {"BO_ 7 A: 8 X\n SG_ : 0|8@1+ (1,0) [0|0] \"\" X\n", "a SG_ has no name"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|8\n", "the signal s is not of the form"},
+      {"\nBO_ 536870912 A: 8 X\n", "536870912 is no CAN identifier"},
+      {"\nBO_ 18446744073709551615 A: 8 X\n", "18446744073709551615 is no CAN identifier"},
+      {"\nBO_ 7 A\n", "a BO_ is not of the form"},
+      {"\nBO_\n", "a BO_ is not of the form"},
+      {"BO_ 7 A: 8 X\nBO_ 7 B: 8 X\n", "two messages have the identifier 7"},
+      {"BO_ 7 A: 8 X\nBO_ 8 A: 8 X\n", "two messages are called A"},
+      {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 -1;\n", "A is sent every -1 ms"},
+      {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 3600000;\n", "A is sent every 3600000 ms"},
+      {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 often;\n",
+       "BA_ \"GenMsgCycleTime\" BO_ 7 is not followed by a number"},
+  };
+  constexpr const char* sound = "BO_ 100 SOUND: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n";
+  for (const auto& fault : faults) {
+    CAPTURE(std::string(fault.first));
+    const auto database = read_dbc(std::string(head) + fault.first + sound, "bad.dbc");
+    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE(database->messages.size() == 1);
+    CHECK(database->messages[0].name == "SOUND");
+    CHECK(database->messages[0].signals.size() == 1);
+    REQUIRE(database->unread.size() >= 1);
+    for (const UnreadMessage& unread : database->unread) {
+      CHECK_MESSAGE(unread.why.what.starts_with(fault.second), unread.why.what);
+      CHECK(unread.why.where == "bad.dbc:6");
+    }
+  }
+}
+
+TEST_CASE("what makers' files do with names, senders, remarks and ends of statements is read") {
+  const auto database = read_dbc(std::string(head) +
+                                     "// a remark\n"
+                                     "BO_ 1073741824 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n"
+                                     " SG_ spare : 0|8@1+ (1,0) [0|0] \"\" Vector__XXX\n"
+                                     "BO_ 2001 2017_5: 8 1ECU\n"
+                                     " SG_ 0_COUNTER : 35|4@0+ (1,0) [0|15] \"\" 1ECU, 2ECU\n"
+                                     "BO_ 2009 ALONE: 8\n"
+                                     " SG_ a : 0|8@1+ (1,0) [0|0] \"\" X\n"
+                                     "VAL_TABLE_ T 1 \"a\"\n 2 \"b; BO_\";\n"
+                                     "BA_ \"GenMsgCycleTime\" BO_ 2009 50\n"
+                                     "VAL_ 2009 a 1 \"a\" 0 \"b\"",
+                                 "makers.dbc");
+  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  CHECK(database->unread.empty());
+  REQUIRE(database->messages.size() == 2);
+  CHECK(database->messages[0].name == "2017_5");
+  REQUIRE(database->messages[0].signals.size() == 1);
+  CHECK(database->messages[0].signals[0].name == "0_COUNTER");
+  CHECK(database->messages[1].signals.size() == 1);
+  CHECK(database->messages[1].period_s == 0.05);
 }
 
 TEST_CASE("CAN FD is what the file's own list of frame formats calls so, by index, by name and by default") {

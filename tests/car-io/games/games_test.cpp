@@ -99,6 +99,31 @@ TEST_CASE("Codemasters' gear 10 is reverse, as -1 is, and 0 is neutral") {
   CHECK(gear(6.0f) == 6.0);
 }
 
+TEST_CASE("a format of one's own says which numbers of the datagram mean reverse and neutral") {
+  const auto forza = [](const char* gear) {
+    return read_telemetry_format(
+        std::string("least_bytes = 324\nmost_bytes = 324\n[fields.gear]\nbyte = 307\ntype = \"u8\"\n") + gear,
+        "forza.toml");
+  };
+  const auto gear = [&](const char* keys, std::uint8_t sent) {
+    return decode_telemetry(forza(keys).value(), Datagram(324).put(307, sent).bytes(), {}).value().gear;
+  };
+  constexpr const char* keys = "reverse = 0\nneutral = 11\n";
+  CHECK(gear(keys, 0) == -1.0);
+  CHECK(gear(keys, 11) == 0.0);
+  CHECK(gear(keys, 1) == 1.0);
+  CHECK(gear(keys, 6) == 6.0);
+  CHECK(gear("", 0) == 0.0);
+  // A game that counts from one more names its numbers as it sends them, whatever they are moved by.
+  CHECK(gear("offset = -1\nreverse = 0\n", 0) == -1.0);
+  CHECK(gear("offset = -1\nreverse = 255\n", 255) == -1.0);
+  CHECK(gear("offset = -1\nreverse = 255\n", 1) == 0.0);
+  CHECK(gear("scale = 0.5\nneutral = 7\n", 7) == 0.0);
+  CHECK_FALSE(forza("reverse = 3\nneutral = 3\n").has_value());
+  CHECK_FALSE(forza("reverse = \"R\"\n").has_value());
+  CHECK_FALSE(read_telemetry_format("[fields.speed_mps]\nbyte = 0\nreverse = 0\n", "speed.toml").has_value());
+}
+
 TEST_CASE("a datagram of another length or with a number that is none changes nothing") {
   for (const std::size_t size : {0u, 1u, 91u, 97u, 1500u})
     CHECK_FALSE(decode_telemetry(format("outgauge"), Bytes(size), {}).has_value());

@@ -98,6 +98,42 @@ TEST_CASE("a tracker that is heard is followed exactly and one that falls silent
   CHECK(largest_step_m < 1.6 * glm::length(told.from_rest_m) * tick_s / glide_s);
 }
 
+TEST_CASE("a head that turns past a half turn goes on the same way, and comes back as it went") {
+  constexpr double degree = std::numbers::pi / 180.0;
+  for (const double side : {1.0, -1.0}) {
+    HeadMotion motion = followed({});
+    const auto turn_to = [&](double from_deg, double to_deg) {
+      for (double told_deg = from_deg; told_deg != to_deg; told_deg += from_deg < to_deg ? 1.0 : -1.0) {
+        const double before_rad = motion.place.heading_rad;
+        const double told_rad = std::remainder(side * degree * told_deg, 2.0 * std::numbers::pi);
+        for (int i = 0; i < 2; ++i) advance(motion, HeadPlace{{}, told_rad}, tick_s);
+        REQUIRE(std::abs(std::remainder(motion.place.heading_rad - before_rad, 2.0 * std::numbers::pi)) < 3.0 * degree);
+        REQUIRE(std::abs(std::remainder(motion.place.heading_rad - told_rad, 2.0 * std::numbers::pi)) < 1e-9);
+      }
+    };
+    turn_to(0.0, 200.0);
+    turn_to(200.0, 178.0);
+    turn_to(178.0, 200.0);
+    // Lost back there, it glides home over the side that it turned by.
+    bool passed_the_side = false;
+    for (int i = 0; i < 240; ++i) {
+      advance(motion, {}, tick_s);
+      passed_the_side |= std::abs(motion.place.heading_rad - side * 90.0 * degree) < 5.0 * degree;
+      REQUIRE(std::abs(motion.place.heading_rad + side * 90.0 * degree) > 5.0 * degree);
+    }
+    CHECK(passed_the_side);
+    CHECK(motion.place.heading_rad == 0.0);
+    // Found again straight ahead, it makes no turn of it.
+    for (int i = 0; i < 240; ++i) {
+      advance(motion, HeadPlace{}, tick_s);
+      REQUIRE(std::abs(motion.place.heading_rad) < 1e-9);
+    }
+    // Two turns of a swivel chair leave nothing to unwind.
+    turn_to(0.0, 720.0);
+    CHECK(std::abs(motion.told_rad) <= furthest_rad);
+  }
+}
+
 TEST_CASE("a head that is told to jump to and fro moves no faster than heads do") {
   Random random(7);
   HeadMotion motion = followed({});
@@ -106,7 +142,8 @@ TEST_CASE("a head that is told to jump to and fro moves no faster than heads do"
     const auto anywhere = [&](double most) { return most * (2.0 * random.uniform() - 1.0); };
     advance(motion, HeadPlace{{anywhere(0.3), anywhere(0.3), anywhere(0.2)}, anywhere(3.0)}, tick_s);
     REQUIRE(glm::distance(before.from_rest_m, motion.place.from_rest_m) <= fastest_mps * tick_s * 1.0000001);
-    REQUIRE(std::abs(motion.place.heading_rad - before.heading_rad) <= fastest_radps * tick_s * 1.0000001);
+    REQUIRE(std::abs(std::remainder(motion.place.heading_rad - before.heading_rad, 2.0 * std::numbers::pi)) <=
+            fastest_radps * tick_s * 1.0000001);
   }
 }
 

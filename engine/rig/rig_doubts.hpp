@@ -1,0 +1,15 @@
+#pragma once
+/// What of a rig can be meant, but most likely is a slip.
+
+#include <string_view>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/rig/rig.hpp"
+
+namespace septet::rig {
+
+/// At most one a screen: its picture stands on its head, or its front looks away from the driver. `file` is used in messages.
+std::vector<Error> doubts_of(const Rig& rig, std::string_view file);
+
+}  // namespace septet::rig
