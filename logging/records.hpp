@@ -67,8 +67,8 @@ struct ActuatorRecord {
 /// The vehicle ahead in the driver's lane.
 struct Leader {
   ParticipantId participant = 0;
-  double distance_gap_m = 0.0;      ///< The driver's front bumper to its rear bumper.
-  double distance_headway_m = 0.0;  ///< Front bumper to front bumper.
+  double distance_gap_m = 0.0;      ///< The driver's front bumper to its rear bumper, along the lane.
+  double distance_headway_m = 0.0;  ///< Front bumper to front bumper, along the lane.
   double speed_mps = 0.0;
   bool operator==(const Leader&) const = default;
 };

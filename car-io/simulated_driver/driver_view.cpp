@@ -12,6 +12,7 @@ namespace {
 
 constexpr double sight_m = 250.0;
 constexpr double acceleration_seen_in_s = 0.5;
+constexpr double gap_step_m = 60.0;  ///< Gaps are those along the lane, as well as eyes measure them.
 constexpr double foresight_s = 1.0;  ///< Who comes over a line is seen to do so this much earlier.
 
 Vec2 ground_position(const Participant& participant) { return Vec2(participant.world_from_vehicle.position_m); }
@@ -142,7 +143,8 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
     vehicle.lane = std::abs(location->lanes.lane);
     vehicle.innermost_lane = std::min(std::abs(lanes.lowest), std::abs(lanes.highest));
     vehicle.outermost_lane = std::max(std::abs(lanes.lowest), std::abs(lanes.highest));
-    const double ahead_m = traffic::distance_m(corridor, own.x_m, *x_m);
+    const double ahead_m = traffic::length_along_lane_m(network, corridor, own.lane, own.x_m,
+                                                        traffic::distance_m(corridor, own.x_m, *x_m), gap_step_m);
     const traffic::CorridorPiece& piece = traffic::piece_at(corridor, *x_m);
     vehicle.x_m = *x_m;
     vehicle.across_m = to_the_left(piece, location->position.t_m);

@@ -47,6 +47,30 @@ LanePoint evaluate_lane(const RoadNetwork& network, const LanePosition& position
   return point;
 }
 
+double lane_stretch(const LanePoint& point) {
+  const double grade = std::tan(point.road.pitch_rad);
+  return std::max(0.05, std::hypot(point.road.stretch, point.lane_slope, grade));
+}
+
+double length_along_lane_m(const RoadNetwork& network, const LanePosition& from, double to_s_m, double step_m) {
+  const auto stretch_at = [&](double s) {
+    LanePosition there = from;
+    there.s_m = s;
+    return lane_stretch(evaluate_lane(network, there));
+  };
+  // Simpson's rule.
+  const double way = to_s_m - from.s_m;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(way) / step_m)));
+  const double step = way / steps;
+  double sum = 0.0, begin = stretch_at(from.s_m);
+  for (int k = 0; k < steps; ++k) {
+    const double end = stretch_at(from.s_m + (k + 1) * step);
+    sum += begin + 4.0 * stretch_at(from.s_m + (k + 0.5) * step) + end;
+    begin = end;
+  }
+  return sum * step / 6.0;
+}
+
 RigidTransform world_from_road(const RoadPoint& point) {
   return {point.position_m, orientation_from_angles(point.heading_rad, point.pitch_rad, point.roll_rad)};
 }

@@ -43,9 +43,16 @@ struct LanePoint {
 };
 
 RoadPoint evaluate(const RoadNetwork& network, const RoadPosition& position);
+/// Metres along the line of constant offset from the lane's middle per metre of s: by bend, widening and climb. At least 0.05.
+double lane_stretch(const LanePoint& point);
 /// The lane must exist in the section at s (see lane_geometry.hpp); a missing one is taken to the
 /// outermost on its side.
 LanePoint evaluate_lane(const RoadNetwork& network, const LanePosition& position);
+
+/// Metres along the lane's middle (at `offset_m`) from the position to the station `to_s_m` of the same road; negative towards lower s.
+/// Gaps and headways are measured so (SAE J2944: along the path of travel). Sampled every `step_m`; a part of the road without the
+/// lane counts as its outermost one.
+double length_along_lane_m(const RoadNetwork& network, const LanePosition& from, double to_s_m, double step_m = 10.0);
 
 /// Pose at a point of the road: x along increasing s, y to the left, z off the surface.
 RigidTransform world_from_road(const RoadPoint& point);

@@ -106,7 +106,8 @@ double along_road_m(const road::RoadNetwork& network, const Entity& entity, cons
     const double widths = 0.5 * (entity.box.width_m + (target.box != nullptr ? target.box->width_m : 0.0));
     return measure.freespace ? std::max(0.0, std::abs(apart) - widths) : std::abs(apart);
   }
-  const double ahead = road_distance_m(network, from.lane, from.along_s, to);
+  const bool along_lanes = measure.system == CoordinateSystem::lane;
+  const double ahead = road_distance_m(network, from.lane, from.along_s, to, along_lanes);
   if (!measure.freespace) return std::abs(ahead);
   const double low = ahead + (target.box != nullptr ? target.box->rear_m() : 0.0);
   const double high = ahead + (target.box != nullptr ? target.box->front_m() : 0.0);
@@ -136,9 +137,14 @@ void add_linked(const road::RoadNetwork& network, road::RoadIndex index, road::C
   }
 }
 
+/// Between two stations of a road, never negative.
+double part_m(const road::RoadNetwork& network, const road::LanePosition& from, double to_s_m, bool along_lanes) {
+  return std::abs(along_lanes ? road::length_along_lane_m(network, from, to_s_m) : to_s_m - from.s_m);
+}
+
 /// Way from one end of a road to a position on another.
 double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index, road::ContactPoint leaving,
-                      double to_end_m, const road::LanePosition& to) {
+                      double to_end_m, const road::LanePosition& to, bool along_lanes) {
   std::vector<Reached> reached;
   add_linked(network, index, leaving, to_end_m, reached);
   double least = infinite;
@@ -147,7 +153,7 @@ double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index, r
     const double length = network.roads[at.road].length_m;
     const bool from_start = at.entered == road::ContactPoint::start;
     if (at.road == to.road) {
-      least = std::min(least, at.way_m + (from_start ? to.s_m : length - to.s_m));
+      least = std::min(least, at.way_m + part_m(network, to, from_start ? 0.0 : length, along_lanes));
       continue;
     }
     add_linked(network, at.road, from_start ? road::ContactPoint::end : road::ContactPoint::start, at.way_m + length,
@@ -159,17 +165,19 @@ double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index, r
 }  // namespace
 
 double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from, bool along_s,
-                       const road::LanePosition& to) {
+                       const road::LanePosition& to, bool along_lanes) {
   double ahead = infinite, behind = infinite;
   const double length = network.roads[from.road].length_m;
   if (from.road == to.road) {
     const double ds = along_s ? to.s_m - from.s_m : from.s_m - to.s_m;
-    (ds >= 0.0 ? ahead : behind) = std::abs(ds);
+    (ds >= 0.0 ? ahead : behind) = part_m(network, from, to.s_m, along_lanes);
   }
   // On the same road the way round a ring may be the shorter one.
   if (from.road != to.road || network.roads[from.road].successor.road == from.road) {
-    const double to_end = way_from_end_m(network, from.road, road::ContactPoint::end, length - from.s_m, to);
-    const double to_start = way_from_end_m(network, from.road, road::ContactPoint::start, from.s_m, to);
+    const double to_end = way_from_end_m(network, from.road, road::ContactPoint::end,
+                                         part_m(network, from, length, along_lanes), to, along_lanes);
+    const double to_start = way_from_end_m(network, from.road, road::ContactPoint::start,
+                                           part_m(network, from, 0.0, along_lanes), to, along_lanes);
     ahead = std::min(ahead, along_s ? to_end : to_start);
     behind = std::min(behind, along_s ? to_start : to_end);
   }

@@ -19,9 +19,10 @@ double distance_m(const road::RoadNetwork& network, const Entity& entity, const 
                   const DistanceMeasure& measure);
 
 /// Along the roads' reference lines from one position to another, over any links; positive towards
-/// the end that `along_s` faces; infinite where there is no way within 100 roads.
+/// the end that `along_s` faces; infinite where there is no way within 100 roads. `along_lanes`: on the first and the last road in
+/// metres of the lanes of `from` and `to`, which a bend makes longer or shorter; on roads between along the reference line.
 double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from, bool along_s,
-                       const road::LanePosition& to);
+                       const road::LanePosition& to, bool along_lanes = false);
 
 /// How fast the two come nearer by that measure, from their velocities.
 double closing_speed_mps(const EntityState& from, const Placement& target, const Vec3& target_velocity_mps,

@@ -92,8 +92,7 @@ bool step_into_lane_beside(const road::RoadNetwork& network, EntityState& entity
 void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, double dt_s, EntityState& entity) {
   const road::LanePoint point = road::evaluate_lane(network, entity.lane);
   const double forward_m = std::copysign(std::sqrt(std::max(0.0, way_m * way_m - lateral_m * lateral_m)), way_m);
-  // Metres along the lane's centre per metre of s.
-  const double stretch = std::max(0.05, std::hypot(point.road.stretch, point.lane_slope));
+  const double stretch = road::lane_stretch(point);
   std::span<const road::RoadIndex> route;
   if (entity.route.roads) route = std::span(*entity.route.roads).subspan(entity.route.at);
   Progress progress = go_along(network, entity.lane, entity.along_s, forward_m / stretch, route);
@@ -251,8 +250,12 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario, con
   const double sign = turn.w < 0.0 ? -1.0 : 1.0;
   // For the small turn of one step, twice the vector part is the rotation vector.
   entity.angular_velocity_radps = sign * 2.0 / dt_s * Vec3(turn.x, turn.y, turn.z);
-  entity.velocity_mps = orientation * Vec3(entity.speed_mps, 0.0, 0.0);
-  entity.acceleration_vector_mps2 = orientation * Vec3(entity.acceleration_mps2, 0.0, 0.0) +
+  // Who stands askew in its lane goes along it all the same.
+  const bool askew = entity.on_road && !on_path && entity.heading_offset_rad != 0.0;
+  const Quat travel =
+      askew ? orientation * glm::angleAxis(-entity.heading_offset_rad, Vec3(0.0, 0.0, 1.0)) : orientation;
+  entity.velocity_mps = travel * Vec3(entity.speed_mps, 0.0, 0.0);
+  entity.acceleration_vector_mps2 = travel * Vec3(entity.acceleration_mps2, 0.0, 0.0) +
                                     glm::cross(entity.angular_velocity_radps, entity.velocity_mps);
   const double radius = std::max(0.1, 0.5 * scenario.entities[who].front_axle.wheel_diameter_m);
   entity.wheel_angle_rad = std::fmod(entity.wheel_angle_rad + way_m / radius, 2.0 * std::numbers::pi);

@@ -24,7 +24,8 @@ double reference_m(const road::RoadNetwork& network, const KeepDistanceAction& w
                    const EntityState& reference) {
   const bool by_road = what.system == CoordinateSystem::road || what.system == CoordinateSystem::lane;
   if (by_road && actor.on_road && reference.on_road) {
-    if (!what.lateral) return road_distance_m(network, actor.lane, actor.along_s, reference.lane);
+    if (!what.lateral)
+      return road_distance_m(network, actor.lane, actor.along_s, reference.lane, what.system == CoordinateSystem::lane);
     if (actor.lane.road == reference.lane.road) {
       const double left = lateral_t_m(network, reference.lane) - lateral_t_m(network, actor.lane);
       return actor.along_s ? left : -left;

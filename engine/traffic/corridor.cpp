@@ -102,6 +102,26 @@ const CorridorPiece& piece_at(const Corridor& corridor, double x_m) {
   return after == corridor.pieces.begin() ? corridor.pieces.front() : *std::prev(after);
 }
 
+double length_along_lane_m(const road::RoadNetwork& network, const Corridor& corridor, int lane, double x_m,
+                           double ahead_m, double step_m) {
+  const double sign = ahead_m < 0.0 ? -1.0 : 1.0, nudge_m = 1e-6;
+  double left = std::abs(ahead_m), x = wrap_x(corridor, x_m), sum = 0.0;
+  // Piece by piece; beyond an open corridor's end as on the line.
+  while (left > 0.0 && (corridor.closed || (sign > 0.0 ? x < corridor.length_m : x > 0.0))) {
+    const CorridorPiece& piece = piece_at(corridor, sign > 0.0 ? x : x - nudge_m);
+    const double begin = std::clamp(x - piece.x_m, 0.0, piece.length_m);
+    const double to_end = sign > 0.0 ? piece.length_m - begin : begin;
+    const double part = std::min(left, to_end);
+    const auto s = [&](double along) { return piece.along_s ? along : piece.length_m - along; };
+    sum += std::abs(road::length_along_lane_m(network, {piece.road, piece.side * lane, s(begin), 0.0},
+                                              s(begin + sign * part), step_m));
+    left -= part;
+    x = wrap_x(corridor, x + sign * std::max(part, nudge_m));
+    if (sign < 0.0 && corridor.closed && x <= 0.0) x += corridor.length_m;
+  }
+  return sign * (sum + left);
+}
+
 road::LanePosition position_at(const Corridor& corridor, double x_m, int lane) {
   const CorridorPiece& piece = piece_at(corridor, x_m);
   const double along = std::clamp(x_m - piece.x_m, 0.0, piece.length_m);

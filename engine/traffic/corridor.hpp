@@ -46,6 +46,10 @@ inline double distance_m(const Corridor& corridor, double from_x_m, double to_x_
   return corridor.closed ? d - corridor.length_m * std::round(d / corridor.length_m) : d;
 }
 
+/// From x on to `ahead_m` further by x (negative: back), in metres of lane `lane`'s middle.
+double length_along_lane_m(const road::RoadNetwork& network, const Corridor& corridor, int lane, double x_m,
+                           double ahead_m, double step_m);
+
 const CorridorPiece& piece_at(const Corridor& corridor, double x_m);
 /// The position of lane `lane` at x, whether or not that lane can be driven on.
 road::LanePosition position_at(const Corridor& corridor, double x_m, int lane);

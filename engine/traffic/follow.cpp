@@ -28,8 +28,9 @@ bool has_room_beside(const CorridorTraffic& traffic, const LaneEntry& own, const
 
 /// The next one ahead that is really in the way, in a lane where some are not in its middle. What
 /// an emergency vehicle passes bounds its speed.
-const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, const std::vector<LaneEntry>& lane,
-                                         std::size_t k, double& speed_limit_mps) {
+const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, int lane_number, std::size_t k,
+                                         double& speed_limit_mps) {
+  const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
   const LaneEntry& own = lane[k];
   const bool emergency = traffic.emergency[static_cast<std::size_t>(own.vehicle)] != 0;
   const std::size_t count = lane.size();
@@ -43,7 +44,7 @@ const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, const s
     if (other.vehicle == own.vehicle) continue;
     const bool passable = (emergency || other.straddles) && has_room_beside(traffic, own, other);
     if (!passable) return &other;
-    const double ahead = way_ahead_m(traffic.corridor, other.x_m - own.x_m) - other.length_m;
+    const double ahead = gap_to(traffic, lane_number, own.x_m, &other);
     if (emergency && ahead < passing_look_ahead_m) {
       speed_limit_mps = std::min(speed_limit_mps, other.speed_mps + passing_excess_mps);
     }
@@ -52,14 +53,16 @@ const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, const s
 }
 
 /// Where somebody is not in the middle of a lane: the careful way.
-void follow_carefully(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane) {
+void follow_carefully(CorridorTraffic& traffic, int lane_number) {
+  const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
   for (std::size_t k = 0; k < lane.size(); ++k) {
     const LaneEntry& own = lane[k];
     if (own.vehicle < 0) continue;
     const auto i = static_cast<std::size_t>(own.vehicle);
     double limit = no_leader;
-    const LaneEntry* leader = leader_among_straddlers(traffic, lane, k, limit);
-    double a = acceleration_behind(traffic.law[i], own.speed_mps, leader, gap_to(traffic, own.x_m, leader));
+    const LaneEntry* leader = leader_among_straddlers(traffic, lane_number, k, limit);
+    double a =
+        acceleration_behind(traffic.law[i], own.speed_mps, leader, gap_to(traffic, lane_number, own.x_m, leader));
     if (own.speed_mps > limit - 1.0) {
       a = std::min(a, std::clamp(limit - own.speed_mps, -3.0, 1.0));
     }
@@ -67,22 +70,27 @@ void follow_carefully(CorridorTraffic& traffic, const std::vector<LaneEntry>& la
   }
 }
 
-void follow_in_lane(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane) {
+void follow_in_lane(CorridorTraffic& traffic, int lane_number) {
+  const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
+  const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane_number)];
   const std::size_t count = lane.size();
   for (std::size_t k = 0; k + 1 < count; ++k) {
     const LaneEntry& own = lane[k];
     if (own.vehicle < 0) continue;
     const auto i = static_cast<std::size_t>(own.vehicle);
     const LaneEntry& leader = lane[k + 1];
-    const double a =
-        acceleration_behind(traffic.law[i], own.speed_mps, &leader, leader.x_m - own.x_m - leader.length_m);
+    const double gap = (way.way_m.empty() ? (leader.x_m - own.x_m) * way.stretch
+                                          : way_at_m(way, leader.x_m) - way_at_m(way, own.x_m)) -
+                       leader.length_m;
+    const double a = acceleration_behind(traffic.law[i], own.speed_mps, &leader, gap);
     traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
   }
   if (count == 0 || lane.back().vehicle < 0) return;
   const LaneEntry& own = lane.back();
   const auto i = static_cast<std::size_t>(own.vehicle);
   const LaneEntry* leader = traffic.corridor.closed && count > 1 ? &lane.front() : nullptr;
-  const double a = acceleration_behind(traffic.law[i], own.speed_mps, leader, gap_to(traffic, own.x_m, leader));
+  const double a =
+      acceleration_behind(traffic.law[i], own.speed_mps, leader, gap_to(traffic, lane_number, own.x_m, leader));
   traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
 }
 
@@ -168,16 +176,18 @@ void follow(CorridorTraffic& traffic) {
   std::fill(traffic.acceleration_mps2.begin(), traffic.acceleration_mps2.end(), no_leader);
   for (std::size_t l = 0; l < traffic.order.lanes.size(); ++l) {
     if (traffic.order.has_straddlers[l] != 0)
-      follow_carefully(traffic, traffic.order.lanes[l]);
+      follow_carefully(traffic, static_cast<int>(l));
     else
-      follow_in_lane(traffic, traffic.order.lanes[l]);
+      follow_in_lane(traffic, static_cast<int>(l));
   }
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     if (traffic.lane[i] == 0) {
       traffic.acceleration_mps2[i] = 0.0;
       continue;
     }
-    const double to_end = traffic.lane_end_m[i] - traffic.x_m[i];
+    traffic.acceleration_mps2[i] = within_bounds(traffic, traffic.lane[i], traffic.x_m[i], traffic.speed_mps[i],
+                                                 traffic.emergency[i] != 0, traffic.acceleration_mps2[i]);
+    const double to_end = to_lane_end_m(traffic, traffic.lane[i], traffic.x_m[i], traffic.lane_end_m[i]);
     if (to_end > look_ahead_lane_end_m) continue;
     // A lane that ends is a standing obstacle.
     constexpr LaneEntry end{};

@@ -31,30 +31,41 @@ struct Decision {
     return entry.vehicle >= 0 ? traffic.acceleration_mps2[static_cast<std::size_t>(entry.vehicle)] : otherwise;
   }
 
+  /// What somebody behind makes of this where limits and bends are minded.
+  double bounded(const LaneEntry& entry, int lane, double acceleration_mps2) const {
+    const bool is_own = entry.vehicle >= 0;
+    const bool emergency = is_own && traffic.emergency[static_cast<std::size_t>(entry.vehicle)] != 0;
+    return is_own ? within_bounds(traffic, lane, entry.x_m, entry.speed_mps, emergency, acceleration_mps2)
+                  : acceleration_mps2;
+  }
+
   /// MOBIL, eqs. 2 to 4: the gain of the driver and, politely, of those behind; refused where it is
   /// unsafe.
   double gain(int lane, double lane_end, std::uint32_t& hint) const {
     const LaneChangeParameters& change = traffic.driver[i].lane_change;
     const auto [ahead, behind] = neighbours(traffic, lane, x, static_cast<std::int32_t>(i), hint);
-    const double gap_ahead = gap_to(traffic, x, ahead);
+    const double gap_ahead = gap_to(traffic, lane, x, ahead);
     if (gap_ahead < smallest_gap_m) return refused;
     const double ahead_speed = ahead != nullptr ? ahead->speed_mps : 0.0;
     // Whether it is safe is asked of the stricter law.
     const FollowingLaw& law = traffic.law[i];
     if (law.acceleration(v, ahead_speed, gap_ahead) < -change.largest_braking_mps2) return refused;
-    double own_then = acceleration_behind(law, v, ahead, gap_ahead);
+    double own_then = within_bounds(traffic, lane, x, v, false, acceleration_behind(law, v, ahead, gap_ahead));
     if (lane_end - x < look_ahead_lane_end_m)
-      own_then = std::min(own_then, acceleration_behind(law, v, &standing, lane_end - x));
+      own_then = std::min(own_then, acceleration_behind(law, v, &standing, to_lane_end_m(traffic, lane, x, lane_end)));
     double others = old_follower_gain;
     if (behind != nullptr) {
-      const double gap = way_ahead_m(traffic.corridor, x - behind->x_m) - traffic.length_m[i];
+      LaneEntry own;
+      own.x_m = x;
+      own.length_m = static_cast<float>(traffic.length_m[i]);
+      own.speed_mps = v;
+      own.acceleration_mps2 = static_cast<float>(own_now);
+      const double gap = gap_to(traffic, lane, behind->x_m, &own);
       if (gap < smallest_gap_m) return refused;
       const FollowingLaw& law_behind = law_of(traffic, *behind, i);
       if (law_behind.acceleration(behind->speed_mps, v, gap) < -change.largest_braking_mps2) return refused;
-      LaneEntry own;
-      own.speed_mps = v;
-      own.acceleration_mps2 = static_cast<float>(own_now);
-      others += acceleration_behind(law_behind, behind->speed_mps, &own, gap) - present_acceleration(*behind, 0.0);
+      const double then = acceleration_behind(law_behind, behind->speed_mps, &own, gap);
+      others += bounded(*behind, lane, then) - present_acceleration(*behind, 0.0);
     }
     return own_then - own_now +
            change.politeness * std::clamp(others, -2.0 * hardest_braking_mps2, hardest_braking_mps2);
@@ -75,10 +86,10 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
   auto& hints = traffic.neighbour_hints[i];
   const auto old = neighbours(traffic, lane, x, static_cast<std::int32_t>(i), hints[1]);
   if (old.behind != nullptr && change.politeness > 0.0) {
-    const double gap = gap_to(traffic, old.behind->x_m, old.ahead);
+    const double gap = gap_to(traffic, lane, old.behind->x_m, old.ahead);
+    const double then = acceleration_behind(law_of(traffic, *old.behind, i), old.behind->speed_mps, old.ahead, gap);
     decision.old_follower_gain =
-        acceleration_behind(law_of(traffic, *old.behind, i), old.behind->speed_mps, old.ahead, gap) -
-        decision.present_acceleration(*old.behind, 0.0);
+        decision.bounded(*old.behind, lane, then) - decision.present_acceleration(*old.behind, 0.0);
   }
   int best = lane;
   double best_gain = change.threshold_mps2;

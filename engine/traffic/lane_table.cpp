@@ -53,15 +53,15 @@ LaneCentre exact_centre(const road::RoadNetwork& network, const CorridorPiece& p
   const auto& section = road::section_at(road, s);
   const int outermost = piece.side > 0 ? section.left_count : section.right_count;
   const auto borders = road::lane_borders(road, section, piece.side * std::min(lane, outermost), s);
-  return {borders.centre_t_m(), borders.centre_slope()};
+  return {borders.centre_t_m(), borders.centre_slope(), 0.0};
 }
 
 LaneCentre between(const CentreLine::Knot& from, const CentreLine::Knot& to, double u) {
   constexpr double h = LaneTable::knot_step_m;
   const double rise = to.t_m - from.t_m, m0 = h * from.slope_by_x, m1 = h * to.slope_by_x;
   const double quadratic = 3.0 * rise - 2.0 * m0 - m1, cubic = m0 + m1 - 2.0 * rise;
-  return {from.t_m + u * (m0 + u * (quadratic + u * cubic)),
-          (m0 + u * (2.0 * quadratic + u * 3.0 * cubic)) * (1.0 / h)};
+  return {from.t_m + u * (m0 + u * (quadratic + u * cubic)), (m0 + u * (2.0 * quadratic + u * 3.0 * cubic)) * (1.0 / h),
+          (2.0 * quadratic + u * 6.0 * cubic) * (1.0 / (h * h))};
 }
 
 CentreLine centre_line(const road::RoadNetwork& network, const Corridor& corridor, int lane) {
@@ -128,7 +128,7 @@ LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
   const auto k = static_cast<std::size_t>(at);
   if (k + 1 >= knots.size() || !knots[k].smooth) return exact_centre(network, piece, x_m, lane);
   const LaneCentre centre = between(knots[k], knots[k + 1], at - static_cast<double>(k));
-  return {centre.t_m, piece.along_s ? centre.slope : -centre.slope};
+  return {centre.t_m, piece.along_s ? centre.slope : -centre.slope, centre.slope_by_s};
 }
 
 LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor, const LaneTable& table,
@@ -137,7 +137,7 @@ LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& c
   const CorridorPiece& piece = piece_at(corridor, x);
   const LaneCentre centre = lane_centre(network, table, piece, x, lane);
   // Against s both t and s are turned round.
-  return {piece.along_s ? centre.t_m : -centre.t_m, centre.slope};
+  return {piece.along_s ? centre.t_m : -centre.t_m, centre.slope, centre.slope_by_s};
 }
 
 double lane_end_m(const LaneTable& table, int lane, double x_m) {

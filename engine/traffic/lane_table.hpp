@@ -14,9 +14,9 @@ struct OpenStretch {
   double begin_m = 0.0, end_m = 0.0;
 };
 
-/// The middle of a lane in the road's own t, and how it shifts along s.
+/// The middle of a lane in the road's own t, and how it shifts along s; the last is 0 where the road was asked.
 struct LaneCentre {
-  double t_m = 0.0, slope = 0.0;
+  double t_m = 0.0, slope = 0.0, slope_by_s = 0.0;
 };
 
 /// One lane's middle as it is driven: cubic between knots of which each has its place and slope, so

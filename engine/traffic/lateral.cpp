@@ -9,6 +9,12 @@ namespace {
 /// A lorry's tail sweeps out as it turns in: it takes more of the road's length.
 constexpr double shortest_change_m = 10.0, shortest_change_by_length = 3.0;
 
+/// What a slope loses a metre where the whole of a movement takes as long as before, and so more metres.
+double gains_speed(const CorridorTraffic& traffic, std::size_t i, double slope) {
+  const double speed = traffic.speed_mps[i];
+  return slope * traffic.acceleration_mps2[i] / (speed * speed);
+}
+
 }  // namespace
 
 double change_length_m(const CorridorTraffic& traffic, std::size_t i, double speed_mps) {
@@ -25,16 +31,26 @@ void begin_change(CorridorTraffic& traffic, std::size_t i, double offset_m, doub
 Lateral lateral(const CorridorTraffic& traffic, std::size_t i) {
   Lateral lateral{traffic.aside_m[i]};
   const double speed = traffic.speed_mps[i];
-  if (traffic.aside_mps[i] != 0.0) lateral.slope = traffic.aside_mps[i] / std::max(speed, slowest_aside_mps);
+  const double away = traffic.aside_m[i] - traffic.aside_target_m[i];
+  if (traffic.aside_mps[i] != 0.0 || away != 0.0) {
+    // The critically damped shift of make_way.cpp, by the distance driven.
+    const double by_way = 1.0 / std::max(speed, slowest_aside_mps);
+    lateral.slope = traffic.aside_mps[i] * by_way;
+    lateral.curvature_per_m = -(2.0 * traffic.aside_mps[i] + away / aside_time_s) / aside_time_s * by_way * by_way;
+    if (speed > slowest_aside_mps) lateral.curvature_per_m -= gains_speed(traffic, i, lateral.slope);
+  }
   const double u = traffic.change_part[i];
   if (u >= 1.0) return lateral;
   // Hermite: from an offset and a run (slope times length) to nothing.
   const double begun = traffic.change_offset_m[i], run = traffic.change_run_m[i];
   const double rest = 1.0 - u, cube = rest * rest * rest;
-  const double by_way = 1.0 / change_length_m(traffic, i, speed);
+  const double length = change_length_m(traffic, i, speed), by_way = 1.0 / length;
   lateral.offset_m += cube * (begun * (1.0 + u * (3.0 + 6.0 * u)) + run * u * (1.0 + 3.0 * u));
-  lateral.slope += rest * rest * by_way * (run * (1.0 + u * (2.0 - 15.0 * u)) - begun * 30.0 * u * u);
-  lateral.curvature_per_m = rest * u * by_way * by_way * (run * (60.0 * u - 36.0) - begun * 60.0 * (1.0 - 2.0 * u));
+  const double slope = rest * rest * by_way * (run * (1.0 + u * (2.0 - 15.0 * u)) - begun * 30.0 * u * u);
+  lateral.slope += slope;
+  if (length > shortest_change_m + shortest_change_by_length * traffic.length_m[i])
+    lateral.curvature_per_m -= gains_speed(traffic, i, slope);
+  lateral.curvature_per_m += rest * u * by_way * by_way * (run * (60.0 * u - 36.0) - begun * 60.0 * (1.0 - 2.0 * u));
   return lateral;
 }
 

@@ -18,6 +18,8 @@ struct Lateral {
 };
 
 inline constexpr double slowest_aside_mps = 8.0;
+/// Time constant of moving aside: 63 % of the way in about twice of it.
+inline constexpr double aside_time_s = 0.7;
 
 /// The way that a whole change of lane takes at this speed.
 double change_length_m(const CorridorTraffic& traffic, std::size_t vehicle, double speed_mps);

@@ -19,8 +19,6 @@ constexpr double clearance_m = 0.3;
 /// others' lines.
 constexpr double on_to_hard_strip_m = 0.4;
 constexpr double others_shift_m = 0.35;
-/// Time constant of moving aside: 63 % of the way in about twice of it.
-constexpr double aside_time_s = 0.7;
 
 /// Where in its lane somebody of this width makes room.
 double aside_for(const CorridorTraffic& traffic, std::size_t i) {

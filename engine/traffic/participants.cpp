@@ -46,15 +46,12 @@ void prefetch(const CorridorTraffic& traffic, std::size_t i) {
   __builtin_prefetch(&traffic.table.centres[static_cast<std::size_t>(traffic.lane[i])].knots[k]);
 }
 
-/// Fills in a blank participant; its origin is at `x`.
+/// Fills in a blank participant; its origin is at `x`. What it is told to do is the derivative of where it is told to be.
 void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel& model, double x,
               const road::RoadNetwork& network, double time_s, Participant& participant) {
-  const auto [piece, s, line] = line_at(network, traffic.corridor, traffic.line, x);
-  const double direction = piece.along_s ? 1.0 : -1.0;
-
-  const LaneCentre centre = lane_centre(network, traffic.table, piece, x, traffic.lane[i]);
-  const Lateral aside = lateral(traffic, i);
-  const double t = centre.t_m + direction * aside.offset_m;
+  const PathPoint path = path_at(network, traffic, i, x);
+  const auto& [piece, s, line] = path.at;
+  const double t = path.t_m, direction = path.direction, slope = path.slope;
   const Quat& world_from_line = line.world_from_line.orientation;
   const glm::dmat3 axes = glm::mat3_cast(world_from_line);
   const Vec3 &forward = axes[0], &left = axes[1], &up = axes[2];
@@ -66,35 +63,48 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   position_m.y = middle.y + t * left.y + above * up.y;
   position_m.z = middle.z + t * left.z + above * up.z;
   const double v = traffic.speed_mps[i];
-  // Of the path to the left of travel. The vehicle points where it goes; against s it is turned by
-  // half a turn as well.
-  const double slope = centre.slope + aside.slope;
+  // The vehicle points where it goes; against s it is turned by half a turn as well.
   Vec2 turned = direction > 0.0 ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0);
+  double pointed = 1.0;  // Cosine of the angle between the path and the line of constant t.
   if (slope != 0.0) {
-    const double way = 1.0 / std::sqrt(1.0 + slope * slope);
-    turned = half_turn(direction * way, direction * slope * way);
+    pointed = 1.0 / std::sqrt(1.0 + slope * slope);
+    turned = half_turn(direction * pointed, direction * slope * pointed);
   }
 
   participant.id = traffic.id[i];
   participant.model = look_of(traffic.model[i], traffic.id[i]);
   participant.paint = traffic.paint[i];
   turn_about_up(world_from_line, turned, participant.world_from_vehicle.orientation);
-  const double curvature_per_m =
-      direction * line.curvature_per_m / (1.0 - line.curvature_per_m * t) + aside.curvature_per_m;
-  const double yaw_rate = curvature_per_m * v;
+  // By a metre of the line of constant t: how that turns, and how the path turns against it.
+  const double line_turns = direction * line.curvature_per_m / path.tangent.stretch;
+  const double path_turns = path.curvature_per_m;
+  const double turns_per_m = line_turns + path_turns * pointed * pointed;
+  const double a = traffic.acceleration_mps2[i];
   const auto along_and_across = [&](double along, double left_of_it, Vec3& out) {
     out.x = direction * (forward.x * along + left.x * left_of_it);
     out.y = direction * (forward.y * along + left.y * left_of_it);
     out.z = direction * (forward.z * along + left.z * left_of_it);
   };
   along_and_across(v, v * slope, participant.velocity_mps);
-  along_and_across(traffic.acceleration_mps2[i], v * yaw_rate, participant.acceleration_mps2);
-  participant.angular_velocity_radps.z = yaw_rate;
-  participant.front_steer_rad = small_angle_rad(model.wheelbase_m * curvature_per_m);
-  // Rolling along the corridor is all that turns the wheels.
+  along_and_across(a - v * v * slope * line_turns, a * slope + v * v * (line_turns + path_turns),
+                   participant.acceleration_mps2);
+  // Beside the reference line of a bend that climbs, and where the road's tilt changes, it is steeper or less so.
+  if (path.tangent.up != 0.0) {
+    const double climbs = path.tangent.up / path.tangent.stretch - forward.z;
+    participant.velocity_mps.z += direction * v * climbs;
+    const double level = std::sqrt(1.0 - forward.z * forward.z);
+    if (level > 0.0) {
+      const double shorter = path.tangent.forward / path.tangent.stretch / level - 1.0;
+      participant.velocity_mps.x += direction * v * shorter * forward.x;
+      participant.velocity_mps.y += direction * v * shorter * forward.y;
+    }
+  }
+  participant.angular_velocity_radps.z = turns_per_m * v;
+  participant.front_steer_rad = small_angle_rad(model.wheelbase_m * turns_per_m * pointed);
+  // Rolling along its path is all that turns the wheels.
   constexpr double turn_rad = 2.0 * std::numbers::pi;
   const double radps_per_mps = 1.0 / model.wheel_radius_m;
-  const double turns = std::max(traffic.x_m[i], 0.0) * radps_per_mps * (1.0 / turn_rad);
+  const double turns = std::max(traffic.rolled_m[i], 0.0) * radps_per_mps * (1.0 / turn_rad);
   participant.wheel_spin_rad = (turns - std::floor(turns)) * turn_rad;
   participant.wheel_spin_radps = v * radps_per_mps;
   participant.lamps.set(Lamp::low_beam, true);
@@ -107,6 +117,20 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
 }
 
 }  // namespace
+
+PathPoint path_at(const road::RoadNetwork& network, const CorridorTraffic& traffic, std::size_t i, double x) {
+  PathPoint path{.at = line_at(network, traffic.corridor, traffic.line, x)};
+  const CorridorPiece& piece = path.at.piece;
+  path.direction = piece.along_s ? 1.0 : -1.0;
+  const LaneCentre centre = lane_centre(network, traffic.table, piece, x, traffic.lane[i]);
+  const Lateral aside = lateral(traffic, i);
+  path.t_m = centre.t_m + path.direction * aside.offset_m;
+  path.tangent = tangent_at(network.roads[piece.road], path.at.line, path.at.s_m, path.t_m);
+  const double by_way = 1.0 / path.tangent.stretch;
+  path.slope = centre.slope * by_way + aside.slope;
+  path.curvature_per_m = path.direction * centre.slope_by_s * by_way * by_way + aside.curvature_per_m;
+  return path;
+}
 
 void append_participants(const TrafficState& state, const road::RoadNetwork& network,
                          std::vector<Participant>& participants) {

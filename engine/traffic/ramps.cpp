@@ -74,7 +74,7 @@ void for_each_array(CorridorTraffic& a, CorridorTraffic& b, Visit visit) {
   visit(a.id, b.id), visit(a.model, b.model), visit(a.paint, b.paint);
   visit(a.driver, b.driver), visit(a.law, b.law);
   visit(a.x_m, b.x_m), visit(a.speed_mps, b.speed_mps);
-  visit(a.acceleration_mps2, b.acceleration_mps2);
+  visit(a.acceleration_mps2, b.acceleration_mps2), visit(a.rolled_m, b.rolled_m);
   visit(a.lane, b.lane), visit(a.from_lane, b.from_lane), visit(a.change_part, b.change_part);
   visit(a.change_offset_m, b.change_offset_m), visit(a.change_run_m, b.change_run_m);
   visit(a.next_decision_s, b.next_decision_s), visit(a.lane_end_m, b.lane_end_m);

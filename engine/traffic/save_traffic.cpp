@@ -23,10 +23,11 @@ SEPTET_MEMBERS(Ramp, main, way, exit, entry, lane)
 
 // Left out are the corridor and what is looked up of its roads. Kept is what a vehicle is for as long as it is there, drawn when it
 // came in, and what follows from the hashed or is found from it sooner.
-SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line), hashed(id), kept(model, paint, driver, law),
+SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line, ways), hashed(id),
+                     kept(model, paint, driver, law),
                      hashed(x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part, change_offset_m,
                             change_run_m, next_decision_s),
-                     kept(lane_end_m, length_m, half_width_m),
+                     kept(rolled_m, lane_end_m, length_m, half_width_m),
                      hashed(aside_m, aside_mps, aside_target_m, heard_s, making_way, emergency),
                      kept(neighbour_hints, any_aside, order, exits))
 // The corridors are taken one by one.

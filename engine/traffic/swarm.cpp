@@ -30,12 +30,12 @@ bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double lengt
   const auto wanted = [&](double speed) { return std::min(8.0 + 0.8 * speed, 0.45 * mean_gap); };
   std::uint32_t hint = 0;
   const auto [ahead, behind] = neighbours(traffic, lane, x_m, -1, hint);
-  if (gap_to(traffic, x_m, ahead) < wanted(speed_mps)) return false;
+  if (gap_to(traffic, lane, x_m, ahead) < wanted(speed_mps)) return false;
   if (behind == nullptr) return true;
   LaneEntry own;
   own.x_m = x_m;
   own.length_m = static_cast<float>(length_m);
-  return gap_to(traffic, behind->x_m, &own) > wanted(std::max(speed_mps, behind->speed_mps));
+  return gap_to(traffic, lane, behind->x_m, &own) > wanted(std::max(speed_mps, behind->speed_mps));
 }
 
 const VehicleClass& choose_class(const TrafficParameters& parameters, Random& random) {
@@ -69,7 +69,7 @@ int likely_lane(const CorridorTraffic& traffic, std::size_t i, double x_m, Rando
 }
 
 void put(CorridorTraffic& traffic, std::size_t i, int lane, double x_m) {
-  traffic.x_m[i] = x_m;
+  traffic.x_m[i] = traffic.rolled_m[i] = x_m;
   traffic.acceleration_mps2[i] = 0.0;
   traffic.lane[i] = traffic.from_lane[i] = static_cast<std::int16_t>(lane);
   traffic.change_part[i] = 1.0;
@@ -89,13 +89,14 @@ bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, double mean_
   const int lane = likely_lane(traffic, i, x, random);
   if (lane_end_m(traffic.table, lane, x) < x + 300.0) return false;
   const FollowingParameters& following = traffic.driver[i].following;
-  const double speed =
-      std::min(0.85 * following.desired_speed_mps, idm_equilibrium_speed(following, std::max(3.0, mean_gap)));
+  const double allowed = allowed_speed_mps(traffic.ways.lanes[static_cast<std::size_t>(lane)], x, false);
+  const double speed = std::min(
+      {0.85 * following.desired_speed_mps, idm_equilibrium_speed(following, std::max(3.0, mean_gap)), allowed});
   if (!clear_at(traffic, lane, x, traffic.length_m[i], speed, mean_gap)) return false;
   // As fast as the one ahead allows: who comes in does not have to brake at once.
   std::uint32_t hint = 0;
   const LaneEntry* ahead = neighbours(traffic, lane, x, -1, hint).ahead;
-  traffic.speed_mps[i] = gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
+  traffic.speed_mps[i] = gap_to(traffic, lane, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
   put(traffic, i, lane, x);
   return true;
 }
@@ -259,8 +260,10 @@ void recycle(const TrafficParameters& parameters, double middle, Random& random,
       LaneEntry own;
       own.x_m = x, own.length_m = static_cast<float>(traffic.length_m[i]);
       if (within_ends(traffic, x) && lane_end_m(traffic.table, lane, x) == no_leader &&
-          gap_to(traffic, x, front) > 2.0 && (behind == nullptr || gap_to(traffic, behind->x_m, &own) > 2.0)) {
-        traffic.speed_mps[i] = speed;
+          gap_to(traffic, lane, x, front) > 2.0 &&
+          (behind == nullptr || gap_to(traffic, lane, behind->x_m, &own) > 2.0)) {
+        const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
+        traffic.speed_mps[i] = std::min(speed, allowed_speed_mps(way, x, false));
         put(traffic, i, lane, x);
         continue;
       }
@@ -287,7 +290,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     follow(traffic);
     make_way(traffic, placed_foreign[c].emergencies, dt_s);
     change_lanes(parameters, network, state.time_s, dt_s, traffic);
-    state.bad_numbers += move(traffic, dt_s);
+    state.bad_numbers += move(network, traffic, dt_s);
     if (c < directions) recycle(parameters, middle, random, traffic);
   }
   take_ramps(state);

@@ -18,6 +18,7 @@ CorridorTraffic empty_corridor(const road::RoadNetwork& network, const Corridor&
   traffic.corridor = corridor;
   traffic.table = make_lane_table(network, traffic.corridor);
   traffic.line = make_line_table(network, traffic.corridor);
+  traffic.ways = make_lane_ways(network, traffic.corridor, traffic.table, traffic.line);
   traffic.order.lanes.resize(traffic.table.open.size());
   traffic.order.has_straddlers.resize(traffic.table.open.size());
   return traffic;
@@ -35,6 +36,7 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
   traffic.driver.push_back(driver);
   traffic.law.emplace_back(driver.following);
   traffic.x_m.push_back(x_m);
+  traffic.rolled_m.push_back(x_m);
   traffic.speed_mps.push_back(speed_mps);
   for (auto* array :
        {&traffic.acceleration_mps2, &traffic.change_offset_m, &traffic.change_run_m, &traffic.next_decision_s,
@@ -70,8 +72,22 @@ void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_
   insert_entry(left, entry_of(traffic, traffic.size() - 1));
 }
 
-std::uint32_t move(CorridorTraffic& traffic, double dt_s) {
+namespace {
+
+/// Metres of the vehicle's path a metre of x.
+double stretch_of(const road::RoadNetwork& network, const CorridorTraffic& traffic, std::size_t i) {
+  if (traffic.lane[i] == 0) return 1.0;
+  const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(traffic.lane[i])];
+  if (way.way_m.empty() && !changes_lane(traffic, i) && traffic.aside_m[i] == 0.0) return way.stretch;
+  const double x = std::clamp(wrap_x(traffic.corridor, rear_axle_x_m(traffic, i)), 0.0, traffic.corridor.length_m);
+  return path_at(network, traffic, i, x).tangent.stretch;
+}
+
+}  // namespace
+
+std::uint32_t move(const road::RoadNetwork& network, CorridorTraffic& traffic, double dt_s) {
   std::uint32_t bad_numbers = 0;
+  const bool straight = traffic.ways.straight;
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     if (!std::isfinite(traffic.acceleration_mps2[i])) {
       traffic.acceleration_mps2[i] = 0.0;
@@ -82,7 +98,8 @@ std::uint32_t move(CorridorTraffic& traffic, double dt_s) {
     // Who stops within the step stops where the braking ends.
     const double rolled = after >= 0.0 ? 0.5 * (before + after) * dt_s : -0.5 * before * before / a;
     traffic.speed_mps[i] = after > 0.0 ? after : 0.0;
-    double x = traffic.x_m[i] + rolled;
+    traffic.rolled_m[i] += rolled;
+    double x = traffic.x_m[i] + (straight ? rolled : rolled / stretch_of(network, traffic, i));
     if (traffic.corridor.closed && x >= traffic.corridor.length_m) x -= traffic.corridor.length_m;
     traffic.x_m[i] = x;
   }

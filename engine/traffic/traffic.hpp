@@ -25,6 +25,7 @@
 #include "engine/traffic/driver.hpp"
 #include "engine/traffic/lane_order.hpp"
 #include "engine/traffic/lane_table.hpp"
+#include "engine/traffic/lane_way.hpp"
 #include "engine/traffic/line_table.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -79,18 +80,21 @@ struct RampMouth {
   int lane = 0;
 };
 
-/// One corridor's vehicles, one entry per vehicle in every array. x is that of the front bumper.
+/// One corridor's vehicles, one entry per vehicle in every array. x is that of the front bumper, the length of the body before the rear axle
+/// counted as on a straight line.
 struct CorridorTraffic {
   Corridor corridor;
   LaneTable table;
   LineTable line;
+  LaneWays ways;
 
   std::vector<ParticipantId> id;
   std::vector<ModelIndex> model;
   std::vector<std::uint8_t> paint;
   std::vector<Driver> driver;
-  std::vector<FollowingLaw> law;  ///< Of the driver.
-  std::vector<double> x_m, speed_mps, acceleration_mps2;
+  std::vector<FollowingLaw> law;                          ///< Of the driver.
+  std::vector<double> x_m, speed_mps, acceleration_mps2;  ///< Speed and acceleration along the path, not by x.
+  std::vector<double> rolled_m;                           ///< Of the path; where it came in it is x.
   std::vector<std::int16_t> lane,
       from_lane;                    ///< The other lane it stands in; its own unless it changes. 0: waits outside.
   std::vector<double> change_part;  ///< Of the way of a change of lane; 1: none is going on.

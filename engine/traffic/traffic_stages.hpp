@@ -1,9 +1,11 @@
 #pragma once
 /// The stages of one tick of traffic and what they share. Used by engine/traffic only.
 
+#include <cmath>
 #include <span>
 #include <vector>
 
+#include "engine/traffic/lane_way.hpp"
 #include "engine/traffic/lateral.hpp"
 #include "engine/traffic/traffic.hpp"
 
@@ -47,18 +49,43 @@ struct Neighbours {
 };
 Neighbours neighbours(const CorridorTraffic& traffic, int lane, double x_m, std::int32_t self, std::uint32_t& hint);
 
-/// A way ahead on a ring is never negative.
-inline double way_ahead_m(const Corridor& corridor, double d) {
-  return corridor.closed && d < 0.0 ? d + corridor.length_m : d;
-}
 /// Where the vehicle frame's origin is: below the rear axle.
 inline double rear_axle_x_m(const CorridorTraffic& traffic, std::size_t vehicle) {
   return traffic.x_m[vehicle] - vehicle_models()[traffic.model[vehicle]].front_m();
 }
-/// From a front bumper at x to the rear bumper of the one ahead; infinite if there is none.
-inline double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead) {
-  return ahead == nullptr ? no_leader : way_ahead_m(traffic.corridor, ahead->x_m - x_m) - ahead->length_m;
+/// From a front bumper at x to the rear bumper of the one ahead, along the lane; infinite if there is none.
+inline double gap_to(const CorridorTraffic& traffic, int lane, double x_m, const LaneEntry* ahead) {
+  if (ahead == nullptr) return no_leader;
+  const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
+  return way_between_m(traffic.corridor, way, x_m, ahead->x_m) - ahead->length_m;
 }
+/// From x to where the lane ends, along it.
+inline double to_lane_end_m(const CorridorTraffic& traffic, int lane, double x_m, double end_m) {
+  const double d = end_m - x_m;
+  if (traffic.ways.straight || !(d > 0.0) || d > look_ahead_lane_end_m) return d;
+  const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
+  return way_at_m(way, end_m) - way_at_m(way, x_m);
+}
+/// What bends and posted limits leave of an acceleration in this lane; an emergency vehicle minds the bends alone. A number that is none
+/// stays so, to be counted.
+inline double within_bounds(const CorridorTraffic& traffic, int lane, double x_m, double speed_mps, bool emergency,
+                            double acceleration_mps2) {
+  const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
+  if (way.allowed_m2ps2.empty() || !std::isfinite(acceleration_mps2)) return acceleration_mps2;
+  const double allowed = allowed_acceleration_mps2(way, x_m, speed_mps, emergency);
+  return acceleration_mps2 < allowed ? acceleration_mps2 : allowed;
+}
+/// The vehicle's rear axle, which points along its path, as the road sees it.
+struct PathPoint {
+  LineAt at;
+  double direction = 1.0;  ///< 1 towards increasing s, −1 against it.
+  double t_m = 0.0;        ///< In the road's own sense.
+  LineTangent tangent;
+  /// Of the path against the line of constant t, by a metre of that, to the left of travel.
+  double slope = 0.0, curvature_per_m = 0.0;
+};
+PathPoint path_at(const road::RoadNetwork& network, const CorridorTraffic& traffic, std::size_t vehicle,
+                  double rear_axle_x_m);
 
 /// As the vehicle drives behind this entry; null: nobody.
 inline double acceleration_behind(const FollowingLaw& law, double speed_mps, const LaneEntry* ahead, double gap_m) {
@@ -77,7 +104,7 @@ void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& for
 void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, double time_s, double dt_s,
                   CorridorTraffic& traffic);
 /// Stage 4: speeds and places.
-std::uint32_t move(CorridorTraffic& traffic, double dt_s);
+std::uint32_t move(const road::RoadNetwork& network, CorridorTraffic& traffic, double dt_s);
 /// Stage 5: who left the simulation comes in again.
 void recycle(const TrafficParameters& parameters, double middle_x_m, Random& random, CorridorTraffic& traffic);
 /// A swarm is a ring that travels with its middle: beyond each rim goes on what is at the other, so

@@ -194,8 +194,9 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
     const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
     const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m, model.front_m(), model.width_m};
     if (!road::drivable_lanes_under(roads, place->position, body).contains(car.lane)) continue;
-    // The driver's station is that of the front axle; distances are between bumpers.
-    const double to_rear_axle = direction * (place->position.s_m - car.road_s_m);
+    // The driver's station is that of the front axle; distances are between bumpers, along the driver's lane.
+    const double to_rear_axle =
+        direction * road::length_along_lane_m(roads, {car.road, car.lane, car.road_s_m, 0.0}, place->position.s_m);
     const double own_front = own.front_m() - own.wheelbase_m;
     const double gap = to_rear_axle - model.rear_overhang_m - own_front;
     if (gap < -2.0 || gap > 250.0 || (leader && gap > leader->distance_gap_m)) continue;

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/road/opendrive_reader.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "tests/engine/road/road_files.hpp"
 #include "tests/relative.hpp"
@@ -39,6 +41,50 @@ TEST_CASE("the log's leader is whose body is in the driver's lane, not who stand
   const VehicleModel& saloon = vehicle_models()[*find_vehicle_model("saloon")];
   const VehicleModel& own = vehicle_models()[*find_vehicle_model("volvo-s80")];
   CHECK(half_in->distance_gap_m == relative(40.0 - saloon.rear_overhang_m - own.front_m(), 0.02));
+}
+
+TEST_CASE("headway and gap of the log are along the lane in which both drive, not along the reference line") {
+  // Of five bends: both sides, both lanes, tight and wide; by the lane's radius times the angle between them.
+  const struct {
+    double curvature_per_m;
+    int lane;
+  } bends[] = {{0.02, -1}, {0.02, -2}, {-0.02, -1}, {1.0 / 150.0, -2}, {-1.0 / 400.0, -2}};
+  for (const auto& [curvature, lane] : bends) {
+    CAPTURE(curvature);
+    CAPTURE(lane);
+    const auto width = [](int id) {
+      return fmt::format(R"(<lane id="{}" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)", id);
+    };
+    const auto roads = road::read_opendrive(
+        fmt::format(
+            R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="290" junction="-1"><planView>)"
+            R"(<geometry s="0" x="0" y="0" hdg="0" length="290"><arc curvature="{}"/></geometry></planView><lanes><laneSection s="0">)"
+            R"(<center><lane id="0" type="none"/></center><right>{}{}</right></laneSection></lanes></road></OpenDRIVE>)",
+            curvature, width(-1), width(-2)),
+        "bend.xodr");
+    REQUIRE(roads);
+    const VehicleModel& own = vehicle_models()[*find_vehicle_model("volvo-s80")];
+    const VehicleModel& saloon = vehicle_models()[*find_vehicle_model("saloon")];
+    const double own_s_m = 60.0, ahead_s_m = 112.0;
+    Snapshot snapshot;
+    for (const ParticipantId id : {1u, 2u}) {
+      Participant body;
+      body.id = id;
+      body.model = *find_vehicle_model(id == 1 ? "volvo-s80" : "saloon");
+      body.world_from_vehicle =
+          road::world_from_lane(road::evaluate_lane(*roads, {0, lane, id == 1 ? own_s_m : ahead_s_m, 0.0}));
+      snapshot.participants.push_back(body);
+    }
+    const double stretch = 1.0 - curvature * (lane + 0.5) * 3.5;
+    snapshot.driver_car.participant = 1;
+    snapshot.driver_car.lane = lane;
+    snapshot.driver_car.road_s_m = own_s_m + own.wheelbase_m / stretch;
+    const auto leader = find_leader(snapshot, *roads);
+    REQUIRE(leader);
+    const double between_m = (ahead_s_m - own_s_m) * stretch;
+    CHECK(leader->distance_gap_m == relative(between_m - saloon.rear_overhang_m - own.front_m(), 1e-6));
+    CHECK(leader->distance_headway_m == relative(between_m + saloon.front_m() - own.front_m(), 1e-6));
+  }
 }
 
 }  // namespace septet::server

@@ -169,6 +169,20 @@ TEST_CASE("a condition of several entities holds for any or for all as it says")
   CHECK_FALSE(both("all"));
 }
 
+TEST_CASE("a distance in lane coordinates is along the lanes, in road coordinates along the reference line") {
+  const auto network = test_road(road_text(R"(<arc curvature="0.01"/>)"));
+  const road::LanePosition outer{0, -3, 100.0, 0.0}, inner{0, 3, 100.0, 0.0};
+  const auto at = [](road::LanePosition position, double s_m) {
+    position.s_m = s_m;
+    return position;
+  };
+  CHECK(road_distance_m(network, outer, true, at(outer, 200.0)) == doctest::Approx(100.0));
+  CHECK(road_distance_m(network, outer, true, at(outer, 200.0), true) == relative(100.0 * 1.0875, 1e-9));
+  CHECK(road_distance_m(network, outer, true, at(outer, 50.0), true) == relative(-50.0 * 1.0875, 1e-9));
+  CHECK(road_distance_m(network, inner, false, at(inner, 50.0), true) == relative(50.0 * 0.9125, 1e-9));
+  CHECK(road_distance_m(network, inner, true, at(inner, 150.0), true) == relative(50.0 * 0.9125, 1e-9));
+}
+
 TEST_CASE("what is behind on the next road is behind in either direction of driving") {
   const auto straight = [](const std::string& id, double x, double length, const std::string& link) {
     return "<road id=\"" + id + "\" length=\"" + std::to_string(length) + "\" junction=\"-1\"><link>" + link +

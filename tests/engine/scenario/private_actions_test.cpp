@@ -12,6 +12,45 @@
 
 namespace septet::scenario {
 
+TEST_CASE(
+    "what is told of a scripted vehicle is the derivative of its place: in bends, on hills, changing lanes and askew") {
+  const std::string hill = R"(<elevationProfile><elevation s="0" a="0" b="0.08" c="0" d="0"/></elevationProfile>)";
+  const std::string askew =
+      "<PrivateAction><TeleportAction><Position><LanePosition roadId=\"R\" laneId=\"-2\" s=\"100\"><Orientation "
+      "h=\"0.4\" type=\"relative\"/></LanePosition></Position></TeleportAction></PrivateAction>";
+  const struct {
+    std::string shape, profiles, place;
+  } roads[] = {{R"(<arc curvature="0.02"/>)", "", place_text(-2, 100)},
+               {R"(<arc curvature="-0.02"/>)", "", place_text(-2, 100)},
+               {"<line/>", hill, place_text(-2, 100)},
+               {R"(<spiral curvStart="0" curvEnd="0.02"/>)", hill, place_text(-2, 100)},
+               {R"(<arc curvature="0.01"/>)", "", askew}};
+  for (const auto& [shape, profiles, place] : roads) {
+    CAPTURE(shape + profiles + place);
+    const std::string init = private_text("A", place + speed_text(12)) + private_text("B", place_text(-3, 900));
+    Drive drive(
+        scenario_text(init,
+                      story_text(event_text("change", lane_change_text(1, "sinusoidal", "time", 4.0), at_time(1.0)) +
+                                 event_text("faster", speed_text(16, "linear", "time", 4.0), at_time(3.0)))),
+        test_road(road_text(shape, profiles)));
+    drive.run_until(0.5);
+    std::size_t off = 0, seen = 0;
+    EntityState before = drive.a();
+    drive.run_until(0.51);
+    EntityState now = drive.a();
+    for (double time_s = 0.52; time_s < 8.0; time_s += 0.01) {
+      drive.run_until(time_s);
+      const Vec3 moved = (drive.a().world_from_entity.position_m - before.world_from_entity.position_m) / 0.02;
+      off += glm::length(moved - now.velocity_mps) > 1.5e-3 * now.speed_mps;
+      ++seen;
+      before = now;
+      now = drive.a();
+    }
+    CHECK(seen > 700);
+    CHECK(off <= 4);
+  }
+}
+
 TEST_CASE("every shape takes its time and ends at its speed") {
   for (const std::string shape : {"linear", "sinusoidal", "cubic"}) {
     CAPTURE(shape);

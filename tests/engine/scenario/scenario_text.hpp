@@ -11,8 +11,8 @@
 
 namespace septet::scenario {
 
-/// 2 km straight along x, lanes 3.5 m wide, ids 1 to 3 and −1 to −3, right-hand traffic.
-inline std::string road_text() {
+/// 2 km, straight along x where nothing else is said, lanes 3.5 m wide, ids 1 to 3 and −1 to −3, right-hand traffic.
+inline std::string road_text(const std::string& shape = "<line/>", const std::string& profiles = "") {
   std::string lanes[2];
   for (int id = 3; id >= 1; --id) {
     const std::string width = R"( type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
@@ -20,14 +20,14 @@ inline std::string road_text() {
     lanes[1] = "<lane id=\"-" + std::to_string(id) + "\"" + width + lanes[1];
   }
   return R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="R" length="2000" junction="-1"><planView>)"
-         R"(<geometry s="0" x="0" y="0" hdg="0" length="2000"><line/></geometry></planView>)"
-         R"(<lanes><laneSection s="0"><left>)" +
-         lanes[0] + R"(</left><center><lane id="0" type="none"/></center><right>)" + lanes[1] +
+         R"(<geometry s="0" x="0" y="0" hdg="0" length="2000">)" +
+         shape + "</geometry></planView>" + profiles + R"(<lanes><laneSection s="0"><left>)" + lanes[0] +
+         R"(</left><center><lane id="0" type="none"/></center><right>)" + lanes[1] +
          "</right></laneSection></lanes></road></OpenDRIVE>";
 }
 
-inline road::RoadNetwork test_road() {
-  auto network = road::read_opendrive(road_text(), "test.xodr");
+inline road::RoadNetwork test_road(const std::string& text = road_text()) {
+  auto network = road::read_opendrive(text, "test.xodr");
   REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
   return std::move(*network);
 }
@@ -113,12 +113,13 @@ inline Scenario read_or_stop(const std::string& text) {
 /// A scenario that runs in steps of 0.01 s.
 struct Drive {
   Scenario scenario;
-  road::RoadNetwork network = test_road();
+  road::RoadNetwork network;
   ScenarioState state;
   StepResult start;
   std::vector<StoryboardEvent> events;
 
-  explicit Drive(const std::string& text) : scenario(read_or_stop(text)) {
+  explicit Drive(const std::string& text, road::RoadNetwork roads = test_road())
+      : scenario(read_or_stop(text)), network(std::move(roads)) {
     auto started = start_scenario(scenario, network, no_entity, start);
     REQUIRE_MESSAGE(started.has_value(), describe(started.error()));
     state = std::move(*started);

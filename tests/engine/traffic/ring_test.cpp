@@ -10,11 +10,13 @@
 namespace septet::traffic {
 namespace {
 
-/// Equal cars on a ring of one lane, about 2 km round.
+/// Equal cars on a ring of one lane, about 2 km round. Theory speaks of a straight road without an end: the ring's lane is as long as its
+/// line here, and its bend bounds no speed.
 TrafficState equal_cars(const road::RoadNetwork& network, int count, const Driver& driver, double uneven) {
   TrafficState state;
   state.corridors.push_back(empty_corridor(network, {0, -1, 1.0, 0.0}));
   CorridorTraffic& traffic = state.corridors[0];
+  traffic.ways = {.straight = true, .lanes = std::vector<LaneWay>(traffic.ways.lanes.size())};
   for (int k = 0; k < count; ++k) {
     const double x = traffic.corridor.length_m / count * (k + uneven * std::sin(2.4 * k));
     add_vehicle(traffic, static_cast<ParticipantId>(k), model_named("saloon"), driver, 1, wrap_x(traffic.corridor, x),
