@@ -1,5 +1,6 @@
 # What `cmake --install` copies, in two components: `programs` (with data and documents) and `development` (libraries, headers,
-# samples). The target `installed` is all that has to be built for it. Programs find data and module by their own place, so
+# samples). The target `installed` is all that has to be built for it,
+# `programs` what its commands start: programs, and the modules that they load. Programs find data and module by their own place, so
 # every prefix will do (program/resources.hpp).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -7,11 +8,13 @@ set(SEPTET_INSTALL_DATA ${CMAKE_INSTALL_DATADIR}/septet)
 set(SEPTET_INSTALL_MODULES lib/septet/modules)
 set(SEPTET_INSTALL_CONFIG ${CMAKE_INSTALL_LIBDIR}/cmake/septet)
 add_custom_target(installed)
+add_custom_target(programs)
 
 # septet_install_programs(target…)
 function(septet_install_programs)
   install(TARGETS ${ARGN} COMPONENT programs RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} LIBRARY DESTINATION ${SEPTET_INSTALL_MODULES})
   add_dependencies(installed ${ARGN})
+  add_dependencies(programs ${ARGN})
 endfunction()
 
 # septet_install_libraries(name…): these of Septet's libraries and all of Septet's that they need, as septet::NAME.

@@ -128,6 +128,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   advance_storyboard(model, car, state, events);
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
+  if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});
   auto participants = participants_now(model, state, car.participant, std::move(old.participants));
   run_effects(model, participants, state, car, events);
   participants.front() = car.participant;  // The lowest id; the effects may have pushed it.

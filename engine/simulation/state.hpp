@@ -56,7 +56,8 @@ struct State {
 
 /// Something that happened in a step, for the log.
 struct Event {
-  std::string kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "bad_number", "right_of_way", ….
+  std::string
+      kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "bad_number", "traffic", "right_of_way", ….
   std::optional<ParticipantId> participant;
   std::string detail;
 };

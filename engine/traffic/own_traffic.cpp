@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "engine/traffic/save_traffic.hpp"
 #include "engine/traffic/traffic_engine.hpp"
@@ -16,9 +19,13 @@ class OwnTraffic final : public TrafficEngine {
   }
   void stop() override { state_ = {}; }
   void advance(std::span<const ForeignVehicle> foreign, double dt_s) override {
+    const double before_s = state_.time_s;
     traffic::advance(parameters_, network_, foreign, dt_s, random_, state_);
+    if (before_s < swarm_remark_s && state_.time_s >= swarm_remark_s)
+      remark_ = swarm_remark(parameters_.count, vehicles_on_road());
   }
   void worsen(std::uint32_t more_vehicles) override { traffic::worsen(parameters_, more_vehicles, random_, state_); }
+  std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
   std::uint32_t take_bad_numbers() override { return std::exchange(state_.bad_numbers, 0); }
   void append_participants(std::vector<Participant>& participants) const override {
     traffic::append_participants(state_, network_, participants);
@@ -38,13 +45,27 @@ class OwnTraffic final : public TrafficEngine {
   }
 
  private:
+  std::size_t vehicles_on_road() const {
+    std::size_t count = 0;
+    for (const CorridorTraffic& traffic : state_.corridors)
+      count += traffic.size() - static_cast<std::size_t>(std::ranges::count(traffic.lane, std::int16_t{0}));
+    return count;
+  }
+
   const road::RoadNetwork& network_;
   TrafficParameters parameters_;
   TrafficState state_;
   Random random_;
+  std::optional<std::string> remark_;
 };
 
 }  // namespace
+
+std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road) {
+  const std::size_t off = asked > on_road ? asked - on_road : on_road - asked;
+  if (20 * off <= asked) return std::nullopt;
+  return fmt::format("asked={} on_road={}", asked, on_road);
+}
 
 std::unique_ptr<TrafficEngine> own_traffic(const road::RoadNetwork& network, std::uint64_t seed) {
   return std::make_unique<OwnTraffic>(network, seed);

@@ -257,6 +257,9 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   newest_ = memory_.share(simulation::server_step(*model_, input.input, state_, events, memory_.spare()));
   move_actuators(before->snapshot());
   show_instruments(input.input);
+  for (const auto& event : events)
+    if (event.kind == "traffic")
+      messages_.push_back("the road holds another number of vehicles than the swarm was asked for: " + event.detail);
   if (told_)
     for (const auto& event : events) told_(event, state_.time_s());
   if (auto error = state_.traffic->take_error()) {

@@ -12,8 +12,9 @@ Expected<ConnectSumo> load_sumo_module() {
   if (!std::filesystem::exists(file, ignored))
     file = program::own_folder().parent_path() / "lib/septet/modules/septet-sumo.so";
   if (!std::filesystem::exists(file, ignored))
-    return failure("this Septet was built without SUMO's client library", "--traffic sumo",
-                   "install the package sumo and build again, or drive with --traffic own");
+    return failure(
+        "this Septet was built without SUMO's client library", "--traffic sumo",
+        "build septet-sumo beside it (./run does, where the package sumo is installed), or drive with --traffic own");
   void* module =
       ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // Stays loaded: its objects may live as long as the program.
   void* connect = module ? ::dlsym(module, "septet_connect_sumo") : nullptr;

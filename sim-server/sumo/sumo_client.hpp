@@ -51,8 +51,9 @@ class SumoClient {
  public:
   virtual ~SumoClient() = default;
   virtual Expected<void> define_type(const SumoVehicleType& type) = 0;
-  /// It departs when SUMO finds room for it at that place, at the speed that its driver wants or the one ahead allows.
+  /// It departs when SUMO finds room for it at that place, at the speed that its driver wants or, where that cannot be, as fast as SUMO lets it.
   virtual Expected<void> add_vehicle(const SumoDeparture& departure) = 0;
+  /// One that SUMO does not know, for it has left or was thrown away, is gone: no error.
   virtual Expected<void> remove_vehicle(ParticipantId id) = 0;
   /// Where a vehicle that others move is after the next step, whatever its route; off every road nobody minds it.
   virtual Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double heading_rad) = 0;

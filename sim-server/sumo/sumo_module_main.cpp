@@ -71,6 +71,7 @@ class TraciClient final : public SumoClient {
 
   Expected<void> add_vehicle(const SumoDeparture& departure) override {
     return asked([&] {
+      // A speed that is demanded ("desired", or a number) and cannot be kept into the next edge has the vehicle thrown away; "max" is lowered.
       // A route is known by where it begins: the rest follows from the corridor.
       const std::string route = departure.route.front() + ">" + departure.route.back();
       if (std::ranges::find(routes_, route) == routes_.end()) {
@@ -79,7 +80,7 @@ class TraciClient final : public SumoClient {
       }
       ++entries_[departure.id];
       libtraci::Vehicle::add(name_of(departure.id), route, departure.type, "now", std::to_string(departure.lane_index),
-                             std::to_string(departure.along_m), "desired");
+                             std::to_string(departure.along_m), "max");
       if (!departure.watched) libtraci::Vehicle::setSpeedMode(name_of(departure.id), 0);
       if (!departure.watched) unwatched_.push_back(name_of(departure.id));
     });
@@ -88,8 +89,12 @@ class TraciClient final : public SumoClient {
   Expected<void> remove_vehicle(ParticipantId id) override {
     return asked([&] {
       // SUMO would still answer the subscription once, with an error.
-      if (std::erase(watched_, name_of(id)) > 0) libtraci::Vehicle::unsubscribe(name_of(id));
-      libtraci::Vehicle::remove(name_of(id));
+      try {
+        if (std::erase(watched_, name_of(id)) > 0) libtraci::Vehicle::unsubscribe(name_of(id));
+        libtraci::Vehicle::remove(name_of(id));
+      } catch (const libsumo::TraCIException&) {
+        // SUMO knows it no more: it came to the end of its way, or was never set out.
+      }
     });
   }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double straight_step_m = 10.0, curved_step_m = 2.0;
 constexpr double curved_per_m = 1.0 / 1500.0;  // Chords of 10 m stay within 1 cm of anything flatter.
-/// The drivers bring their own desired speed; the road sets none.
+/// Where no limit is posted: the drivers bring their own desired speed.
 constexpr double no_limit_mps = 80.0;
 /// Times round a ring, for SUMO's routes have an end.
 constexpr int laps = 40;
@@ -81,16 +81,33 @@ int index_of(const std::vector<int>& lanes, int lane) {
   return static_cast<int>(std::ranges::find(lanes, lane) - lanes.begin());
 }
 
+/// Where a lane goes on: as its links say; without any, within one road, as the lane of the same number, which is how Septet's own traffic
+/// goes through a file that does not link the lanes of its sections.
+std::vector<road::LaneContinuation> beyond(const road::RoadNetwork& roads, const SumoEdge& edge, int lane) {
+  auto found = road::continuations(roads, edge.road, edge.section, lane, edge.along_s);
+  if (!found.empty()) return found;
+  const auto& sections = roads.roads[edge.road].sections;
+  if (edge.along_s ? edge.section + 1 >= sections.size() : edge.section == 0) return found;
+  const std::uint32_t next = edge.along_s ? edge.section + 1 : edge.section - 1;
+  if (sections[next].has_lane(lane)) found.push_back({edge.road, next, lane, edge.along_s});
+  return found;
+}
+
 std::vector<Link> links_of(const road::RoadNetwork& roads, const std::vector<SumoEdge>& edges) {
   std::vector<Link> links;
   for (std::size_t from = 0; from < edges.size(); ++from)
     for (const int lane : edges[from].lanes)
-      for (const auto& next :
-           road::continuations(roads, edges[from].road, edges[from].section, lane, edges[from].along_s))
+      for (const auto& next : beyond(roads, edges[from], lane))
         if (const auto to = find_edge(edges, next.road, next.section, next.lane);
             to && edges[*to].along_s == next.towards_increasing_s)
           links.push_back({from, *to, index_of(edges[from].lanes, lane), index_of(edges[*to].lanes, next.lane)});
   return links;
+}
+
+/// The posted limit that most of the edge has.
+double limit_mps(const road::RoadNetwork& roads, const SumoEdge& edge, int lane) {
+  const double limit = road::speed_limit_mps(roads, {edge.road, lane, 0.5 * (edge.begin_s_m + edge.end_s_m), 0.0});
+  return limit > 0.0 ? limit : no_limit_mps;
 }
 
 /// Edges' ends that meet are one node: ends 2e (begin of edge e) and 2e + 1 (its end), joined by the links.
@@ -113,6 +130,8 @@ SumoNetwork make_sumo_network(const road::RoadNetwork& roads) {
   for (road::RoadIndex road = 0; road < roads.roads.size(); ++road) add_edges(roads, road, network.edges);
   const auto links = links_of(roads, network.edges);
   const auto node = nodes_of(network.edges.size(), links);
+  for (const Link& link : links) network.followers.emplace_back(link.from, link.to);
+  std::ranges::sort(network.followers);
 
   std::vector<Vec2> sum(node.size(), Vec2(0.0));
   std::vector<double> count(node.size(), 0.0);
@@ -130,8 +149,8 @@ SumoNetwork make_sumo_network(const road::RoadNetwork& roads) {
       else if (i == 0)
         middle = line;
       const double width = road::lane_width_m(roads, edge.road, edge.lanes[i], 0.5 * (edge.begin_s_m + edge.end_s_m));
-      lanes += fmt::format("  <lane index=\"{}\" width=\"{:.2f}\" shape=\"{}\"/>\n", i, std::max(width, 2.0),
-                           shape_text(line));
+      lanes += fmt::format("  <lane index=\"{}\" speed=\"{:.2f}\" width=\"{:.2f}\" shape=\"{}\"/>\n", i,
+                           limit_mps(roads, edge, edge.lanes[i]), std::max(width, 2.0), shape_text(line));
     }
     for (const auto& [end, point] : {std::pair{2 * e, middle.front()}, std::pair{2 * e + 1, middle.back()}}) {
       sum[node[end]] += point;
@@ -169,7 +188,7 @@ SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roa
   place.lane_index = index_of(edge.lanes, at.lane);
   place.along_m = edge.along_s ? at.s_m - edge.begin_s_m : edge.end_s_m - at.s_m;
   // The rest of the way: every piece of the corridor, section by section in the direction of travel.
-  std::vector<std::string> way;
+  std::vector<std::size_t> way;
   std::size_t here = 0;
   for (const auto& piece : corridor.pieces) {
     const auto sections = static_cast<std::uint32_t>(roads.roads[piece.road].sections.size());
@@ -180,11 +199,17 @@ SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roa
       });
       if (found == network.edges.end()) continue;
       if (found->road == edge.road && found->section == edge.section) here = way.size();
-      way.push_back(found->id);
+      way.push_back(static_cast<std::size_t>(found - network.edges.begin()));
     }
   }
-  place.route.assign(way.begin() + static_cast<std::ptrdiff_t>(here), way.end());
-  for (int lap = 0; corridor.closed && lap < laps; ++lap) place.route.insert(place.route.end(), way.begin(), way.end());
+  // As far as lanes lead from edge to edge: SUMO ends at a route with a gap.
+  const std::size_t rounds = corridor.closed ? laps * way.size() : way.size() - here;
+  for (std::size_t i = 0; i < rounds; ++i) {
+    const std::size_t edge_now = way[(here + i) % way.size()];
+    if (i > 0 && !std::ranges::binary_search(network.followers, std::pair(way[(here + i - 1) % way.size()], edge_now)))
+      break;
+    place.route.push_back(network.edges[edge_now].id);
+  }
   return place;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/road/road_network.hpp"
@@ -25,12 +26,14 @@ struct SumoEdge {
 
 struct SumoNetwork {
   std::vector<SumoEdge> edges;
+  std::vector<std::pair<std::size_t, std::size_t>>
+      followers;  ///< Edges with a lane that goes on into another one; ascending.
   std::string nodes_xml, edges_xml, connections_xml;
 };
 
 SumoNetwork make_sumo_network(const road::RoadNetwork& roads);
 
-/// A place in SUMO's network, and the edges that follow it along the corridor.
+/// A place in SUMO's network, and the edges that follow it along the corridor as far as lanes lead into them.
 struct SumoPlace {
   std::vector<std::string> route;  ///< The first is the one that the place is on.
   int lane_index = 0;

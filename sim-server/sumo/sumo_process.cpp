@@ -12,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/document/text_file.hpp"
 
 namespace septet::server {
@@ -21,10 +22,11 @@ namespace {
 
 constexpr auto patience = 5min;
 
-// The drivers are Septet's: car following by IDM with each one's own parameters. Lateral movement is continuous, by SUMO's
+// The drivers are Septet's: car following by IDM with each one's own parameters, and the limit is the limit (SUMO's own would take it with a
+// factor of each). Lateral movement is continuous, by SUMO's
 // sublane model, and vehicles with a beacon have SUMO's own device for them.
 constexpr const char* types_xml = R"(<additional>
-<vType id="driver" carFollowModel="IDM" laneChangeModel="SL2015" vClass="passenger" latAlignment="center" lcSigma="0"/>
+<vType id="driver" carFollowModel="IDM" laneChangeModel="SL2015" vClass="passenger" latAlignment="center" lcSigma="0" speedFactor="1" speedDev="0"/>
 <vType id="foreign" carFollowModel="IDM" laneChangeModel="SL2015" vClass="passenger" latAlignment="center"/>
 <vType id="emergency" carFollowModel="IDM" laneChangeModel="SL2015" vClass="emergency" latAlignment="arbitrary">
 <param key="has.bluelight.device" value="true"/><param key="device.bluelight.reactiondist" value="300"/></vType>
@@ -54,13 +56,48 @@ Expected<int> free_port() {
   return ntohs(address.sin_port);
 }
 
-/// The line of SUMO's own log that says what is wrong.
-std::string first_error_in(const fs::path& log) {
+/// The last line of SUMO's own log that says what is wrong; empty: none.
+std::string error_in(const fs::path& log) {
   std::ifstream file(log);
+  std::string error;
   for (std::string line; std::getline(file, line);)
-    if (line.starts_with("Error")) return line;
-  return "it ended at once";
+    if (line.starts_with("Error")) error = line;
+  return printable(error);
 }
+
+std::string error_or_end(const fs::path& log) {
+  const std::string error = error_in(log);
+  return error.empty() ? "it ended at once" : error;
+}
+
+/// What SUMO itself says of it goes with each of its client's errors.
+class ExplainingClient final : public SumoClient {
+ public:
+  ExplainingClient(std::unique_ptr<SumoClient> client, fs::path log)
+      : client_(std::move(client)), log_(std::move(log)) {}
+
+  Expected<void> define_type(const SumoVehicleType& type) override { return explained(client_->define_type(type)); }
+  Expected<void> add_vehicle(const SumoDeparture& departure) override {
+    return explained(client_->add_vehicle(departure));
+  }
+  Expected<void> remove_vehicle(ParticipantId id) override { return explained(client_->remove_vehicle(id)); }
+  Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double heading_rad) override {
+    return explained(client_->place_vehicle(id, front_m, heading_rad));
+  }
+  Expected<std::vector<SumoVehicle>> step() override { return explained(client_->step()); }
+
+ private:
+  template <class Value>
+  Expected<Value> explained(Expected<Value> outcome) const {
+    if (outcome) return outcome;
+    Error error = outcome.error();
+    if (const std::string said = error_in(log_); !said.empty()) error.what += "; SUMO's own words: " + said;
+    return tl::unexpected(std::move(error));
+  }
+
+  std::unique_ptr<SumoClient> client_;
+  fs::path log_;
+};
 
 }  // namespace
 
@@ -113,7 +150,7 @@ Expected<void> SumoProcess::convert_network() {
   const auto until = std::chrono::steady_clock::now() + patience;
   while (!process->poll() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(5ms);
   if (!process->poll() || process->poll()->code != 0)
-    return failure("SUMO's netconvert does not accept the road: " + first_error_in(folder_.path() / "netconvert.err"),
+    return failure("SUMO's netconvert does not accept the road: " + error_or_end(folder_.path() / "netconvert.err"),
                    "--traffic sumo", "drive with --traffic own");
   return {};
 }
@@ -145,6 +182,8 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
                                                              std::to_string(options.seed % 2147483647),
                                                              "--collision.action",
                                                              "none",
+                                                             "--ignore-route-errors",
+                                                             "true",
                                                              "--time-to-teleport",
                                                              "-1",
                                                              "--no-step-log",
@@ -165,11 +204,11 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
   const auto until = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < until) {
     if (process_->poll())
-      return failure("SUMO does not start: " + first_error_in(folder_.path() / "sumo.err"), "--traffic sumo",
+      return failure("SUMO does not start: " + error_or_end(folder_.path() / "sumo.err"), "--traffic sumo",
                      "drive with --traffic own");
     auto client = (*connect)(*port);
     if (client) {
-      client_ = std::move(*client);
+      client_ = std::make_unique<ExplainingClient>(std::move(*client), folder_.path() / "sumo.err");
       return {};
     }
     std::this_thread::sleep_for(20ms);

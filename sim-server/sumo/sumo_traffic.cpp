@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/core.h>
 
@@ -18,6 +19,8 @@ constexpr double turn = 6.283185307179586477;
 constexpr double rim_m = 60.0;
 /// A place at the rim that SUMO finds no room at is given up after half a second.
 constexpr int patient_steps = 10;
+/// The first second, in which the swarm is set out, and how long each place is tried then.
+constexpr int setting_out_steps = 20, patient_steps_at_first = 2;
 constexpr double drift_time_s = 0.3;
 constexpr double slip_time_s = 2.0, most_slip_m = 6.0;
 constexpr double brake_lamp_mps2 = 0.7;
@@ -48,7 +51,13 @@ void SumoTraffic::start(const traffic::TrafficParameters& parameters, std::span<
   running_ = true;
   for (std::size_t c = 0; c < corridors_.size() && running_; ++c) {
     const auto& corridor = corridors_[c];
-    for (std::size_t i = 0; i < corridor.size() && running_; ++i) {
+    // From the front to the back: SUMO sets out as fast as the one ahead allows, but nobody close before one who is there.
+    std::vector<std::size_t> front_first(corridor.size());
+    std::iota(front_first.begin(), front_first.end(), std::size_t{0});
+    std::ranges::stable_sort(front_first,
+                             [&](std::size_t a, std::size_t b) { return corridor.x_m[a] > corridor.x_m[b]; });
+    for (const std::size_t i : front_first) {
+      if (!running_) break;
       const VehicleModel& model = vehicle_models()[corridor.model[i]];
       members_.push_back({.id = corridor.id[i],
                           .model = corridor.model[i],
@@ -80,6 +89,7 @@ void SumoTraffic::stop() {
   before_.clear();
   after_.clear();
   phase_s_ = 0.0;
+  steps_ = 0;
   running_ = false;
 }
 
@@ -101,10 +111,24 @@ void SumoTraffic::leave(Member& member) {
   ok(client_->remove_vehicle(member.id));
 }
 
+/// Somewhere within the swarm, as long as it is being set out. Whether it was asked for.
+bool SumoTraffic::set_out_again(Member& member, double middle_x_m) {
+  const auto& corridor = corridors_[member.corridor];
+  const double length = corridor.corridor.length_m;
+  double x = middle_x_m + random_.uniform(-parameters_.radius_m, parameters_.radius_m);
+  if (corridor.corridor.closed) x = traffic::wrap_x(corridor.corridor, x);
+  if (!corridor.corridor.closed && (x < rim_m || x > length - rim_m)) return false;
+  const int lowest = corridor.table.lowest, highest = std::max(lowest, corridor.table.highest);
+  const int lane = lowest + static_cast<int>(random_.below(static_cast<std::uint64_t>(highest - lowest + 1)));
+  if (traffic::lane_end_m(corridor.table, lane, x) < x + 300.0) return false;
+  enter(member, lane, x);
+  return member.stay == Member::Stay::asked_for;
+}
+
 /// As Septet's own swarm: out of the radius on one side, in again on the other; slower ones come in ahead.
 void SumoTraffic::recycle(Member& member, const road::RoadPosition& middle, double middle_speed_mps) {
   const auto& corridor = corridors_[member.corridor];
-  if (corridor.corridor.closed) return;
+  if (corridor.corridor.closed && steps_ > setting_out_steps) return;
   const auto x_of = [&](const road::RoadPosition& place) -> std::optional<double> {
     for (const auto& piece : corridor.corridor.pieces)
       if (piece.road == place.road) return traffic::x_of(roads_, corridor.corridor, place, piece.side);
@@ -113,13 +137,20 @@ void SumoTraffic::recycle(Member& member, const road::RoadPosition& middle, doub
   const auto middle_x = x_of(middle);
   if (!middle_x) return;
   if (member.stay == Member::Stay::on_road) {
+    if (corridor.corridor.closed) return;
     const auto x = member.place ? x_of(*member.place) : std::nullopt;
     if (x && std::abs(*x - *middle_x) < parameters_.radius_m + rim_m) return;
     leave(member);
   }
+  const bool setting_out = steps_ <= setting_out_steps;
   if (member.stay == Member::Stay::asked_for) {
-    if (++member.steps_waiting < patient_steps) return;
+    if (++member.steps_waiting < (setting_out ? patient_steps_at_first : patient_steps)) return;
     leave(member);
+  }
+  if (setting_out) {
+    for (int attempt = 0; attempt < 4 && running_ && member.stay == Member::Stay::outside; ++attempt)
+      set_out_again(member, *middle_x);
+    return;
   }
   const bool ahead = member.desired_speed_mps < middle_speed_mps;
   const bool this_side = random_.below(4) != 0;
@@ -157,6 +188,7 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
     ok(tl::unexpected(vehicles.error()));
     return;
   }
+  ++steps_;
   before_ = std::move(after_);
   after_.clear();
   std::optional<road::Location> middle;  // Of the swarm: the first foreign vehicle.
@@ -174,6 +206,13 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
     if (middle) recycle(member, middle->position, glm::length(foreign.front().velocity_mps));
     if (!running_) return;
   }
+  make_remark();
+}
+
+void SumoTraffic::make_remark() {
+  if (steps_ != setting_out_steps) return;
+  const auto there = std::ranges::count(members_, Member::Stay::on_road, &Member::stay);
+  remark_ = traffic::swarm_remark(parameters_.count, static_cast<std::size_t>(there));
 }
 
 std::optional<Participant> SumoTraffic::participant_of(Member& member, const SumoVehicle& vehicle, bool is_new) const {

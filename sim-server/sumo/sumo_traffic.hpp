@@ -3,7 +3,8 @@
 ///
 /// SUMO runs one of its steps (50 ms) ahead of the drive; ticks in between are interpolated (interpolate.hpp). The swarm is
 /// the one that Septet's own engine would set out: same places, same kinds of vehicles, same drivers with IDM; whoever falls
-/// out of its radius comes in at the other rim. Positions are mapped by x and y; height and tilt are those of Septet's road,
+/// out of its radius comes in at the other rim. Whom SUMO cannot set out where Septet would is set out somewhere else in the swarm during the
+/// first second, at its rims later on; until then he is not there. Positions are mapped by x and y; height and tilt are those of Septet's road,
 /// heading is that of the road with the vehicle's drift across it, because SUMO's own turns in steps. Vehicles that others
 /// move are told to SUMO at each of its steps, at where they will be then.
 
@@ -29,6 +30,7 @@ class SumoTraffic final : public traffic::TrafficEngine {
   void advance(std::span<const traffic::ForeignVehicle> foreign, double dt_s) override;
   void append_participants(std::vector<Participant>& participants) const override;
   void add_to_hash(StateHash& hash) const override;
+  std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
   std::optional<Error> take_error() override { return std::exchange(error_, std::nullopt); }
 
  private:
@@ -49,9 +51,11 @@ class SumoTraffic final : public traffic::TrafficEngine {
   bool ok(const Expected<void>& outcome);
   void enter(Member& member, int lane, double x_m);
   void leave(Member& member);
+  bool set_out_again(Member& member, double middle_x_m);
   void recycle(Member& member, const road::RoadPosition& middle, double middle_speed_mps);
   void place_foreign(std::span<const traffic::ForeignVehicle> foreign, double ahead_s);
   void step(std::span<const traffic::ForeignVehicle> foreign);
+  void make_remark();
   std::optional<Participant> participant_of(Member& member, const SumoVehicle& vehicle, bool is_new) const;
   Participant shown(const Participant& participant) const;
 
@@ -67,6 +71,8 @@ class SumoTraffic final : public traffic::TrafficEngine {
   double phase_s_ = 0.0;                     ///< Since `before_`.
   double time_s_ = 0.0;
   bool running_ = false;
+  int steps_ = 0;  ///< Since the swarm was asked for.
+  std::optional<std::string> remark_;
   std::optional<Error> error_;
 };
 

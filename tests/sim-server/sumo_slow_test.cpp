@@ -6,11 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "engine/road/road_locate.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "program/resources.hpp"
+#include "program/temporary_folder.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
@@ -36,14 +40,57 @@ std::shared_ptr<const simulation::Model> motorway() {
   return drive->model;
 }
 
+/// What a road's two lane sections hold to the right of the reference line, and how the road runs.
+struct RoadText {
+  std::string shape, first, second;
+};
+
+std::string lane_text(int id, const std::string& type, const std::string& link,
+                      const std::string& width = R"(a="3.5" b="0" c="0" d="0")") {
+  return fmt::format(R"(<lane id="{}" type="{}"><link>{}</link><width sOffset="0" {}/></lane>)", id, type, link, width);
+}
+
+/// 600 m with a limit, the driver's car at 60 m, twelve vehicles asked for.
+std::shared_ptr<const simulation::Model> own_road(const std::filesystem::path& folder, const RoadText& text) {
+  ::setenv("SEPTET_DATA", source_folder().c_str(), 1);
+  const std::string section =
+      R"(<left><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></left><center><lane id="0" type="none"/></center>)";
+  std::ofstream(folder / "road.xodr") << fmt::format(
+      R"(<OpenDRIVE><header revMajor="1" revMinor="6"/><road id="7" length="600" junction="-1"><type s="0" type="town"><speed max="50" unit="km/h"/></type>)"
+      R"(<planView><geometry s="0" x="0" y="0" hdg="0" length="600">{}</geometry></planView><lanes>)"
+      R"(<laneSection s="0">{}<right>{}</right></laneSection>{}</lanes></road></OpenDRIVE>)",
+      text.shape, section, text.first,
+      text.second.empty()
+          ? std::string()
+          : fmt::format(R"(<laneSection s="300">{}<right>{}</right></laneSection>)", section, text.second));
+  std::ofstream(folder / "road.xosc")
+      << R"(<OpenSCENARIO><FileHeader revMajor="1" revMinor="2" date="2026-01-01T00:00:00" author="a" description="d"/>
+<ParameterDeclarations/><CatalogLocations/><RoadNetwork><LogicFile filepath="road.xodr"/></RoadNetwork>
+<Entities><ScenarioObject name="ego"><Vehicle name="volvo-s80" vehicleCategory="car" mass="1677"><BoundingBox><Center x="1.3" y="0" z="0.72"/>
+<Dimensions width="1.83" length="4.82" height="1.44"/></BoundingBox><Performance maxSpeed="60" maxAcceleration="4" maxDeceleration="9"/><Axles>
+<FrontAxle maxSteering="0.6" wheelDiameter="0.64" trackWidth="1.57" positionX="2.79" positionZ="0.32"/>
+<RearAxle maxSteering="0" wheelDiameter="0.64" trackWidth="1.57" positionX="0" positionZ="0.32"/></Axles><Properties/></Vehicle></ScenarioObject></Entities>
+<Storyboard><Init><Actions><GlobalAction><TrafficAction trafficName="t"><TrafficSwarmAction innerRadius="15" semiMajorAxis="560" semiMinorAxis="560" offset="0" numberOfVehicles="12">
+<CentralObject entityRef="ego"/></TrafficSwarmAction></TrafficAction></GlobalAction><Private entityRef="ego"><PrivateAction><TeleportAction><Position>
+<LanePosition roadId="7" laneId="-1" s="60" offset="0"/></Position></TeleportAction></PrivateAction><PrivateAction><LongitudinalAction><SpeedAction>
+<SpeedActionDynamics dynamicsShape="step" dynamicsDimension="time" value="0"/><SpeedActionTarget><AbsoluteTargetSpeed value="10"/></SpeedActionTarget></SpeedAction>
+</LongitudinalAction></PrivateAction></Private></Actions></Init><StopTrigger/></Storyboard></OpenSCENARIO>)";
+  const auto rig = program::find_resource("desktop", "rigs", ".toml");
+  REQUIRE(rig.has_value());
+  auto drive = load_drive(DriveFiles{(folder / "road.xosc").string(), rig->string(), 1});
+  REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));
+  return drive->model;
+}
+
 /// A drive with the accelerator held, tick by tick.
 struct Ride {
-  std::shared_ptr<const simulation::Model> model = motorway();
+  std::shared_ptr<const simulation::Model> model;
   simulation::State state;
   std::vector<simulation::Event> events;
   DriverInput input;
 
-  explicit Ride(const std::string& engine) {
+  explicit Ride(const std::string& engine, std::shared_ptr<const simulation::Model> of = motorway())
+      : model(std::move(of)) {
     auto traffic = open_traffic(engine, *model);
     INFO((traffic ? "" : describe(traffic.error())));
     REQUIRE(traffic.has_value());
@@ -117,6 +164,59 @@ TEST_CASE("SUMO moves the swarm that the scenario asks for and every tick follow
   CHECK(worst_turn_rad < 0.01);
   CHECK(braking > 0);
   CHECK(indicating > 0);
+}
+
+TEST_CASE(
+    "SUMO drives on roads of several sections, bends and lanes that begin or are not linked, and a count that is not "
+    "met is told") {
+  if (!has_sumo()) return;
+  const std::string on = R"(<successor id="-1"/>)", on2 = R"(<successor id="-2"/>)", from = R"(<predecessor id="-1"/>)",
+                    from2 = R"(<predecessor id="-2"/>)";
+  const std::string two = lane_text(-1, "driving", on) + lane_text(-2, "driving", on2),
+                    two_go_on = lane_text(-1, "driving", from) + lane_text(-2, "driving", from2),
+                    unlinked = lane_text(-1, "driving", "") + lane_text(-2, "driving", "");
+  const std::string widens = R"(a="0" b="0" c="0.0042" d="-0.000056"/><width sOffset="50" a="3.5" b="0" c="0" d="0")";
+  const std::string begins =
+      lane_text(-1, "driving", "", widens) + lane_text(-2, "driving", from) + lane_text(-3, "driving", from2);
+  const std::string shifted = lane_text(-1, "driving", on2) + lane_text(-2, "driving", R"(<successor id="-3"/>)");
+  const RoadText roads[] = {{"<line/>", two, two_go_on},
+                            {R"(<arc curvature="0.006667"/>)", two, two_go_on},
+                            {R"(<arc curvature="0.0025"/>)", shifted, begins},
+                            {"<line/>", unlinked, unlinked},
+                            {R"(<arc curvature="-0.01"/>)", two, ""}};
+  const auto folder = program::TemporaryFolder::make("septet-test-sumo");
+  REQUIRE(folder.has_value());
+  for (const RoadText& road : roads) {
+    CAPTURE(road.shape + road.second);
+    Ride ride("sumo", own_road(folder->path(), road));
+    std::size_t after_a_second = 0, fast = 0, seen = 0;
+    std::map<ParticipantId, Participant> last;
+    for (int tick = 0; tick < 8 * 120; ++tick) {
+      const auto traffic = traffic_of(ride.step());
+      const auto error = ride.state.traffic->take_error();
+      REQUIRE_MESSAGE(!error, describe(*error));
+      if (tick == 120) after_a_second = traffic.size();
+      std::map<ParticipantId, Participant> now;
+      for (const Participant& p : traffic) {
+        now[p.id] = p;
+        const auto before = last.find(p.id);
+        if (before == last.end()) continue;
+        const Vec3 moved = 120.0 * (p.world_from_vehicle.position_m - before->second.world_from_vehicle.position_m);
+        if (glm::length(moved) > 100.0 || glm::length(p.velocity_mps) < 3.0) continue;
+        ++seen;
+        fast += std::abs(glm::length(moved) / glm::length(0.5 * (p.velocity_mps + before->second.velocity_mps)) - 1.0) >
+                0.02;
+      }
+      last = std::move(now);
+    }
+    const auto said = std::ranges::find(ride.events, "traffic", &simulation::Event::kind);
+    MESSAGE(road.shape << ": " << after_a_second << " of 12 after a second, " << last.size() << " at the end, "
+                       << (said == ride.events.end() ? "nothing said" : said->detail) << "; speed off in " << fast
+                       << " of " << seen);
+    CHECK(after_a_second > 0);
+    CHECK((said != ride.events.end()) == (after_a_second != 12));
+    CHECK(fast < seen / 50);
+  }
 }
 
 }  // namespace septet::server

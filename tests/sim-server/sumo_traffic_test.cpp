@@ -4,6 +4,7 @@
 #include <map>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "engine/road/opendrive_reader.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
@@ -18,9 +19,15 @@ class StraightSumo final : public SumoClient {
   std::map<ParticipantId, SumoVehicle> vehicles;
   std::map<ParticipantId, Vec2> foreign;
   int steps = 0, steps_until_gone = 1000;
+  ParticipantId refused_from = 1'000'000;  ///< From this id on nobody finds room.
+  int most_never = 0;
 
   Expected<void> define_type(const SumoVehicleType&) override { return {}; }
   Expected<void> add_vehicle(const SumoDeparture& departure) override {
+    if (departure.id >= refused_from) {
+      ++most_never;
+      return {};
+    }
     if (departure.watched)
       vehicles[departure.id] = {departure.id, {departure.along_m, -2.0}, 0.0, 20.0, 0.0, sumo_signal::brake_light};
     return {};
@@ -61,7 +68,8 @@ struct Scene {
   SumoTraffic traffic{roads, make_sumo_network(roads), sumo, 1};
   std::vector<traffic::ForeignVehicle> foreign{1};
 
-  Scene() {
+  explicit Scene(ParticipantId refused_from = 1'000'000) {
+    sumo->refused_from = refused_from;
     foreign[0].id = 1;
     foreign[0].world_from_vehicle.position_m = {2500.0, -2.0, 0.0};
     foreign[0].velocity_mps = {20.0, 0.0, 0.0};
@@ -97,6 +105,24 @@ TEST_CASE("between the steps of SUMO every tick is where the speed says") {
   CHECK(scene.sumo->steps == 2 + 20);
 }
 
+TEST_CASE("whom SUMO never sets out is asked for elsewhere, left out, counted and told once; the drive goes on") {
+  for (const ParticipantId refused_from : {1000u, 1003u, 1008u, 1009u, 1010u}) {
+    Scene scene(refused_from);
+    std::optional<std::string> said;
+    int remarks = 0;
+    for (int tick = 0; tick < 240; ++tick) {
+      scene.tick();
+      REQUIRE_FALSE(scene.traffic.take_error());
+      if (auto remark = scene.traffic.take_remark()) said = std::move(remark), ++remarks;
+    }
+    const std::size_t there = refused_from - 1000;
+    CHECK(remarks == (there == 10 ? 0 : 1));
+    if (there < 10) CHECK(said == fmt::format("asked=10 on_road={}", there));
+    if (there < 10) CHECK(scene.sumo->most_never > 20);
+    CHECK(scene.tick().size() == there);
+  }
+}
+
 TEST_CASE("SUMO is told where the vehicles of others will be at its next step") {
   Scene scene;
   scene.tick();
@@ -123,6 +149,30 @@ TEST_CASE("a SUMO that goes away is one error and the traffic stands still from 
   REQUIRE(before.size() == after.size());
   for (std::size_t i = 0; i < after.size(); ++i)
     CHECK(after[i].world_from_vehicle.position_m == before[i].world_from_vehicle.position_m);
+}
+
+TEST_CASE("a route leads as far as lanes do, and through sections of one road whose lanes the file does not link") {
+  const auto lane = [](int id, const std::string& type) {
+    return fmt::format(R"(<lane id="{}" type="{}"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)", id, type);
+  };
+  const auto road_of = [&](const std::string& second) {
+    auto roads = road::read_opendrive(
+        R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="600" junction="-1"><planView>)"
+        R"(<geometry s="0" x="0" y="0" hdg="0" length="600"><line/></geometry></planView><lanes><laneSection s="0">)"
+        R"(<center><lane id="0" type="none"/></center><right>)" +
+            lane(-1, "driving") +
+            R"(</right></laneSection><laneSection s="300"><center><lane id="0" type="none"/></center><right>)" +
+            second + "</right></laneSection></lanes></road></OpenDRIVE>",
+        "sections.xodr");
+    REQUIRE(roads);
+    return std::move(*roads);
+  };
+  const auto edges_of_route = [](const road::RoadNetwork& roads) {
+    const auto corridor = traffic::build_corridor(roads, {0, -1, 1.0, 0.0});
+    return place_in_sumo(make_sumo_network(roads), roads, corridor, 1, 100.0).route.size();
+  };
+  CHECK(edges_of_route(road_of(lane(-1, "driving"))) == 2);
+  CHECK(edges_of_route(road_of(lane(-1, "sidewalk") + lane(-2, "driving"))) == 1);
 }
 
 TEST_CASE("a road becomes one edge a direction whose lanes begin with the right-most") {
