@@ -10,7 +10,7 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double boundless = std::numeric_limits<double>::infinity();
 constexpr double least_stretch = 0.05;
 /// Of a uniform lane.
 constexpr double uniform_within = 1e-9;
@@ -61,7 +61,7 @@ LaneWay make_lane_way(const road::RoadNetwork& network, const Corridor& corridor
   LaneWay way;
   const auto steps = static_cast<std::size_t>(std::ceil(corridor.length_m / LaneWay::step_m));
   way.way_m.assign(1, 0.0);
-  way.allowed_m2ps2.assign(steps + 1, infinity);
+  way.allowed_m2ps2.assign(steps + 1, boundless);
   way.bend_allowed_m2ps2 = way.allowed_m2ps2;
   LaneSpot spot = spot_at(network, corridor, table, lines, 0.0, lane);
   way.stretch = spot.stretch;
@@ -69,7 +69,7 @@ LaneWay make_lane_way(const road::RoadNetwork& network, const Corridor& corridor
   for (std::size_t k = 0; k < steps; ++k) {
     // Both ends of a step mind what is within it; its length by Simpson's rule.
     const auto bound = [&] {
-      const double bend = spot.curvature_per_m != 0.0 ? bend_mps2 / std::abs(spot.curvature_per_m) : infinity;
+      const double bend = spot.curvature_per_m != 0.0 ? bend_mps2 / std::abs(spot.curvature_per_m) : boundless;
       const double limit = spot.limit_mps > 0.0 ? std::min(bend, spot.limit_mps * spot.limit_mps) : bend;
       for (const std::size_t end : {k, k + 1}) {
         way.bend_allowed_m2ps2[end] = std::min(way.bend_allowed_m2ps2[end], bend);
@@ -103,7 +103,7 @@ LaneWay make_lane_way(const road::RoadNetwork& network, const Corridor& corridor
 
 /// The square at x, and how it changes by a metre of x.
 struct Square {
-  double m2ps2 = infinity, by_x = 0.0;
+  double m2ps2 = boundless, by_x = 0.0;
 };
 Square square_at(std::span<const double> squares, double x_m) {
   if (squares.empty()) return {};
@@ -156,7 +156,7 @@ double allowed_speed_mps(const LaneWay& way, double x_m, bool is_exempt) {
 
 double allowed_acceleration_mps2(const LaneWay& way, double x_m, double speed_mps, bool is_exempt) {
   const Square square = square_at(is_exempt ? way.bend_allowed_m2ps2 : way.allowed_m2ps2, x_m);
-  if (square.m2ps2 >= unbounded_m2ps2) return infinity;
+  if (square.m2ps2 >= unbounded_m2ps2) return boundless;
   const double leads_mps2 = 0.5 * square.by_x / way.stretch;
   return std::max(-hardest_adapting_mps2, leads_mps2 + (std::sqrt(square.m2ps2) - speed_mps) / adapting_s);
 }
