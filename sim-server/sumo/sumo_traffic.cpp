@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "engine/road/road_locate.hpp"
-#include "engine/world/indicator.hpp"
 #include "engine/world/interpolate.hpp"
 
 namespace septet::server {
@@ -15,15 +14,11 @@ namespace {
 
 using traffic::ForeignVehicle;
 
-constexpr double turn = 6.283185307179586477;
 constexpr double rim_m = 60.0;
 /// A place at the rim that SUMO finds no room at is given up after half a second.
 constexpr int patient_steps = 10;
 /// The first second, in which the swarm is set out, and how long each place is tried then.
 constexpr int setting_out_steps = 20, patient_steps_at_first = 2;
-constexpr double drift_time_s = 0.3;
-constexpr double slip_time_s = 2.0, most_slip_m = 6.0;
-constexpr double brake_lamp_mps2 = 0.7;
 
 bool is_emergency(const ForeignVehicle& vehicle) {
   return vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren);
@@ -199,7 +194,13 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
     if (seen != vehicles->end() && seen->id == member.id) {
       const bool is_new = member.stay != Member::Stay::on_road;
       member.stay = Member::Stay::on_road;
-      if (auto participant = participant_of(member, *seen, is_new)) after_.push_back(*participant);
+      const double gained_mps = seen->speed_mps - member.speed_mps;
+      if (auto participant = participant_of(member, *seen, is_new)) {
+        const auto before = std::ranges::lower_bound(before_, member.id, {}, &Participant::id);
+        if (!is_new && before != before_.end() && before->id == member.id)
+          tell_sumo_motion(*before, gained_mps, *participant);
+        after_.push_back(*participant);
+      }
     } else if (member.stay == Member::Stay::on_road) {
       member.stay = Member::Stay::outside;  // It reached the end of its route.
     }
@@ -213,69 +214,6 @@ void SumoTraffic::make_remark() {
   if (steps_ != setting_out_steps) return;
   const auto there = std::ranges::count(members_, Member::Stay::on_road, &Member::stay);
   remark_ = traffic::swarm_remark(parameters_.count, static_cast<std::size_t>(there));
-}
-
-std::optional<Participant> SumoTraffic::participant_of(Member& member, const SumoVehicle& vehicle, bool is_new) const {
-  const VehicleModel& model = vehicle_models()[member.model];
-  const auto front = road::locate(roads_, vehicle.front_m, member.place ? &*member.place : nullptr);
-  if (!front) return std::nullopt;
-  const auto line = road::evaluate(roads_, front->position);
-  const double direction = std::cos(vehicle.heading_rad - line.heading_rad) >= 0.0 ? 1.0 : -1.0;
-  const double driven = 0.5 * (member.speed_mps + vehicle.speed_mps) * sumo_step_s;
-  if (is_new) {
-    member.lateral_mps = member.slip_m = 0.0;
-  } else if (member.place && member.place->road == front->position.road) {
-    const double rate = direction * (front->position.t_m - member.place->t_m) / sumo_step_s;
-    member.lateral_mps += (rate - member.lateral_mps) * sumo_step_s / drift_time_s;
-    // All lanes of an edge are equally long to SUMO: in a bend it sets whoever changes lanes forwards or back. That is
-    // taken up and given back slowly.
-    const double slip = direction * (front->position.s_m - member.place->s_m) * line.stretch - driven;
-    member.slip_m = std::abs(slip) < most_slip_m ? (member.slip_m - slip) * (1.0 - sumo_step_s / slip_time_s) : 0.0;
-  }
-  if (!is_new) member.rolled_m += driven;
-  member.place = front->position;
-  member.speed_mps = vehicle.speed_mps;
-
-  const double heading = line.heading_rad + (direction > 0.0 ? 0.0 : 0.5 * turn) +
-                         std::atan2(member.lateral_mps, std::max(vehicle.speed_mps, 1.0));
-  const Vec2 rear = vehicle.front_m + (member.slip_m - model.front_m()) * Vec2(std::cos(heading), std::sin(heading));
-  const double speed = vehicle.speed_mps - member.slip_m / slip_time_s;
-  const auto place = road::locate(roads_, rear, &*member.place);
-  if (!place) return std::nullopt;
-  const auto point = road::evaluate(roads_, place->position);
-  const RigidTransform world_from_line = road::world_from_road(point);
-  const Vec3 forward = world_from_line.orientation * Vec3(direction, 0.0, 0.0);
-  const Vec3 left = world_from_line.orientation * Vec3(0.0, direction, 0.0);
-  const double yaw_rate = direction * point.curvature_per_m * speed;
-
-  Participant participant;
-  participant.id = member.id;
-  participant.model = member.model;
-  participant.paint = member.paint;
-  participant.world_from_vehicle = {
-      point.position_m, world_from_line.orientation * glm::angleAxis(heading - point.heading_rad, Vec3(0, 0, 1))};
-  participant.velocity_mps = forward * speed + left * member.lateral_mps;
-  participant.acceleration_mps2 = forward * vehicle.acceleration_mps2 + left * (speed * yaw_rate);
-  participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
-  participant.front_steer_rad = std::atan(model.wheelbase_m * direction * point.curvature_per_m);
-  participant.wheel_spin_rad = std::fmod(member.rolled_m / model.wheel_radius_m, turn);
-  participant.wheel_spin_radps = speed / model.wheel_radius_m;
-  participant.lamps.set(Lamp::low_beam, true);
-  // At speed SUMO lights the brake lamps only from about 5 m/s²; drivers behind need to see less.
-  participant.lamps.set(
-      Lamp::brake, (vehicle.signals & sumo_signal::brake_light) != 0 || vehicle.acceleration_mps2 < -brake_lamp_mps2);
-  // Whether the indicator is on; it blinks where it is shown.
-  participant.lamps.set(Lamp::indicator_left, (vehicle.signals & sumo_signal::blinker_left) != 0);
-  participant.lamps.set(Lamp::indicator_right, (vehicle.signals & sumo_signal::blinker_right) != 0);
-  return participant;
-}
-
-Participant SumoTraffic::shown(const Participant& participant) const {
-  Participant result = participant;
-  const bool lit = indicator_is_lit(time_s_, participant.id);
-  for (const Lamp lamp : {Lamp::indicator_left, Lamp::indicator_right})
-    result.lamps.set(lamp, lit && participant.lamps.has(lamp));
-  return result;
 }
 
 void SumoTraffic::advance(std::span<const ForeignVehicle> foreign, double dt_s) {

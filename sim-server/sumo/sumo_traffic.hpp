@@ -76,4 +76,8 @@ class SumoTraffic final : public traffic::TrafficEngine {
   std::optional<Error> error_;
 };
 
+/// What a participant is told to do is the derivative of where it is shown: SUMO's own speed is that along a lane as long as all lanes of
+/// its edge are. `gained_mps`: by how much that has grown in the step.
+void tell_sumo_motion(const Participant& before, double gained_mps, Participant& now);
+
 }  // namespace septet::server
