@@ -11,6 +11,18 @@ constexpr std::string_view index_html =
 constexpr std::string_view page_css =
 #include "sim-server/page/web/page.css.inc"
     ;
+constexpr std::string_view language_js =
+#include "sim-server/page/web/language.js.inc"
+    ;
+constexpr std::string_view language_en_js =
+#include "sim-server/page/web/language_en.js.inc"
+    ;
+constexpr std::string_view language_de_js =
+#include "sim-server/page/web/language_de.js.inc"
+    ;
+constexpr std::string_view language_sv_js =
+#include "sim-server/page/web/language_sv.js.inc"
+    ;
 constexpr std::string_view socket_js =
 #include "sim-server/page/web/socket.js.inc"
     ;
@@ -51,6 +63,10 @@ std::vector<Resource> page_files() {
   constexpr const char* script = "text/javascript; charset=utf-8";
   return {{"/", "text/html; charset=utf-8", index_html},
           {"/page.css", "text/css; charset=utf-8", page_css},
+          {"/language.js", script, language_js},
+          {"/language_en.js", script, language_en_js},
+          {"/language_de.js", script, language_de_js},
+          {"/language_sv.js", script, language_sv_js},
           {"/socket.js", script, socket_js},
           {"/conditions.js", script, conditions_js},
           {"/live.js", script, live_js},

@@ -10,9 +10,9 @@ function option(value, text, about) {
 }
 
 function make_start() {
-  document.title = 'Septet: operator';
+  document.title = t('shell.title');
   $('scenario').textContent = 'Septet';
-  $('about').textContent = 'no drive goes on';
+  $('about').textContent = t('shell.no_drive');
   document.body.classList.remove('paused');
   const { scenarios, rigs, drivers, vehicles } = hello.choices;
   const fill_choice = (id, list, none) => {
@@ -21,9 +21,9 @@ function make_start() {
     if (list.some((one) => one.name === chosen)) $(id).value = chosen;
   };
   fill_choice('choosescenario', scenarios);
-  fill_choice('chooserig', rigs, 'desktop, or off-screen without a display');
-  fill_choice('choosedriver', drivers, 'whom the rig names: a person as a rule');
-  fill_choice('choosevehicle', vehicles, 'the rig’s');
+  fill_choice('chooserig', rigs, t('start.rig_default'));
+  fill_choice('choosedriver', drivers, t('start.driver_of_rig'));
+  fill_choice('choosevehicle', vehicles, t('start.vehicle_of_rig'));
   for (const id of ['chooserig', 'choosedriver', 'choosevehicle']) $(id).onchange = () => localStorage.setItem(id, $(id).value);
   $('choosescenario').onchange = () => { localStorage.setItem('choosescenario', $('choosescenario').value); show_scenario(); };
   show_scenario();
@@ -32,7 +32,7 @@ function make_start() {
 /// What the scenario is, and its parameters with their own values.
 function show_scenario() {
   const scenario = hello.choices.scenarios.find((one) => one.name === $('choosescenario').value);
-  $('scenarioabout').textContent = scenario ? scenario.about : 'There is no scenario.';
+  $('scenarioabout').textContent = scenario ? scenario.about : t('start.no_scenario');
   $('parameters').replaceChildren(...(scenario ? scenario.parameters : []).map(({ name, value }) => {
     const label = document.createElement('label'), input = document.createElement('input');
     input.placeholder = value;
@@ -56,13 +56,13 @@ function chosen() {
 function show_start() {
   const s = state;
   show_command();
-  $('phase').textContent = s.starting ? 'being made ready' : 'ready';
+  $('phase').textContent = t(s.starting ? 'shell.making_ready' : 'shell.ready');
   $('startbutton').disabled = s.starting;
   $('cancel').hidden = !s.starting;
   $('startcommand').textContent = s.command;
   $('startsaid').textContent = s.said.join('\n');
   $('startsaid').hidden = !s.said.length || (!s.starting && !s.failed);
-  $('startlast').textContent = s.starting ? 'Reading scenario and rig …' : s.last ? `The last drive: ${s.last}` : 'Nothing has been driven from this page yet.';
+  $('startlast').textContent = s.starting ? t('start.reading') : s.last ? t('start.last', { how: heard(s.last) }) : t('start.nothing_yet');
   $('startlast').classList.toggle('failed', s.failed);
   show_sessions();
 }
@@ -82,12 +82,12 @@ function show_sessions() {
     cell(session.started_utc.replace('T', ' ').replace('Z', ''), session.folder);
     cell(session.scenario, session.rig);
     cell(session.participant || '–');
-    cell(session.driver || 'a person');
+    cell(session.driver || t('past.a_person'));
     cell(session.simulated_s ? `${session.simulated_s.toFixed(0)} s` : '–');
-    cell(session.ended.replaceAll('_', ' '));
+    cell(has_text(`end.${session.ended}`) ? t(`end.${session.ended}`) : session.ended.replaceAll('_', ' '));
     cell(session.answered.join(', ') || '–');
     const files = cell('');
-    for (const [file, name, is_there] of [['report.html', 'Report', session.has_report], ['debrief.html', 'Debrief', session.has_debrief]]) {
+    for (const [file, name, is_there] of [['report.html', t('past.report'), session.has_report], ['debrief.html', t('past.debrief'), session.has_debrief]]) {
       if (!is_there) continue;
       const button = document.createElement('button');
       button.type = 'button';
@@ -99,7 +99,7 @@ function show_sessions() {
       const button = document.createElement('button');
       button.type = 'button';
       button.className = 'questionnaire';
-      button.textContent = 'Questionnaire';
+      button.textContent = t('past.questionnaire');
       button.onclick = () => ask_driver(session);
       files.append(button);
     }
@@ -112,16 +112,16 @@ function show_sessions() {
 function look(id, file) {
   const tab = window.open('about:blank');
   ask({ do: 'look', session: id, file }, (answer) => {
-    if (answer.ok && tab) tab.location = answer.path;
+    if (answer.ok && tab) tab.location = new URL(answer.path, location.href);
     else {
       if (tab) tab.close();
-      alarm(answer.why || 'The browser opens no new tab.');
+      alarm(answer.why ? heard(answer.why) : t('past.no_tab'));
     }
   });
 }
 
 $('startform').onsubmit = (event) => {
   event.preventDefault();
-  ask(chosen(), (answer) => { if (!answer.ok) alarm(`Not started: ${answer.why}`); });
+  ask(chosen(), (answer) => { if (!answer.ok) alarm(t('start.not_started', { why: heard(answer.why) })); });
 };
 $('cancel').onclick = () => ask({ do: 'cancel' }, () => {});
