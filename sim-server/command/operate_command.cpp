@@ -172,7 +172,7 @@ void Operation::show() {
 
 Expected<void> Operation::start(const page::DriveChoice& choice) {
   const auto command = command_of(choice, options_, new_folder(options_.out, choice.scenario));
-  const auto handed = listening_.copy(true);
+  auto handed = listening_.copy(true);
   if (!handed) return tl::unexpected(handed.error());
   program::ChildOptions child;
   child.program = (program::own_folder() / command.front()).string();
@@ -180,7 +180,7 @@ Expected<void> Operation::start(const page::DriveChoice& choice) {
   child.environment[page::handover_variable] = page::text_of({*handed, token_});
   child.log = logs_.path() / fmt::format("drive-{}.log", ++drives_);
   auto process = program::ChildProcess::start(child);
-  ::close(*handed);
+  handed->close();
   if (!process) return tl::unexpected(process.error());
   drive_.emplace(RunningDrive{std::move(*process), child.log, typed(command), ""});
   program::say("started: " + drive_->command);

@@ -105,7 +105,7 @@ struct StartPage::Shared {
       looks.push_back({random_token(), folders[static_cast<std::size_t>(session - view.sessions.begin())]});
       if (looks.size() > most_looks) looks.pop_front();
       return server->send(browser, shared_text(look_text(
-                                       message->id, std::string(past_begin) + looks.back().token + '/' + look->file)));
+                                       message->id, std::string(past_begin.substr(1)) + looks.back().token + '/' + look->file)));
     }
     if (const auto reply = helm.judge(browser, message->wish)) {
       answer(reply->why_not);
