@@ -23,7 +23,9 @@
 #include "program/resources.hpp"
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
+#include "sim-server/command/experiment_next.hpp"
 #include "sim-server/command/list_command.hpp"
+#include "sim-server/command/own_files.hpp"
 #include "sim-server/command/past_sessions.hpp"
 #include "sim-server/command/questionnaire_answers.hpp"
 #include "sim-server/page/request_checks.hpp"
@@ -35,7 +37,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto look_every = 20ms;
+constexpr auto look_every = 20ms, show_found_every = 250ms;
 constexpr std::size_t shown_lines = 8;
 
 /// The newest lines of what a drive has said, made printable.
@@ -72,21 +74,46 @@ struct RunningDrive {
   }
 };
 
-Expected<page::Choices> find_choices() {
+page::Choice choice_of(const ListEntry& entry) {
+  return {printable(entry.name, 400), printable(entry.description, 1000), printable(entry.title, 200), entry.is_own};
+}
+
+/// What Septet came with, what lies in the folder that one stands in, in those that are given and in that of the rig that is given.
+Expected<page::Choices> find_choices(const OperateOptions& options) {
+  std::vector<fs::path> given = options.data;
   page::Choices choices;
-  const auto take = [](const std::string& kind, std::vector<page::Choice>& into) -> Expected<void> {
-    const auto list = list_of(kind);
+  if (!options.rig.empty()) {
+    const auto rig = program::find_resource(options.rig, "rigs", ".toml");
+    if (!rig) return tl::unexpected(rig.error());
+    choices.first_rig = options.rig;
+    if (options.rig.find('/') != std::string::npos) given.push_back(rig->parent_path());
+  }
+  const auto folders = own_folders(given);
+  if (!folders) return tl::unexpected(folders.error());
+  const auto take = [&](const std::string& kind, std::vector<page::Choice>& into) -> Expected<void> {
+    const auto list = list_of(kind, *folders);
     if (!list) return tl::unexpected(list.error());
-    for (const ListEntry& entry : *list) into.push_back({entry.name, entry.description});
+    for (const ListEntry& entry : *list) into.push_back(choice_of(entry));
     return {};
   };
-  const auto scenarios = list_of("scenarios");
+  const auto scenarios = list_of("scenarios", *folders);
   if (!scenarios) return tl::unexpected(scenarios.error());
   for (const ListEntry& entry : *scenarios)
-    choices.scenarios.push_back({{entry.name, entry.description}, entry.parameters});
+    choices.scenarios.push_back({choice_of(entry), entry.parameters, entry.is_lesson, entry.is_game});
+  if (auto taken = take("experiments", choices.experiments); !taken) return tl::unexpected(taken.error());
   if (auto taken = take("rigs", choices.rigs); !taken) return tl::unexpected(taken.error());
   if (auto taken = take("drivers", choices.drivers); !taken) return tl::unexpected(taken.error());
   if (auto taken = take("vehicles", choices.vehicles); !taken) return tl::unexpected(taken.error());
+  // However it is written, a rig that was given is one of those that can be chosen.
+  const bool is_listed = std::ranges::any_of(choices.rigs, [&](const page::Choice& rig) {
+    std::error_code error;
+    return rig.name == choices.first_rig || fs::equivalent(rig.name, choices.first_rig, error);
+  });
+  if (!choices.first_rig.empty() && !is_listed)
+    choices.rigs.push_back({.name = choices.first_rig, .about = "", .title = "", .is_own = true});
+  for (const page::Choice& rig : choices.rigs)
+    if (std::error_code error; rig.is_own && fs::equivalent(rig.name, choices.first_rig, error))
+      choices.first_rig = rig.name;
   return choices;
 }
 
@@ -95,6 +122,9 @@ std::optional<std::string> no_choice(const page::Choices& choices, const page::D
   const auto is_one_of = [](const auto& list, const std::string& name) {
     return std::ranges::any_of(list, [&](const page::Choice& one) { return one.name == name; });
   };
+  if (!choice.experiment.empty())
+    return is_one_of(choices.experiments, choice.experiment) ? std::nullopt
+                                                             : std::optional<std::string>("there is no such experiment");
   if (!is_one_of(choices.scenarios, choice.scenario)) return "there is no such scenario";
   if (!choice.rig.empty() && !is_one_of(choices.rigs, choice.rig)) return "there is no such rig";
   if (!choice.driver.empty() && !is_one_of(choices.drivers, choice.driver)) return "there is no such driver";
@@ -104,7 +134,8 @@ std::optional<std::string> no_choice(const page::Choices& choices, const page::D
 }
 
 /// A new folder's name below `out`: when, and what.
-fs::path new_folder(const fs::path& out, const std::string& scenario) {
+fs::path new_folder(const fs::path& out, const std::string& name) {
+  const std::string scenario = fs::path(name).stem().string();  // Of one's own it is a file.
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
   ::gmtime_r(&now, &parts);
@@ -140,6 +171,7 @@ class Operation {
   std::optional<std::string> take_answers(const page::Answer& answer);
   Expected<void> start(const page::DriveChoice& choice);
   void attend_drive();
+  void attend_past();
   void end_drive(const program::ChildExit& exit);
 
   OperateOptions options_;
@@ -149,6 +181,8 @@ class Operation {
   program::TemporaryFolder logs_;
   std::string token_ = page::random_token();
   PastSessions past_;
+  FoundSessions found_;  ///< As the page shows them.
+  std::chrono::steady_clock::time_point shown_at_{};
   page::StartView view_;
   std::unique_ptr<page::StartPage> page_;  ///< None while a drive serves it.
   std::optional<RunningDrive> drive_;
@@ -166,12 +200,30 @@ Expected<void> Operation::open_page() {
 
 void Operation::show() {
   if (!page_) return;
-  view_.sessions = past_.sessions();
-  page_->show(view_, past_.folders());
+  found_ = past_.found();
+  view_.sessions = found_.sessions;
+  view_.is_looking = found_.is_looking;
+  page_->show(view_, found_.folders);
+}
+
+/// Sessions are shown as they are found, a few times a second.
+void Operation::attend_past() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!page_ || now - shown_at_ < show_found_every || !past_.has_news()) return;
+  shown_at_ = now;
+  show();
 }
 
 Expected<void> Operation::start(const page::DriveChoice& choice) {
-  const auto command = command_of(choice, options_, new_folder(options_.out, choice.scenario));
+  std::vector<std::string> command;
+  if (choice.experiment.empty()) {
+    command = command_of(choice, options_, new_folder(options_.out, choice.scenario));
+  } else {
+    const fs::path folder = options_.out / fs::path(choice.experiment).stem();
+    auto next = next_of_experiment({.file = choice.experiment, .out = folder, .only = choice.participant});
+    if (!next) return tl::unexpected(next.error());
+    command = command_of_experiment(*next, choice, options_);
+  }
   auto handed = listening_.copy(true);
   if (!handed) return tl::unexpected(handed.error());
   program::ChildOptions child;
@@ -207,9 +259,9 @@ void Operation::obey(const page::OperatorWish& wish) {
 }
 
 std::optional<std::string> Operation::take_answers(const page::Answer& answer) {
-  const auto session = std::ranges::find(past_.sessions(), answer.session, &page::PastSession::id);
-  if (session == past_.sessions().end()) return "there is no such session any more";
-  const auto folder = past_.folders()[static_cast<std::size_t>(session - past_.sessions().begin())];
+  const auto session = std::ranges::find(found_.sessions, answer.session, &page::PastSession::id);
+  if (session == found_.sessions.end()) return "there is no such session any more";
+  const auto folder = found_.folders[static_cast<std::size_t>(session - found_.sessions.begin())];
   if (auto why_not = keep_answers(questionnaires_, answer, folder / "session.sqlite")) return why_not;
   past_.look();
   return std::nullopt;
@@ -254,6 +306,7 @@ Expected<void> Operation::run() {
       if (auto opened = open_page(); !opened) return opened;
     if (page_)
       for (const auto& wish : page_->take_wishes()) obey(wish);
+    attend_past();
     std::this_thread::sleep_for(look_every);
   }
 }
@@ -274,7 +327,7 @@ std::vector<std::string> command_of(const page::DriveChoice& choice, const Opera
   };
   add("keys", options.keys.string());
   add("scenario", choice.scenario);
-  add("rig", choice.rig);
+  add("rig", choice.rig.empty() ? options.rig : choice.rig);
   add("driver", choice.driver);
   add("vehicle", choice.vehicle);
   add("models", options.models.string());
@@ -288,6 +341,41 @@ std::vector<std::string> command_of(const page::DriveChoice& choice, const Opera
   for (const auto& [name, value] : choice.parameters) command.push_back(fmt::format("--parameter={}={}", name, value));
   if (choice.start_now) command.emplace_back("--start-now");
   add("out", folder.string());
+  add("page", std::to_string(options.port));
+  for (const auto& host : options.page_hosts) add("page-host", host);
+  return command;
+}
+
+std::vector<std::string> command_of_experiment(const std::vector<std::string>& drive, const page::DriveChoice& choice,
+                                               const OperateOptions& options) {
+  const bool has_keys = !options.keys.empty();
+  std::vector<std::string> command{has_keys ? "septet-server" : "septet"};
+  if (!has_keys) command.emplace_back("drive");
+  const auto add = [&](const std::string& option, const std::string& value) {
+    if (!value.empty()) command.push_back(fmt::format("--{}={}", option, value));
+  };
+  add("keys", options.keys.string());
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    const std::string& word = drive[i];
+    if (word.find('=') != std::string::npos || i + 1 == drive.size()) {  // "--parameter=NAME=VALUE".
+      command.push_back(word);
+      continue;
+    }
+    const std::string option = word.substr(2), value = drive[++i];
+    // A rig that somebody has chosen is the one that stands here; of its server the rest goes by other names.
+    if (const std::string& rig = choice.rig.empty() ? options.rig : choice.rig; option == "rig" && !rig.empty())
+      add("rig", rig);
+    else if (has_keys && option == "log" && value == "samples")
+      command.emplace_back("--log-samples-only");
+    else if (has_keys && option == "log")
+      continue;  // The whole one is what it writes anyway.
+    else if (has_keys && (option == "group" || option == "part" || option == "order" || option == "condition"))
+      add("about", option + '=' + value);
+    else
+      add(option, value);
+  }
+  add("models", options.models.string());
+  if (choice.start_now) command.emplace_back("--start-now");
   add("page", std::to_string(options.port));
   for (const auto& host : options.page_hosts) add("page-host", host);
   return command;
@@ -313,7 +401,7 @@ std::string typed(const std::vector<std::string>& command) {
 }
 
 Expected<int> run_operate(OperateOptions options) {
-  auto choices = find_choices();
+  auto choices = find_choices(options);
   if (!choices) return tl::unexpected(choices.error());
   auto questionnaires = find_questionnaires();
   if (!questionnaires) return tl::unexpected(questionnaires.error());

@@ -50,6 +50,12 @@ constexpr std::string_view operator_js =
 constexpr std::string_view start_js =
 #include "sim-server/page/web/start.js.inc"
     ;
+constexpr std::string_view past_js =
+#include "sim-server/page/web/past.js.inc"
+    ;
+constexpr std::string_view record_js =
+#include "sim-server/page/web/record.js.inc"
+    ;
 constexpr std::string_view questionnaire_js =
 #include "sim-server/page/web/questionnaire.js.inc"
     ;
@@ -76,6 +82,8 @@ std::vector<Resource> page_files() {
           {"/things.js", script, things_js},
           {"/operator.js", script, operator_js},
           {"/start.js", script, start_js},
+          {"/past.js", script, past_js},
+          {"/record.js", script, record_js},
           {"/questionnaire.js", script, questionnaire_js},
           {"/page.js", script, page_js}};
 }

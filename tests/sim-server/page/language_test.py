@@ -8,8 +8,8 @@ import pathlib
 import re
 import sys
 
-# Keys that are put together when they are needed: a drive's end, a condition of the weather, a sentence of the server.
-MADE = ("end.", "condition.", "preset.", "said.", "severity.", "event.", "task.")
+# Keys that are put together when they are needed: a drive's end, a condition of the weather, a sentence of the server, a drive's title.
+MADE = ("end.", "condition.", "preset.", "said.", "severity.", "event.", "scenario.", "about.")
 
 
 def once(pairs):
@@ -53,6 +53,8 @@ def main():
             asked |= {key for key in re.findall(r"'([a-z]+\.[a-z_0-9]+)'", text) if key.split(".")[0] in areas}
             mistakes += [f"{file.name} asks for {key}" for key in re.findall(r"\bt\('([^']+)'", text) if key not in english]
     mistakes += [f"the page asks for {key}" for key in asked - english.keys()]
+    mistakes += [f"nothing asks for {key}" for key in english.keys() - asked if not key.startswith(MADE)]
+    mistakes += [f"English tells {key} in other words" for key, text in english.items() if key.startswith("said.") and key != f"said.{text}"]
     if mistakes:
         sys.exit("\n".join(sorted(mistakes)))
 
