@@ -17,15 +17,14 @@
 
 #include "engine/core/printable.hpp"
 #include "logging/drive_end.hpp"
-#include "logging/subject.hpp"
 #include "program/child_process.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
+#include "sim-server/command/chosen_command.hpp"
 #include "sim-server/command/experiment_next.hpp"
-#include "sim-server/command/list_command.hpp"
-#include "sim-server/command/own_files.hpp"
+#include "sim-server/command/operate_choices.hpp"
 #include "sim-server/command/past_sessions.hpp"
 #include "sim-server/command/questionnaire_answers.hpp"
 #include "sim-server/page/request_checks.hpp"
@@ -73,65 +72,6 @@ struct RunningDrive {
     return false;
   }
 };
-
-page::Choice choice_of(const ListEntry& entry) {
-  return {printable(entry.name, 400), printable(entry.description, 1000), printable(entry.title, 200), entry.is_own};
-}
-
-/// What Septet came with, what lies in the folder that one stands in, in those that are given and in that of the rig that is given.
-Expected<page::Choices> find_choices(const OperateOptions& options) {
-  std::vector<fs::path> given = options.data;
-  page::Choices choices;
-  if (!options.rig.empty()) {
-    const auto rig = program::find_resource(options.rig, "rigs", ".toml");
-    if (!rig) return tl::unexpected(rig.error());
-    choices.first_rig = options.rig;
-    if (options.rig.find('/') != std::string::npos) given.push_back(rig->parent_path());
-  }
-  const auto folders = own_folders(given);
-  if (!folders) return tl::unexpected(folders.error());
-  const auto take = [&](const std::string& kind, std::vector<page::Choice>& into) -> Expected<void> {
-    const auto list = list_of(kind, *folders);
-    if (!list) return tl::unexpected(list.error());
-    for (const ListEntry& entry : *list) into.push_back(choice_of(entry));
-    return {};
-  };
-  const auto scenarios = list_of("scenarios", *folders);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  for (const ListEntry& entry : *scenarios)
-    choices.scenarios.push_back({choice_of(entry), entry.parameters, entry.is_lesson, entry.is_game});
-  if (auto taken = take("experiments", choices.experiments); !taken) return tl::unexpected(taken.error());
-  if (auto taken = take("rigs", choices.rigs); !taken) return tl::unexpected(taken.error());
-  if (auto taken = take("drivers", choices.drivers); !taken) return tl::unexpected(taken.error());
-  if (auto taken = take("vehicles", choices.vehicles); !taken) return tl::unexpected(taken.error());
-  // However it is written, a rig that was given is one of those that can be chosen.
-  const bool is_listed = std::ranges::any_of(choices.rigs, [&](const page::Choice& rig) {
-    std::error_code error;
-    return rig.name == choices.first_rig || fs::equivalent(rig.name, choices.first_rig, error);
-  });
-  if (!choices.first_rig.empty() && !is_listed)
-    choices.rigs.push_back({.name = choices.first_rig, .about = "", .title = "", .is_own = true});
-  for (const page::Choice& rig : choices.rigs)
-    if (std::error_code error; rig.is_own && fs::equivalent(rig.name, choices.first_rig, error))
-      choices.first_rig = rig.name;
-  return choices;
-}
-
-/// What is no choice of the lists, which a browser may ask for all the same. Everything else the command line judges.
-std::optional<std::string> no_choice(const page::Choices& choices, const page::DriveChoice& choice) {
-  const auto is_one_of = [](const auto& list, const std::string& name) {
-    return std::ranges::any_of(list, [&](const page::Choice& one) { return one.name == name; });
-  };
-  if (!choice.experiment.empty())
-    return is_one_of(choices.experiments, choice.experiment) ? std::nullopt
-                                                             : std::optional<std::string>("there is no such experiment");
-  if (!is_one_of(choices.scenarios, choice.scenario)) return "there is no such scenario";
-  if (!choice.rig.empty() && !is_one_of(choices.rigs, choice.rig)) return "there is no such rig";
-  if (!choice.driver.empty() && !is_one_of(choices.drivers, choice.driver)) return "there is no such driver";
-  if (!choice.vehicle.empty() && !is_one_of(choices.vehicles, choice.vehicle)) return "there is no such vehicle";
-  if (!choice.order.empty() && !logging::is_order(choice.order)) return "the order is a whole number from 1 on";
-  return std::nullopt;
-}
 
 /// A new folder's name below `out`: when, and what.
 fs::path new_folder(const fs::path& out, const std::string& name) {
@@ -312,93 +252,6 @@ Expected<void> Operation::run() {
 }
 
 }  // namespace
-
-std::vector<std::string> command_of(const page::DriveChoice& choice, const OperateOptions& options,
-                                    const fs::path& folder) {
-  const bool has_keys = !options.keys.empty();
-  std::vector<std::string> command{has_keys ? "septet-server" : "septet"};
-  if (!has_keys) command.emplace_back("drive");
-  // As one word: a value may begin with a hyphen.
-  const auto add = [&](const std::string& option, const std::string& value) {
-    if (!value.empty()) command.push_back(fmt::format("--{}={}", option, value));
-  };
-  const auto add_about = [&](const std::string& key, const std::string& value) {
-    if (!value.empty()) has_keys ? add("about", key + '=' + value) : add(key, value);
-  };
-  add("keys", options.keys.string());
-  add("scenario", choice.scenario);
-  add("rig", choice.rig.empty() ? options.rig : choice.rig);
-  add("driver", choice.driver);
-  add("vehicle", choice.vehicle);
-  add("models", options.models.string());
-  add("participant", choice.participant);
-  add_about("group", choice.group);
-  add_about("condition", choice.condition);
-  add_about("order", choice.order);
-  add_about("note", choice.note);
-  add("seed", choice.seed);
-  add("seconds", choice.seconds);
-  for (const auto& [name, value] : choice.parameters) command.push_back(fmt::format("--parameter={}={}", name, value));
-  if (choice.start_now) command.emplace_back("--start-now");
-  add("out", folder.string());
-  add("page", std::to_string(options.port));
-  for (const auto& host : options.page_hosts) add("page-host", host);
-  return command;
-}
-
-std::vector<std::string> command_of_experiment(const std::vector<std::string>& drive, const page::DriveChoice& choice,
-                                               const OperateOptions& options) {
-  const bool has_keys = !options.keys.empty();
-  std::vector<std::string> command{has_keys ? "septet-server" : "septet"};
-  if (!has_keys) command.emplace_back("drive");
-  const auto add = [&](const std::string& option, const std::string& value) {
-    if (!value.empty()) command.push_back(fmt::format("--{}={}", option, value));
-  };
-  add("keys", options.keys.string());
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    const std::string& word = drive[i];
-    if (word.find('=') != std::string::npos || i + 1 == drive.size()) {  // "--parameter=NAME=VALUE".
-      command.push_back(word);
-      continue;
-    }
-    const std::string option = word.substr(2), value = drive[++i];
-    // A rig that somebody has chosen is the one that stands here; of its server the rest goes by other names.
-    if (const std::string& rig = choice.rig.empty() ? options.rig : choice.rig; option == "rig" && !rig.empty())
-      add("rig", rig);
-    else if (has_keys && option == "log" && value == "samples")
-      command.emplace_back("--log-samples-only");
-    else if (has_keys && option == "log")
-      continue;  // The whole one is what it writes anyway.
-    else if (has_keys && (option == "group" || option == "part" || option == "order" || option == "condition"))
-      add("about", option + '=' + value);
-    else
-      add(option, value);
-  }
-  add("models", options.models.string());
-  if (choice.start_now) command.emplace_back("--start-now");
-  add("page", std::to_string(options.port));
-  for (const auto& host : options.page_hosts) add("page-host", host);
-  return command;
-}
-
-std::string typed(const std::vector<std::string>& command) {
-  std::string line;
-  for (const std::string& word : command) {
-    const bool is_plain = std::ranges::all_of(word, [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-             std::string_view("-_=./:,+@%").find(c) != std::string_view::npos;
-    });
-    line += line.empty() ? "" : " ";
-    if (is_plain && !word.empty()) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) c == '\'' ? line += "'\\''" : line += c;
-    line += '\'';
-  }
-  return line;
-}
 
 Expected<int> run_operate(OperateOptions options) {
   auto choices = find_choices(options);

@@ -12,6 +12,7 @@
 #include "engine/core/printable.hpp"
 #include "engine/document/table_line.hpp"
 #include "logging/lesson/lesson.hpp"
+#include "logging/outcome.hpp"
 #include "logging/session_reader.hpp"
 #include "sim-server/command/session_command.hpp"
 #include "sim-server/page/signals_away.hpp"
@@ -84,7 +85,9 @@ page::PastSession session_of(const logging::SessionReader& reader) {
     }
   session.note = printable(row("note"), 500);
   add_marks(session, reader);
-  const double seconds = std::strtod(row("ended_simulated_time_s").c_str(), nullptr);
+  // A session without snapshots knows it by its outcome alone.
+  const auto outcome = logging::read_outcome(row("outcome"));
+  const double seconds = outcome ? outcome->simulated_s : std::strtod(row("ended_simulated_time_s").c_str(), nullptr);
   if (std::isfinite(seconds)) session.simulated_s = seconds;
   return session;
 }

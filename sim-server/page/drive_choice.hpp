@@ -45,7 +45,8 @@ struct DriveChoice {
   std::string seed, seconds;  ///< Numbers, which the command line reads as a person's.
   std::vector<std::pair<std::string, std::string>> parameters;  ///< Of the scenario, other than its own.
   bool start_now = false;                                       ///< Does not wait for a person to take the controls.
-  std::string experiment;  ///< Whose next drive it is, which the experiment chooses; the participant's, if one is named.
+  std::string
+      experiment;  ///< Whose next drive it is, which the experiment chooses; the participant's, if one is named.
 };
 
 /// A task of a lesson that was driven.

@@ -278,7 +278,7 @@ struct WebServer::Running {
   std::array<tcp::acceptor, 2> acceptors{tcp::acceptor(context), tcp::acceptor(context)};  ///< IPv4, IPv6.
   std::array<asio::steady_timer, 2> retries{asio::steady_timer(context), asio::steady_timer(context)};
   std::map<BrowserId, std::shared_ptr<Browser>> browsers;  ///< Also those that are still opening.
-  std::vector<std::weak_ptr<Connection>> connections;  ///< The oldest first.
+  std::vector<std::weak_ptr<Connection>> connections;      ///< The oldest first.
   BrowserId next_browser = 1;
   std::uint16_t port = 0;
   std::thread thread;

@@ -118,7 +118,8 @@ void add_drive_commands(CLI::App& app, Options& options) {
   add_data_option(*operate_command, options.operate.data);
   operate_command
       ->add_option("--rig", options.operate.rig,
-                   "The rig that stands here: chosen unless the page chooses another; what lies beside its file can be chosen too")
+                   "The rig that stands here: chosen unless the page chooses another; what lies beside its file can be "
+                   "chosen too")
       ->default_str("desktop, or off-screen without a display");
   add_models_option(*operate_command, options.operate.models);
   operate_command->callback([&] { options.work = [&] { return run_operate(options.operate); }; });

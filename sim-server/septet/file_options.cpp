@@ -12,7 +12,8 @@ namespace septet::server {
 void add_data_option(CLI::App& command, std::vector<std::filesystem::path>& data) {
   command
       .add_option("--data", data,
-                  "Folder of rigs, vehicles, scenarios and experiments of your own, beside the one that you stand in; as often as needed")
+                  "Folder of rigs, vehicles, scenarios and experiments of your own, beside the one that you stand in; "
+                  "as often as needed")
       ->type_name("FOLDER")
       ->default_str("")
       ->allow_extra_args(false);

@@ -9,8 +9,8 @@
 #include "engine/core/regular_file.hpp"
 #include "program/resources.hpp"
 #include "program/temporary_folder.hpp"
+#include "sim-server/command/chosen_command.hpp"
 #include "sim-server/command/list_command.hpp"
-#include "sim-server/command/operate_command.hpp"
 #include "sim-server/command/own_files.hpp"
 
 namespace septet::server {
@@ -28,8 +28,7 @@ struct SchoolFolder {
     fs::create_directories(path() / "alone");
     fs::copy_file(data / "rigs/desktop.toml", path() / "lab.toml");
     fs::copy_file(data / "scenarios/first-lesson/first-lesson.xosc", path() / "scenarios/town/town.xosc");
-    fs::copy_file(data / "scenarios/first-lesson/first-lesson.lesson.toml",
-                  path() / "scenarios/town/town.lesson.toml");
+    fs::copy_file(data / "scenarios/first-lesson/first-lesson.lesson.toml", path() / "scenarios/town/town.lesson.toml");
     fs::copy_file(data / "scenarios/motorway-ambulance/motorway-ambulance.xosc", path() / "alone/whatever.xosc");
     fs::copy_file(data / "scenarios/experiments/ambulance-24.toml", path() / "study.toml");
     write("notes.toml", "text = \"nothing of Septet's\"\n");
@@ -52,7 +51,8 @@ TEST_CASE("rigs, scenarios, lessons and experiments of one's own are listed by t
   const auto rigs = list_of("rigs", {school.path()}).value();
   REQUIRE(find_own(rigs, school.path() / "lab.toml") != nullptr);
   CHECK(find_own(rigs, school.path() / "lab.toml")->is_own);
-  CHECK(rigs.size() == list_of("rigs").value().size() + 1);  // Neither the notes, nor the experiment, nor what is broken.
+  CHECK(rigs.size() ==
+        list_of("rigs").value().size() + 1);  // Neither the notes, nor the experiment, nor what is broken.
   const auto lessons = list_of("lessons", {school.path()}).value();
   const auto* town = find_own(lessons, school.path() / "scenarios/town/town.xosc");
   REQUIRE(town != nullptr);
@@ -68,8 +68,7 @@ TEST_CASE("rigs, scenarios, lessons and experiments of one's own are listed by t
   const auto experiments = list_of("experiments", {school.path()}).value();
   CHECK(find_own(experiments, school.path() / "study.toml") != nullptr);
   for (const std::string kind : {"rigs", "scenarios", "experiments", "vehicles"})
-    for (const auto& [name, file] : own_files(kind, {school.path()}))
-      CHECK_MESSAGE(fs::is_regular_file(name), kind << ": " << name);
+    for (const OwnFile& own : own_files(kind, {school.path()})) CHECK_MESSAGE(fs::is_regular_file(own.name), own.name);
 }
 
 TEST_CASE("a folder is looked through once however often it is named, and what is no folder is said") {
@@ -85,15 +84,16 @@ TEST_CASE("a folder is looked through once however often it is named, and what i
   CHECK(own_files("scenarios", {school.path(), school.path() / "scenarios/loop"}).size() == 3);
 }
 
-TEST_CASE("the rig that stands here drives where the page chooses no other, and an experiment's next drive is a command") {
+TEST_CASE(
+    "the rig that stands here drives where the page chooses no other, and an experiment's next drive is a command") {
   OperateOptions options{.port = 8080};
   options.rig = "lab/lab.toml";
   CHECK(typed(command_of({.scenario = "lab/town.xosc"}, options, "/d/one")) ==
         "septet drive --scenario=lab/town.xosc --rig=lab/lab.toml --out=/d/one --page=8080");
   CHECK(typed(command_of({.scenario = "s", .rig = "desktop"}, options, "/d/one")) ==
         "septet drive --scenario=s --rig=desktop --out=/d/one --page=8080");
-  const std::vector<std::string> next{"--scenario", "s",     "--rig", "desktop",           "--log", "samples",
-                                      "--group",    "a = b", "--part", "game", "--parameter=x=1", "--out", "/d/P01"};
+  const std::vector<std::string> next{"--scenario", "s",      "--rig", "desktop",         "--log", "samples", "--group",
+                                      "a = b",      "--part", "game",  "--parameter=x=1", "--out", "/d/P01"};
   CHECK(typed(command_of_experiment(next, {}, options)) ==
         "septet drive --scenario=s --rig=lab/lab.toml --log=samples '--group=a = b' --part=game --parameter=x=1 "
         "--out=/d/P01 --page=8080");

@@ -5,7 +5,7 @@ let asked = null;  // The session whose driver is asked.
 
 function ask_driver(session) {
   asked = session.id;
-  $('askingabout').textContent = `${session.participant || t('asking.nobody')}, ${session.scenario}, ${session.started_utc.replace('T', ' ').replace('Z', '')}`
+  $('askingabout').textContent = `${session.participant || t('asking.nobody')}, ${title_of(session)}, ${local_time(session.started_utc)}`
     + (session.answered.length ? `; ${t('asking.so_far', { names: session.answered.join(', ') })}` : '');
   $('askingwhich').replaceChildren(...hello.choices.questionnaires.map((one) => new Option(`${one.name}: ${one.about}`, one.name)));
   show_questionnaire();

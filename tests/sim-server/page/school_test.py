@@ -109,6 +109,7 @@ def find_past(browser):
     marked = browser.value("state.sessions.filter((session) => session.lesson)")
     assert len(marked) == 2 and all(session["mark"] is not None and session["tasks"] for session in marked), marked
     assert browser.value("state.sessions.find((session) => session.participant.startsWith('P08')).points") == 4520
+    assert all(session["simulated_s"] > 20.0 for session in marked), marked
     text = json.dumps(browser.value(rows))
     assert f"{marked[0]['mark']:.1f} of 10" in text and "4520 points, level 3" in text, text
     # In the time of who reads it: half past eleven in the evening in Greenwich is the next day in Stockholm.

@@ -143,9 +143,10 @@ TEST_CASE("only a port of this machine and a whole token are taken for a page th
   REQUIRE(both.has_value());
   CHECK(both->files.ipv6 == 6);
   CHECK(text_of(*both) == "5+6 " + std::string(token));
-  for (const char* text : {"", "5", "5 ", "5 0123", "5+ 0123456789abcdef0123456789abcdef",
-                           "5+1 0123456789abcdef0123456789abcdef", "+5 0123456789abcdef0123456789abcdef", "1 0123456789abcdef0123456789abcdef",
-                           "5 0123456789abcdef0123456789abcdeX", "99999999999 0123456789abcdef0123456789abcdef"})
+  for (const char* text :
+       {"", "5", "5 ", "5 0123", "5+ 0123456789abcdef0123456789abcdef", "5+1 0123456789abcdef0123456789abcdef",
+        "+5 0123456789abcdef0123456789abcdef", "1 0123456789abcdef0123456789abcdef",
+        "5 0123456789abcdef0123456789abcdeX", "99999999999 0123456789abcdef0123456789abcdef"})
     CHECK_FALSE_MESSAGE(read_handover(text).has_value(), text);
   CHECK_FALSE(ListeningSocket::take({1000}).has_value());
   int pipe_ends[2];
