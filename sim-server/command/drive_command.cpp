@@ -191,11 +191,11 @@ Expected<std::optional<PagePlace>> page_place(const DriveOptions& options) {
 
 Expected<program::ChildProcess> start_server(program::ChildOptions server, const std::optional<PagePlace>& page) {
   if (!page) return program::ChildProcess::start(server);
-  const auto handed = page->listening.copy(true);
+  auto handed = page->listening.copy(true);
   if (!handed) return tl::unexpected(handed.error());
   server.environment[page::handover_variable] = page::text_of({*handed, page->token});
   auto process = program::ChildProcess::start(server);
-  ::close(*handed);
+  handed->close();
   return process;
 }
 

@@ -17,13 +17,14 @@
 
 #include "engine/core/printable.hpp"
 #include "logging/drive_end.hpp"
-#include "logging/subject.hpp"
 #include "program/child_process.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
-#include "sim-server/command/list_command.hpp"
+#include "sim-server/command/chosen_command.hpp"
+#include "sim-server/command/experiment_next.hpp"
+#include "sim-server/command/operate_choices.hpp"
 #include "sim-server/command/past_sessions.hpp"
 #include "sim-server/command/questionnaire_answers.hpp"
 #include "sim-server/page/request_checks.hpp"
@@ -35,7 +36,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto look_every = 20ms;
+constexpr auto look_every = 20ms, show_found_every = 250ms;
 constexpr std::size_t shown_lines = 8;
 
 /// The newest lines of what a drive has said, made printable.
@@ -72,39 +73,9 @@ struct RunningDrive {
   }
 };
 
-Expected<page::Choices> find_choices() {
-  page::Choices choices;
-  const auto take = [](const std::string& kind, std::vector<page::Choice>& into) -> Expected<void> {
-    const auto list = list_of(kind);
-    if (!list) return tl::unexpected(list.error());
-    for (const ListEntry& entry : *list) into.push_back({entry.name, entry.description});
-    return {};
-  };
-  const auto scenarios = list_of("scenarios");
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  for (const ListEntry& entry : *scenarios)
-    choices.scenarios.push_back({{entry.name, entry.description}, entry.parameters});
-  if (auto taken = take("rigs", choices.rigs); !taken) return tl::unexpected(taken.error());
-  if (auto taken = take("drivers", choices.drivers); !taken) return tl::unexpected(taken.error());
-  if (auto taken = take("vehicles", choices.vehicles); !taken) return tl::unexpected(taken.error());
-  return choices;
-}
-
-/// What is no choice of the lists, which a browser may ask for all the same. Everything else the command line judges.
-std::optional<std::string> no_choice(const page::Choices& choices, const page::DriveChoice& choice) {
-  const auto is_one_of = [](const auto& list, const std::string& name) {
-    return std::ranges::any_of(list, [&](const page::Choice& one) { return one.name == name; });
-  };
-  if (!is_one_of(choices.scenarios, choice.scenario)) return "there is no such scenario";
-  if (!choice.rig.empty() && !is_one_of(choices.rigs, choice.rig)) return "there is no such rig";
-  if (!choice.driver.empty() && !is_one_of(choices.drivers, choice.driver)) return "there is no such driver";
-  if (!choice.vehicle.empty() && !is_one_of(choices.vehicles, choice.vehicle)) return "there is no such vehicle";
-  if (!choice.order.empty() && !logging::is_order(choice.order)) return "the order is a whole number from 1 on";
-  return std::nullopt;
-}
-
 /// A new folder's name below `out`: when, and what.
-fs::path new_folder(const fs::path& out, const std::string& scenario) {
+fs::path new_folder(const fs::path& out, const std::string& name) {
+  const std::string scenario = fs::path(name).stem().string();  // Of one's own it is a file.
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
   ::gmtime_r(&now, &parts);
@@ -140,6 +111,7 @@ class Operation {
   std::optional<std::string> take_answers(const page::Answer& answer);
   Expected<void> start(const page::DriveChoice& choice);
   void attend_drive();
+  void attend_past();
   void end_drive(const program::ChildExit& exit);
 
   OperateOptions options_;
@@ -149,6 +121,8 @@ class Operation {
   program::TemporaryFolder logs_;
   std::string token_ = page::random_token();
   PastSessions past_;
+  FoundSessions found_;  ///< As the page shows them.
+  std::chrono::steady_clock::time_point shown_at_{};
   page::StartView view_;
   std::unique_ptr<page::StartPage> page_;  ///< None while a drive serves it.
   std::optional<RunningDrive> drive_;
@@ -166,13 +140,31 @@ Expected<void> Operation::open_page() {
 
 void Operation::show() {
   if (!page_) return;
-  view_.sessions = past_.sessions();
-  page_->show(view_, past_.folders());
+  found_ = past_.found();
+  view_.sessions = found_.sessions;
+  view_.is_looking = found_.is_looking;
+  page_->show(view_, found_.folders);
+}
+
+/// Sessions are shown as they are found, a few times a second.
+void Operation::attend_past() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!page_ || now - shown_at_ < show_found_every || !past_.has_news()) return;
+  shown_at_ = now;
+  show();
 }
 
 Expected<void> Operation::start(const page::DriveChoice& choice) {
-  const auto command = command_of(choice, options_, new_folder(options_.out, choice.scenario));
-  const auto handed = listening_.copy(true);
+  std::vector<std::string> command;
+  if (choice.experiment.empty()) {
+    command = command_of(choice, options_, new_folder(options_.out, choice.scenario));
+  } else {
+    const fs::path folder = options_.out / fs::path(choice.experiment).stem();
+    auto next = next_of_experiment({.file = choice.experiment, .out = folder, .only = choice.participant});
+    if (!next) return tl::unexpected(next.error());
+    command = command_of_experiment(*next, choice, options_);
+  }
+  auto handed = listening_.copy(true);
   if (!handed) return tl::unexpected(handed.error());
   program::ChildOptions child;
   child.program = (program::own_folder() / command.front()).string();
@@ -180,7 +172,7 @@ Expected<void> Operation::start(const page::DriveChoice& choice) {
   child.environment[page::handover_variable] = page::text_of({*handed, token_});
   child.log = logs_.path() / fmt::format("drive-{}.log", ++drives_);
   auto process = program::ChildProcess::start(child);
-  ::close(*handed);
+  handed->close();
   if (!process) return tl::unexpected(process.error());
   drive_.emplace(RunningDrive{std::move(*process), child.log, typed(command), ""});
   program::say("started: " + drive_->command);
@@ -207,9 +199,9 @@ void Operation::obey(const page::OperatorWish& wish) {
 }
 
 std::optional<std::string> Operation::take_answers(const page::Answer& answer) {
-  const auto session = std::ranges::find(past_.sessions(), answer.session, &page::PastSession::id);
-  if (session == past_.sessions().end()) return "there is no such session any more";
-  const auto folder = past_.folders()[static_cast<std::size_t>(session - past_.sessions().begin())];
+  const auto session = std::ranges::find(found_.sessions, answer.session, &page::PastSession::id);
+  if (session == found_.sessions.end()) return "there is no such session any more";
+  const auto folder = found_.folders[static_cast<std::size_t>(session - found_.sessions.begin())];
   if (auto why_not = keep_answers(questionnaires_, answer, folder / "session.sqlite")) return why_not;
   past_.look();
   return std::nullopt;
@@ -254,66 +246,15 @@ Expected<void> Operation::run() {
       if (auto opened = open_page(); !opened) return opened;
     if (page_)
       for (const auto& wish : page_->take_wishes()) obey(wish);
+    attend_past();
     std::this_thread::sleep_for(look_every);
   }
 }
 
 }  // namespace
 
-std::vector<std::string> command_of(const page::DriveChoice& choice, const OperateOptions& options,
-                                    const fs::path& folder) {
-  const bool has_keys = !options.keys.empty();
-  std::vector<std::string> command{has_keys ? "septet-server" : "septet"};
-  if (!has_keys) command.emplace_back("drive");
-  // As one word: a value may begin with a hyphen.
-  const auto add = [&](const std::string& option, const std::string& value) {
-    if (!value.empty()) command.push_back(fmt::format("--{}={}", option, value));
-  };
-  const auto add_about = [&](const std::string& key, const std::string& value) {
-    if (!value.empty()) has_keys ? add("about", key + '=' + value) : add(key, value);
-  };
-  add("keys", options.keys.string());
-  add("scenario", choice.scenario);
-  add("rig", choice.rig);
-  add("driver", choice.driver);
-  add("vehicle", choice.vehicle);
-  add("models", options.models.string());
-  add("participant", choice.participant);
-  add_about("group", choice.group);
-  add_about("condition", choice.condition);
-  add_about("order", choice.order);
-  add_about("note", choice.note);
-  add("seed", choice.seed);
-  add("seconds", choice.seconds);
-  for (const auto& [name, value] : choice.parameters) command.push_back(fmt::format("--parameter={}={}", name, value));
-  if (choice.start_now) command.emplace_back("--start-now");
-  add("out", folder.string());
-  add("page", std::to_string(options.port));
-  for (const auto& host : options.page_hosts) add("page-host", host);
-  return command;
-}
-
-std::string typed(const std::vector<std::string>& command) {
-  std::string line;
-  for (const std::string& word : command) {
-    const bool is_plain = std::ranges::all_of(word, [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-             std::string_view("-_=./:,+@%").find(c) != std::string_view::npos;
-    });
-    line += line.empty() ? "" : " ";
-    if (is_plain && !word.empty()) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) c == '\'' ? line += "'\\''" : line += c;
-    line += '\'';
-  }
-  return line;
-}
-
 Expected<int> run_operate(OperateOptions options) {
-  auto choices = find_choices();
+  auto choices = find_choices(options);
   if (!choices) return tl::unexpected(choices.error());
   auto questionnaires = find_questionnaires();
   if (!questionnaires) return tl::unexpected(questionnaires.error());

@@ -4,23 +4,63 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "engine/core/printable.hpp"
+#include "engine/document/table_line.hpp"
+#include "logging/lesson/lesson.hpp"
+#include "logging/outcome.hpp"
 #include "logging/session_reader.hpp"
 #include "sim-server/command/session_command.hpp"
+#include "sim-server/page/signals_away.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t most_named_answers = 20;
+constexpr std::size_t most_named_answers = 20, most_tasks = 40;
 
 /// A file's name without folder and ending; "unknown" where the session has none of this role.
 std::string name_of(const logging::SessionInfo& info, const std::string& role) {
   const auto file = std::ranges::find(info.files, role, &logging::SourceFile::role);
   return file == info.files.end() ? "unknown" : printable(fs::path(file->name).stem().string(), 100);
+}
+
+/// The number behind ` KEY=` in an event's words; nothing where there is none.
+std::optional<double> number_in(std::string_view detail, std::string_view key) {
+  const auto at = detail.find(key);
+  if (at == detail.npos) return std::nullopt;
+  const std::string_view rest = detail.substr(at + key.size());
+  return document::number_in<double>(rest.substr(0, rest.find(' ')));
+}
+
+/// Marks of a lesson, by the rules that the session has kept, and points of a game. A session whose records cannot be read has neither.
+void add_marks(page::PastSession& session, const logging::SessionReader& reader) {
+  const auto events = reader.events();
+  if (!events) return;
+  for (const logging::Event& event : *events)
+    if (event.kind == "game") {
+      if (const auto points = number_in(event.detail, " points=")) session.points = points;
+      if (const auto level = number_in(event.detail, "level="); level && *level >= 0.0 && *level < 1e6)
+        session.level = static_cast<int>(*level);
+    }
+  const auto& files = reader.info().files;
+  const auto source = std::ranges::find(files, logging::lesson_role, &logging::SourceFile::role);
+  if (source == files.end()) return;
+  const auto lesson = logging::read_lesson(source->content, source->name);
+  const auto samples = reader.samples();
+  if (!lesson || !samples) return;
+  const logging::LessonMarks marks = logging::mark_lesson(*lesson, *samples, *events);
+  session.lesson = printable(lesson->title, 200);
+  session.mark = marks.mark;
+  session.is_taken = marks.taken;
+  session.is_passed = marks.passed;
+  for (std::size_t i = 0; i < marks.tasks.size() && i < most_tasks; ++i)
+    session.tasks.push_back({printable(lesson->tasks[i].says, 200), marks.tasks[i].mark,
+                             std::string(logging::name_of(marks.tasks[i].severity))});
 }
 
 page::PastSession session_of(const logging::SessionReader& reader) {
@@ -43,51 +83,116 @@ page::PastSession session_of(const logging::SessionReader& reader) {
           session.answered.size() < most_named_answers)
         session.answered.push_back(name);
     }
-  const double seconds = std::strtod(row("ended_simulated_time_s").c_str(), nullptr);
+  session.note = printable(row("note"), 500);
+  add_marks(session, reader);
+  // A session without snapshots knows it by its outcome alone.
+  const auto outcome = logging::read_outcome(row("outcome"));
+  const double seconds = outcome ? outcome->simulated_s : std::strtod(row("ended_simulated_time_s").c_str(), nullptr);
   if (std::isfinite(seconds)) session.simulated_s = seconds;
   return session;
 }
 
 }  // namespace
 
-void PastSessions::look() {
-  sessions_.clear();
-  folders_.clear();
-  std::error_code error;
-  if (!fs::is_directory(folder_, error)) return;
-  const auto files = find_sessions({folder_});
-  if (!files) return;
-  std::vector<std::pair<fs::file_time_type, fs::path>> newest;
-  for (const fs::path& file : *files) {
-    const auto written = fs::last_write_time(file, error);
-    if (!error && fs::is_regular_file(file, error)) newest.emplace_back(written, file);
+PastSessions::PastSessions(fs::path folder) : folder_(std::move(folder)) {
+  const page::SignalsAway away;
+  thread_ = std::thread([this] { run(); });
+}
+
+PastSessions::~PastSessions() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
   }
+  wanted_.notify_all();
+  thread_.join();
+}
+
+void PastSessions::look() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_wanted_ = found_.is_looking = true;
+  }
+  wanted_.notify_all();
+}
+
+bool PastSessions::has_news() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(has_news_, false);
+}
+
+FoundSessions PastSessions::found() const {
+  const std::lock_guard lock(mutex_);
+  return found_;
+}
+
+void PastSessions::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wanted_.wait(lock, [this] { return is_wanted_ || is_over_; });
+    if (is_over_) return;
+    is_wanted_ = false;
+    lock.unlock();
+    look_once();
+    lock.lock();
+    has_news_ = true;
+    found_.is_looking = is_wanted_;
+  }
+}
+
+void PastSessions::look_once() {
+  std::error_code error;
+  std::vector<std::pair<fs::file_time_type, fs::path>> newest;
+  const bool is_there = fs::is_directory(folder_, error);
+  if (const auto files = is_there ? find_sessions({folder_}) : Expected<std::vector<fs::path>>())
+    for (const fs::path& file : *files) {
+      const auto written = fs::last_write_time(file, error);
+      if (!error && fs::is_regular_file(file, error)) newest.emplace_back(written, file);
+    }
   std::ranges::sort(newest, std::greater<>());
   if (newest.size() > most_listed_sessions) newest.resize(most_listed_sessions);
   std::vector<std::pair<page::PastSession, fs::path>> listed;
-  for (const auto& [written, file] : newest) {
-    auto [at, is_new] = known_.try_emplace(file);
-    Known& known = at->second;
-    if (is_new || known.written != written) {
-      const std::uint64_t id = is_new ? next_id_++ : known.session.id;
-      known = {.written = written};
-      if (const auto reader = logging::SessionReader::open(file)) {
-        known.is_session = true;
-        known.session = session_of(*reader);
-      }
-      known.session.id = id;
-      known.session.folder = printable(file.parent_path().lexically_relative(folder_).string(), 400);
+  const auto list = [&] {
+    FoundSessions found{.sessions = {}, .folders = {}, .is_looking = true};
+    auto sorted = listed;
+    std::ranges::stable_sort(sorted, std::greater<>(), [](const auto& one) { return one.first.started_utc; });
+    for (auto& [session, folder] : sorted) {
+      found.sessions.push_back(std::move(session));
+      found.folders.push_back(std::move(folder));
     }
-    if (!known.is_session) continue;
+    const std::lock_guard lock(mutex_);
+    found_ = std::move(found);
+    has_news_ = true;
+    return !is_over_;
+  };
+  const auto add = [&](Known& known, const fs::path& file) {
+    if (!known.is_session) return;
     const fs::path folder = file.parent_path();
     known.session.has_report = fs::is_regular_file(folder / "report.html", error);
     known.session.has_debrief = fs::is_regular_file(folder / "debrief.html", error);
     listed.emplace_back(known.session, folder);
-  }
-  std::ranges::stable_sort(listed, std::greater<>(), [](const auto& one) { return one.first.started_utc; });
-  for (auto& [session, folder] : listed) {
-    sessions_.push_back(std::move(session));
-    folders_.push_back(std::move(folder));
+  };
+  // What is known already is there at once; what has to be read comes one after the other, the newest first.
+  std::vector<std::pair<fs::file_time_type, fs::path>> unread;
+  for (const auto& [written, file] : newest)
+    if (const auto at = known_.find(file); at != known_.end() && at->second.written == written)
+      add(at->second, file);
+    else
+      unread.emplace_back(written, file);
+  if (!list()) return;
+  for (const auto& [written, file] : unread) {
+    const auto [at, is_new] = known_.try_emplace(file);
+    Known& known = at->second;
+    const std::uint64_t id = is_new ? next_id_++ : known.session.id;
+    known = {.written = written, .is_session = false, .session = {}};
+    if (const auto reader = logging::SessionReader::open(file)) {
+      known.is_session = true;
+      known.session = session_of(*reader);
+    }
+    known.session.id = id;
+    known.session.folder = printable(file.parent_path().lexically_relative(folder_).string(), 400);
+    add(known, file);
+    if (!list()) return;
   }
 }
 

@@ -68,7 +68,7 @@ Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& 
   page::PageOptions page_options{.port = static_cast<std::uint16_t>(options.page_port.value_or(0)),
                                  .allowed_hosts = options.page_hosts};
   if (options.page_handover) {
-    auto listening = page::ListeningSocket::take(options.page_handover->file);
+    auto listening = page::ListeningSocket::take(options.page_handover->files);
     if (!listening) return tl::unexpected(listening.error());
     page_options.listening.emplace(std::move(*listening));
   }

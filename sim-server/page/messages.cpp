@@ -46,6 +46,7 @@ DriveChoice choice_of(const nlohmann::json& object) {
                      .note = text("note", most_note_characters),
                      .seed = text("seed", 40),
                      .seconds = text("seconds", 40)};
+  choice.experiment = text("experiment", 200);
   if (const auto now = object.find("start_now"); now != object.end() && now->is_boolean())
     choice.start_now = now->get<bool>();
   if (const auto parameters = object.find("parameters"); parameters != object.end() && parameters->is_object())

@@ -11,6 +11,18 @@ constexpr std::string_view index_html =
 constexpr std::string_view page_css =
 #include "sim-server/page/web/page.css.inc"
     ;
+constexpr std::string_view language_js =
+#include "sim-server/page/web/language.js.inc"
+    ;
+constexpr std::string_view language_en_js =
+#include "sim-server/page/web/language_en.js.inc"
+    ;
+constexpr std::string_view language_de_js =
+#include "sim-server/page/web/language_de.js.inc"
+    ;
+constexpr std::string_view language_sv_js =
+#include "sim-server/page/web/language_sv.js.inc"
+    ;
 constexpr std::string_view socket_js =
 #include "sim-server/page/web/socket.js.inc"
     ;
@@ -38,6 +50,12 @@ constexpr std::string_view operator_js =
 constexpr std::string_view start_js =
 #include "sim-server/page/web/start.js.inc"
     ;
+constexpr std::string_view past_js =
+#include "sim-server/page/web/past.js.inc"
+    ;
+constexpr std::string_view record_js =
+#include "sim-server/page/web/record.js.inc"
+    ;
 constexpr std::string_view questionnaire_js =
 #include "sim-server/page/web/questionnaire.js.inc"
     ;
@@ -51,6 +69,10 @@ std::vector<Resource> page_files() {
   constexpr const char* script = "text/javascript; charset=utf-8";
   return {{"/", "text/html; charset=utf-8", index_html},
           {"/page.css", "text/css; charset=utf-8", page_css},
+          {"/language.js", script, language_js},
+          {"/language_en.js", script, language_en_js},
+          {"/language_de.js", script, language_de_js},
+          {"/language_sv.js", script, language_sv_js},
           {"/socket.js", script, socket_js},
           {"/conditions.js", script, conditions_js},
           {"/live.js", script, live_js},
@@ -60,6 +82,8 @@ std::vector<Resource> page_files() {
           {"/things.js", script, things_js},
           {"/operator.js", script, operator_js},
           {"/start.js", script, start_js},
+          {"/past.js", script, past_js},
+          {"/record.js", script, record_js},
           {"/questionnaire.js", script, questionnaire_js},
           {"/page.js", script, page_js}};
 }

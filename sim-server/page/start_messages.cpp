@@ -13,10 +13,45 @@ using document::Json;
 
 std::string words_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+Json json_of(const Choice& choice) {
+  return {{"name", choice.name}, {"about", choice.about}, {"title", choice.title}, {"own", choice.is_own}};
+}
+
 Json list_of(const std::vector<Choice>& choices) {
   Json list = Json::array();
-  for (const Choice& choice : choices) list.push_back({{"name", choice.name}, {"about", choice.about}});
+  for (const Choice& choice : choices) list.push_back(json_of(choice));
   return list;
+}
+
+Json json_of(const PastSession& session) {
+  Json tasks = Json::array();
+  for (const PastTask& task : session.tasks)
+    tasks.push_back({{"says", task.says},
+                     {"mark", task.mark ? document::number(*task.mark) : Json(nullptr)},
+                     {"severity", task.severity}});
+  Json json = {{"id", session.id},
+               {"folder", session.folder},
+               {"started_utc", session.started_utc},
+               {"scenario", session.scenario},
+               {"rig", session.rig},
+               {"driver", session.driver},
+               {"participant", session.participant},
+               {"note", session.note},
+               {"ended", session.ended},
+               {"simulated_s", document::number(session.simulated_s)},
+               {"has_report", session.has_report},
+               {"has_debrief", session.has_debrief},
+               {"answered", session.answered},
+               {"lesson", session.lesson},
+               {"mark", nullptr},
+               {"taken", session.is_taken},
+               {"passed", session.is_passed},
+               {"tasks", std::move(tasks)},
+               {"points", nullptr},
+               {"level", session.level}};
+  if (session.mark) json["mark"] = document::number(*session.mark);
+  if (session.points) json["points"] = document::number(*session.points);
+  return json;
 }
 
 }  // namespace
@@ -26,7 +61,10 @@ std::string start_hello_text(const Choices& choices, std::uint64_t browser) {
   for (const ScenarioChoice& scenario : choices.scenarios) {
     Json parameters = Json::array();
     for (const auto& [name, value] : scenario.parameters) parameters.push_back({{"name", name}, {"value", value}});
-    scenarios.push_back({{"name", scenario.name}, {"about", scenario.about}, {"parameters", std::move(parameters)}});
+    Json json = json_of(static_cast<const Choice&>(scenario));
+    json["parameters"] = std::move(parameters);
+    json["kind"] = scenario.is_lesson ? "lesson" : scenario.is_game ? "game" : "drive";
+    scenarios.push_back(std::move(json));
   }
   Json questionnaires = Json::array();
   for (const QuestionnaireChoice& questionnaire : choices.questionnaires) {
@@ -45,24 +83,14 @@ std::string start_hello_text(const Choices& choices, std::uint64_t browser) {
                      {"rigs", list_of(choices.rigs)},
                      {"drivers", list_of(choices.drivers)},
                      {"vehicles", list_of(choices.vehicles)},
+                     {"experiments", list_of(choices.experiments)},
+                     {"first_rig", choices.first_rig},
                      {"questionnaires", std::move(questionnaires)}}}});
 }
 
 std::string start_state_text(const StartView& view, const std::optional<Commander>& commander, std::size_t browsers) {
   Json sessions = Json::array();
-  for (const PastSession& session : view.sessions)
-    sessions.push_back({{"id", session.id},
-                        {"folder", session.folder},
-                        {"started_utc", session.started_utc},
-                        {"scenario", session.scenario},
-                        {"rig", session.rig},
-                        {"driver", session.driver},
-                        {"participant", session.participant},
-                        {"ended", session.ended},
-                        {"simulated_s", document::number(session.simulated_s)},
-                        {"has_report", session.has_report},
-                        {"has_debrief", session.has_debrief},
-                        {"answered", session.answered}});
+  for (const PastSession& session : view.sessions) sessions.push_back(json_of(session));
   Json json = {{"type", "start_state"},
                {"starting", view.is_starting},
                {"command", view.command},
@@ -71,7 +99,8 @@ std::string start_state_text(const StartView& view, const std::optional<Commande
                {"failed", view.has_failed},
                {"browsers", browsers},
                {"commander", nullptr},
-               {"sessions", std::move(sessions)}};
+               {"sessions", std::move(sessions)},
+               {"looking", view.is_looking}};
   if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
   return words_of(json);
 }

@@ -104,8 +104,8 @@ struct StartPage::Shared {
       if (!is_past_file(look->file)) return answer("there is no such file");
       looks.push_back({random_token(), folders[static_cast<std::size_t>(session - view.sessions.begin())]});
       if (looks.size() > most_looks) looks.pop_front();
-      return server->send(browser, shared_text(look_text(
-                                       message->id, std::string(past_begin) + looks.back().token + '/' + look->file)));
+      return server->send(browser, shared_text(look_text(message->id, std::string(past_begin.substr(1)) +
+                                                                          looks.back().token + '/' + look->file)));
     }
     if (const auto reply = helm.judge(browser, message->wish)) {
       answer(reply->why_not);

@@ -30,6 +30,7 @@ struct StartView {
   std::string last;               ///< How the last drive ended, or why it did not start.
   bool has_failed = false;        ///< That.
   std::vector<PastSession> sessions;
+  bool is_looking = false;  ///< Not all of them have been read yet.
 };
 
 class StartPage {

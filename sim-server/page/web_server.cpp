@@ -40,7 +40,8 @@ using beast::error_code;
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
-constexpr auto patience = std::chrono::seconds(10);  // For a request and its answer.
+constexpr auto patience = std::chrono::seconds(10);         // For an answer to be taken.
+constexpr auto request_patience = std::chrono::seconds(2);  // For a whole request: browsers send it at once.
 constexpr std::string_view subprotocol = "septet";
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
@@ -161,9 +162,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void start() {
-    stream_.expires_after(patience);
-    http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (!error) return self->answer(self->parser_.release());
+    stream_.expires_after(request_patience);
+    // The header is a whole request: no body is ever waited for.
+    http::async_read_header(stream_, buffer_, parser_, [self = shared_from_this()](error_code error, std::size_t) {
+      if (!self->stream_.socket().is_open()) return;  // It had to make room.
+      if (!error) return self->answer(std::move(self->parser_.get()));
       if (error.category() == make_error_code(http::error::bad_method).category() &&
           error != http::error::end_of_stream && error != http::error::partial_message)
         return self->refuse(http::status::bad_request, "this is no request that this server reads");
@@ -173,18 +176,24 @@ class Connection : public std::enable_shared_from_this<Connection> {
     error_code ignored;
     stream_.socket().close(ignored);
   }
+  /// Nobody misses it: it has sent no whole request, or its whole answer is out.
+  bool may_go() const { return !is_answering_; }
 
  private:
   void answer(Request request) {
+    is_answering_ = true;
     const auto host = view(request[http::field::host]);
     if (request.count(http::field::host) != 1 || !is_allowed_host(host, shared_.options.allowed_hosts))
       return refuse(http::status::forbidden, "this server answers on 127.0.0.1 and localhost only");
+    if (!parser_.is_done()) return refuse(http::status::bad_request, "a request with a body is not read");
     const auto target = view(request.target());
     if (target == shared_.options.socket_path) return open_socket(std::move(request), host);
     if (request.method() != http::verb::get && request.method() != http::verb::head)
       return refuse(http::status::method_not_allowed, "only GET is answered");
+    // What others have added to the address, as messengers and mail programs do, is passed over.
+    const auto path = target.substr(0, target.find('?'));
     for (const Resource& resource : shared_.options.resources)
-      if (resource.path == target)
+      if (resource.path == path)
         return send(http::status::ok, resource.type, std::string(resource.body), request.method() == http::verb::head);
     if (shared_.options.find)
       if (auto found = shared_.options.find(target))
@@ -236,6 +245,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
   /// Says that nothing more comes, and reads on until the other side has read it: to close at once would take back what was sent.
   void finish() {
+    is_answering_ = false;
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
     drain();
@@ -257,6 +267,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::response_serializer<http::string_body>> serializer_;
   std::array<char, 4096> rest_{};
   std::size_t drained_ = 0;
+  bool is_answering_ = false;
 };
 
 }  // namespace
@@ -264,38 +275,48 @@ class Connection : public std::enable_shared_from_this<Connection> {
 struct WebServer::Running {
   Shared shared;
   asio::io_context context{1};
-  tcp::acceptor acceptor{context};
-  asio::steady_timer retry{context};
+  std::array<tcp::acceptor, 2> acceptors{tcp::acceptor(context), tcp::acceptor(context)};  ///< IPv4, IPv6.
+  std::array<asio::steady_timer, 2> retries{asio::steady_timer(context), asio::steady_timer(context)};
   std::map<BrowserId, std::shared_ptr<Browser>> browsers;  ///< Also those that are still opening.
-  std::vector<std::weak_ptr<Connection>> connections;
+  std::vector<std::weak_ptr<Connection>> connections;      ///< The oldest first.
   BrowserId next_browser = 1;
   std::uint16_t port = 0;
   std::thread thread;
 
-  void accept() {
-    acceptor.async_accept([this](error_code error, tcp::socket socket) {
+  void accept(std::size_t which) {
+    tcp::acceptor& acceptor = acceptors[which];
+    acceptor.async_accept([this, which, &acceptor](error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted || !acceptor.is_open()) return;
       if (error) {  // No file descriptor is left, for one: others may become free.
-        retry.expires_after(std::chrono::milliseconds(100));
-        retry.async_wait([this](error_code stopped) {
-          if (!stopped) accept();
+        retries[which].expires_after(std::chrono::milliseconds(100));
+        retries[which].async_wait([this, which](error_code stopped) {
+          if (!stopped) accept(which);
         });
         return;
       }
       ++shared.connections;
       ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
-      std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
-      if (connections.size() < most_connections) {
-        const auto connection = std::make_shared<Connection>(
-            std::move(socket), shared, [this] { return browsers.size() < most_browsers; },
-            [this](tcp::socket&& taken, Request&& request) { open(std::move(taken), std::move(request)); });
-        connections.push_back(connection);
-        connection->start();
-      } else {
-        ++shared.refused;
-      }
-      accept();
+      make_room();
+      const auto connection = std::make_shared<Connection>(
+          std::move(socket), shared, [this] { return browsers.size() < most_browsers; },
+          [this](tcp::socket&& taken, Request&& request) { open(std::move(taken), std::move(request)); });
+      connections.push_back(connection);
+      connection->start();
+      accept(which);
     });
+  }
+
+  /// Where all places are taken the oldest connection goes that has not sent a whole request, or has its answer: who holds places without
+  /// asking for anything cannot keep others out, who ask at once. If all are being answered, the oldest of them.
+  void make_room() {
+    std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
+    if (connections.size() < most_connections) return;
+    const auto may_go = [](const auto& connection) { return connection.lock()->may_go(); };
+    const auto found = std::ranges::find_if(connections, may_go);
+    const auto oldest = found == connections.end() ? connections.begin() : found;
+    oldest->lock()->end();
+    connections.erase(oldest);
+    ++shared.refused;
   }
 
   void open(tcp::socket&& socket, Request&& request) {
@@ -337,7 +358,7 @@ struct WebServer::Running {
 
 Expected<std::unique_ptr<WebServer>> WebServer::start(WebServerOptions options, WebHandlers handlers) {
   auto running = std::make_unique<Running>();
-  const auto here =
+  auto here =
       options.listening
           ? options.listening->copy()
           : ListeningSocket::open(options.port).and_then([](const ListeningSocket& made) { return made.copy(); });
@@ -345,14 +366,18 @@ Expected<std::unique_ptr<WebServer>> WebServer::start(WebServerOptions options, 
   running->shared.options = std::move(options);
   running->shared.handlers = std::move(handlers);
   error_code error;
-  tcp::acceptor& acceptor = running->acceptor;
-  acceptor.assign(tcp::v4(), *here, error);
-  if (error) {
-    ::close(*here);
-    return failure(error.message(), "the operator's page", "close other programs");
-  }
-  running->port = acceptor.local_endpoint(error).port();
-  running->accept();
+  const auto listen_on = [&](std::size_t which, tcp protocol, int& file) {
+    if (file < 0 || error) return;
+    running->acceptors[which].assign(protocol, file, error);
+    if (!error) file = -1;  // It is the acceptor's now.
+  };
+  listen_on(0, tcp::v4(), here->ipv4);
+  listen_on(1, tcp::v6(), here->ipv6);
+  here->close();
+  if (error) return failure(error.message(), "the operator's page", "close other programs");
+  running->port = running->acceptors[0].local_endpoint(error).port();
+  for (std::size_t which = 0; which < running->acceptors.size(); ++which)
+    if (running->acceptors[which].is_open()) running->accept(which);
   const SignalsAway away;
   running->thread = std::thread([&running = *running] { running.run(); });
   return std::unique_ptr<WebServer>(new WebServer(std::move(running)));

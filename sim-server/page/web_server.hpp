@@ -1,11 +1,12 @@
 #pragma once
-/// A small web server for one page and its WebSocket, on this machine's own address (127.0.0.1) and nothing else.
+/// A small web server for one page and its WebSocket, on this machine's own addresses (127.0.0.1 and [::1]) and nothing else.
 ///
 /// Whoever runs on this machine may connect, and a browser does so for any site that its user looks at; so before anything else is read of a
 /// request its Host must be this machine or one that was allowed by name (a foreign name that was made to point here is refused), a
 /// WebSocket's Origin must be that same host, and it must hold the token, which no other site can read. One thread of its own does all
 /// network input and output; handlers are called there. Nobody waits for a browser: of states it is sent the newest one only, of
-/// messages a bounded queue, and who does not take those is closed. Bytes from outside end a connection at worst.
+/// messages a bounded queue, and who does not take those is closed. Bytes from outside end a connection at worst, and whoever holds
+/// connections without a whole request makes room for who asks.
 ///
 /// Standards: RFC 9112 (HTTP/1.1), RFC 6455 (WebSocket), by Boost.Beast.
 
@@ -54,7 +55,7 @@ struct WebServerOptions {
   double silence_s = 20.0;  ///< A browser that says nothing for so long, and answers no ping, is gone.
 };
 
-inline constexpr std::size_t most_browsers = 16, most_connections = 64;
+inline constexpr std::size_t most_browsers = 16, most_connections = 256;
 inline constexpr std::size_t most_header_bytes = 8192, most_message_bytes = 16384;
 inline constexpr std::size_t most_waiting_messages = 256;
 

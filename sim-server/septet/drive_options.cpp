@@ -115,6 +115,12 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->add_option("--keys", options.operate.keys,
                    "Of a rig of several machines: the server's folder of septet rig keys; its screens run already")
       ->default_str("none: screens and car of this machine");
+  add_data_option(*operate_command, options.operate.data);
+  operate_command
+      ->add_option("--rig", options.operate.rig,
+                   "The rig that stands here: chosen unless the page chooses another; what lies beside its file can be "
+                   "chosen too")
+      ->default_str("desktop, or off-screen without a display");
   add_models_option(*operate_command, options.operate.models);
   operate_command->callback([&] { options.work = [&] { return run_operate(options.operate); }; });
 

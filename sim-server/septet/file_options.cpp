@@ -9,6 +9,16 @@
 
 namespace septet::server {
 
+void add_data_option(CLI::App& command, std::vector<std::filesystem::path>& data) {
+  command
+      .add_option("--data", data,
+                  "Folder of rigs, vehicles, scenarios and experiments of your own, beside the one that you stand in; "
+                  "as often as needed")
+      ->type_name("FOLDER")
+      ->default_str("")
+      ->allow_extra_args(false);
+}
+
 void add_file_commands(CLI::App& app, Options& options) {
   auto* road_command = app.add_subcommand("road", "Questions to a road file");
   road_command->require_subcommand(1);
@@ -30,7 +40,8 @@ void add_file_commands(CLI::App& app, Options& options) {
 
   auto* list_command = app.add_subcommand("list", "What there is to choose from, a line each");
   list_command->add_option("kind", options.kind, "What of")->required()->check(CLI::IsMember(listed_kinds()));
-  list_command->callback([&] { options.work = [&] { return run_list(options.kind); }; });
+  add_data_option(*list_command, options.list_data);
+  list_command->callback([&] { options.work = [&] { return run_list(options.kind, options.list_data); }; });
 
   auto* devices_command =
       app.add_subcommand("devices", "What is connected that a rig may use, and what to do where it may not be opened");

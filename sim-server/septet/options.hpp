@@ -32,6 +32,7 @@ struct Options {
   double track_speed_kmh = 0.0;
   TrafficDiagramOptions diagram;
   std::string road_file, rig_name, kind;
+  std::vector<std::filesystem::path> list_data;  ///< Folders of one's own, of list.
   std::filesystem::path keys_out = "keys";
   CheckOptions check;
   AnswerOptions answer;
@@ -42,6 +43,8 @@ struct Options {
   std::function<Expected<int>()> work;  ///< Of the command that was chosen.
 };
 
+/// --data, of the commands that choose among rigs, scenarios and experiments.
+void add_data_option(CLI::App& command, std::vector<std::filesystem::path>& data);
 void add_drive_commands(CLI::App& app, Options& options);       ///< drive, operate, replay, film, sound, ice, report.
 void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
 void add_session_commands(CLI::App& app, Options& options);     ///< session.

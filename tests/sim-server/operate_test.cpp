@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "sim-server/command/operate_command.hpp"
+#include "sim-server/command/chosen_command.hpp"
 #include "sim-server/drive/driver_rating.hpp"
 
 namespace septet::server {

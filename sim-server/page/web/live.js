@@ -2,9 +2,9 @@
 // What changes of a drive, ten times a second: the car, the storyboard, who commands.
 
 function make_drive() {
-  document.title = `${hello.scenario}: operator`;
+  document.title = t('drive.title', hello);
   $('scenario').textContent = hello.scenario;
-  $('about').textContent = [hello.rig, hello.vehicle, hello.participant, `seed ${hello.seed}`].filter(Boolean).join(' · ');
+  $('about').textContent = [hello.rig, hello.vehicle, hello.participant, t('drive.seed', hello)].filter(Boolean).join(' · ');
   $('trafficbox').hidden = !hello.has_traffic;
   $('thumbnails').replaceChildren();
   make_conditions();
@@ -17,20 +17,32 @@ function show_command() {
   const other = state && state.commander;
   mine = Boolean(hello && other && other.browser === hello.you) && socket && socket.readyState === WebSocket.OPEN;
   $('controls').disabled = $('choice').disabled = !mine;
-  $('take').textContent = mine ? 'Let go' : 'Take command';
-  const watching = state ? ` · ${state.browsers} looking on` : '';
-  $('commander').textContent = (mine ? 'You command' : other ? `${other.name || 'Somebody'} commands` : 'Nobody commands') + watching;
+  $('take').textContent = t(mine ? 'shell.let_go' : 'shell.take');
+  const watching = state ? ` · ${t('shell.looking_on', { count: state.browsers })}` : '';
+  $('commander').textContent = (mine ? t('shell.you_command') : other ? t('shell.commands', { name: other.name || t('shell.somebody') }) : t('shell.nobody_commands')) + watching;
+}
+
+const has_ended = (s) => s.phase.startsWith('ended');
+const stands_still = () => Boolean(state && (state.paused || (state.phase || '').startsWith('waiting')));
+const why_ended = (s) => heard(s.phase.replace(/^ended: /, ''));
+
+/// What goes on, as the server says it, in the page's language.
+function phase_words(phase) {
+  if (phase === 'driving') return t('drive.driving');
+  if (phase === 'waiting for the driver') return t('drive.waiting_driver');
+  const waiting = /^waiting for (.*?)( \(Enter: drive without\))?$/.exec(phase);
+  return waiting ? t(waiting[2] ? 'drive.waiting_can_go' : 'drive.waiting', { whom: waiting[1] }) : phase;
 }
 
 function show_state() {
   const s = state, car = s.car;
   document.body.classList.toggle('paused', s.paused);
-  const ended = s.phase.startsWith('ended');
-  $('phase').textContent = ended ? 'ended' : s.paused ? 'paused' : s.phase;
-  $('pause').textContent = s.paused || s.phase.startsWith('waiting') ? 'Go on' : 'Pause';
-  if (ended) alarm(`The drive has ${s.phase}.`);
-  else if (s.actuators && s.actuators.alarm) alarm(`${s.actuators.alarm}. Fan, shaker and wheel force are at 0.`);
-  else if (s.actuators && s.actuators.cut) alarm(`Fan, shaker and wheel force are cut: ${s.actuators.cut}.`);
+  const ended = has_ended(s);
+  $('phase').textContent = ended ? t('drive.ended') : s.paused ? t('drive.paused') : phase_words(s.phase);
+  $('pause').textContent = t(stands_still() ? 'controls.go_on' : 'controls.pause');
+  if (ended) alarm(t('shell.has_ended', { why: why_ended(s) }));
+  else if (s.actuators && s.actuators.alarm) alarm(t('drive.actuators_at_0', { alarm: heard(s.actuators.alarm) }));
+  else if (s.actuators && s.actuators.cut) alarm(t('drive.actuators_cut', { why: heard(s.actuators.cut) }));
   $('rearm').hidden = !(s.actuators && s.actuators.cut);
   show_command();
   $('driven').textContent = s.sim_s === undefined ? '–' : `${s.sim_s.toFixed(1)}${hello.planned_s ? ` / ${hello.planned_s}` : ''} s`;
@@ -40,7 +52,7 @@ function show_state() {
     $('speed').textContent = (3.6 * Math.abs(car.speed_mps)).toFixed(0);
     $('gap').textContent = s.leader ? s.leader.gap_m.toFixed(s.leader.gap_m < 10 ? 1 : 0) : '–';
     const behind_s = s.leader && car.speed_mps > 1 ? ` (${(s.leader.gap_m / car.speed_mps).toFixed(1)} s)` : '';
-    $('gapunit').textContent = s.leader ? `m to leader${behind_s}` : 'm: no leader';
+    $('gapunit').textContent = s.leader ? t('car.to_leader') + behind_s : t('car.no_leader');
     $('lateral').textContent = car.lane === 0 ? '–' : car.lateral_m.toFixed(2).replace('-', '−');
     $('throttle').value = car.accelerator;
     $('brake').value = car.brake;
@@ -48,7 +60,7 @@ function show_state() {
     mark.style.width = `${share}%`;
     mark.style.left = `${Math.max(-share, Math.min(100, 50 - 100 * (car.lateral_m || 0) / width - share / 2))}%`;
     mark.hidden = car.lane === 0;
-    $('more').textContent = `gear ${car.gear} · ${car.rpm} rpm · wheel ${degrees(car.wheel_rad)} · lane ${car.lane || 'none'} · ${s.collisions} collisions`;
+    $('more').textContent = t('car.more', { ...car, wheel: degrees(car.wheel_rad), lane: car.lane || t('car.no_lane'), collisions: s.collisions });
   }
   show_sickness();
   s.conditions.forEach((value, i) => sliders[i] && sliders[i](value));
@@ -81,7 +93,7 @@ function show_triggers() {
   if (!state.triggers.length) {
     const item = document.createElement('li');
     item.className = 'quiet';
-    item.textContent = 'Nothing is left to begin.';
+    item.textContent = t('controls.nothing_left');
     list.append(item);
   }
 }

@@ -5,7 +5,7 @@ $('take').onclick = () => {
   if (mine) return ask({ do: 'release' }, show_command);
   ask({ do: 'take', name: $('name').value }, (answer) => {
     if (answer.ok) return;
-    $('takingtext').textContent = `${(state.commander && state.commander.name) || 'Somebody'} commands this drive now and will only look on.`;
+    $('takingtext').textContent = t('taking.text', { name: (state.commander && state.commander.name) || t('shell.somebody') });
     $('taking').showModal();
   });
 };
@@ -15,7 +15,7 @@ $('name').onchange = () => {
   localStorage.setItem('name', $('name').value);
   if (mine) ask({ do: 'take', name: $('name').value }, show_command);
 };
-$('pause').onclick = () => command({ do: $('pause').textContent === 'Pause' ? 'pause' : 'go_on' });
+$('pause').onclick = () => command({ do: stands_still() ? 'go_on' : 'pause' });
 $('rearm').onclick = () => command({ do: 'rearm' });
 /// `stops`: it is the participant who does, which makes the drive a drop-out.
 function offer_end(stops) {

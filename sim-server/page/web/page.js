@@ -6,7 +6,8 @@ setInterval(() => {
   const silent_ms = performance.now() - came_ms;
   if (silent_ms < silence_ms) return;
   document.body.classList.add('stale');
-  alarm(`No word from the drive for ${(silent_ms / 1000).toFixed(0)} s: what is shown is old.`);
+  alarm(t('shell.silent', { seconds: figure(silent_ms / 1000) }));
 }, 250);
+make_language();
 connect();
 requestAnimationFrame(draw);

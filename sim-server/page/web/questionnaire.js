@@ -5,8 +5,8 @@ let asked = null;  // The session whose driver is asked.
 
 function ask_driver(session) {
   asked = session.id;
-  $('askingabout').textContent = `${session.participant || 'nobody’s code'}, ${session.scenario}, ${session.started_utc.replace('T', ' ').replace('Z', '')}`
-    + (session.answered.length ? `; answered so far: ${session.answered.join(', ')}` : '');
+  $('askingabout').textContent = `${session.participant || t('asking.nobody')}, ${title_of(session)}, ${local_time(session.started_utc)}`
+    + (session.answered.length ? `; ${t('asking.so_far', { names: session.answered.join(', ') })}` : '');
   $('askingwhich').replaceChildren(...hello.choices.questionnaires.map((one) => new Option(`${one.name}: ${one.about}`, one.name)));
   show_questionnaire();
   $('asking').showModal();
@@ -44,7 +44,7 @@ $('askingform').onsubmit = (event) => {
   for (const radio of $('askingitems').querySelectorAll('input:checked')) answers[radio.dataset.item] = Number(radio.value);
   ask({ do: 'answer', session: asked, questionnaire: $('askingwhich').value, as: $('askingas').value.trim(), answers }, (answer) => {
     if (answer.ok) return $('asking').close();
-    $('askingwhy').textContent = `Not kept: ${answer.why}`;
+    $('askingwhy').textContent = t('asking.not_kept', { why: heard(answer.why) });
     $('askingwhy').hidden = false;
   });
 };

@@ -21,10 +21,10 @@ function show_screens() {
     rates.set(screen.name, seen);
     const [from, to] = [seen[0], seen[seen.length - 1]];
     const rate = to[0] > from[0] ? (to[1] - from[1]) / (to[0] - from[0]) : 0;
-    return [screen.live ? screen.name : `${screen.name} (away)`, rate.toFixed(1), screen.live ? `${screen.frame_ms.toFixed(0)} ms` : '–',
+    return [screen.live ? screen.name : t('screens.away', screen), rate.toFixed(1), screen.live ? `${screen.frame_ms.toFixed(0)} ms` : '–',
             screen.behind_ms === null ? '–' : `${screen.behind_ms.toFixed(0)} ms`, String(screen.lost), String(screen.drop_outs)];
   });
-  fill($('screens'), rows.length ? rows : [['no screens in this drive', '', '', '', '', '']],
+  fill($('screens'), rows.length ? rows : [[t('screens.none'), '', '', '', '', '']],
        (i) => state.screens[i] && !state.screens[i].live ? 'away' : '');
 }
 
@@ -46,7 +46,7 @@ function show_thumbnail({ screen, picture }) {
     const caption = document.createElement('figcaption');
     caption.textContent = screen;
     figure.append(new Image(), caption);
-    figure.firstChild.alt = `What ${screen} shows`;
+    figure.firstChild.alt = t('screens.shows', { screen });
     $('thumbnails').append(figure);
   }
   figure.firstChild.src = picture;

@@ -21,9 +21,9 @@ function make_sickness() {
 const nausea = 6;
 function rate(value) {
   ask({ do: 'rate', value }, (answer) => {
-    if (!answer.ok) return log(null, `not done: ${answer.why}`, true);
+    if (!answer.ok) return log(null, t('shell.not_done', { why: heard(answer.why) }), true);
     if (value < nausea) return;
-    $('reason').value = `the participant felt sick (MISC ${value})`;
+    $('reason').value = t('sickness.reason', { value });
     offer_end(true);
   });
 }
@@ -37,7 +37,7 @@ function show_sickness() {
   const key = `${now.minute} ${due}`;
   if ($('sicknessbox').dataset.key !== key) $('sicknessbox').open = due;
   $('sicknessbox').dataset.key = key;
-  $('sicknessdue').textContent = now.answered ? `minute ${now.minute}: ${now.value}` : now.minute > 0 ? `minute ${now.minute}: ask now` : 'before the drive';
+  $('sicknessdue').textContent = now.answered ? t('sickness.answered', now) : now.minute > 0 ? t('sickness.due', now) : t('sickness.before');
   [...$('sickness').children].forEach((button, i) => {
     button.disabled = now.answered;
     button.setAttribute('aria-pressed', String(now.answered && now.value === hello.rating.least + i));

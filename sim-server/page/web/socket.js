@@ -1,7 +1,6 @@
 'use strict';
 // What is said to the server and heard of it: PROTOCOL.md beside the server's sources. With a drive `hello` and `state` are of that; without one
 // `hello.choices` are what a drive is chosen from.
-const $ = (id) => document.getElementById(id);
 const token = location.hash.slice(1);
 const silence_ms = 1000;  // Without a state for longer than that, what is shown is old.
 
@@ -10,12 +9,20 @@ let socket = null, hello = null, state = null, before = null;
 let came_ms = 0, interval_ms = 100, number = 0, mine = false, refused = 0;
 const waiting = new Map();  // Message number → what to do with its answer.
 
+/// Beside the page, wherever below a proxy's host that is.
+function live_address(page) {
+  const address = new URL('live', page);
+  address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:';
+  address.hash = '';
+  return address.href;
+}
+
 function connect() {
   let opened = false;
   try {
-    socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`, ['septet', token]);
+    socket = new WebSocket(live_address(location.href), ['septet', token]);
   } catch (error) {
-    return alarm('The address has no token: open the one that the server has printed, with all that follows the #.');
+    return alarm(t('shell.no_token'));
   }
   socket.onopen = () => { opened = true; refused = 0; };
   socket.onmessage = (message) => receive(JSON.parse(message.data));
@@ -24,11 +31,11 @@ function connect() {
     mine = false;
     document.body.classList.add('stale');
     if (!opened) ++refused;
-    const ended = state && state.phase && state.phase.startsWith('ended');
+    const ended = state && state.phase && has_ended(state);
     if (moved) quiet();
-    else if (ended) alarm(`The drive has ${state.phase}.`);
-    else if (refused > 1) alarm('The server does not answer, or the token is another drive’s: open the address that it has printed.');
-    else alarm('The connection is lost. What goes on goes on without this page; trying again.');
+    else if (ended) alarm(t('shell.has_ended', { why: why_ended(state) }));
+    else if (refused > 1) alarm(t('shell.no_answer'));
+    else alarm(t('shell.lost'));
     show_command();
     setTimeout(connect, moved ? 50 : Math.min(5000, 500 * (1 + refused)));
     moved = false;
@@ -43,7 +50,7 @@ function ask(what, then) {
 
 /// What only who commands may ask for.
 function command(what) {
-  ask(what, (answer) => { if (!answer.ok) log(null, `not done: ${answer.why}`, true); });
+  ask(what, (answer) => { if (!answer.ok) log(null, t('shell.not_done', { why: heard(answer.why) }), true); });
 }
 const change = (text) => command({ do: 'change', command: text });
 
@@ -93,7 +100,7 @@ function alarm(text) {
 
 function log(sim_s, text, is_mine) {
   const line = document.createElement('li'), time = document.createElement('time'), words = document.createElement('span');
-  time.textContent = sim_s === null ? 'now' : `${sim_s.toFixed(1)} s`;
+  time.textContent = sim_s === null ? t('shell.now') : `${figure(sim_s, 1)} s`;
   words.textContent = text.replace(/element=(.*) state=/, (all, name) => `${short_name(name)} `);
   words.title = text;
   if (is_mine || /^(mark|operator)/.test(text)) words.className = 'mine';

@@ -12,7 +12,7 @@ function make_things() {
 function set_placing(on) {
   placing = on;
   $('place').setAttribute('aria-pressed', String(on));
-  $('place').textContent = on ? 'Click on the map' : 'Place on the map';
+  $('place').textContent = t(on ? 'controls.click_map' : 'controls.place');
   canvas.classList.toggle('placing', on);
 }
 
@@ -38,9 +38,9 @@ function show_buttons(list, buttons) {
 }
 
 function show_entities() {
-  show_buttons($('entities'), state.entities.map(({ name, shown }) => [`${shown ? 'Hide' : 'Show'} ${name}`, `${shown ? 'hide' : 'show'} entity=${name}`]));
+  show_buttons($('entities'), state.entities.map(({ name, shown }) => [t(shown ? 'controls.hide' : 'controls.show', { name }), `${shown ? 'hide' : 'show'} entity=${name}`]));
   // After a crash there are more pieces than anybody takes away one by one; all of them are on the map.
-  show_buttons($('lying'), state.lying.slice(-12).map(({ id, name }) => [`Take away ${name.replaceAll('-', ' ')} ${id}`, `remove thing=${id}`]));
+  show_buttons($('lying'), state.lying.slice(-12).map(({ id, name }) => [t('controls.take_away', { name: name.replaceAll('-', ' '), id }), `remove thing=${id}`]));
 }
 
 $('place').onclick = () => set_placing(!placing);

@@ -79,6 +79,24 @@ class Browser:
     def picture(self, file):
         pathlib.Path(file).write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
+    def size(self, width, height):
+        """A window, or a telephone's screen, of so many pixels."""
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
+
+    def key(self, key, code, characters=""):
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, text=characters if kind == "keyDown" else "")
+
+    def beyond_the_edge(self):
+        """What can be seen and ends to the right of the page's edge, but for what scrolls within it."""
+        return self.value("""[...document.querySelectorAll('body *')].filter((element) => {
+            const place = element.getBoundingClientRect();
+            if (!(place.width > 0 && place.height > 0) || place.right <= innerWidth + 0.5) return false;
+            for (let around = element.parentElement; around && around !== document.body; around = around.parentElement)
+                if (getComputedStyle(around).overflowX !== 'visible' && around.getBoundingClientRect().right <= innerWidth + 0.5) return false;
+            return true;
+        }).map((element) => `${element.tagName} ${element.id} ${element.className}`)""")
+
     def kill(self):
         self.process.kill()
         self.process.wait()
@@ -107,11 +125,11 @@ class PageTrial:
     def run(self, *arguments):
         subprocess.run([self.septet, *arguments], check=True, cwd=self.root, stdout=subprocess.DEVNULL)
 
-    def serve(self, *command):
+    def serve(self, *command, cwd=None):
         """A program that serves the page, and the page's address."""
         said = self.folder / "said"
         with open(said, "wb") as log:
-            process = subprocess.Popen(command, cwd=self.root, stdout=log, stderr=log, stdin=subprocess.DEVNULL)
+            process = subprocess.Popen(command, cwd=cwd or self.root, stdout=log, stderr=log, stdin=subprocess.DEVNULL)
         self.running.append(process)
         wait_for(lambda: ADDRESS.search(said.read_bytes()) or process.poll() is not None, "the page's address")
         found = ADDRESS.search(said.read_bytes())

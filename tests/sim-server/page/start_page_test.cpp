@@ -76,7 +76,7 @@ TEST_CASE("a past drive's report is read at an address that cannot be guessed, a
     browser.say(json{{"id", 1}, {"do", "look"}, {"session", session}, {"file", file}}.dump());
     return hear_of(browser, "answer");
   };
-  const std::string path = look(7, "report.html")["path"];
+  const std::string path = "/" + look(7, "report.html")["path"].get<std::string>();
   const std::string report = waiting.get(path);
   CHECK(report.starts_with("HTTP/1.1 200"));
   CHECK(report.find("<p>report") != std::string::npos);
@@ -135,16 +135,23 @@ TEST_CASE("a port is handed from one page to the next, and who connects meanwhil
 TEST_CASE("only a port of this machine and a whole token are taken for a page that is handed over") {
   const auto handed = read_handover("5 " + std::string(token));
   REQUIRE(handed.has_value());
-  CHECK(handed->file == 5);
+  CHECK(handed->files.ipv4 == 5);
+  CHECK(handed->files.ipv6 == -1);
   CHECK(handed->token == token);
   CHECK(text_of(*handed) == "5 " + std::string(token));
-  for (const char* text : {"", "5", "5 ", "5 0123", "1 0123456789abcdef0123456789abcdef",
-                           "5 0123456789abcdef0123456789abcdeX", "99999999999 0123456789abcdef0123456789abcdef"})
+  const auto both = read_handover("5+6 " + std::string(token));
+  REQUIRE(both.has_value());
+  CHECK(both->files.ipv6 == 6);
+  CHECK(text_of(*both) == "5+6 " + std::string(token));
+  for (const char* text :
+       {"", "5", "5 ", "5 0123", "5+ 0123456789abcdef0123456789abcdef", "5+1 0123456789abcdef0123456789abcdef",
+        "+5 0123456789abcdef0123456789abcdef", "1 0123456789abcdef0123456789abcdef",
+        "5 0123456789abcdef0123456789abcdeX", "99999999999 0123456789abcdef0123456789abcdef"})
     CHECK_FALSE_MESSAGE(read_handover(text).has_value(), text);
-  CHECK_FALSE(ListeningSocket::take(1000).has_value());
+  CHECK_FALSE(ListeningSocket::take({1000}).has_value());
   int pipe_ends[2];
   REQUIRE(::pipe(pipe_ends) == 0);
-  CHECK_FALSE(ListeningSocket::take(pipe_ends[0]).has_value());
+  CHECK_FALSE(ListeningSocket::take({pipe_ends[0]}).has_value());
   ::close(pipe_ends[0]);
   ::close(pipe_ends[1]);
 }

@@ -89,13 +89,25 @@ def main():
             assert why in browser.value("refused_why"), (spoiled, browser.value("refused_why"))
 
         session = next(drives.glob("*motorway-ambulance/session.sqlite"))
-        assert sqlite3.connect(session).execute("SELECT item, value FROM questionnaire").fetchall() == [
-            ("misc.00", 3.0), ("drive_completed", None), ("paper-after.fun", 5.0), ("paper-after.realistic", 3.0)]
+        rows = sqlite3.connect(session).execute("SELECT item, value FROM questionnaire").fetchall()
+        assert rows == [("misc.00", 3.0), ("drive_completed", None), ("paper-after.fun", 5.0), ("paper-after.realistic", 3.0)], rows
         stopped_s, reason = sqlite3.connect(session).execute(
             "SELECT observed_s, reason FROM questionnaire WHERE item = 'drive_completed' AND censored = 1").fetchone()
         assert stopped_s > 0.0 and reason == "felt sick", (stopped_s, reason)
         assert ("note", "it's late") in sqlite3.connect(session).execute("SELECT key, value FROM meta").fetchall()
         trial.run("replay", "--verify", session)
+
+        # An experiment is chosen: what is next in it is driven, and what it is called there is nobody's choice.
+        browser.value("ask({ ...chosen(), experiment: 'no-such', scenario: '' }, (answer) => said.push(answer.why))")
+        browser.until("said.includes('there is no such experiment')")
+        browser.value("document.getElementById('choosescenario').value = 'experiment:ambulance-24'; show_scenario();"
+                      "document.getElementById('participant').value = 'P02'; ask(chosen(), (answer) => said.push(answer.why))")
+        browser.until("hello.scenario === 'motorway-ambulance' && hello.participant === 'P02' && mine && state && state.phase.startsWith('waiting')")
+        browser.value("document.getElementById('reason').value = 'enough'; offer_end(false)")
+        browser.click("#ending button[value=yes]")
+        browser.until("hello.choices && state && state.sessions && state.sessions.length === 2 && !state.starting && !state.looking")
+        assert browser.value("state.command.includes('--about=part=game') && state.command.includes('ambulance-24/subjects/P02/game-01')"), browser.value("state.command")
+        assert (drives / "ambulance-24/subjects/P02/game-01/session.sqlite").exists()
         operate.send_signal(signal.SIGTERM)
         assert operate.wait(LIMIT_S) == 0
 

@@ -1,4 +1,5 @@
 #include <condition_variable>
+#include <deque>
 #include <mutex>
 #include <vector>
 
@@ -244,6 +245,69 @@ TEST_CASE("messages to a browser that takes none are bounded: it is closed") {
   });
   echo.wait_until([&] { return echo.closed == 1; });
   CHECK(echo.works());
+}
+
+TEST_CASE("whoever holds hundreds of connections without a whole request shuts nobody out") {
+  Echo echo;
+  const std::string whole = fmt::format("GET /page.js HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n\r\n", echo.server->port());
+  std::string posted = whole;
+  posted.replace(0, 3, "POST");
+  // Nothing, a byte, all but the last one, a chunked body that never comes, and a whole request whose answer nobody takes.
+  const std::string held[] = {"", "G", whole.substr(0, whole.size() - 1),
+                              posted.substr(0, posted.size() - 2) + "Transfer-Encoding: chunked\r\n\r\n", whole};
+  for (const std::string& words : held) {
+    CAPTURE(words);
+    std::deque<RawConnection> holding;
+    for (int i = 0; i < 600; ++i) {
+      holding.emplace_back(echo.server->port());
+      holding.back().send(words);
+      if (i % 100 == 99) CHECK(echo.works());
+    }
+    RawBrowser stays(echo.server->port(), token);  // Who has come in is put out by nobody.
+    for (int i = 0; i < 300; ++i) {
+      holding.emplace_back(echo.server->port());
+      holding.back().send(words);
+      holding.pop_front();
+    }
+    CHECK(stays.say("still here"));
+    CHECK(stays.hear() == "still here");
+    CHECK(echo.works());
+  }
+}
+
+TEST_CASE("a request with a body is answered at once, by length or in chunks, also where the body never comes") {
+  Echo echo;
+  const std::string_view rests[] = {"Transfer-Encoding: chunked\r\n\r\n", "Content-Length: 5\r\n\r\n",
+                                    "Content-Length: 5\r\nExpect: 100-continue\r\n\r\n",
+                                    "Transfer-Encoding: gzip, chunked\r\n\r\n5\r\nhe"};
+  for (const std::string_view rest : rests)
+    for (const char* begin : {"POST /", "GET /", "PUT /page.js", "POST /live"}) {
+      CAPTURE(begin);
+      CAPTURE(rest);
+      RawConnection connection(echo.server->port());
+      connection.send(fmt::format("{} HTTP/1.1\r\nHost: localhost\r\n{}", begin, rest));
+      CHECK(connection.read_header().starts_with("HTTP/1.1 400"));  // Before this side has said that no more comes.
+    }
+}
+
+TEST_CASE("what others have added to the page's address is passed over, and nothing beside the page is found by it") {
+  Echo echo;
+  for (const char* path : {"/?utm_source=mail", "/?", "/?a=b&c=/../etc/passwd", "/page.js?v=2", "/??"})
+    CHECK_MESSAGE(echo.get(path).starts_with("HTTP/1.1 200"), path);
+  for (const char* path : {"/page?.js", "/x?/", "//?", "?/", "/%3Futm"})
+    CHECK_MESSAGE(!echo.get(path).starts_with("HTTP/1.1 200"), path);
+}
+
+TEST_CASE("the page is served on both of this machine's own addresses, whichever a browser takes for localhost") {
+  auto probe = ListeningSocket::open(0).value().copy().value();
+  const bool has_ipv6 = probe.ipv6 >= 0;
+  probe.close();
+  if (!has_ipv6) return;
+  Echo echo;
+  RawConnection connection(echo.server->port(), 0, true);
+  connection.send("GET / HTTP/1.1\r\nHost: [::1]\r\n\r\n");
+  connection.send_no_more();
+  CHECK(connection.read_all().find("<p>page") != std::string::npos);
 }
 
 TEST_CASE("a port that is taken is an error that names it") {

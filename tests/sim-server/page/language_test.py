@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""The page's files of a language: each has every key once, with the same {names} in its text, and the page asks for no other.
+
+    language_test.py FOLDER_OF_THE_PAGE
+"""
+import json
+import pathlib
+import re
+import sys
+
+# Keys that are put together when they are needed: a drive's end, a condition of the weather, a sentence of the server, a drive's title.
+MADE = ("end.", "condition.", "preset.", "said.", "severity.", "event.", "scenario.", "about.")
+
+
+def once(pairs):
+    keys = [key for key, _ in pairs]
+    twice = {key for key in keys if keys.count(key) > 1}
+    assert not twice, f"given twice: {twice}"
+    return dict(pairs)
+
+
+def texts_of(file):
+    text = file.read_text(encoding="utf-8")
+    return json.loads(text[text.index("{", text.index("languages.")):text.rindex("}") + 1], object_pairs_hook=once)
+
+
+def names_in(text):
+    return sorted(set(re.findall(r"\{(\w+)\}", text)))
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    languages = {file.stem.removeprefix("language_"): texts_of(file) for file in folder.glob("language_*.js")}
+    assert {"en", "de", "sv"} <= languages.keys(), languages.keys()
+    english = languages["en"]
+    mistakes = []
+    for code, texts in languages.items():
+        mistakes += [f"{code} lacks {key}" for key in english.keys() - texts.keys()]
+        mistakes += [f"{code} alone has {key}" for key in texts.keys() - english.keys()]
+        for key in english.keys() & texts.keys():
+            if not texts[key].strip():
+                mistakes.append(f"{code}: {key} is empty")
+            if names_in(texts[key]) != names_in(english[key]):
+                mistakes.append(f"{code}: {key} has the names {names_in(texts[key])}, English has {names_in(english[key])}")
+    asked = set()
+    areas = {key.split(".")[0] for key in english} - {made.rstrip(".") for made in MADE}
+    for file in folder.iterdir():
+        if file.name.startswith("language_"):
+            continue
+        text = file.read_text(encoding="utf-8")
+        asked |= set(re.findall(r'data-t(?:-\w+)?="([^"]+)"', text))
+        if file.suffix == ".js":
+            asked |= {key for key in re.findall(r"'([a-z]+\.[a-z_0-9]+)'", text) if key.split(".")[0] in areas}
+            mistakes += [f"{file.name} asks for {key}" for key in re.findall(r"\bt\('([^']+)'", text) if key not in english]
+    mistakes += [f"the page asks for {key}" for key in asked - english.keys()]
+    mistakes += [f"nothing asks for {key}" for key in english.keys() - asked if not key.startswith(MADE)]
+    mistakes += [f"English tells {key} in other words" for key, text in english.items() if key.startswith("said.") and key != f"said.{text}"]
+    if mistakes:
+        sys.exit("\n".join(sorted(mistakes)))
+
+
+main()
