@@ -330,6 +330,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     if (!opened) return tl::unexpected(opened.error());
     desk = std::move(*opened);
     progress.message("operator's page: " + desk->url());
+    if (!desk->speaks()) progress.message("espeak-ng is not installed: a word to the student is text alone");
   }
   // From here on there is something to be ended in order.
   program::catch_stop_signals();
@@ -342,10 +343,10 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     const auto by_signal = end_by_signal();
     return by_signal || !desk ? by_signal : desk->end_requested();
   };
-  const ScreenHost* watched = nullptr;
+  ScreenHost* host = nullptr;
   const auto hosted = [&]() -> const std::vector<HostedScreen>& {
     static const std::vector<HostedScreen> none;
-    return watched ? watched->screens() : none;
+    return host ? host->screens() : none;
   };
   program::GoWord console;
   environment.attend = [&](const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what) {
@@ -353,16 +354,17 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
       if (const auto why_not = drive.live->rearm_actuators("console"))
         progress.message("fan, shaker and wheel force stay at 0: " + *why_not);
     if (desk) desk->attend(newest, what, hosted(), program::monotonic_s());
+    if (desk && host) host->look_at(desk->watched(), program::monotonic_s());
   };
   if (desk) {
     desk->log_to(*drive.log);
     environment.is_paused = [&] { return desk->is_paused(); };
+    environment.word = [&] { return desk->word(); };
   }
   environment.report = [&](const Progress& now) { show(now, progress); };
   environment.message = [&](const std::string& text) {
     progress.message(text);
     if (drive.log) drive.log->record_message("screen", text);
-    if (desk) desk->tell(text);
   };
   environment.show = [&](const std::string& text) { progress.message(text); };
   if (rig.sound && !options.lockstep && !options.no_screens)
@@ -379,8 +381,8 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     result = run_headless(*drive.source, serve_options.ticks, environment);
   } else {
     Sockets& sockets = endpoint->sockets;
-    ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(*for_screens));
-    watched = &host;
+    ScreenHost screen_host(sockets.lane, sockets.tick, drive.store, std::move(*for_screens));
+    host = &screen_host;
     program::announce(fmt::format("ready {}", sockets.lane.local_address().port));
     environment.wait = [&](double seconds) {
       const net::UdpSocket* waiting[] = {&sockets.lane};
@@ -397,7 +399,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
       return *list ? std::optional(std::move(**list)) : std::nullopt;
     };
     const bool by_keyboard = drive.by_person && rig.car.source == rig::CarSource::keyboard;
-    host.give_notice({"", by_keyboard});
+    host->give_notice({"", by_keyboard});
     if (by_keyboard) progress.message(car_io::driving_keys_text());
     if (drive.by_person && !options.start_now)
       serve_options.wait_for_driver =
@@ -406,9 +408,9 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     const double wait_s =
         options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
     serve_options.wait_for_screens_s = wait_s;
-    result = serve(*drive.source, host, serve_options, environment);
-    screens = host.screens();
-    watched = nullptr;
+    result = serve(*drive.source, *host, serve_options, environment);
+    screens = host->screens();
+    host = nullptr;
   }
   if (desk) desk->show_end(fmt::format("ended: {}", text_of(result.end)), screens, program::monotonic_s());
   progress.close();

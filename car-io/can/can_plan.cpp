@@ -35,6 +35,9 @@ constexpr Quantity<Instruments> instruments[] = {
     {"rear_fog", &Instruments::rear_fog},
     {"parking_brake", &Instruments::parking_brake},
     {"anti_lock", &Instruments::anti_lock},
+    {"engine_fault", &Instruments::engine_fault},
+    {"tyre_pressure", &Instruments::tyre_pressure},
+    {"lamp_fault", &Instruments::lamp_fault},
     {"engine_stopped", &Instruments::engine_stopped},
     {"controls_lost", &Instruments::controls_lost},
 };

@@ -30,6 +30,7 @@ struct Instruments {
   double low_beam = 0.0, high_beam = 0.0, rear_fog = 0.0;
   double parking_brake = 0.0, anti_lock = 0.0;  ///< Warning lamps, likewise the next.
   double engine_stopped = 0.0, controls_lost = 0.0;
+  double engine_fault = 0.0, tyre_pressure = 0.0, lamp_fault = 0.0;
 };
 
 /// What the driver does, as signals say it.

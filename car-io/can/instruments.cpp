@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/world/car_warnings.hpp"
+
 namespace septet::car_io {
 namespace {
 
@@ -36,7 +38,11 @@ Instruments instruments_of(const Snapshot& snapshot, const DriverInput& input, c
   shown.high_beam = lit(lamps.has(Lamp::high_beam));
   shown.rear_fog = lit(lamps.has(Lamp::rear_fog));
   shown.parking_brake = lit(input.parking_brake);
-  shown.anti_lock = lit(motion.anti_lock_active);
+  const CarWarnings warnings = car_warnings_of(snapshot);
+  shown.anti_lock = lit(motion.anti_lock_active || warnings.anti_lock);
+  shown.engine_fault = lit(warnings.engine);
+  shown.tyre_pressure = lit(warnings.tyre_pressure);
+  shown.lamp_fault = lit(warnings.lamp);
   shown.engine_stopped = lit(!(motion.engine_radps > 0.0));
   shown.controls_lost = lit(has_lost_controls);
   return shown;

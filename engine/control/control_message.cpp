@@ -125,7 +125,16 @@ void fields(Pause& m, Visitor& v) {
 template <class Visitor>
 void fields(Thumbnail& m, Visitor& v) {
   v(m.tick);
-  v.text(m.png, most_thumbnail_bytes);
+  v.text(m.picture, most_thumbnail_bytes);
+}
+template <class Visitor>
+void fields(Look& m, Visitor& v) {
+  v(m.closely);
+}
+template <class Visitor>
+void fields(LargePicture& m, Visitor& v) {
+  v(m.tick);
+  v.text(m.picture, most_picture_bytes);
 }
 
 struct Put {

@@ -22,7 +22,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Of these messages; who speaks another one is refused.
-inline constexpr std::uint16_t protocol_version = 3;
+inline constexpr std::uint16_t protocol_version = 4;
 
 /// Screen → server, first of all.
 struct Hello {
@@ -129,18 +129,31 @@ struct Pause {
   bool paused = true;
 };
 
-/// Of a thumbnail; a larger one is refused.
-inline constexpr std::size_t most_thumbnail_bytes = 32 * 1024;
+/// Of a thumbnail, and of a large picture; a larger one is refused.
+inline constexpr std::size_t most_thumbnail_bytes = 64 * 1024, most_picture_bytes = 512 * 1024;
 
 /// Screen → server: what this screen shows, small, about once a second.
 struct Thumbnail {
   Tick tick = 0;
-  std::string png;  ///< Any bytes: nobody here reads them.
+  std::string picture;  ///< Any bytes: nobody here reads them.
+};
+
+/// Server → screen: somebody looks closely at this screen. For `looked_at_for_s` from now on it sends a LargePicture every
+/// `look_every_s`; whoever goes on looking says so again.
+struct Look {
+  bool closely = true;  ///< False: no more.
+};
+inline constexpr double looked_at_for_s = 3.0, look_every_s = 0.2;
+
+/// Screen → server: what this screen shows, large.
+struct LargePicture {
+  Tick tick = 0;
+  std::string picture;  ///< As a thumbnail's.
 };
 
 using ControlMessage =
     std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport,
-                 CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause, Thumbnail>;
+                 CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause, Thumbnail, Look, LargePicture>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);

@@ -45,20 +45,25 @@ class JobThread {
   /// Only where there is nothing to do.
   void give_if_idle(Job job) {
     const std::lock_guard lock(mutex_);
-    if (!is_idle()) return;
+    if (!has_nothing()) return;
     jobs_.push_back(std::move(job));
     changed_.notify_all();
+  }
+  /// Nothing waits and nothing is being done. It stays so until somebody gives a job.
+  bool is_idle() {
+    const std::lock_guard lock(mutex_);
+    return has_nothing();
   }
   /// Until everything is done. The first failure.
   Expected<void> wait() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return is_idle(); });
+    changed_.wait(lock, [&] { return has_nothing(); });
     if (error_) return tl::unexpected(*error_);
     return {};
   }
 
  private:
-  bool is_idle() const { return jobs_.empty() && !working_; }
+  bool has_nothing() const { return jobs_.empty() && !working_; }
   void run() {
     std::unique_lock lock(mutex_);
     while (true) {

@@ -101,7 +101,8 @@ void note_hull(const vehicle::HullReport& report, State& state, std::vector<Even
   }
 }
 
-Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s) {
+/// `out`: whose bulbs have gone.
+Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s, Lamps out) {
   Lamps lamps;
   const bool blink = indicator_is_lit(time_s);
   lamps.set(Lamp::brake, input.brake > 0.02);
@@ -112,6 +113,7 @@ Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car,
   lamps.set(Lamp::high_beam, input.high_beam);
   lamps.set(Lamp::horn, input.horn);
   lamps.set(Lamp::parking_brake, input.parking_brake);
+  lamps.bits = static_cast<std::uint16_t>(lamps.bits & ~out.bits);
   return lamps;
 }
 
@@ -120,7 +122,7 @@ Participant car_participant(const Model& model, const State& state, const vehicl
   car.id = driver_participant;
   car.model = model.scenario.entities[model.driver_entity].model;
   car.paint = 7;
-  car.lamps = driver_lamps(state.input, out, state.time_s());
+  car.lamps = driver_lamps(state.input, out, state.time_s(), state.faults.lamps_out);
   car.world_from_vehicle = out.world_from_vehicle;
   car.velocity_mps = out.velocity_mps;
   car.acceleration_mps2 = out.acceleration_mps2;
@@ -144,8 +146,11 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   vehicle::HullReport met;
   const auto wheels_before = state.car.wheels;
   std::array<double, vehicle::wheel_count> squeeze_m{};
+  std::optional<vehicle::VehicleParameters> failed;
+  if (state.faults.vehicle.any()) failed = vehicle::with_faults(model.car, state.faults.vehicle);
+  const vehicle::VehicleParameters& parameters = failed ? *failed : model.car;
   for (int i = 0; i < car_steps; ++i) {
-    vehicle::advance_vehicle(model.car, state.input, ground, tick_s / car_steps, state.car);
+    vehicle::advance_vehicle(parameters, state.input, ground, tick_s / car_steps, state.car);
     vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
     for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel)
       squeeze_m[wheel] = std::max(squeeze_m[wheel], state.car.wheels[wheel].squeeze_m);

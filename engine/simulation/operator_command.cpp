@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "engine/math/rigid_transform.hpp"
+#include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
@@ -38,7 +40,8 @@ tl::unexpected<Error> no_command(std::string what) {
   return failure(std::move(what), "operator's command",
                  "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\", \"trigger element=NAME\", \"place x_m=X "
                  "y_m=Y part=NAME\", \"remove thing=N\" "
-                 "or \"hide entity=NAME\"");
+                 "\"hide entity=NAME\", \"fault what=NAME\", \"repair what=NAME\" or \"put x_m=X y_m=Y heading_rad=A "
+                 "speed_mps=V\"");
 }
 
 /// All of the text is this number.
@@ -82,6 +85,30 @@ Expected<OperatorCommand> parse_place(std::string_view text) {
   place.part = text.substr(part + third.size());
   if (!part_of_name(place.part)) return no_command("there is no such thing");
   return place;
+}
+
+/// "X y_m=Y heading_rad=A speed_mps=V".
+Expected<OperatorCommand> parse_put(std::string_view text) {
+  PutCar put;
+  constexpr double furthest_m = 1e7;
+  const struct {
+    std::string_view name;
+    double PutCar::*value;
+    double least, most;
+  } numbers[] = {{"", &PutCar::x_m, -furthest_m, furthest_m},
+                 {"y_m=", &PutCar::y_m, -furthest_m, furthest_m},
+                 {"heading_rad=", &PutCar::heading_rad, -2.0 * pi, 2.0 * pi},
+                 {"speed_mps=", &PutCar::speed_mps, 0.0, fastest_put_mps}};
+  for (const auto& number : numbers) {
+    const auto word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    double& value = put.*number.value;
+    if (!word.starts_with(number.name) || !read_number(word.substr(number.name.size()), value) ||
+        !(value >= number.least && value <= number.most))
+      return no_command("this is no place to put the car");
+  }
+  if (!text.empty()) return no_command("this is no place to put the car");
+  return put;
 }
 
 /// Uses each act and each event of the storyboard, as whole elements.
@@ -169,6 +196,63 @@ Expected<void> apply(const Model& model, const ShowEntity& show, State& state, s
   return {};
 }
 
+Expected<void> apply(const Model&, const SetFault& set, State& state, std::vector<Event>&) {
+  if (has_failed(set.fault, state) == set.failed)
+    return failure(set.failed ? "it has failed already" : "it is whole", std::string(fault_names()[set.fault]),
+                   "choose the other");
+  set_fault(set.fault, set.failed, state);
+  return {};
+}
+
+/// The drivable lane whose middle is nearest, among those that run that way if there are any.
+std::optional<road::LanePosition> lane_to_put_on(const road::RoadNetwork& roads, const PutCar& put) {
+  const auto place = road::locate(roads, {put.x_m, put.y_m}, nullptr, furthest_put_m);
+  if (!place) return std::nullopt;
+  const road::Road& road = roads.roads[place->position.road];
+  const road::LaneSection& section = road::section_at(road, place->position.s_m);
+  constexpr double least_width_m = 2.0;
+  std::optional<road::LanePosition> nearest;
+  bool is_along = false;
+  double nearest_m = 0.0;
+  for (const road::Lane& lane : section.lanes) {
+    if (lane.id == 0 || !road::is_drivable(lane.type)) continue;
+    const road::LanePosition here{place->position.road, lane.id, place->position.s_m, 0.0};
+    const road::LanePoint point = road::evaluate_lane(roads, here);
+    if (point.lane_width_m < least_width_m) continue;
+    const bool along = std::cos(point.driving_heading_rad - put.heading_rad) > 0.0;
+    const double away_m = std::abs(point.t_m - place->position.t_m);
+    if (nearest && (is_along != along ? is_along : away_m >= nearest_m)) continue;
+    nearest = here;
+    is_along = along;
+    nearest_m = away_m;
+  }
+  return nearest;
+}
+
+Expected<void> apply(const Model& model, const PutCar& put, State& state, std::vector<Event>&) {
+  const auto lane = lane_to_put_on(model.roads, put);
+  if (!lane)
+    return failure(fmt::format("there is no lane to drive in within {:g} m", furthest_put_m), "put",
+                   "choose a place on a road");
+  const road::LanePoint point = road::evaluate_lane(model.roads, *lane);
+  std::vector<Participant> others;
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
+  state.traffic->append_participants(others);
+  for (const Participant& other : others)
+    if (glm::distance(other.world_from_vehicle.position_m, point.road.position_m) < free_around_put_m)
+      return failure("somebody stands there", "put", "choose another place, or wait");
+  state.car = vehicle::standstill(model.car, road::world_from_lane(point), put.speed_mps);
+  state.hull = {};
+  const road::RoadPosition here{lane->road, lane->s_m, point.t_m};
+  state.wheel_roads.fill(here);
+  state.kerbs = {};
+  state.strikes = {};
+  state.car_road = here;
+  state.touching.clear();
+  if (state.examiner) state.examiner = ExaminerState{};
+  return {};
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -184,6 +268,11 @@ std::string text_of(const OperatorCommand& command) {
   if (const auto* place = std::get_if<PlacePart>(&command))
     return fmt::format("place x_m={} y_m={} part={}", place->x_m, place->y_m, place->part);
   if (const auto* remove = std::get_if<RemovePiece>(&command)) return fmt::format("remove thing={}", remove->id);
+  if (const auto* fault = std::get_if<SetFault>(&command))
+    return fmt::format("{} what={}", fault->failed ? "fault" : "repair", fault_names()[fault->fault]);
+  if (const auto* put = std::get_if<PutCar>(&command))
+    return fmt::format("put x_m={} y_m={} heading_rad={} speed_mps={}", put->x_m, put->y_m, put->heading_rad,
+                       put->speed_mps);
   if (const auto* show = std::get_if<ShowEntity>(&command))
     return fmt::format("{} entity={}", show->shown ? "show" : "hide", show->name);
   std::string text = "conditions";
@@ -209,6 +298,15 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
     RemovePiece remove;
     if (!read_number(text.substr(begin.size()), remove.id)) return no_command("this is no thing's number");
     return remove;
+  }
+  if (constexpr std::string_view begin = "put x_m="; text.starts_with(begin))
+    return parse_put(text.substr(begin.size()));
+  for (const bool failed : {false, true}) {
+    const std::string_view begin = failed ? "fault what=" : "repair what=";
+    if (!text.starts_with(begin)) continue;
+    const auto fault = fault_of_name(text.substr(begin.size()));
+    if (!fault) return no_command("the car has nothing of this name that fails");
+    return SetFault{*fault, failed};
   }
   for (const bool shown : {false, true}) {
     const std::string_view begin = shown ? "show entity=" : "hide entity=";

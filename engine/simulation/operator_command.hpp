@@ -11,6 +11,9 @@
 ///     remove thing=3
 ///     hide entity=NAME
 ///     show entity=NAME
+///     fault what=tyre_front_left
+///     repair what=tyre_front_left
+///     put x_m=120.5 y_m=-3.25 heading_rad=0.5 speed_mps=13
 
 #include <cstdint>
 #include <span>
@@ -65,7 +68,25 @@ struct ShowEntity {
   bool shown = false;
   bool operator==(const ShowEntity&) const = default;
 };
-using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity>;
+/// Something of the driver's car fails, or is whole again: `fault` of fault_names() (car_faults.hpp).
+struct SetFault {
+  std::size_t fault = 0;
+  bool failed = false;
+  bool operator==(const SetFault&) const = default;
+};
+/// The driver's car, as new, stands or rolls in the middle of the lane that is nearest to a place, among those that run as it heads if there
+/// is one. Time, traffic and storyboard go on; its faults stay.
+struct PutCar {
+  double x_m = 0.0, y_m = 0.0;  ///< World, of the middle of its rear axle.
+  double heading_rad = 0.0;     ///< From x to y.
+  double speed_mps = 0.0;
+  bool operator==(const PutCar&) const = default;
+};
+using OperatorCommand =
+    std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity, SetFault, PutCar>;
+
+/// How far from a road the car may be put, the fastest that it may roll, and how far whoever is there has to be.
+inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;
 
 /// How far from the driver's car a thing may be placed: nearer it would stand in the car, further it would be gone at once.
 inline constexpr double nearest_place_m = 8.0, furthest_place_m = 500.0;

@@ -36,8 +36,13 @@ SEPTET_MEMBERS(Sheet, left_m, right_m, thickness_m)
 SEPTET_MEMBER_GROUPS(StillIce, hashed(slabs), kept(rows, sheets), hashed(thawed_kh))
 }  // namespace septet::ice
 
+namespace septet::vehicle {
+SEPTET_MEMBERS(Faults, anti_lock, misfire)
+}
+
 namespace septet::simulation {
 
+SEPTET_MEMBERS(CarFaults, vehicle, lamps_out)
 SEPTET_MEMBERS(BlackIce, road, lane, s_m, length_m, thickness_m)
 // Panes are in the effects' chained hash, where there are any.
 SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(panes, keyframe, glass_keyframe))
@@ -57,8 +62,8 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 // what is published follows from debris, and the rest remembers where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. What the input did is in the car. A game, and an examiner, is hashed where there is one.
-SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road),
+// Storyboard, traffic and effects have readers of their own. What the input did is in the car. Faults, a game, and an examiner are hashed where there are any.
+SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull, wheel_roads, kerbs, strikes, car_road),
                      left_out(scenario, traffic, effects), kept(game, examiner, input), hashed(diagnostics, touching))
 
 namespace {
@@ -166,6 +171,7 @@ std::uint64_t hash_state(const State& state) {
   hash_members(hash, state.effects, state.effects.fires);
   if (state.game) hash_members(hash, *state.game);
   if (state.examiner) hash_members(hash, *state.examiner);
+  if (state.faults.any()) hash_members(hash, state.faults);
   return hash.value();
 }
 

@@ -90,6 +90,7 @@ Snapshot capture(const Model& model, const State& state, const DrivenCar& car, s
   show_damage(state.effects, snapshot.participants);
   snapshot.effects = effect_keyframes(state.effects);
   if (auto lights = light_keyframe(model, state.tick)) snapshot.effects.push_back(std::move(*lights));
+  if (auto warnings = warning_keyframe(state)) snapshot.effects.push_back(std::move(*warnings));
   snapshot.diagnostics = state.diagnostics;
   if (state.game) snapshot.game = state.game->standing;
   return snapshot;

@@ -12,6 +12,7 @@
 #include "engine/physics/vehicle/vehicle.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
 #include "engine/simulation/examiner_state.hpp"
 #include "engine/simulation/game_state.hpp"
@@ -37,6 +38,7 @@ struct WheelStrike {
 struct State {
   Tick tick = 0;
   vehicle::VehicleState car;
+  CarFaults faults;  ///< Hashed where there is one.
   vehicle::HullState hull;
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};    ///< Where each wheel was, to find it again.
   std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;      ///< One event a touch.

@@ -78,6 +78,26 @@ std::string_view outcome_of(const LessonMarks& marks);
 /// Whether the head's direction was measured is told by whether it ever moved: where it did not, glances are not marked.
 LessonMarks mark_lesson(const Lesson& lesson, std::span<const Sample> samples, std::span<const Event> events);
 
+/// A time during which a task was beyond its bound: an occasion of its own, or samples without two seconds between them.
+struct LessonFault {
+  std::size_t task = 0;             ///< Of Lesson::tasks.
+  double from_s = 0.0, to_s = 0.0;  ///< Simulated; of its first and last moment.
+  double worst = 0.0;               ///< In the measure's unit…
+  double worst_s = 0.0;             ///< …and when that was.
+  std::string worst_at;             ///< Where, in words; empty where the measure does not tell.
+  Severity severity = Severity::minor;
+};
+
+/// All of them, in the order in which they begin. Samples of half a drive give those of that half, except that what is told of the last
+/// `settles_s` may still be taken back.
+std::vector<LessonFault> find_faults(const Lesson& lesson, std::span<const Sample> samples,
+                                     std::span<const Event> events);
+/// For how long what comes after can still excuse it: where one drives in the lane, by the change of lanes that it was a part of.
+double settles_s(LessonMeasure measure);
+
+/// In one word, as a lesson's file has it: "gap".
+std::string_view name_of(LessonMeasure measure);
+
 /// Whether more of it is worse.
 bool is_at_most(LessonMeasure measure);
 /// Whether every sample is an occasion.

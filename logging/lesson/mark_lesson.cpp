@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -41,7 +42,14 @@ struct DriveSeen {
   std::vector<LaneChange> changes;
   std::vector<Glance> glances;
   bool head_is_known = false;
+  std::vector<double> put_s = {};                            ///< When an instructor put the car elsewhere.
+  std::vector<std::pair<double, double>> instructor_s = {};  ///< From when to when he braked.
 };
+
+/// Between two times the car was put elsewhere: what changes there is nothing that was driven.
+bool is_put_between(const DriveSeen& drive, double from_s, double to_s) {
+  return std::ranges::any_of(drive.put_s, [&](double at_s) { return at_s >= from_s - 1e-6 && at_s < to_s; });
+}
 
 template <class Value>
 std::vector<Moment> each_sample(const DriveSeen& drive, const Value& value) {
@@ -160,10 +168,16 @@ std::vector<Moment> brakings(const DriveSeen& drive) {
   std::size_t from = 0;
   for (std::size_t i = 0; i < drive.samples.size(); ++i) {
     const Sample& now = drive.samples[i];
-    if (i > 0 && is_gap(drive.samples[i - 1], now)) from = i;
+    if (i > 0 && (is_gap(drive.samples[i - 1], now) ||
+                  is_put_between(drive, drive.samples[i - 1].simulated_time_s, now.simulated_time_s)))
+      from = i;
     while (from < i && drive.samples[from + 1].simulated_time_s <= now.simulated_time_s - braking_s) ++from;
     const double over_s = now.simulated_time_s - drive.samples[from].simulated_time_s;
-    if (over_s < braking_s || now.speed_mps < braking_from_mps) continue;
+    const double from_s = drive.samples[from].simulated_time_s;
+    const bool by_instructor = std::ranges::any_of(drive.instructor_s, [&](const auto& time) {
+      return from_s <= time.second && now.simulated_time_s >= time.first;
+    });
+    if (by_instructor || over_s < braking_s || now.speed_mps < braking_from_mps) continue;
     moments.push_back({now.simulated_time_s, std::max(0.0, (drive.samples[from].speed_mps - now.speed_mps) / over_s)});
   }
   return moments;
@@ -274,12 +288,23 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
   return moments;
 }
 
+/// How far beyond the bound, in the measure's unit; below 0 within it.
+double excess_of(const LessonTask& task, const Moment& moment) {
+  return is_at_most(task.measure) ? moment.value - task.bound : task.bound - moment.value;
+}
+
+/// Of what is beyond the bound.
+Severity severity_of(const LessonTask& task, double excess) {
+  if (task.measure == LessonMeasure::collision) return Severity::dangerous;
+  return excess >= task.tolerance ? Severity::serious : Severity::minor;
+}
+
 TaskMark mark_task(const LessonTask& task, const DriveSeen& drive) {
   TaskMark result;
   double worst_excess = 0.0;
   for (const Moment& moment : moments_of(task.measure, drive)) {
     if (moment.time_s < task.from_s || moment.time_s > task.to_s) continue;
-    const double excess = is_at_most(task.measure) ? moment.value - task.bound : task.bound - moment.value;
+    const double excess = excess_of(task, moment);
     result.faults += excess > 0.0;
     if (result.occasions++ > 0 && excess <= worst_excess) continue;
     worst_excess = excess;
@@ -289,14 +314,64 @@ TaskMark mark_task(const LessonTask& task, const DriveSeen& drive) {
   }
   if (result.occasions == 0) return result;
   result.mark = 10.0 * std::clamp(1.0 - worst_excess / task.tolerance, 0.0, 1.0);
-  if (worst_excess > 0.0) {
-    result.severity = worst_excess >= task.tolerance ? Severity::serious : Severity::minor;
-    if (task.measure == LessonMeasure::collision) result.severity = Severity::dangerous;
-  }
+  if (worst_excess > 0.0) result.severity = severity_of(task, worst_excess);
   return result;
 }
 
+void add_faults(std::size_t index, const LessonTask& task, const DriveSeen& drive, std::vector<LessonFault>& faults) {
+  constexpr double apart_s = 2.0;
+  const bool lasts = is_of_each_sample(task.measure);
+  LessonFault* going_on = nullptr;
+  double worst_excess = 0.0;
+  for (const Moment& moment : moments_of(task.measure, drive)) {
+    if (moment.time_s < task.from_s || moment.time_s > task.to_s) continue;
+    const double excess = excess_of(task, moment);
+    if (excess <= 0.0) continue;
+    if (!lasts || !going_on || moment.time_s - going_on->to_s > apart_s) {
+      going_on = &faults.emplace_back(LessonFault{.task = index, .from_s = moment.time_s});
+      worst_excess = 0.0;
+    }
+    going_on->to_s = moment.time_s;
+    if (excess <= worst_excess) continue;
+    worst_excess = excess;
+    going_on->worst = moment.value;
+    going_on->worst_s = moment.time_s;
+    going_on->worst_at = moment.at;
+    going_on->severity = severity_of(task, excess);
+  }
+}
+
+DriveSeen seen_of(std::span<const Sample> samples, std::span<const Event> events) {
+  DriveSeen drive{samples, events, find_lane_changes(samples), find_glances(samples), false};
+  drive.head_is_known =
+      std::ranges::any_of(samples, [](const Sample& sample) { return sample.gaze_heading_rad != 0.0; });
+  for (const Event& event : events) {
+    if (event.kind == "operator_command" && event.detail.starts_with("put "))
+      drive.put_s.push_back(event.simulated_time_s);
+    if (event.kind != "operator") continue;
+    const std::string_view wish = word_of(event, "wish");
+    if (wish == "brake") drive.instructor_s.emplace_back(event.simulated_time_s, 1e9);
+    if (wish == "brake_off" && !drive.instructor_s.empty()) drive.instructor_s.back().second = event.simulated_time_s;
+  }
+  std::erase_if(drive.changes, [&](const LaneChange& change) {
+    constexpr double near_s = 0.25;
+    return is_put_between(drive, change.simulated_time_s - near_s, change.simulated_time_s + near_s);
+  });
+  return drive;
+}
+
 }  // namespace
+
+double settles_s(LessonMeasure measure) { return measure == LessonMeasure::position ? around_change_s : 0.0; }
+
+std::vector<LessonFault> find_faults(const Lesson& lesson, std::span<const Sample> samples,
+                                     std::span<const Event> events) {
+  const DriveSeen drive = seen_of(samples, events);
+  std::vector<LessonFault> faults;
+  for (std::size_t i = 0; i < lesson.tasks.size(); ++i) add_faults(i, lesson.tasks[i], drive, faults);
+  std::ranges::stable_sort(faults, {}, &LessonFault::from_s);
+  return faults;
+}
 
 bool is_at_most(LessonMeasure measure) {
   constexpr std::array least{LessonMeasure::gap, LessonMeasure::indicator, LessonMeasure::stop, LessonMeasure::yielding,
@@ -325,9 +400,7 @@ std::string_view name_of(Severity severity) {
 }
 
 LessonMarks mark_lesson(const Lesson& lesson, std::span<const Sample> samples, std::span<const Event> events) {
-  DriveSeen drive{samples, events, find_lane_changes(samples), find_glances(samples), false};
-  drive.head_is_known =
-      std::ranges::any_of(samples, [](const Sample& sample) { return sample.gaze_heading_rad != 0.0; });
+  const DriveSeen drive = seen_of(samples, events);
   LessonMarks marks;
   double sum = 0.0, weights = 0.0;
   bool danger = false;

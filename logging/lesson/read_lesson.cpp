@@ -59,6 +59,10 @@ LessonTask read_task(const toml::table& table, std::string_view file, std::set<s
 
 }  // namespace
 
+std::string_view name_of(LessonMeasure measure) {
+  return std::ranges::find(measure_names, measure, &MeasureName::measure)->name;
+}
+
 std::string_view unit_of(LessonMeasure measure) {
   return std::ranges::find(measure_names, measure, &MeasureName::measure)->unit;
 }

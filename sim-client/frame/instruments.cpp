@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "car-io/driving_keys.hpp"
+#include "engine/world/car_warnings.hpp"
 #include "sim-client/frame/cockpit_drawing.hpp"
 
 namespace septet::frame {
@@ -44,6 +45,19 @@ std::vector<std::string> lines_of(const std::string& text, const rig::Screen& sc
     at = until + 1;
   }
   return lines;
+}
+
+/// The warning lamps that are lit, in words; empty where none is.
+std::string warning_text(const CarWarnings& warnings) {
+  std::string text;
+  const auto add = [&](bool is_lit, const char* words) {
+    if (is_lit) text += (text.empty() ? "" : "   ") + std::string(words);
+  };
+  add(warnings.tyre_pressure, "tyre pressure");
+  add(warnings.anti_lock, "ABS off");
+  add(warnings.engine, "engine fault");
+  add(warnings.lamp, "lamp out");
+  return text;
 }
 
 instant::OverlayText in_the_middle(const std::string& text, const rig::Screen& screen, double y_px, double height_px) {
@@ -81,6 +95,9 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
   }
   const double below_px = screen.height_px - 0.6 * small_px;
   if (is_stalled(car)) add("engine stalled", 0.0, below_px, small_px, red);
+  // Above the dials' middle, as a car's own display has it.
+  if (const std::string warnings = warning_text(car_warnings_of(shown)); !warnings.empty())
+    add(warnings, 0.0, below_px - small_px - 6.0, small_px, amber);
   return texts;
 }
 

@@ -36,7 +36,7 @@ void ScreenLink::pump(double now_s) {
               refusal_ = received.error();
             break;
           case LaneMessage::control:
-            on_control(event.bytes);
+            on_control(event.bytes, now_s);
             break;
         }
     }
@@ -71,7 +71,7 @@ void ScreenLink::on_connected() {
   send(Hello{options_.screen, options_.tick_port}, net::Reliability::reliable);
 }
 
-void ScreenLink::on_control(std::span<const std::byte> bytes) {
+void ScreenLink::on_control(std::span<const std::byte> bytes, double now_s) {
   auto message = decode_control(bytes);
   if (!message) return;  // Authenticated, so another version: the server's refusal says so.
   if (auto* welcome = std::get_if<Welcome>(&*message)) {
@@ -97,6 +97,8 @@ void ScreenLink::on_control(std::span<const std::byte> bytes) {
     scene_arrived_ = is_welcome_ = false;
   } else if (auto* notice = std::get_if<Notice>(&*message)) {
     notice_ = std::move(*notice);
+  } else if (const auto* look = std::get_if<Look>(&*message)) {
+    looked_at_until_s_ = look->closely ? now_s + looked_at_for_s : -1e9;
   } else if (std::holds_alternative<Finish>(*message)) {
     finished_ = true;
   }

@@ -52,6 +52,8 @@ class ScreenLink {
   bool finished() const { return finished_; }
   /// What the driver is to read, if this is the screen ahead.
   const control::Notice& notice() const { return notice_; }
+  /// Whether somebody looks closely at this screen.
+  bool is_looked_at(double now_s) const { return looked_at_until_s_ > now_s; }
   /// What happened to the connection since the last call, for the console.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
@@ -78,7 +80,7 @@ class ScreenLink {
   static constexpr double longest_step_s = 0.1;  ///< From one pump to the next, as far as it counts as listening.
   static constexpr double refused_for_s = 5.0;
   void on_connected();
-  void on_control(std::span<const std::byte> bytes);
+  void on_control(std::span<const std::byte> bytes, double now_s);
   void tell_of_forgeries(double now_s);
   void receive_ticks(double now_s);
   void pump_scene();
@@ -96,6 +98,7 @@ class ScreenLink {
   std::optional<Error> refusal_;
   bool finished_ = false;
   control::Notice notice_;
+  double looked_at_until_s_ = -1e9;
   std::optional<double> pumped_s_;
   double unheard_s_ = 0.0;  ///< For how long this end has listened and heard nothing.
   bool scene_arrived_ = false;

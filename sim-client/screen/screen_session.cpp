@@ -66,6 +66,9 @@ class Session {
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
+  /// Of what is shown, if somebody looks closely and the next picture is due.
+  Expected<void> show_closely(Tick tick, double now_s);
+  void send_pictures();
   void say_goodbye();
   /// That pictures come slowly, and on the screen ahead what the driver is to read.
   void add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot);
@@ -82,7 +85,8 @@ class Session {
   const rig::Screen* screen_ = nullptr;
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
-  ThumbnailMaker thumbnails_;
+  ThumbnailMaker thumbnails_, large_pictures_{large_picture};
+  std::optional<double> looked_s_;  ///< When the newest large picture was taken.
   FrameTimes frame_times_, submit_times_;
   std::optional<double> last_picture_s_;
   PictureRate picture_rate_;
@@ -217,6 +221,29 @@ Expected<void> Session::keep_picture(Tick tick) {
   return {};
 }
 
+Expected<void> Session::show_closely(Tick tick, double now_s) {
+  if (!link_.is_looked_at(now_s)) {
+    looked_s_.reset();
+    return {};
+  }
+  if (looked_s_ && now_s - *looked_s_ < control::look_every_s) return {};
+  // From one due time to the next, so that five a second are five.
+  looked_s_ =
+      looked_s_ && now_s - *looked_s_ < 2.0 * control::look_every_s ? *looked_s_ + control::look_every_s : now_s;
+  const auto picture = display_->renderer().read_back();
+  if (!picture) return tl::unexpected(picture.error());
+  large_pictures_.take(tick, *picture);
+  return {};
+}
+
+/// One that would wait in a queue is left out.
+void Session::send_pictures() {
+  if (auto small = thumbnails_.finished(); small && !link_.has_backlog())
+    link_.send(control::Thumbnail{small->tick, std::move(small->picture)}, net::Reliability::reliable);
+  if (auto large = large_pictures_.finished(); large && !link_.has_backlog())
+    link_.send(control::LargePicture{large->tick, std::move(large->picture)}, net::Reliability::reliable);
+}
+
 Expected<void> Session::draw_lockstep() {
   if (!link_.scene_arrived() || link_.history().empty()) return {};
   const Tick tick = link_.history().newest().snapshot.tick;
@@ -231,7 +258,7 @@ Expected<void> Session::draw_lockstep() {
   if (every != 0 && tick % every == 0)
     if (auto kept = keep_picture(tick); !kept) return kept;
   link_.send(control::Presented{tick, last_submit_ms_}, net::Reliability::reliable);
-  return {};
+  return show_closely(tick, program::monotonic_s());
 }
 
 Expected<void> Session::draw_real_time(double now_s) {
@@ -255,6 +282,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   const std::uint32_t every = link_.welcome()->picture_every_ticks;
   if (every != 0 && (!drawn_tick_ || shown.tick / every != *drawn_tick_ / every))
     if (auto kept = keep_picture(shown.tick); !kept) return kept;
+  if (auto shown_closely = show_closely(shown.tick, now_s); !shown_closely) return shown_closely;
   drawn_tick_ = shown.tick;
   send_controls();
   if (!display_->paces_itself()) wait(1.0 / frame::frame_rate_hz - 1e-3 * last_submit_ms_);
@@ -352,8 +380,7 @@ Expected<void> Session::run() {
         drawn = draw_real_time(now_s);
     }
     if (!drawn) return drawn;
-    if (auto thumbnail = thumbnails_.finished(); thumbnail && !link_.has_backlog())
-      link_.send(*thumbnail, net::Reliability::reliable);
+    send_pictures();
     if (!display_ || link_.welcome()->lockstep) wait(link_.has_backlog() ? 0.0 : 0.005);
   }
   link_.close();

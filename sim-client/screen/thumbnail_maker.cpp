@@ -6,23 +6,24 @@
 #include <cstddef>
 #include <string>
 
-#include "engine/image/png.hpp"
+#include "engine/image/jpeg.hpp"
 
 namespace septet::screen {
 namespace {
 
-constexpr std::uint32_t most_width = 160, most_height = 120, samples_a_side = 4;
+constexpr std::uint32_t samples_a_side = 4;
+constexpr int quality = 80;
 
 }  // namespace
 
-image::Image thumbnail_of(const image::Image& picture) {
+image::Image thumbnail_of(const image::Image& picture, const PictureLimits& limits) {
   const double scale = std::max(
-      {1.0, static_cast<double>(picture.width) / most_width, static_cast<double>(picture.height) / most_height});
+      {1.0, static_cast<double>(picture.width) / limits.width, static_cast<double>(picture.height) / limits.height});
   if (scale <= 1.0) return picture;
   const auto side = [&](std::uint32_t pixels, std::uint32_t most) {
     return std::clamp(static_cast<std::uint32_t>(std::lround(pixels / scale)), 1u, most);
   };
-  image::Image small(side(picture.width, most_width), side(picture.height, most_height));
+  image::Image small(side(picture.width, limits.width), side(picture.height, limits.height));
   // Of the stretch that a pixel stands for, evenly spread places.
   const auto place = [](std::uint32_t pixel, std::uint32_t sample, std::uint32_t from, std::uint32_t to) {
     const std::uint64_t part = std::uint64_t{pixel} * samples_a_side + sample;
@@ -47,17 +48,17 @@ image::Image thumbnail_of(const image::Image& picture) {
   return small;
 }
 
-ThumbnailMaker::ThumbnailMaker()
-    : thread_(1, [this](Job& job) -> Expected<void> {
-        const Bytes png = image::encode_png(job.picture);
-        if (png.size() > control::most_thumbnail_bytes) return {};
-        control::Thumbnail made{job.tick, std::string(reinterpret_cast<const char*>(png.data()), png.size())};
+ThumbnailMaker::ThumbnailMaker(const PictureLimits& limits)
+    : thread_(1, [this, limits](Job& job) -> Expected<void> {
+        const Bytes packed = image::encode_jpeg(thumbnail_of(job.picture, limits), quality);
+        if (packed.empty() || packed.size() > limits.bytes) return {};
+        Made made{job.tick, std::string(reinterpret_cast<const char*>(packed.data()), packed.size())};
         const std::lock_guard lock(mutex_);
         finished_ = std::move(made);
         return {};
       }) {}
 
-std::optional<control::Thumbnail> ThumbnailMaker::finished() {
+std::optional<ThumbnailMaker::Made> ThumbnailMaker::finished() {
   const std::lock_guard lock(mutex_);
   return std::exchange(finished_, std::nullopt);
 }

@@ -64,8 +64,8 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
           powertrain.gear_ratio[gear] * powertrain.final_ratio / model->car.tyre.radius_m;
     // The driver keeps the model alive: the road in it is what they see.
     const auto person = std::make_shared<car_io::SimulatedDriverCar>(*parameters, seed, model->roads);
-    seat.actuators = car.actuators;
-    sit_at_device(seat, person->opener(), {});
+    // Its device is read as a real one is, and has nothing that moves.
+    seat.car = std::make_unique<car_io::CarConnection>(person->opener(), car_io::CarConnectionOptions{});
     seat.look = [person, model](const Snapshot& snapshot) { person->drive(snapshot, 1.0 / simulation::tick_rate_hz); };
     return seat;
   }

@@ -115,7 +115,7 @@ void LiveDrive::cut_actuators(const std::string& why) {
   cut_why_ = why;
   guard_.trip(true);
   if (log_) log_->record_message("actuators_cut", "why=" + printable(why));
-  if (seat_.actuate || seat_.shakes_by_sound)
+  if (has_actuators())
     tell(fmt::format("fan, shaker and wheel force are cut, for {}; re-arm them, or pause the drive and go on", why));
 }
 
@@ -125,7 +125,9 @@ void LiveDrive::watch_switches(const car_io::CarSwitches& switches) {
     guard_.stop();
     cut_why_ = "the emergency stop was pressed";
     if (log_) log_->record_message("emergency_stop", "pressed=1");
-    tell("EMERGENCY STOP: fan, shaker and wheel force are at 0 until it is released and somebody re-arms them");
+    tell(has_actuators()
+             ? "EMERGENCY STOP: fan, shaker and wheel force are at 0 until it is released and somebody re-arms them"
+             : "EMERGENCY STOP: it stands until it is released and somebody re-arms");
   } else if (!switches.emergency_stop && stop_is_pressed_) {
     if (log_) log_->record_message("emergency_stop", "pressed=0");
     tell("the emergency stop is released; the actuators wait to be re-armed");
@@ -251,6 +253,10 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   if (seat_.head) {
     seat_.head->move(input.input, 1.0 / simulation::tick_rate_hz);
     if (const auto message = seat_.head->take_message()) tell(*message);
+  }
+  if (instructor_brake_ > 0.0) {
+    if (!(input.input.brake >= instructor_brake_)) input.input.brake = instructor_brake_;
+    input.input.accelerator = 0.0;
   }
   std::vector<simulation::Event> events = std::exchange(events_, {});
   const auto before = newest_;

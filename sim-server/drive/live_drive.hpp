@@ -55,6 +55,9 @@ class LiveDrive final : public TickSource {
 
   /// Between two ticks: done now and logged, so that the drive run again has it too. Error: this drive cannot do that, or not now.
   Expected<void> command(const simulation::OperatorCommand& command);
+  /// The instructor's brake, 0 to 1, until the next word: from the next tick on the driver's input brakes at least so much and does not
+  /// accelerate. What is logged is what was driven with.
+  void brake(double share) { instructor_brake_ = share; }
   const simulation::State& state() const { return state_; }
   /// A fault beside the ticks (sound that has stopped): fan, shaker and wheel force fall to 0 until somebody re-arms.
   void cut_actuators(const std::string& why);
@@ -62,7 +65,7 @@ class LiveDrive final : public TickSource {
   std::optional<std::string> rearm_actuators(const std::string& by);
   /// Why they are at 0; nothing while they run.
   const std::optional<std::string>& actuators_cut() const { return cut_why_; }
-  bool has_actuators() const { return seat_.actuate != nullptr; }
+  bool has_actuators() const { return seat_.actuate != nullptr || seat_.shakes_by_sound; }
   /// Whom to tell of what happens, beside the log, with the simulated time.
   void watch_events(std::function<void(const simulation::Event&, double)> told) { told_ = std::move(told); }
 
@@ -94,6 +97,7 @@ class LiveDrive final : public TickSource {
   DriverSeat seat_;
   SessionLog* log_ = nullptr;
   simulation::State state_;
+  double instructor_brake_ = 0.0;
   DriverInput held_;                       ///< The last controls from a screen: they come less often than ticks.
   std::optional<Tick> heard_tick_;         ///< When they came.
   std::vector<simulation::Event> events_;  ///< Of commands since the last tick, to be logged with the next one.

@@ -1,15 +1,19 @@
 #include "sim-server/drive/operator_desk.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/operator_command.hpp"
 #include "logging/questionnaire.hpp"
+#include "program/child_process.hpp"
 #include "program/resources.hpp"
+#include "sim-server/drive/told_on_page.hpp"
 #include "sim-server/page/request_checks.hpp"
 
 namespace septet::server {
@@ -27,6 +31,14 @@ std::optional<DriverRating> find_rating() {
   return rating ? std::optional(*rating) : std::nullopt;
 }
 
+/// The rules that this drive is marked by, if it is a lesson. They were judged when the drive was loaded.
+std::unique_ptr<LessonWatch> find_lesson(const LoadedDrive& loaded) {
+  const auto source = std::ranges::find(loaded.sources, logging::lesson_role, &logging::SourceFile::role);
+  if (source == loaded.sources.end()) return nullptr;
+  auto lesson = logging::read_lesson(source->content, source->name);
+  return lesson ? std::make_unique<LessonWatch>(std::move(*lesson)) : nullptr;
+}
+
 page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loaded,
                           const std::optional<DriverRating>& rating) {
   page::DriveFacts facts{.scenario = std::filesystem::path(options.scenario).stem().string(),
@@ -41,6 +53,7 @@ page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loade
   if (rating)
     facts.rating = page::RatingScale{rating->title(), rating->item().text, rating->item().least, rating->item().labels};
   for (const std::string_view part : simulation::part_names()) facts.things.emplace_back(part);
+  for (const std::string_view fault : simulation::fault_names()) facts.faults.emplace_back(fault);
   for (const auto& condition : simulation::conditions())
     facts.conditions.push_back({std::string(condition.name), condition.least, condition.most});
   return facts;
@@ -57,7 +70,8 @@ std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) 
                      .presented = screen.has_presented ? std::optional(screen.presented) : std::nullopt,
                      .lost_baselines = screen.lost_baselines,
                      .drop_outs = screen.left_s.size(),
-                     .thumbnail = screen.thumbnail});
+                     .thumbnail = screen.thumbnail,
+                     .large_picture = screen.large_picture});
   return views;
 }
 
@@ -74,18 +88,45 @@ Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& 
   }
   page_options.token = options.page_handover ? options.page_handover->token : page::random_token();
   auto rating = find_rating();
-  auto page = page::OperatorPage::open(std::move(page_options), facts_of(options, loaded, rating), loaded.model->roads);
+  auto lesson = find_lesson(loaded);
+  page::DriveFacts facts = facts_of(options, loaded, rating);
+  if (lesson) facts.lesson = lesson->facts();
+  Speaker speaker(program::find_program("espeak-ng"));
+  facts.speaks = speaker.is_there();
+  auto page = page::OperatorPage::open(std::move(page_options), std::move(facts), loaded.model->roads);
   if (!page) return tl::unexpected(page.error());
-  auto desk = std::unique_ptr<OperatorDesk>(new OperatorDesk(std::move(*page), std::move(rating), loaded, drive));
-  drive.watch_events([desk = desk.get()](const simulation::Event& event, double at_s) {
-    desk->page_->tell(at_s, event.kind + ": " + event.detail);
-  });
-  return desk;
+  return std::unique_ptr<OperatorDesk>(
+      new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson), std::move(speaker), loaded, drive));
+}
+
+void OperatorDesk::log_to(SessionLog& log) {
+  log_ = &log;
+  log.watch(
+      [this](const logging::Sample& sample) {
+        way_back_.add(sample);
+        if (lesson_) lesson_->add(sample);
+      },
+      [this](const logging::Event& event) {
+        if (lesson_) lesson_->add(event);
+        if (auto told = told_on_page(event)) page_->tell(*told);
+      });
+}
+
+/// What the screen ahead shows, for the stills of faults.
+void OperatorDesk::keep_still(const std::vector<HostedScreen>& screens) {
+  if (!lesson_) return;
+  const auto ahead = std::ranges::find(screens, rig::screen_ahead(loaded_.rig).name, &HostedScreen::name);
+  if (ahead == screens.end() || !ahead->thumbnail || ahead->thumbnail == seen_ahead_) return;
+  seen_ahead_ = ahead->thumbnail;
+  lesson_->add_still(static_cast<double>(ahead->thumbnail_tick) / simulation::tick_rate_hz, seen_ahead_);
 }
 
 void OperatorDesk::attend(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what,
                           const std::vector<HostedScreen>& screens, double now_s) {
   newest_ = newest ? newest : drive_.first();
+  now_s_ = now_s;
+  if (brake_until_s_ && now_s > *brake_until_s_) hold_brake({}, false);
+  if (const auto trouble = speaker_.attend(); trouble && log_) log_->record_message("screen", *trouble);
   for (const auto& wish : page_->take_wishes()) page_->answer(wish, fulfil(wish));
   if (shown_s_ && now_s - *shown_s_ < show_every_s) return;
   if (!shown_s_ || now_s - since_s_ >= 1.0) {
@@ -95,6 +136,7 @@ void OperatorDesk::attend(const std::shared_ptr<const TakenSnapshot>& newest, co
     since_time_s_ = time_s;
   }
   shown_s_ = now_s;
+  keep_still(screens);
   show(what, screens, now_s);
 }
 
@@ -105,7 +147,7 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
                        .wall_s = now_s,
                        .real_time_factor = real_time_factor_,
                        .has_actuators = drive_.has_actuators(),
-                       .actuators_cut = drive_.actuators_cut(),
+                       .fault = drive_.actuators_cut(),
                        .alarm = drive_.alarm(),
                        .leader = {},
                        .screens = view_of(screens)};
@@ -123,6 +165,10 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
     view.entities.emplace_back(std::move(entity.name), entity.shown);
   for (const auto& piece : simulation::lying_pieces(drive_.state().effects))
     view.lying.push_back({piece.id, std::string(piece.part), piece.position_m.x, piece.position_m.y});
+  view.instructor_brakes = brake_until_s_.has_value();
+  for (std::size_t fault = 0; fault < simulation::fault_names().size(); ++fault)
+    view.faults.push_back(simulation::has_failed(fault, drive_.state()));
+  if (lesson_) view.lesson = lesson_->view();
   view.triggers = simulation::triggers(loaded_.model->scenario, scenario);
   page_->show(std::move(view));
 }
@@ -131,6 +177,7 @@ void OperatorDesk::show_end(const std::string& text, const std::vector<HostedScr
   if (!newest_) newest_ = drive_.first();
   if (rating_ && log_)
     for (auto& row : rating_->unanswered(drive_.state().time_s())) log_->record_answer(std::move(row));
+  if (lesson_) lesson_->finish();
   show(text, screens, now_s);
 }
 
@@ -158,11 +205,45 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
     if (end->participant_stops && log_) log_->record_answer(logging::drop_out(drive_.state().time_s(), end->reason));
   } else if (const auto* changed = std::get_if<page::Change>(&wish.wish)) {
     return change(wish, changed->command);
+  } else if (const auto* brake = std::get_if<page::Brake>(&wish.wish)) {
+    return hold_brake(wish, brake->held);
+  } else if (const auto* back = std::get_if<page::Back>(&wish.wish)) {
+    return put_back(wish, back->seconds);
+  } else if (const auto* word = std::get_if<page::Say>(&wish.wish)) {
+    return say(wish, *word);
   } else if (const auto* rated = std::get_if<page::Rate>(&wish.wish)) {
     return rate(wish, rated->value);
   } else {
     return "a drive goes on";
   }
+  return std::nullopt;
+}
+
+/// It is let go, too, by a browser that is gone or hangs.
+std::optional<std::string> OperatorDesk::hold_brake(const page::OperatorWish& wish, bool held) {
+  constexpr double silence_s = 1.0;
+  const bool was_held = brake_until_s_.has_value();
+  brake_until_s_ = held ? std::optional(now_s_ + silence_s) : std::nullopt;
+  if (held == was_held) return std::nullopt;
+  drive_.brake(held ? 1.0 : 0.0);
+  note(wish, "operator", held ? "brake" : "brake_off");
+  return std::nullopt;
+}
+
+std::optional<std::string> OperatorDesk::put_back(const page::OperatorWish& wish, double seconds) {
+  const auto place = way_back_.place(seconds, drive_.state().time_s());
+  if (!place) return "the car was in no lane then";
+  return change(wish, simulation::text_of(*place));
+}
+
+std::optional<std::string> OperatorDesk::say(const page::OperatorWish& wish, const page::Say& word) {
+  // As long as a sentence takes to be read by somebody who drives.
+  constexpr double least_s = 6.0, most_s = 15.0, a_character_s = 0.12;
+  if (word.text.empty()) return "there is no word";
+  word_ = word.text;
+  word_until_s_ = now_s_ + std::clamp(a_character_s * static_cast<double>(word.text.size()), least_s, most_s);
+  if (word.aloud) speaker_.say(word.text, word.language);
+  note(wish, "word", word.text);
   return std::nullopt;
 }
 
@@ -185,8 +266,8 @@ std::optional<std::string> OperatorDesk::change(const page::OperatorWish& wish, 
 
 void OperatorDesk::note(const page::OperatorWish& wish, const std::string& kind, const std::string& what) {
   const std::string by = wish.name.empty() ? "operator" : wish.name;
-  if (log_) log_->record_message(kind, fmt::format("by={} {}={}", by, kind == "mark" ? "note" : "wish", what));
-  page_->tell(drive_.state().time_s(), fmt::format("{}: {} ({})", kind, what, by));
+  const char* const key = kind == "mark" ? "note" : kind == "word" ? "text" : "wish";
+  if (log_) log_->record_message(kind, fmt::format("by={} {}={}", by, key, what));
 }
 
 }  // namespace septet::server

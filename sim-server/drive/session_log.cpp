@@ -87,13 +87,16 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   bad_numbers_ = snapshot.diagnostics.bad_numbers;
   game_ = snapshot.game;
   for (const auto& event : events)
-    writer_.record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
+    record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
   // The leader is looked for only where a sample wants it: ten times a second.
   const auto leader =
       logging::is_sample_due(tick_, simulation::tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
   auto observation = logging::observe(observer_, snapshot, leader);
-  for (auto& event : observation.events) writer_.record(std::move(event));
-  if (observation.sample) writer_.record(*observation.sample);
+  for (auto& event : observation.events) record(std::move(event));
+  if (observation.sample) {
+    if (sampled_) sampled_(*observation.sample);
+    writer_.record(*observation.sample);
+  }
   if (!samples_only_) writer_.record(std::move(taken));
 }
 
@@ -165,12 +168,17 @@ std::string SessionLog::ending(const ServeResult& result) const {
 }
 
 void SessionLog::record_message(const std::string& kind, const std::string& text) {
-  writer_.record(logging::Event{tick_, simulated_time_s_, kind, std::nullopt, text});
+  record(logging::Event{tick_, simulated_time_s_, kind, std::nullopt, text});
 }
 
 void SessionLog::record_command(Tick before, const simulation::OperatorCommand& command) {
-  writer_.record(logging::Event{before, simulated_time_s_, std::string(operator_command_event), std::nullopt,
-                                simulation::text_of(command)});
+  record(logging::Event{before, simulated_time_s_, std::string(operator_command_event), std::nullopt,
+                        simulation::text_of(command)});
+}
+
+void SessionLog::record(logging::Event event) {
+  if (happened_) happened_(event);
+  writer_.record(std::move(event));
 }
 
 std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads) {

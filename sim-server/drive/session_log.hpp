@@ -2,9 +2,11 @@
 /// What the server writes into the session file, tick by tick, and what it says of the drive at the end.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/hash.hpp"
@@ -29,6 +31,11 @@ class SessionLog {
   /// session.sqlite in the drive's folder.
   static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options);
 
+  /// Whom to tell of each sample and each event beside the file, in its order; whom that takes no time.
+  void watch(std::function<void(const logging::Sample&)> sampled, std::function<void(const logging::Event&)> happened) {
+    sampled_ = std::move(sampled);
+    happened_ = std::move(happened);
+  }
   void record_scene(const scene::Store& store);
   void record_input(logging::InputRecord input);
   /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
@@ -60,7 +67,11 @@ class SessionLog {
              bool samples_only)
       : writer_(std::move(writer)), model_(std::move(model)), real_time_(real_time), samples_only_(samples_only) {}
 
+  void record(logging::Event event);
+
   logging::SessionWriter writer_;
+  std::function<void(const logging::Sample&)> sampled_;
+  std::function<void(const logging::Event&)> happened_;
   std::shared_ptr<const simulation::Model> model_;
   bool real_time_;
   bool samples_only_;  ///< No snapshots, states or scene.

@@ -119,6 +119,22 @@ void ScreenHost::send_unicast_to_the_deaf(double now_s) {
   }
 }
 
+void ScreenHost::look_at(const std::set<std::string>& names, double now_s) {
+  constexpr double again_after_s = 1.0;
+  for (HostedScreen& screen : screens_) {
+    const bool is_looked_at = names.contains(screen.name);
+    if (!is_looked_at && screen.asked_to_look_s) {
+      screen.asked_to_look_s.reset();
+      screen.large_picture.reset();
+      if (screen.client) send(*screen.client, Look{false});
+    }
+    if (!is_looked_at || !screen.client || (screen.asked_to_look_s && now_s - *screen.asked_to_look_s < again_after_s))
+      continue;
+    screen.asked_to_look_s = now_s;
+    send(*screen.client, Look{true});
+  }
+}
+
 void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
   const auto* info = lane_.info(client);
   if (!info) return;
@@ -199,7 +215,11 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
   } else if (const auto* pause = std::get_if<Pause>(&message)) {
     pause_requested_ = pause->paused;
   } else if (const auto* thumbnail = std::get_if<Thumbnail>(&message)) {
-    screen->thumbnail = std::make_shared<const std::string>(thumbnail->png);
+    screen->thumbnail = std::make_shared<const std::string>(thumbnail->picture);
+    screen->thumbnail_tick = thumbnail->tick;
+  } else if (const auto* large = std::get_if<LargePicture>(&message)) {
+    // One that was on its way when the last one looked away is nobody's.
+    if (screen->asked_to_look_s) screen->large_picture = std::make_shared<const std::string>(large->picture);
   } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
     screen->report = *report;
   }

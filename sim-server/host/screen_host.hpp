@@ -67,6 +67,9 @@ struct HostedScreen {
   bool left_behind = false;       ///< Lockstep waits for it no more, until it shows a tick.
   std::optional<control::ScreenReport> report;
   std::shared_ptr<const std::string> thumbnail;  ///< The newest, any bytes; null: none has come.
+  Tick thumbnail_tick = 0;
+  std::shared_ptr<const std::string> large_picture;  ///< The same of what somebody looks at closely; null: nobody does.
+  std::optional<double> asked_to_look_s;             ///< When it was last told that somebody does.
   std::vector<double> connected_s, left_s,
       left_behind_s;  ///< When, in simulated time; at most `most_moments` each: the first and the newest.
   std::optional<double> unanswered_since_s;  ///< When the first tick was sent that it has not answered.
@@ -117,6 +120,8 @@ class ScreenHost {
   /// What the driver is to read, on all screens that are there or will come.
   void give_notice(const control::Notice& notice);
   const control::Notice& notice() const { return notice_; }
+  /// At which screens somebody looks closely, by name; called again and again as long as he does.
+  void look_at(const std::set<std::string>& names, double now_s);
   /// Shown time begins anew with the next tick: the world has stood still until now.
   void restart_shown_time();
   void finish(const std::string& reason);

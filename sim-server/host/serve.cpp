@@ -67,15 +67,22 @@ struct Loop {
   }
 };
 
+/// Two texts that the driver reads, one below the other.
+std::string below(std::string above, const std::string& text) {
+  if (!above.empty() && !text.empty()) above += '\n';
+  return above += text;
+}
+
 /// A loop with screens.
 struct ScreenLoop : Loop {
   ScreenHost& host;
   const ServeOptions& options;
   bool can_pause = false;  ///< The world goes on by the clock, and has begun.
-  std::string alarm = {};  ///< As the driver reads it.
+  std::string alarm = {};  ///< As the driver reads it, and what is said to him.
 
+  std::string word() const { return environment.word ? environment.word() : std::string(); }
   void show_alarm() {
-    if (auto now = source.alarm(); now != alarm) {
+    if (auto now = below(source.alarm(), word()); now != alarm) {
       alarm = std::move(now);
       host.give_notice({alarm, host.notice().keys});
     }
@@ -145,8 +152,9 @@ void stand_still(ScreenLoop& loop) {
     const bool by_driver = loop.host.pause_requested();
     const std::string alarm = loop.source.alarm();
     const control::Notice notice{
-        (alarm.empty() ? "" : alarm + ". ") +
-            (by_driver ? "Paused. Escape: go on. R: begin again. Enter: end" : "Paused by the operator"),
+        below((alarm.empty() ? "" : alarm + ". ") +
+                  (by_driver ? "Paused. Escape: go on. R: begin again. Enter: end" : "Paused by the operator"),
+              loop.word()),
         before.keys, by_driver};
     if (loop.host.notice() != notice) {
       loop.host.give_notice(notice);
@@ -203,7 +211,11 @@ void wait_for_driver(ScreenLoop& loop) {
   const auto first = loop.source.first();
   if (!first || loop.options.wait_for_driver.empty()) return;
   const std::string about = loop.options.about.empty() ? "" : '\n' + loop.options.about;
-  loop.host.give_notice({loop.options.wait_for_driver + about, loop.host.notice().keys});
+  const auto say = [&, keys = loop.host.notice().keys] {
+    const control::Notice notice{below(loop.options.wait_for_driver + about, loop.word()), keys};
+    if (loop.host.notice() != notice) loop.host.give_notice(notice);
+  };
+  say();
   loop.environment.message(
       fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
   const double begun_s = loop.environment.now_s();
@@ -215,6 +227,7 @@ void wait_for_driver(ScreenLoop& loop) {
                       [&] {
                         loop.show_messages();
                         loop.host.repeat_newest();
+                        say();
                         loop.report("waiting for the driver");
                       });
   // Who has taken the controls has read the keys, in whichever window the first one was pressed.

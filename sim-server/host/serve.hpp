@@ -57,6 +57,8 @@ struct ServeEnvironment {
   std::function<void(const std::shared_ptr<const TakenSnapshot>&, double shaking_share)> hear;
   /// Whether the operator wants the world to stand still; asked after `attend`.
   std::function<bool()> is_paused;
+  /// What somebody beside the drive says to the driver, as long as he is to read it; empty: nothing.
+  std::function<std::string()> word;
   /// The list of allowed clients, where it has changed.
   std::function<std::optional<std::vector<net::AllowedClient>>()> changed_list;
 };

@@ -132,6 +132,12 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
+/// As an <img> takes it, of whichever kind its first bytes say.
+std::string picture_address(std::string_view picture) {
+  const bool is_jpeg = picture.starts_with("\xff\xd8");
+  return fmt::format("data:image/{};base64,{}", is_jpeg ? "jpeg" : "png", base64(picture));
+}
+
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
@@ -173,12 +179,42 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
     message.wish = Cancel{};
   else if (wish == "look")
     message.wish = Look{count_member(json, "session"), text_member(json, "file", 40)};
+  else if (wish == "say")
+    message.wish =
+        Say{text_member(json, "text", most_word_characters), text_member(json, "language", 8), flag("aloud")};
+  else if (wish == "brake")
+    message.wish = Brake{flag("held")};
+  else if (wish == "back")
+    message.wish = Back{static_cast<double>(std::min<std::uint64_t>(count_member(json, "seconds"), 3600))};
+  else if (wish == "watch")
+    message.wish = Watch{text_member(json, "screen", most_name_characters)};
   else if (wish == "answer")
     message.wish = answer_of(json);
   else
     return no_message("nobody knows this message");
   return message;
 }
+
+namespace {
+
+Json lesson_of(const DriveFacts& facts) {
+  if (!facts.lesson) return nullptr;
+  const LessonFacts& lesson = *facts.lesson;
+  Json tasks = Json::array();
+  for (const LessonTaskFacts& task : lesson.tasks)
+    tasks.push_back({{"says", task.says},
+                     {"measure", task.measure},
+                     {"unit", task.unit},
+                     {"bound", rounded(task.bound, 0.01)},
+                     {"at_most", task.is_at_most}});
+  return {{"title", lesson.title},
+          {"aim", lesson.aim},
+          {"pass_mark", lesson.pass_mark},
+          {"shortest_s", lesson.shortest_s},
+          {"tasks", std::move(tasks)}};
+}
+
+}  // namespace
 
 std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_t browser) {
   Json shapes = Json::array();
@@ -211,6 +247,7 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
   return dump({{"type", "hello"},
                {"schema", schema},
                {"you", browser},
+               {"lesson", lesson_of(facts)},
                {"scenario", facts.scenario},
                {"rig", facts.rig},
                {"vehicle", facts.vehicle},
@@ -220,6 +257,8 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
                {"driver", facts.driver},
                {"has_traffic", facts.has_traffic},
                {"rating", std::move(rating)},
+               {"speaks", facts.speaks},
+               {"faults", facts.faults},
                {"things", facts.things},
                {"conditions", std::move(conditions)},
                {"models", std::move(models)},
@@ -239,10 +278,12 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
                {"leader", nullptr},
                {"actuators", nullptr},
                {"screens", screens_of(view, facts.tick_rate_hz)},
-               {"triggers", view.triggers}};
-  if (view.has_actuators || view.actuators_cut)
-    json["actuators"] = {{"cut", view.actuators_cut ? Json(*view.actuators_cut) : Json(nullptr)},
-                         {"alarm", view.alarm}};
+               {"triggers", view.triggers},
+               {"instructor_brakes", view.instructor_brakes},
+               {"faults", view.faults}};
+  json["fault"] = view.fault ? Json(*view.fault) : Json(nullptr);
+  json["alarm"] = view.alarm;
+  if (view.has_actuators) json["actuators"] = {{"cut", json["fault"]}};
   if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
   json["rating"] = {{"minute", view.rating.minute}, {"answered", view.rating.value.has_value()}};
   if (view.rating.value) json["rating"]["value"] = *view.rating.value;
@@ -287,12 +328,47 @@ std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_
   return dump(json);
 }
 
-std::string thumbnail_text(const std::string& screen, std::string_view png) {
-  return dump({{"type", "thumbnail"}, {"screen", screen}, {"picture", "data:image/png;base64," + base64(png)}});
+std::string thumbnail_text(const std::string& screen, std::string_view picture) {
+  return dump({{"type", "thumbnail"}, {"screen", screen}, {"picture", picture_address(picture)}});
 }
 
-std::string event_text(double simulated_s, const std::string& text) {
-  return dump({{"type", "event"}, {"sim_s", rounded(simulated_s, 0.01)}, {"text", text}});
+std::string large_picture_text(const std::string& screen, std::string_view picture) {
+  return dump({{"type", "large_picture"}, {"screen", screen}, {"picture", picture_address(picture)}});
+}
+
+std::string event_text(const PageEvent& event) {
+  Json values = Json::object();
+  for (const auto& [name, value] : event.values) values[name] = value;
+  return dump({{"type", "event"},
+               {"sim_s", rounded(event.simulated_s, 0.01)},
+               {"kind", event.kind},
+               {"values", std::move(values)},
+               {"text", event.text}});
+}
+
+std::string lesson_text(const LessonView& lesson) {
+  Json tasks = Json::array(), faults = Json::array();
+  for (const LessonTaskView& task : lesson.tasks)
+    tasks.push_back({{"mark", task.mark ? rounded(*task.mark, 0.1) : Json(nullptr)},
+                     {"severity", task.severity},
+                     {"faults", task.faults}});
+  for (const LessonFaultView& fault : lesson.faults)
+    faults.push_back({{"number", fault.number},
+                      {"task", fault.task},
+                      {"from_s", rounded(fault.from_s, 0.1)},
+                      {"to_s", rounded(fault.to_s, 0.1)},
+                      {"worst", rounded(fault.worst, 0.1)},
+                      {"at", fault.at},
+                      {"severity", fault.severity}});
+  return dump({{"type", "lesson"},
+               {"tasks", std::move(tasks)},
+               {"mark", lesson.mark ? rounded(*lesson.mark, 0.1) : Json(nullptr)},
+               {"passed", lesson.passed},
+               {"faults", std::move(faults)}});
+}
+
+std::string still_text(std::uint32_t fault, std::string_view picture) {
+  return dump({{"type", "still"}, {"fault", fault}, {"picture", picture_address(picture)}});
 }
 
 }  // namespace septet::page

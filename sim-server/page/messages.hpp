@@ -61,14 +61,32 @@ struct Answer {
   std::string as;  ///< What its answers are called; empty: as the questionnaire is.
   std::vector<std::pair<std::string, std::optional<int>>> answers;  ///< By item. Nothing: it was no whole number.
 };
-using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look, Answer>;
+/// A word to the student: text on his screen, and aloud where that is asked for and a synthesiser is installed.
+struct Say {
+  std::string text, language;  ///< "en", "de", "sv".
+  bool aloud = false;
+};
+/// The instructor's brake, held or let go. Who holds it says so again, at least each half second.
+struct Brake {
+  bool held = false;
+};
+/// The car back onto the road: where it was so long ago, as fast as then; 0: where it last was in a lane, at rest.
+struct Back {
+  double seconds = 0.0;
+};
+/// To see what a screen shows large, five times a second; no screen: no more. Anybody may.
+struct Watch {
+  std::string screen;
+};
+using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look, Answer,
+                          Watch, Say, Brake, Back>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Which the answer names.
   Wish wish;
 };
 
-inline constexpr std::size_t most_note_characters = 500, most_name_characters = 60;
+inline constexpr std::size_t most_note_characters = 500, most_name_characters = 60, most_word_characters = 160;
 
 /// Texts are one line, printable and not longer than these. Error: it is no such message.
 Expected<BrowserMessage> read_browser_message(std::string_view text);
@@ -84,9 +102,15 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
 std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint64_t number,
                        const std::optional<Commander>& commander, std::size_t browsers);
 std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_not);
-/// Something has happened, for the list of events.
 /// What a screen shows, as a picture that an <img> takes.
-std::string thumbnail_text(const std::string& screen, std::string_view png);
-std::string event_text(double simulated_s, const std::string& text);
+std::string thumbnail_text(const std::string& screen, std::string_view picture);
+/// The same, large.
+std::string large_picture_text(const std::string& screen, std::string_view picture);
+/// Something has happened, for the list of events.
+std::string event_text(const PageEvent& event);
+/// How the lesson stands, and its faults so far.
+std::string lesson_text(const LessonView& lesson);
+/// What the screen ahead showed at a fault.
+std::string still_text(std::uint32_t fault, std::string_view picture);
 
 }  // namespace septet::page

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -25,6 +26,7 @@ struct OperatorPage::Shared {
   std::optional<DriveView> newest;  ///< The slot.
   bool is_due = false;              ///< The page's thread has been told of it.
   WishBox wishes;
+  std::map<BrowserId, std::string> watching;  ///< Which screen each browser sees large.
 
   // The page's thread's own.
   DriveFacts facts;
@@ -44,8 +46,21 @@ struct OperatorPage::Shared {
     for (const ScreenView& screen : shown.screens)
       if (screen.thumbnail)
         server->send_newest_picture(browser, screen.name, shared_text(thumbnail_text(screen.name, *screen.thumbnail)));
+    if (shown.lesson) send_lesson(browser, nullptr);
+  }
+  void watch(BrowserId browser, const std::string& screen) {
+    const std::lock_guard lock(mutex);
+    if (screen.empty())
+      watching.erase(browser);
+    else
+      watching[browser] = screen;
+  }
+  std::map<BrowserId, std::string> watchers() {
+    const std::lock_guard lock(mutex);
+    return watching;
   }
   void closed(BrowserId browser) {
+    watch(browser, "");
     helm.closed(browser);
     send_state();
   }
@@ -55,6 +70,10 @@ struct OperatorPage::Shared {
     const auto answer = [&](const std::optional<std::string>& why_not) {
       server->send(browser, shared_text(answer_text(message->id, why_not)));
     };
+    if (const auto* wished = std::get_if<Watch>(&message->wish)) {
+      watch(browser, wished->screen);
+      return answer(std::nullopt);
+    }
     if (const auto reply = helm.judge(browser, message->wish)) {
       answer(reply->why_not);
       return reply->why_not ? void() : send_state();
@@ -73,12 +92,33 @@ struct OperatorPage::Shared {
     }
     const DriveView before = std::exchange(shown, taken ? std::move(*taken) : shown);
     send_state();
+    if (shown.lesson && shown.lesson != before.lesson)
+      for (const BrowserId browser : std::set(helm.browsers())) send_lesson(browser, before.lesson.get());
+    const auto large = watchers();
+    for (const ScreenView& screen : shown.screens) {
+      const auto last = std::ranges::find(before.screens, screen.name, &ScreenView::name);
+      if (!screen.large_picture || (last != before.screens.end() && last->large_picture == screen.large_picture))
+        continue;
+      const Text picture = shared_text(large_picture_text(screen.name, *screen.large_picture));
+      for (const auto& [browser, name] : large)
+        if (name == screen.name) server->send_newest_picture(browser, "large " + name, picture);
+    }
     for (const ScreenView& screen : shown.screens) {
       const auto same = std::ranges::find(before.screens, screen.name, &ScreenView::name);
       if (!screen.thumbnail || (same != before.screens.end() && same->thumbnail == screen.thumbnail)) continue;
       const Text picture = shared_text(thumbnail_text(screen.name, *screen.thumbnail));
       for (const BrowserId browser : std::set(helm.browsers()))
         server->send_newest_picture(browser, screen.name, picture);
+    }
+  }
+  /// Each still once: those that `before` has were sent with it. A browser that is slow is sent the newest lesson alone.
+  void send_lesson(BrowserId browser, const LessonView* before) {
+    server->send_newest_picture(browser, "lesson", shared_text(lesson_text(*shown.lesson)));
+    for (const LessonFaultView& fault : shown.lesson->faults) {
+      const auto is_same = [&](const LessonFaultView& other) { return other.number == fault.number && other.still; };
+      if (!fault.still || (before && std::ranges::any_of(before->faults, is_same))) continue;
+      server->send_newest_picture(browser, fmt::format("still {}", fault.number),
+                                  shared_text(still_text(fault.number, *fault.still)));
     }
   }
   void send_state() {
@@ -137,12 +177,18 @@ void OperatorPage::answer(const OperatorWish& wish, const std::optional<std::str
   send_answer(*shared_->server, wish, why_not);
 }
 
-void OperatorPage::tell(double simulated_s, const std::string& words) {
-  shared_->server->post([shared = shared_.get(), event = shared_text(event_text(simulated_s, words))] {
+void OperatorPage::tell(const PageEvent& what) {
+  shared_->server->post([shared = shared_.get(), event = shared_text(event_text(what))] {
     shared->events.push_back(event);
     if (shared->events.size() > remembered_events) shared->events.pop_front();
     for (const BrowserId browser : std::set(shared->helm.browsers())) shared->server->send(browser, event);
   });
+}
+
+std::set<std::string> OperatorPage::watched() const {
+  std::set<std::string> names;
+  for (const auto& [browser, screen] : shared_->watchers()) names.insert(screen);
+  return names;
 }
 
 WebCounters OperatorPage::counters() const { return shared_->server->counters(); }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,10 @@ class OperatorPage {
   std::vector<OperatorWish> take_wishes();
   /// `why_not` where it was not done.
   void answer(const OperatorWish& wish, const std::optional<std::string>& why_not);
+  /// The screens that are watched, by the names that browsers gave.
+  std::set<std::string> watched() const;
   /// For the list of events on the page.
-  void tell(double simulated_s, const std::string& text);
+  void tell(const PageEvent& event);
   WebCounters counters() const;
 
  private:

@@ -35,6 +35,15 @@ constexpr std::string_view live_js =
 constexpr std::string_view screens_js =
 #include "sim-server/page/web/screens.js.inc"
     ;
+constexpr std::string_view events_js =
+#include "sim-server/page/web/events.js.inc"
+    ;
+constexpr std::string_view lesson_js =
+#include "sim-server/page/web/lesson.js.inc"
+    ;
+constexpr std::string_view car_js =
+#include "sim-server/page/web/car.js.inc"
+    ;
 constexpr std::string_view map_js =
 #include "sim-server/page/web/map.js.inc"
     ;
@@ -77,6 +86,9 @@ std::vector<Resource> page_files() {
           {"/conditions.js", script, conditions_js},
           {"/live.js", script, live_js},
           {"/screens.js", script, screens_js},
+          {"/events.js", script, events_js},
+          {"/lesson.js", script, lesson_js},
+          {"/car.js", script, car_js},
           {"/map.js", script, map_js},
           {"/sickness.js", script, sickness_js},
           {"/things.js", script, things_js},

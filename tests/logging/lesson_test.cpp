@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -305,6 +306,55 @@ TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
     const auto lesson = read_lesson(*text, path);
     CHECK_MESSAGE(lesson.has_value(), (lesson ? "" : describe(lesson.error())));
   }
+}
+
+TEST_CASE("a fault lasts from the first sample beyond the bound to the last, and two apart are two") {
+  auto samples = good_drive();
+  const auto fast = [&](std::size_t from, std::size_t to, double mps) {
+    for (std::size_t i = from; i < to; ++i) samples[i].speed_mps = mps;
+  };
+  fast(100, 150, 30.0);
+  fast(160, 170, 40.0);  // A second later: the same one.
+  fast(400, 420, 26.0);
+  const Lesson lesson = lesson_of("speed", 80.0, 20.0);
+  const auto faults = find_faults(lesson, samples, {});
+  REQUIRE(faults.size() == 2);
+  CHECK(faults[0].from_s == relative(10.0, 1e-9));
+  CHECK(faults[0].to_s == relative(16.9, 1e-9));
+  CHECK(faults[0].worst == relative(144.0, 1e-9));
+  CHECK(faults[0].worst_s == relative(16.0, 1e-9));
+  CHECK(faults[0].severity == Severity::serious);
+  CHECK(faults[1].severity == Severity::minor);
+  CHECK(faults[1].from_s == relative(40.0, 1e-9));
+  const auto marks = mark_lesson(lesson, samples, {});
+  CHECK(marks.tasks[0].worst == faults[0].worst);
+  CHECK(marks.tasks[0].worst_s == faults[0].worst_s);
+}
+
+TEST_CASE("where nothing is wrong there is no fault, and each collision is one of its own") {
+  const auto samples = good_drive();
+  for (const char* measure : {"speed", "gap", "position", "lookout", "collision", "limit", "braking"})
+    CHECK(find_faults(lesson_of(measure, measure == std::string("gap") ? 1.0 : 100.0, 1.0), samples, {}).empty());
+  const std::vector<Event> events{
+      {.tick = 1200, .simulated_time_s = 10.0, .kind = "collision", .participant = {}, .detail = ""},
+      {.tick = 1300, .simulated_time_s = 10.8, .kind = "collision", .participant = {}, .detail = ""}};
+  const auto faults = find_faults(lesson_of("collision", 0.0, 1.0), samples, events);
+  REQUIRE(faults.size() == 2);
+  CHECK(faults[0].severity == Severity::dangerous);
+  CHECK(faults[1].from_s == 10.8);
+}
+
+TEST_CASE(
+    "where one drives in a lane is excused by the change of lanes that follows, within the time that the fault settles "
+    "in") {
+  auto samples = good_drive();
+  change_lanes(samples, 3.0);
+  const Lesson lesson = lesson_of("position", 1.0, 1.0);
+  const std::span<const Sample> all(samples);
+  CHECK_FALSE(find_faults(lesson, all.first(298), {}).empty());  // Nothing has crossed a line yet.
+  CHECK(find_faults(lesson, all, {}).empty());
+  const auto early = find_faults(lesson, all.first(298), {});
+  CHECK(early.front().from_s + settles_s(LessonMeasure::position) > 29.8);
 }
 
 }  // namespace septet::logging

@@ -93,12 +93,29 @@ TEST_CASE("a simulated driver is always ready") {
 }
 
 TEST_CASE("silence on the wall clock is a fault of the actuators in real time, and none where time is simulated") {
-  const LoadedDrive drive = shipped_drive("behind-ambulance", "seven-screens");
+  car_io::SimulatedHidPort port;
   for (const bool is_real_time : {true, false}) {
-    const auto seat = open_driver_seat(drive.rig.car, 1, drive.model, {}, is_real_time);
+    DriverSeat seat;
+    seat.is_real_time = is_real_time;
+    sit_at_device(seat, port.opener(), {});
+    CHECK(seat.actuate);
+    CHECK(static_cast<bool>(seat.actuators_are_cut) == is_real_time);
+  }
+}
+
+TEST_CASE("a simulated driver's seat moves no actuators, so that no silence can cut them") {
+  for (const char* rig : {"desktop", "three-monitors", "seven-screens"}) {
+    const LoadedDrive drive = shipped_drive("behind-ambulance", rig);
+    rig::Car car = drive.rig.car;
+    car.source = rig::CarSource::simulated_driver;
+    auto seat = open_driver_seat(car, 1, drive.model);
     REQUIRE(seat.has_value());
-    CHECK(seat->actuate);
-    CHECK(static_cast<bool>(seat->actuators_are_cut) == is_real_time);
+    CHECK_FALSE(seat->actuate);
+    CHECK_FALSE(seat->actuators_are_cut);
+    const auto live = seated(drive, std::move(*seat));
+    CHECK_FALSE(live->has_actuators());
+    for (int tick = 0; tick < 12; ++tick) REQUIRE(live->next(std::nullopt).has_value());
+    CHECK_FALSE(live->actuators_cut().has_value());
   }
 }
 

@@ -7,7 +7,12 @@ function make_drive() {
   $('about').textContent = [hello.rig, hello.vehicle, hello.participant, t('drive.seed', hello)].filter(Boolean).join(' · ');
   $('trafficbox').hidden = !hello.has_traffic;
   $('thumbnails').replaceChildren();
+  $('aloudbox').hidden = !hello.speaks;
+  $('novoice').hidden = hello.speaks;
   make_conditions();
+  make_lesson();
+  make_car();
+  tell_again();
   make_sickness();
   make_things();
   make_road();
@@ -41,9 +46,10 @@ function show_state() {
   $('phase').textContent = ended ? t('drive.ended') : s.paused ? t('drive.paused') : phase_words(s.phase);
   $('pause').textContent = t(stands_still() ? 'controls.go_on' : 'controls.pause');
   if (ended) alarm(t('shell.has_ended', { why: why_ended(s) }));
-  else if (s.actuators && s.actuators.alarm) alarm(t('drive.actuators_at_0', { alarm: heard(s.actuators.alarm) }));
+  else if (s.alarm) alarm(s.actuators ? t('drive.actuators_at_0', { alarm: heard(s.alarm) }) : heard(s.alarm));
   else if (s.actuators && s.actuators.cut) alarm(t('drive.actuators_cut', { why: heard(s.actuators.cut) }));
-  $('rearm').hidden = !(s.actuators && s.actuators.cut);
+  else if (s.fault) alarm(t('event.actuators_cut', { why: heard(s.fault) }));
+  $('rearm').hidden = !s.fault;
   show_command();
   $('driven').textContent = s.sim_s === undefined ? '–' : `${s.sim_s.toFixed(1)}${hello.planned_s ? ` / ${hello.planned_s}` : ''} s`;
   $('tick').textContent = s.tick ?? '–';
@@ -63,6 +69,7 @@ function show_state() {
     $('more').textContent = t('car.more', { ...car, wheel: degrees(car.wheel_rad), lane: car.lane || t('car.no_lane'), collisions: s.collisions });
   }
   show_sickness();
+  show_car();
   s.conditions.forEach((value, i) => sliders[i] && sliders[i](value));
   show_triggers();
   show_entities();

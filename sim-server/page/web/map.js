@@ -116,7 +116,9 @@ function move(dx, dy) {
 
 let held = null;
 canvas.onpointerdown = (event) => {
-  if (placing && mine) return place_at(view.x + (event.offsetX - canvas.clientWidth / 2) / view.scale, view.y - (event.offsetY - canvas.clientHeight / 2) / view.scale);
+  const there = [view.x + (event.offsetX - canvas.clientWidth / 2) / view.scale, view.y - (event.offsetY - canvas.clientHeight / 2) / view.scale];
+  if (placing && mine) return place_at(...there);
+  if (putting && mine) return put_at(...there);
   held = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId);
 };
 canvas.onpointermove = (event) => {

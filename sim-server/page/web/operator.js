@@ -30,6 +30,12 @@ $('markform').onsubmit = (event) => {
   command({ do: 'mark', note: $('note').value });
   $('note').value = '';
 };
+$('wordform').onsubmit = (event) => {
+  event.preventDefault();
+  if (!$('word').value.trim()) return;
+  command({ do: 'say', text: $('word').value, language, aloud: $('aloud').checked && hello.speaks });
+  $('word').value = '';
+};
 $('trafficform').onsubmit = (event) => {
   event.preventDefault();
   change(`traffic vehicles=${Math.max(0, Math.min(3000, Math.round(+$('vehicles').value || 0)))}`);

@@ -43,13 +43,18 @@ function show_thumbnail({ screen, picture }) {
   if (!figure) {
     figure = document.createElement('figure');
     figure.dataset.name = name;
-    const caption = document.createElement('figcaption');
+    const caption = document.createElement('figcaption'), button = document.createElement('button');
     caption.textContent = screen;
-    figure.append(new Image(), caption);
-    figure.firstChild.alt = t('screens.shows', { screen });
+    button.type = 'button';
+    button.className = 'still';
+    button.title = t('screens.large', { screen });
+    button.onclick = () => watch(screen);
+    button.append(new Image());
+    button.firstChild.alt = t('screens.shows', { screen });
+    figure.append(button, caption);
     $('thumbnails').append(figure);
   }
-  figure.firstChild.src = picture;
+  figure.querySelector('img').src = picture;
   figure.dataset.came = String(performance.now());
 }
 
@@ -60,3 +65,30 @@ function age_thumbnails() {
   if (sorted.some((figure, i) => figure !== figures[i])) $('thumbnails').append(...sorted);
   for (const figure of $('thumbnails').children) figure.classList.toggle('old', performance.now() - figure.dataset.came > 5000 && !state.paused);
 }
+
+let watched = '';  // The screen that is shown large, as it goes on; empty: none.
+
+function show_large(title, picture) {
+  $('largetitle').textContent = title;
+  $('large').src = picture;
+  $('large').alt = title;
+  if (!$('largebox').open) $('largebox').showModal();
+}
+
+/// What a screen shows, large, five times a second as long as the picture is open.
+function watch(screen) {
+  watched = screen;
+  const small = [...$('thumbnails').children].find((one) => one.dataset.name === `thumbnail ${screen}`);
+  show_large(screen, small ? small.querySelector('img').src : '');
+  ask({ do: 'watch', screen }, () => {});
+}
+
+function show_large_picture({ screen, picture }) {
+  if (screen === watched) $('large').src = picture;
+}
+
+$('largebox').onclose = () => {
+  if (watched) ask({ do: 'watch', screen: '' }, () => {});
+  watched = '';
+};
+$('large').onclick = () => $('largebox').close();

@@ -21,7 +21,7 @@ function make_sickness() {
 const nausea = 6;
 function rate(value) {
   ask({ do: 'rate', value }, (answer) => {
-    if (!answer.ok) return log(null, t('shell.not_done', { why: heard(answer.why) }), true);
+    if (!answer.ok) return log({ text: t('shell.not_done', { why: heard(answer.why) }) }, true);
     if (value < nausea) return;
     $('reason').value = t('sickness.reason', { value });
     offer_end(true);

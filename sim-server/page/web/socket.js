@@ -50,7 +50,7 @@ function ask(what, then) {
 
 /// What only who commands may ask for.
 function command(what) {
-  ask(what, (answer) => { if (!answer.ok) log(null, t('shell.not_done', { why: heard(answer.why) }), true); });
+  ask(what, (answer) => { if (!answer.ok) log({ text: t('shell.not_done', { why: heard(answer.why) }) }, true); });
 }
 const change = (text) => command({ do: 'change', command: text });
 
@@ -58,6 +58,10 @@ function receive(message) {
   if (message.type === 'hello') {
     hello = message;
     state = before = null;
+    happened.length = 0;
+    lesson = null;
+    stills.clear();
+    $('faults').replaceChildren();
     $('events').replaceChildren();
     $('startmain').hidden = !hello.choices;
     $('drivemain').hidden = $('clock').hidden = Boolean(hello.choices);
@@ -77,6 +81,12 @@ function receive(message) {
     show_start();
   } else if (message.type === 'thumbnail') {
     show_thumbnail(message);
+  } else if (message.type === 'large_picture') {
+    show_large_picture(message);
+  } else if (message.type === 'lesson') {
+    hear_lesson(message);
+  } else if (message.type === 'still') {
+    hear_still(message);
   } else if (message.type === 'moved') {
     moved = true;
   } else if (message.type === 'answer') {
@@ -84,7 +94,9 @@ function receive(message) {
     waiting.delete(message.id);
     if (then) then(message);
   } else if (message.type === 'event') {
-    log(message.sim_s, message.text);
+    happened.push(message);
+    if (happened.length > 300) happened.shift();
+    log(message);
   }
 }
 
@@ -96,15 +108,4 @@ function quiet() {
 function alarm(text) {
   $('alarm').textContent = text;
   $('alarm').hidden = false;
-}
-
-function log(sim_s, text, is_mine) {
-  const line = document.createElement('li'), time = document.createElement('time'), words = document.createElement('span');
-  time.textContent = sim_s === null ? t('shell.now') : `${figure(sim_s, 1)} s`;
-  words.textContent = text.replace(/element=(.*) state=/, (all, name) => `${short_name(name)} `);
-  words.title = text;
-  if (is_mine || /^(mark|operator)/.test(text)) words.className = 'mine';
-  line.append(time, words);
-  $('events').prepend(line);
-  while ($('events').children.length > 300) $('events').lastChild.remove();
 }

@@ -43,4 +43,4 @@ function show_entities() {
   show_buttons($('lying'), state.lying.slice(-12).map(({ id, name }) => [t('controls.take_away', { name: name.replaceAll('-', ' '), id }), `remove thing=${id}`]));
 }
 
-$('place').onclick = () => set_placing(!placing);
+$('place').onclick = () => { set_putting(false); set_placing(!placing); };

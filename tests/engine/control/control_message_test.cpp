@@ -54,6 +54,8 @@ std::vector<std::pair<ControlMessage, std::string>> written_messages() {
       {Notice{"go", true, false}, "01 0e 02 676f 01 00"},
       {Pause{true}, "01 0f 01"},
       {Thumbnail{3, std::string("\0\xff", 2)}, "01 10 0300000000000000 02 00ff"},
+      {Look{true}, "01 11 01"},
+      {LargePicture{3, std::string("\0\xff", 2)}, "01 12 0300000000000000 02 00ff"},
   };
 }
 

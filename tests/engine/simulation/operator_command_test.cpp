@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/operator_command.hpp"
 
 namespace septet::simulation {
@@ -15,7 +16,9 @@ TEST_CASE("an operator's command comes back from its text to the last bit") {
        {OperatorCommand(set), OperatorCommand(SetTraffic{3000}),
         OperatorCommand(TriggerElement{"a story::its act = x"}),
         OperatorCommand(PlacePart{"traffic-cone", 1.0 / 3.0, -1e6 / 7.0}), OperatorCommand(RemovePiece{4294967295u}),
-        OperatorCommand(ShowEntity{"a b = c", false}), OperatorCommand(ShowEntity{"place", true})}) {
+        OperatorCommand(ShowEntity{"a b = c", false}), OperatorCommand(ShowEntity{"place", true}),
+        OperatorCommand(SetFault{0, true}), OperatorCommand(SetFault{fault_names().size() - 1, false}),
+        OperatorCommand(PutCar{1.0 / 3.0, -1e6 / 7.0, -0.1, 13.7})}) {
     const auto read = parse_operator_command(text_of(command));
     REQUIRE(read.has_value());
     CHECK(*read == command);
@@ -56,6 +59,18 @@ TEST_CASE("what is no command, or asks for what is out of range, is refused") {
                            "remove thing=1 ",
                            "hide entity=",
                            "show",
+                           "fault what=",
+                           "fault what=engine",
+                           "fault what=0",
+                           "repair what=tyre",
+                           "repair",
+                           "put x_m=1 y_m=2",
+                           "put x_m=1 y_m=2 heading_rad=0 speed_mps=-1",
+                           "put x_m=1 y_m=2 heading_rad=0 speed_mps=71",
+                           "put x_m=1 y_m=2 heading_rad=nan speed_mps=0",
+                           "put x_m=1 y_m=2 heading_rad=0 speed_mps=0 x",
+                           "put x_m=inf y_m=2 heading_rad=0 speed_mps=0",
+                           "put y_m=1 x_m=2 heading_rad=0 speed_mps=0",
                            "conditions friction_scale=0"})
     CHECK_MESSAGE(!parse_operator_command(text).has_value(), text);
 }

@@ -80,14 +80,18 @@ TEST_CASE("a state with numbers gone bad is still JSON, with nothing in their pl
 }
 
 TEST_CASE("a state says why actuators are cut and what the driver reads, and nothing where there are none") {
-  const auto said = [](const DriveView& view) {
-    return json::parse(state_text(view, {}, 1, std::nullopt, 0))["actuators"];
-  };
-  CHECK(said({}).is_null());
-  CHECK(said({.has_actuators = true})["cut"].is_null());
-  const auto cut = said({.actuators_cut = "the CAN bus is lost", .alarm = "Emergency stop"});
-  CHECK(cut["cut"] == "the CAN bus is lost");
+  const auto said = [](const DriveView& view) { return json::parse(state_text(view, {}, 1, std::nullopt, 0)); };
+  CHECK(said({})["actuators"].is_null());
+  CHECK(said({.has_actuators = true})["actuators"]["cut"].is_null());
+  const auto cut = said({.has_actuators = true, .fault = "the CAN bus is lost", .alarm = "Emergency stop"});
+  CHECK(cut["actuators"]["cut"] == "the CAN bus is lost");
   CHECK(cut["alarm"] == "Emergency stop");
+}
+
+TEST_CASE("a fault of a car without actuators is told as the fault, and cuts nothing") {
+  const auto state = json::parse(state_text({.fault = "the controls have stopped"}, {}, 1, std::nullopt, 0));
+  CHECK(state["actuators"].is_null());
+  CHECK(state["fault"] == "the controls have stopped");
 }
 
 TEST_CASE("who is behind is told against the foremost screen, and who is away has no such time") {

@@ -1,5 +1,6 @@
 #include <functional>
 #include <optional>
+#include <set>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -95,7 +96,7 @@ TEST_CASE("the command of a browser that is killed is free at once, and what it 
 TEST_CASE("the newest view is shown to who is there and to who comes later, with the events") {
   Desk desk;
   RawBrowser early(desk.port, token);
-  desk.page->tell(1.5, "something has happened");
+  desk.page->tell({1.5, "message", {}, "something has happened"});
   for (Tick tick = 1; tick <= 1000; ++tick) {
     Snapshot snapshot;
     snapshot.tick = tick;
@@ -122,7 +123,7 @@ TEST_CASE("what a screen shows is sent once to who is there, and to who comes la
   CHECK(picture["screen"] == "ahead");
   CHECK(picture["picture"] == "data:image/png;base64,iVBORw==");
   show("two");
-  desk.page->tell(1.0, "later");
+  desk.page->tell({1.0, "message", {}, "later"});
   while (true) {  // Nothing comes twice.
     const auto message = json::parse(*early.hear());
     CHECK(message["type"] != "thumbnail");
@@ -130,6 +131,62 @@ TEST_CASE("what a screen shows is sent once to who is there, and to who comes la
   }
   RawBrowser late(desk.port, token);
   CHECK(hear(late, "thumbnail", [](const json&) { return true; })["screen"] == "ahead");
+}
+
+TEST_CASE("what a screen shows large is sent to who watches it, and to nobody else") {
+  Desk desk;
+  RawBrowser watcher(desk.port, token), other(desk.port, token);
+  CHECK(desk.page->watched().empty());
+  watcher.say(R"({"id":1,"do":"watch","screen":"ahead"})");
+  CHECK(answer(watcher, 1)["ok"] == true);  // Who does not command may look.
+  CHECK(desk.page->watched() == std::set<std::string>{"ahead"});
+  const auto large = std::make_shared<const std::string>("\xff\xd8\xff");
+  desk.page->show({.phase = "one", .screens = {{.name = "ahead", .large_picture = large}}});
+  const auto picture = hear(watcher, "large_picture", [](const json&) { return true; });
+  CHECK(picture["screen"] == "ahead");
+  CHECK(picture["picture"] == "data:image/jpeg;base64,/9j/");
+  desk.page->show({.phase = "two"});
+  while (true) {
+    const auto message = json::parse(*other.hear());
+    CHECK(message["type"] != "large_picture");
+    if (message["type"] == "state" && message["phase"] == "two") break;
+  }
+  watcher.say(R"({"id":2,"do":"watch","screen":""})");
+  CHECK(answer(watcher, 2)["ok"] == true);
+  CHECK(desk.page->watched().empty());
+  other.say(R"({"id":1,"do":"watch","screen":"left"})");
+  CHECK(answer(other, 1)["ok"] == true);
+  other.die();
+  while (!desk.page->watched().empty()) {
+  }
+}
+
+TEST_CASE("a lesson is sent as it changes, each still once, and all of it to who comes later") {
+  Desk desk;
+  RawBrowser early(desk.port, token);
+  hear(early, "hello", [](const json&) { return true; });
+  const auto still = std::make_shared<const std::string>("\xff\xd8");
+  LessonView lesson{.tasks = {{.mark = 7.26, .severity = "minor", .faults = 1}}, .mark = 7.26, .faults = {}};
+  lesson.faults.push_back(
+      {.number = 1, .from_s = 3.0, .to_s = 4.0, .worst = 0.81, .severity = "minor", .still = still});
+  desk.page->show({.phase = "one", .lesson = std::make_shared<const LessonView>(lesson)});
+  const auto told = hear(early, "lesson", [](const json&) { return true; });
+  CHECK(told["mark"] == 7.3);
+  CHECK(told["faults"][0]["worst"] == 0.8);
+  CHECK(hear(early, "still", [](const json&) { return true; })["fault"] == 1);
+  lesson.faults[0].to_s = 5.0;
+  desk.page->show({.phase = "two", .lesson = std::make_shared<const LessonView>(lesson)});
+  desk.page->tell({1.0, "message", {}, "later"});
+  bool heard = false;
+  while (true) {
+    const auto message = json::parse(*early.hear());
+    CHECK(message["type"] != "still");
+    heard = heard || (message["type"] == "lesson" && message["faults"][0]["to_s"] == 5.0);
+    if (heard) break;
+  }
+  RawBrowser late(desk.port, token);
+  hear(late, "lesson", [](const json&) { return true; });
+  CHECK(hear(late, "still", [](const json&) { return true; })["picture"] == "data:image/jpeg;base64,/9g=");
 }
 
 TEST_CASE("more wishes than the drive has done are refused, not kept") {

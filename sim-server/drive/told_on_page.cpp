@@ -1,0 +1,63 @@
+#include "sim-server/drive/told_on_page.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace septet::server {
+namespace {
+
+/// An operator's command is told by the event that says who gave it.
+constexpr std::array unheard{std::string_view("scenario"),   std::string_view("mirror_glance"),
+                             std::string_view("turn"),       std::string_view("fracture"),
+                             std::string_view("visibility"), std::string_view("operator_command")};
+/// Their detail is a sentence.
+constexpr std::array sentences{std::string_view("screen"), std::string_view("car"), std::string_view("traffic")};
+
+bool is_name(std::string_view word) {
+  return !word.empty() &&
+         std::ranges::all_of(word, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> values_of(std::string_view detail) {
+  std::vector<std::pair<std::string, std::string>> values;
+  while (!detail.empty()) {
+    const std::string_view word = detail.substr(0, detail.find(' '));
+    detail.remove_prefix(std::min(word.size() + 1, detail.size()));
+    const auto equals = word.find('=');
+    // What a person wrote may hold such signs too, and stands last.
+    const bool is_free = !values.empty() && (values.back().first == "note" || values.back().first == "reason" ||
+                                             values.back().first == "text");
+    if (equals != word.npos && is_name(word.substr(0, equals)) && !is_free)
+      values.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    else if (values.empty())
+      values.emplace_back("what", word);
+    else
+      values.back().second += ' ' + std::string(word);
+  }
+  for (auto& [name, value] : values)
+    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
+  return values;
+}
+
+std::optional<page::PageEvent> told_on_page(const logging::Event& event) {
+  if (std::ranges::find(unheard, event.kind) != unheard.end()) return std::nullopt;
+  if (std::ranges::find(sentences, event.kind) != sentences.end())
+    return page::PageEvent{event.simulated_time_s, "message", {}, event.detail};
+  page::PageEvent told{
+      .simulated_s = event.simulated_time_s, .kind = event.kind, .values = values_of(event.detail), .text = event.kind};
+  std::ranges::replace(told.text, '_', ' ');
+  std::string separator = ": ";
+  for (const auto& [name, value] : told.values) {
+    std::string words = name == "what" ? "" : name + ' ';
+    std::ranges::replace(words, '_', ' ');
+    told.text += separator + words + value;
+    separator = ", ";
+  }
+  return told;
+}
+
+}  // namespace septet::server
