@@ -24,12 +24,23 @@ std::string quoted(const std::string& text) {
 
 /// Error: whoever writes it has not ended.
 Expected<void> check_closed(const std::filesystem::path& session) {
-  const auto reader = SessionReader::open(session);
-  if (!reader) return tl::unexpected(reader.error());
+  {
+    const auto reader = SessionReader::open(session);
+    if (!reader) return tl::unexpected(reader.error());
+    if (reader->ended_cleanly()) return {};  // A side file that is there all the same is for somebody who reads it.
+  }
+  // Of a killed writer's side files nothing is left by now.
   std::error_code ignored;
   if (std::filesystem::exists(session.string() + "-wal", ignored))
     return failure("the drive is still going on", session.string(), "wait for its end");
   return {};
+}
+
+/// Everything in one file, which nobody has open: what is put in its place would be read with its side files otherwise.
+Expected<void> join_side_files(const std::filesystem::path& session) {
+  const auto database = Database::open(session, OpenMode::read);
+  if (!database) return tl::unexpected(database.error());
+  return database->execute("PRAGMA journal_mode=DELETE");
 }
 
 Expected<void> strip(const Database& database, const SessionInfo& info) {
@@ -82,6 +93,7 @@ Expected<void> add_answers(const std::filesystem::path& session, const std::vect
 
 Expected<std::filesystem::path> write_anonymous_copy(const std::filesystem::path& session) {
   if (auto closed = check_closed(session); !closed) return tl::unexpected(closed.error());
+  if (auto joined = join_side_files(session); !joined) return tl::unexpected(joined.error());
   const std::filesystem::path draft = session.string() + ".part";
   std::error_code error;
   std::filesystem::remove(draft, error);

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -53,18 +54,34 @@ std::optional<std::pair<dev_t, ino_t>> file_at(const std::filesystem::path& path
   return std::pair(found.st_dev, found.st_ino);
 }
 
+/// Executes it; where another connection is in the way, again and again for so long.
+Expected<void> execute_patiently(const Database& database, const std::string& sql, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds pause{20};
+  const Clock::time_point last = Clock::now() + patience;
+  for (;;) {
+    auto done = database.execute(sql);
+    if (done || !database.is_busy() || Clock::now() >= last) return done;
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 Expected<Database> create_database(const std::filesystem::path& path, const SessionInfo& info,
                                    const WriterOptions& options) {
   auto database = Database::open(path, OpenMode::create);
   if (!database) return database;
-  std::string sql = fmt::format(
+  const std::string mode = fmt::format(
       "PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}; PRAGMA journal_mode=WAL; "
-      "PRAGMA synchronous=FULL; PRAGMA locking_mode=NORMAL; BEGIN; ",
+      "PRAGMA synchronous=FULL; PRAGMA locking_mode=NORMAL",
       page_bytes, application_id, format_version);
-  for (const Table& table : tables) sql += fmt::format("{}; ", table.sql);
-  sql += fmt::format("{}; {}; {}; ", saved_states.sql, actuators.sql, head_positions.sql);
-  sql += keyframe_index;
-  if (auto done = database->execute(sql); !done) return tl::unexpected(done.error());
+  std::string schema;
+  for (const Table& table : tables) schema += fmt::format("{}; ", table.sql);
+  schema += fmt::format("{}; {}; {}; ", saved_states.sql, actuators.sql, head_positions.sql);
+  schema += keyframe_index;
+  // A reader that looks just then holds the file for a moment.
+  if (auto done = execute_patiently(*database, mode, options.patience); !done) return tl::unexpected(done.error());
+  if (auto done = execute_patiently(*database, "BEGIN IMMEDIATE", options.patience); !done)
+    return tl::unexpected(done.error());
+  if (auto done = database->execute(schema); !done) return tl::unexpected(done.error());
   if (auto done = insert_info(*database, info); !done) return tl::unexpected(done.error());
   if (auto done = database->execute("COMMIT"); !done) return tl::unexpected(done.error());
   if (options.max_bytes) {
@@ -125,6 +142,7 @@ struct SessionWriter::State {
   Expected<void> write_all(const std::vector<Record>& batch);
   Expected<void> write_snapshot(const std::shared_ptr<const TakenSnapshot>& taken);
   Expected<void> check_file() const;
+  Expected<void> join_side_files();
 
   const WriterOptions options;
   BoundedQueue<Record> queue;
@@ -143,6 +161,7 @@ struct SessionWriter::State {
   std::size_t uncommitted = 0;  ///< Records of the transaction that is open.
   bool has_failed = false;
   bool is_finished = false;
+  bool is_still_read = false;
   SnapshotPacker packer;
   Bytes encoded;
 
@@ -154,7 +173,8 @@ void SessionWriter::State::write(const std::vector<Record>& batch) {
     lost.fetch_add(batch.size(), std::memory_order_relaxed);
     return;
   }
-  auto done = uncommitted == 0 ? database.execute("BEGIN") : Expected<void>{};
+  // At once as a writer: whoever is in the way is met here, where nothing is lost by waiting, and nowhere else.
+  auto done = uncommitted == 0 ? execute_patiently(database, "BEGIN IMMEDIATE", options.patience) : Expected<void>{};
   uncommitted += batch.size();
   if (done) done = write_all(batch);
   if (!done) fail(std::move(done.error()));
@@ -227,6 +247,16 @@ Expected<void> SessionWriter::State::check_file() const {
                  "leave the folder alone until the drive is over, and drive again");
 }
 
+/// What is committed is safe in either file. One file alone needs the only connection, which nobody who reads can be made to
+/// leave; those who come and go leave a gap.
+Expected<void> SessionWriter::State::join_side_files() {
+  constexpr std::chrono::milliseconds for_a_gap{1000};
+  auto done = database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  if (done) done = execute_patiently(database, "PRAGMA journal_mode=DELETE", for_a_gap);
+  is_still_read = !done && database.is_busy();
+  return is_still_read ? Expected<void>{} : done;
+}
+
 Expected<SessionWriter> SessionWriter::create(const std::filesystem::path& path, const SessionInfo& info,
                                               const WriterOptions& options) {
   SEPTET_CHECK(options.queue_bytes > 0, "a queue of {} bytes", options.queue_bytes);
@@ -276,7 +306,7 @@ Expected<void> SessionWriter::finish(const std::map<std::string, std::string>& m
     return {};
   }
   const Database& database = state_->database;
-  auto done = database.execute("BEGIN");
+  auto done = execute_patiently(database, "BEGIN IMMEDIATE", state_->options.patience);
   for (const auto& [key, value] : meta)
     if (done) done = insert_meta(database, key, value);
   if (done) done = insert_meta(database, "ended", "1");
@@ -284,8 +314,9 @@ Expected<void> SessionWriter::finish(const std::map<std::string, std::string>& m
     done = insert_meta(database, "ended_simulated_time_s",
                        fmt::format("{}", state_->previous->snapshot().simulated_time_s));
   if (done) done = database.execute("COMMIT");
-  if (done) done = database.execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE");
-  return done;
+  return done ? state_->join_side_files() : done;
 }
+
+bool SessionWriter::is_still_read() const { return state_->is_still_read; }
 
 }  // namespace septet::logging

@@ -6,6 +6,8 @@
 /// what is not yet committed: at most 100 ms of wall time. Nothing is left out because the disk is
 /// slow: once the queue is full, `record` waits, and `waited_s` says for how long.
 ///
+/// Readers change nothing: whoever has the file open, in whatever transaction, neither stops the recording nor spoils its end.
+///
 /// Threads: `record` and the queries may be called from any thread. Records of one kind come in
 /// ascending ticks. Errors: `create` returns them. Later ones (a full disk, a file that somebody has
 /// deleted) end the recording, not the drive: what was committed stays, `take_error` hands the one
@@ -30,6 +32,8 @@ struct WriterOptions {
   std::chrono::milliseconds commit_interval{50};
   double keyframe_interval_s = 1.0;             ///< Of simulated time.
   std::optional<std::uint64_t> max_bytes = {};  ///< Of the file; reaching it is like a full disk.
+  /// For so long another program may write to the file; meanwhile records wait in the queue.
+  std::chrono::milliseconds patience{30'000};
 };
 
 class SessionWriter {
@@ -63,9 +67,11 @@ class SessionWriter {
   std::optional<Tick> committed_tick() const;
 
   /// Writes the rest, adds rows to `meta`, marks the clean end and leaves one file without side
-  /// files. Answers the error that ended the recording where `take_error` has not. The writer loses
-  /// every record from then on.
+  /// files, unless somebody reads it just then: that is no error. Answers the error that ended the
+  /// recording where `take_error` has not. The writer loses every record from then on.
   Expected<void> finish(const std::map<std::string, std::string>& meta = {});
+  /// After `finish`: another program has the file open, so its side files stay beside it; log and clean end are whole.
+  bool is_still_read() const;
 
  private:
   struct State;

@@ -160,6 +160,11 @@ Expected<std::int64_t> Database::query_integer(std::string_view sql) const {
   return *row ? statement->integer(0) : 0;
 }
 
+bool Database::is_busy() const {
+  const int code = sqlite3_errcode(database_.get()) & 0xff;
+  return code == SQLITE_BUSY || code == SQLITE_LOCKED;
+}
+
 bool Database::in_transaction() const { return sqlite3_get_autocommit(database_.get()) == 0; }
 
 }  // namespace septet::logging

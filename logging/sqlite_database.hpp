@@ -68,6 +68,8 @@ class Database {
   /// The first column of the first row.
   Expected<std::int64_t> query_integer(std::string_view sql) const;
   bool in_transaction() const;
+  /// Whether what was done last met another connection in its way.
+  bool is_busy() const;
   const std::string& where() const { return where_; }
 
  private:

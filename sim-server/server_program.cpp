@@ -246,6 +246,13 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) return failure(error.message(), options.out.string(), "choose a folder that can be written with --out");
+  const std::filesystem::path session = options.out / "session.sqlite";
+  if (std::filesystem::exists(session, error))
+    return failure(
+        "a drive lies there already, and a log is never overwritten", session.string(),
+        fmt::format("give another folder with --out, or move that drive aside first, which `septet drive` does by "
+                    "itself: mv '{0}' '{0}.1'",
+                    options.out.string()));
   auto log = SessionLog::create(drive.loaded, options);
   if (!log) return tl::unexpected(log.error());
   drive.log.emplace(std::move(*log));
@@ -266,6 +273,7 @@ void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result,
     result.error = error;
   };
   if (const auto finished = log.finish(log.outcome(result, screens)); !finished) failed(finished.error());
+  if (const auto remark = log.remark()) progress.message(*remark);
   if (const auto written = write_results(drive.loaded, options, log.outcome(result, screens)); !written)
     failed(written.error());
   const auto lines = write_standing(drive.loaded, options, log.game());

@@ -33,8 +33,7 @@ std::string heading(const Frame& frame, std::string_view title, std::string_view
   return text("title", frame.left, frame.place.y + 16, title) + text("unit", frame.right, frame.place.y + 16, y_label);
 }
 
-std::string y_axis(const Frame& frame, const Axis& y) {
-  const auto ticks = round_ticks({y.low, y.high}, 5);
+std::string y_axis(const Frame& frame, const Axis& y, const std::vector<double>& ticks) {
   std::string svg;
   for (const double tick : ticks)
     svg += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", frame.left, y(tick), frame.right) +
@@ -152,7 +151,7 @@ std::string in_svg(const std::string& title, const std::string& content) {
 
 std::string drawn(const LineChart& chart, const Place& place) {
   const Frame frame = frame_of(place, legend_rows(chart));
-  const Range x_range = range_of(chart, &Point::x);
+  const Range x_range = chart.x.value_or(range_of(chart, &Point::x));
   const Axis x = axis_of(x_range, frame.left, frame.right);
   const Axis y = axis_of(chart.y.value_or(round_range(range_of(chart, &Point::y), 5)), frame.bottom, frame.top + 8);
   std::string svg = heading(frame, chart.title, chart.y_label);
@@ -161,7 +160,7 @@ std::string drawn(const LineChart& chart, const Place& place) {
     edge.insert(edge.end(), back.rbegin(), back.rend());
     svg += fmt::format("<path class=\"band\" d=\"{}Z\"/>\n", path_of(edge, x, y));
   }
-  svg += y_axis(frame, y);
+  svg += y_axis(frame, y, chart.y_ticks.value_or(round_ticks({y.low, y.high}, 5)));
   const auto ticks = round_ticks(x_range, static_cast<int>(place.width / 96.0));
   for (const double tick : ticks) svg += x_tick(frame, x(tick), tick_label(tick, ticks));
   for (const Mark& mark : chart.marks) {
@@ -182,7 +181,7 @@ std::string to_svg(const BarChart& chart) {
   if (chart.level) largest = std::max(largest, chart.level->value);
   const Axis x = axis_of({chart.x_low, chart.x_high}, frame.left, frame.right);
   const Axis y = axis_of({0.0, largest > 0.0 ? largest * 1.08 : 1.0}, frame.bottom, frame.top + 8);
-  std::string svg = heading(frame, chart.title, chart.y_label) + y_axis(frame, y);
+  std::string svg = heading(frame, chart.title, chart.y_label) + y_axis(frame, y, round_ticks({y.low, y.high}, 5));
   for (const Bar& bar : chart.bars) {
     const double a = std::min(x(bar.from), x(bar.to)) + 1.5, b = std::max(x(bar.from), x(bar.to)) - 1.5;
     svg += fmt::format(

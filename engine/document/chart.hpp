@@ -33,8 +33,10 @@ struct LineChart {
   std::string title, x_label, y_label;
   std::vector<Series> series;
   std::vector<Mark> marks;
-  std::vector<Point> band_low, band_high;  ///< A shaded band behind the lines, edges with the same x.
-  std::optional<Range> y;                  ///< Nothing: round numbers around what there is.
+  std::vector<Point> band_low, band_high;      ///< A shaded band behind the lines, edges with the same x.
+  std::optional<Range> x;                      ///< Nothing: from the first point to the last.
+  std::optional<Range> y;                      ///< Nothing: round numbers around what there is.
+  std::optional<std::vector<double>> y_ticks;  ///< Nothing: round numbers; empty: the height has no meaning of its own.
 };
 
 struct Bar {

@@ -55,6 +55,16 @@ std::vector<std::string> read_parameters(TableReader& reader) {
   return parameters;
 }
 
+/// A list of names, taken out of the table.
+std::vector<std::string> take_names(toml::table& table, std::string_view key) {
+  std::vector<std::string> names;
+  const toml::array* array = table.get_as<toml::array>(key);
+  if (!array) return names;
+  for (const toml::node& node : *array) names.push_back(node.value<std::string>().value_or(""));
+  table.erase(key);
+  return names;
+}
+
 ExperimentGroup read_group(const toml::table& table, std::string_view file, std::set<std::string>& taken,
                            Error& error) {
   TableReader reader(table, file, "group", error);
@@ -106,10 +116,8 @@ Expected<Experiment> read_experiment(std::string_view text, std::string_view nam
   }
   Error error;
   Experiment experiment;
-  if (const toml::array* array = table.get_as<toml::array>("questionnaires")) {
-    for (const toml::node& node : *array) experiment.questionnaires.push_back(node.value<std::string>().value_or(""));
-    table.erase("questionnaires");
-  }
+  experiment.questionnaires = take_names(table, "questionnaires");
+  experiment.questionnaires_after_each_condition = take_names(table, "questionnaires_after_each_condition");
   TableReader reader(table, name, "experiment", error);
   experiment.title = reader.get_string("title", "An experiment");
   experiment.note = reader.get_string("note", "");

@@ -46,6 +46,7 @@ struct Experiment {
   std::vector<ExperimentCondition> conditions;  ///< One without a name where the file has none.
   ConditionOrder order = ConditionOrder::counterbalanced;
   std::vector<std::string> questionnaires;  ///< That everybody is to answer after their last drive.
+  std::vector<std::string> questionnaires_after_each_condition;
 };
 
 Expected<Experiment> read_experiment(std::string_view toml, std::string_view name);

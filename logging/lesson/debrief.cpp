@@ -16,6 +16,7 @@
 
 #include "engine/document/markup.hpp"
 #include "engine/document/text_file.hpp"
+#include "logging/report/impossible_numbers.hpp"
 #include "logging/report/report_style.hpp"
 #include "logging/report/route_chart.hpp"
 
@@ -28,6 +29,12 @@ using document::escaped;
 std::string mark_text(const std::optional<double>& mark, bool taken) {
   if (!taken) return "–";
   return mark ? fmt::format("{:.1f}", *mark) : "not seen";
+}
+
+/// Why a task has no mark.
+std::string why_none(const LessonTask& task, const LessonMarks& marks) {
+  return is_of_glances(task.measure) && !marks.head_is_known ? "not known: nothing told where the head pointed"
+                                                             : "no occasion";
 }
 
 std::string value_text(const LessonTask& task, double value) {
@@ -104,8 +111,10 @@ Expected<std::optional<std::string>> write_debrief(const SessionReader& session,
   if (source == files.end()) return std::optional<std::string>();
   const auto lesson = read_lesson(source->content, source->name);
   if (!lesson) return tl::unexpected(lesson.error());
-  const auto samples = session.samples();
+  auto samples = session.samples();
   if (!samples) return tl::unexpected(samples.error());
+  std::vector<InputRecord> no_inputs;
+  leave_out_impossible(*samples, no_inputs);
   const auto events = session.events();
   if (!events) return tl::unexpected(events.error());
   const LessonMarks marks = mark_lesson(*lesson, *samples, *events);
@@ -150,7 +159,8 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
   if (worst.empty()) html += "<p>Nothing was beyond its bound.</p>\n";
   for (const std::size_t i : worst)
     html += fmt::format(
-        "<figure>{}<figcaption><b>{}. {}</b> {}: {}. Show it again: <code>septet replay session.sqlite --from "
+        "<figure>{}<figcaption><b>{}. {}</b> {}: {}. Show it again: <code style=\"white-space: nowrap\">septet replay "
+        "session.sqlite --from "
         "{:.0f}</code></figcaption></figure>\n",
         picture(marks.tasks[i].worst_s, place), i + 1, escaped(lesson.tasks[i].says), name_of(marks.tasks[i].severity),
         why(lesson.tasks[i], marks.tasks[i]), std::max(0.0, std::floor(marks.tasks[i].worst_s - 3.0)));
@@ -161,7 +171,7 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
     const TaskMark& mark = marks.tasks[i];
     html += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"value\">{}</td><td>{}</td><td>{}</td></tr>\n", i + 1,
                         escaped(task.says), mark_text(mark.mark, marks.taken), name_of(mark.severity),
-                        mark.mark ? why(task, mark) : std::string("no occasion"));
+                        mark.mark ? why(task, mark) : why_none(task, marks));
   }
   html +=
       "</table>\n<p class=\"soft\">10 for what was asked, less the farther from it, 0 from the lesson's tolerance on; "

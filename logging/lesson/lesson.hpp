@@ -70,6 +70,7 @@ struct LessonMarks {
   std::optional<double> mark;   ///< Weighted mean of what was seen; none of a lesson that was not taken.
   bool taken = false;           ///< It was driven for long enough.
   bool passed = false;
+  bool head_is_known = false;  ///< Else no task of glances could be marked, whatever was driven.
 };
 
 /// "passed", "not passed", or "too short to be marked".
@@ -100,6 +101,8 @@ std::string_view name_of(LessonMeasure measure);
 
 /// Whether more of it is worse.
 bool is_at_most(LessonMeasure measure);
+/// Whether it looks at glances, which are known only where the head's direction is.
+bool is_of_glances(LessonMeasure measure);
 /// Whether every sample is an occasion.
 bool is_of_each_sample(LessonMeasure measure);
 /// What a measure is told in: "km/h", "s", "m", "m/s²", "".

@@ -343,8 +343,7 @@ void add_faults(std::size_t index, const LessonTask& task, const DriveSeen& driv
 
 DriveSeen seen_of(std::span<const Sample> samples, std::span<const Event> events) {
   DriveSeen drive{samples, events, find_lane_changes(samples), find_glances(samples), false};
-  drive.head_is_known =
-      std::ranges::any_of(samples, [](const Sample& sample) { return sample.gaze_heading_rad != 0.0; });
+  drive.head_is_known = is_head_known(samples);
   for (const Event& event : events) {
     if (event.kind == "operator_command" && event.detail.starts_with("put "))
       drive.put_s.push_back(event.simulated_time_s);
@@ -379,6 +378,10 @@ bool is_at_most(LessonMeasure measure) {
   return std::ranges::find(least, measure) == least.end();
 }
 
+bool is_of_glances(LessonMeasure measure) {
+  return measure == LessonMeasure::mirror || measure == LessonMeasure::lookout;
+}
+
 bool is_of_each_sample(LessonMeasure measure) {
   constexpr std::array each{LessonMeasure::speed, LessonMeasure::gap, LessonMeasure::position, LessonMeasure::limit,
                             LessonMeasure::braking};
@@ -402,6 +405,7 @@ std::string_view name_of(Severity severity) {
 LessonMarks mark_lesson(const Lesson& lesson, std::span<const Sample> samples, std::span<const Event> events) {
   const DriveSeen drive = seen_of(samples, events);
   LessonMarks marks;
+  marks.head_is_known = drive.head_is_known;
   double sum = 0.0, weights = 0.0;
   bool danger = false;
   for (const LessonTask& task : lesson.tasks) {

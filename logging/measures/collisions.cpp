@@ -5,6 +5,11 @@
 #include <system_error>
 
 namespace septet::logging {
+namespace {
+
+constexpr double beyond_everything = 1e9;  ///< In whatever unit; an event that somebody altered may say so.
+
+}  // namespace
 
 std::optional<double> number_in_detail(const std::string& detail, const std::string& key) {
   const std::string word = key + '=';
@@ -13,7 +18,7 @@ std::optional<double> number_in_detail(const std::string& detail, const std::str
     double value = 0.0;
     const char* begin = detail.data() + at + word.size();
     const auto [end, error] = std::from_chars(begin, detail.data() + detail.size(), value);
-    if (error == std::errc{} && std::isfinite(value)) return value;
+    if (error == std::errc{} && std::abs(value) < beyond_everything) return value;
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "logging/measures/glances.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "logging/measures/sample_steps.hpp"
@@ -41,6 +42,12 @@ std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample) {
   const auto ended = finish(detector, sample.simulated_time_s);
   if (inside) detector.current = Glance{.tick = sample.tick, .start_s = sample.simulated_time_s, .area = area->name};
   return ended;
+}
+
+bool is_head_known(std::span<const Sample> samples) {
+  return std::ranges::any_of(samples, [](const Sample& sample) {
+    return std::isfinite(sample.gaze_heading_rad) && sample.gaze_heading_rad != 0.0;
+  });
 }
 
 std::vector<Glance> find_glances(std::span<const Sample> samples, const GlanceSettings& settings) {

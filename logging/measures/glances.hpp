@@ -51,6 +51,9 @@ struct GlanceDetector {
 /// Takes the next sample; returns the glance that ended with it.
 std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample);
 
+/// Whether the head's direction was measured: where nothing told it, it never moved.
+bool is_head_known(std::span<const Sample> samples);
+
 /// A glance that lasts until the last sample counts with the time it has.
 std::vector<Glance> find_glances(std::span<const Sample> samples, const GlanceSettings& settings = {});
 

@@ -34,6 +34,7 @@ DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureS
   DriveMeasures measures;
   const std::span<const Sample> samples = records.samples;
   measures.samples = samples.size();
+  measures.impossible = records.impossible;
   measures.collisions = find_collisions(records.events);
   if (samples.empty()) return measures;
   measure_speed(samples, measures);
@@ -46,7 +47,8 @@ DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureS
   GlanceSettings glances = settings.glances;
   if (!records.glance_areas.empty()) glances.areas = records.glance_areas;
   measures.glance_areas = glances.areas;
-  measures.glances = find_glances(samples, glances);
+  measures.head_is_known = is_head_known(samples);
+  if (measures.head_is_known) measures.glances = find_glances(samples, glances);
   if (!measures.glances.empty())
     measures.between_glances_s = measures.duration_s / static_cast<double>(measures.glances.size());
   measures.following = compute_following(samples, settings.following);

@@ -42,14 +42,18 @@ struct MeasureSettings {
 
 struct DriveMeasures {
   std::size_t samples = 0;
+  ImpossibleNumbers impossible;  ///< What was left out.
   double duration_s = 0.0;
   double distance_m = 0.0;                                                   ///< Speed summed over time (trapezoidal).
   double speed_mean_mps = 0.0, speed_sd_mps = 0.0, speed_largest_mps = 0.0;  ///< SD divides by N.
   LateralPositionStatistics lateral_position;
   LateralPositionHistogram histogram;
   std::vector<LaneChange> lane_changes;
+  /// Whether a lane was known at any sample: else there was none to change.
+  bool has_lanes() const { return histogram.total() > 0; }
   std::optional<double> between_lane_changes_s;
   std::vector<GlanceArea> glance_areas;  ///< Whose glances were looked for.
+  bool head_is_known = false;            ///< Else nothing is known of glances.
   std::vector<Glance> glances;
   std::optional<double> between_glances_s;  ///< Duration over their number.
   FollowingMeasures following;

@@ -38,8 +38,10 @@ Expected<DriveRecords> read_drive_records(const SessionReader& reader) {
   if (!inputs) return tl::unexpected(inputs.error());
   auto events = reader.events();
   if (!events) return tl::unexpected(events.error());
+  const ImpossibleNumbers impossible = leave_out_impossible(*samples, *inputs);
   DriveRecords records{
-      std::move(*samples), std::move(*inputs), std::move(*events), {}, reader.info().ticks_per_second, {}, {}};
+      std::move(*samples), std::move(*inputs), std::move(*events), {}, reader.info().ticks_per_second, {}, {},
+      impossible};
   records.speed_limits_mps = speed_limits_of(reader.info(), records.samples);
   records.car_width_m = car_width_of(reader.info());
   const auto& files = reader.info().files;

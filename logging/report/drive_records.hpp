@@ -7,6 +7,7 @@
 #include "engine/core/expected.hpp"
 #include "logging/measures/glances.hpp"
 #include "logging/records.hpp"
+#include "logging/report/impossible_numbers.hpp"
 #include "logging/session_reader.hpp"
 
 namespace septet::logging {
@@ -20,6 +21,7 @@ struct DriveRecords {
   double ticks_per_second = 120.0;
   std::vector<GlanceArea> glance_areas;  ///< Of the rig that was sat in; empty: it is not known.
   std::optional<double> car_width_m;     ///< Of the vehicle that was driven, without mirrors; nothing: it is not known.
+  ImpossibleNumbers impossible;          ///< What was left out of these.
 };
 
 Expected<DriveRecords> read_drive_records(const SessionReader& reader);

@@ -12,7 +12,9 @@
 #include "engine/document/markup.hpp"
 #include "engine/document/text_file.hpp"
 #include "logging/measures/order_statistics.hpp"
+#include "logging/report/answer_sections.hpp"
 #include "logging/report/drive_pages.hpp"
+#include "logging/report/group_words.hpp"
 #include "logging/report/lateral_histogram_chart.hpp"
 #include "logging/report/measure_list.hpp"
 #include "logging/report/report_style.hpp"
@@ -22,12 +24,6 @@ namespace septet::logging {
 namespace {
 
 using document::escaped;
-
-std::string framed(const std::string& svg, const std::string& caption) {
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg, escaped(caption));
-}
-
-std::string name_of_group(const std::string& group) { return group.empty() ? "no group" : group; }
 
 const PooledDrive* drive_of(const PooledSubject& subject, const std::string& label) {
   const auto found = std::ranges::find(subject.drives, label, &PooledDrive::label);
@@ -94,8 +90,8 @@ std::string figure_5(const LateralPositionHistogram& histogram) {
 
 /// Sums over everybody.
 struct Totals {
-  std::size_t samples = 0, lane_changes = 0, glances = 0;
-  double driven_s = 0.0;
+  std::size_t samples = 0, lane_changes = 0, glances = 0, impossible = 0;
+  double driven_s = 0.0, in_lanes_s = 0.0, with_head_s = 0.0;
 };
 
 Totals totals_of(const GroupReport& report) {
@@ -104,6 +100,9 @@ Totals totals_of(const GroupReport& report) {
     for (const PooledDrive& drive : subject.drives) {
       totals.samples += drive.measures.samples;
       totals.driven_s += drive.measures.duration_s;
+      if (drive.measures.has_lanes()) totals.in_lanes_s += drive.measures.duration_s;
+      if (drive.measures.head_is_known) totals.with_head_s += drive.measures.duration_s;
+      totals.impossible += drive.measures.impossible.any();
       totals.lane_changes += drive.measures.lane_changes.size();
       totals.glances += drive.measures.glances.size();
     }
@@ -113,10 +112,11 @@ Totals totals_of(const GroupReport& report) {
 std::string beside_the_paper(const GroupReport& report, const LateralPositionHistogram& histogram) {
   const Totals totals = totals_of(report);
   std::size_t stopped = 0, with_time = 0;
-  for (const PooledSubject& subject : report.subjects) {
-    with_time += subject.playing_time.has_value();
-    stopped += subject.playing_time && subject.playing_time->stopped;
-  }
+  for (const PooledSubject& subject : report.subjects)
+    for (const PooledDrive& drive : subject.drives) {
+      with_time += drive.playing_time.has_value();
+      stopped += drive.playing_time && drive.playing_time->stopped;
+    }
   std::string html =
       "<h2>Beside the paper</h2>\n<table><tr><th>What</th><th>Here</th><th>Lebram, Engström and Gustavsson "
       "2006</th></tr>\n";
@@ -124,8 +124,8 @@ std::string beside_the_paper(const GroupReport& report, const LateralPositionHis
     html += fmt::format("<tr><td class=\"name\">{}</td><td class=\"value\">{}</td><td>{}</td></tr>\n", escaped(name),
                         escaped(here), escaped(paper));
   };
-  const auto every = [&](std::size_t count) {
-    return count > 0 ? fmt::format("{:.1f} s", totals.driven_s / static_cast<double>(count)) : std::string("–");
+  const auto every = [&](double driven_s, std::size_t count) {
+    return count > 0 ? fmt::format("{:.1f} s", driven_s / static_cast<double>(count)) : std::string("–");
   };
   row("Drivers", fmt::format("{}", report.subjects.size()), "24 driving-school students");
   row("Driven", fmt::format("{:.2f} h", totals.driven_s / 3600.0), "almost 12 h");
@@ -136,72 +136,11 @@ std::string beside_the_paper(const GroupReport& report, const LateralPositionHis
   const double beside = histogram.fraction(9) + histogram.fraction(11);
   row("Centre over its neighbours' mean",
       beside > 0.0 ? fmt::format("{:.2f}", 2.0 * histogram.fraction(10) / beside) : "–", "above 2");
-  row("Time between lane changes", every(totals.lane_changes), "15 s");
-  row("Time between uses of mirrors", every(totals.glances), "10 s");
+  row("Time between lane changes", every(totals.in_lanes_s, totals.lane_changes), "15 s");
+  row("Time between uses of mirrors", every(totals.with_head_s, totals.glances), "10 s");
   row("Stopped of their own will", with_time > 0 ? fmt::format("{} of {}", stopped, with_time) : "–",
       "not told; four of 24 named sickness among their reasons");
   return html + "</table>\n";
-}
-
-std::string survival_section(const GroupReport& report) {
-  std::vector<std::pair<std::string, std::vector<ObservedTime>>> groups;
-  double longest_s = 0.0;
-  for (const auto& group : groups_of(report.subjects)) {
-    std::vector<ObservedTime> times;
-    for (const PooledSubject& subject : report.subjects)
-      if (subject.subject.group == group && subject.playing_time) {
-        times.push_back(*subject.playing_time);
-        longest_s = std::max(longest_s, times.back().time_s);
-      }
-    if (!times.empty()) groups.emplace_back(group, std::move(times));
-  }
-  if (groups.empty()) return "";
-  document::LineChart chart;
-  chart.title = "Who is still driving";
-  chart.x_label = "playing time, min";
-  chart.y_label = "share";
-  chart.y = {0.0, 1.05};
-  std::string rows;
-  for (const auto& [group, times] : groups) {
-    const auto curve = survival_curve(times);
-    document::Series series{name_of_group(group), {{0.0, 1.0}}, document::Stroke::line};
-    if (chart.series.size() % 2 == 1) series.stroke = document::Stroke::dashed;
-    for (const SurvivalStep& step : curve) {
-      series.points.push_back({step.time_s / 60.0, series.points.back().y});
-      series.points.push_back({step.time_s / 60.0, step.share});
-    }
-    series.points.push_back({longest_s / 60.0, series.points.back().y});
-    chart.series.push_back(std::move(series));
-    const auto stopped = std::ranges::count_if(times, [](const ObservedTime& time) { return time.stopped; });
-    double mean_s = 0.0;
-    for (const ObservedTime& time : times) mean_s += time.time_s / static_cast<double>(times.size());
-    const auto half_s = median_survival_s(curve);
-    rows += fmt::format(
-        "<tr><td class=\"name\">{}</td><td class=\"value\">{}</td><td class=\"value\">{}</td><td "
-        "class=\"value\">{:.1f} min</td>"
-        "<td class=\"value\">{}</td><td class=\"value\">{}</td></tr>\n",
-        escaped(name_of_group(group)), times.size(), stopped, mean_s / 60.0,
-        half_s ? fmt::format("{:.1f} min", *half_s / 60.0) : "not reached",
-        curve.empty()
-            ? "1"
-            : fmt::format("{:.2f} ({:.2f} to {:.2f})", curve.back().share, curve.back().low, curve.back().high));
-  }
-  std::string html =
-      "<h2>Playing time</h2>\n" +
-      framed(document::to_svg(chart),
-             "Kaplan and Meier's estimate: who had not stopped when what was offered was over is censored there, "
-             "and who was never seen to stop is not counted as having stopped.") +
-      "<table><tr><th>Group</th><th>Drivers</th><th>Stopped</th><th>Driven, mean</th><th>Median</th><th>Going on at "
-      "the "
-      "end (95 %, Greenwood)</th></tr>\n" +
-      rows + "</table>\n";
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    for (std::size_t j = i + 1; j < groups.size(); ++j)
-      if (const auto test = log_rank_test(groups[i].second, groups[j].second))
-        html += fmt::format("<p>{} against {}: log-rank χ²(1) = {:.2f}, p = {:.3g}.</p>\n",
-                            escaped(name_of_group(groups[i].first)), escaped(name_of_group(groups[j].first)),
-                            test->chi_square, test->p);
-  return html;
 }
 
 /// Every subject a dot, a row for each group.
@@ -218,7 +157,9 @@ std::string strip_chart(const MeasureColumn& column) {
   for (std::size_t i = 0; i < column.values.size(); ++i) {
     const double row = groups - static_cast<double>(i);
     document::Series dots{
-        fmt::format("{:g}: {}", row, name_of_group(column.values[i].first)), {}, document::Stroke::dots};
+        column.values.size() > 1 ? fmt::format("{:g}: {}", row, name_of_group(column.values[i].first)) : std::string(),
+        {},
+        document::Stroke::dots};
     auto values = column.values[i].second;
     std::ranges::sort(values);
     // Evenly up and down around the row, so that equal values do not lie on each other.
@@ -233,21 +174,13 @@ std::string strip_chart(const MeasureColumn& column) {
                             {{*middle, row - 0.3}, {*middle, row + 0.3}, {*middle, std::nan("")}});
   }
   if (!(high > low)) return "";
+  const double margin = 0.03 * (high - low);  // No dot lies on the frame.
+  chart.x = {low - margin, high + margin};
+  chart.y_ticks.emplace();
+  if (column.values.size() > 1)
+    for (double row = 1.0; row <= groups; ++row) chart.y_ticks->push_back(row);
   chart.series.push_back(std::move(medians));
   return framed(document::to_svg(chart), measure.definition);
-}
-
-/// Four digits, and all of them before the point.
-std::string figure_text(double value) {
-  return std::abs(value) >= 1e4 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
-}
-
-std::string spread_text(const std::vector<double>& values) {
-  if (values.empty()) return "–";
-  const MeanAndSpread spread = summarise(values);
-  return fmt::format("{} ± {}; {} [{}, {}] ({})", figure_text(spread.mean), figure_text(spread.sd),
-                     figure_text(*median(values)), figure_text(*quantile(values, 0.25)),
-                     figure_text(*quantile(values, 0.75)), values.size());
 }
 
 std::string distributions(const std::vector<MeasureColumn>& columns) {
@@ -301,19 +234,6 @@ std::string comparisons(const std::vector<MeasureColumn>& columns) {
              count, 0.05 * static_cast<double>(count));
 }
 
-std::string answers_section(const GroupReport& report) {
-  std::map<std::string, std::vector<double>> by_item;
-  for (const PooledSubject& subject : report.subjects)
-    for (const auto& [item, value] : subject.answers) by_item[item].push_back(value);
-  if (by_item.empty()) return "";
-  std::string html = "<h2>Answers</h2>\n<table><tr><th>Item</th><th>Mean ± SD; median [quartiles] (n)</th></tr>\n";
-  for (const auto& [item, values] : by_item)
-    html += fmt::format("<tr><td class=\"name\">{}</td><td>{}</td></tr>\n", escaped(item), spread_text(values));
-  return html +
-         "</table>\n<p class=\"soft\">A single statement is ordinal: its mean is here because the paper gives "
-         "means.</p>\n";
-}
-
 /// Every drive that has a page of its own; of many, folded.
 std::string drive_links(const GroupReport& report) {
   if (report.drive_pages.empty()) return "";
@@ -360,10 +280,15 @@ std::string to_html(const GroupReport& report) {
   if (unclean > 0)
     body +=
         fmt::format("<p class=\"warning\">{} drivers have a drive whose recording has no clean end.</p>\n", unclean);
+  if (totals.impossible > 0)
+    body += fmt::format(
+        "<p class=\"warning\">{} drives hold numbers that nothing physical has; they are left out of every figure, and "
+        "subjects.json says of which.</p>\n",
+        totals.impossible);
   body += drive_links(report);
   const auto histogram = pooled_histogram(report);
   if (totals.samples > 0) body += figure_5(histogram) + beside_the_paper(report, histogram);
-  body += survival_section(report) + answers_section(report);
+  body += survival_sections(report) + answers_section(report);
   for (const auto& label : labels_of(report.subjects)) {
     const auto columns = columns_of(report, label);
     body += fmt::format("<h2>Measures{}</h2>\n", label.empty() ? "" : ": " + escaped(label));

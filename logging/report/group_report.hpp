@@ -22,7 +22,8 @@ struct GroupReport {
 
 /// A page that needs nothing beside it; it links to `drive_pages`.
 std::string to_html(const GroupReport& report);
-/// One row a subject; columns are "LABEL.MEASURE_UNIT", answers as "answer.ITEM", the experimenter's own as "column.NAME". A value that
+/// One row a subject; columns are "LABEL.MEASURE_UNIT" and "LABEL.answer.ITEM", the experimenter's own "column.NAME"; "answer.ITEM" without a label has a
+/// value where a subject's drives do not differ in it. A value that
 /// is undefined is an empty cell.
 std::string to_csv(const GroupReport& report);
 /// The same with unit, definition, samples and missing samples of every measure, and the pooled histogram.

@@ -21,6 +21,8 @@ class List {
     return *this;
   }
   void add(std::string key, std::string title, std::string unit, std::optional<double> value, std::string definition) {
+    // What was computed of numbers that are all possible can still be none.
+    if (value && !can_be_told(*value)) value = std::nullopt;
     measures_.push_back(
         {std::move(key), std::move(title), std::move(unit), value, samples_, missing_, std::move(definition)});
   }
@@ -38,9 +40,9 @@ class List {
 
 void list_speed(const DriveMeasures& m, const MeasureSettings& settings, List& list) {
   list.of(m.samples, 0);
-  list.add("duration_s", "Duration", "s", m.duration_s,
-           "Simulated time from sample to sample; gaps of more than a second are not in it.");
-  list.add("distance_m", "Distance", "m", m.distance_m, "Speed summed over time (trapezoidal).");
+  list.add_of_samples("duration_s", "Duration", "s", m.duration_s,
+                      "Simulated time from sample to sample; gaps of more than a second are not in it.");
+  list.add_of_samples("distance_m", "Distance", "m", m.distance_m, "Speed summed over time (trapezoidal).");
   list.add_of_samples("speed_mean_mps", "Speed, mean", "m/s", m.speed_mean_mps, "Over all samples, standing included.");
   list.add_of_samples("speed_sd_mps", "Speed, SD", "m/s", m.speed_sd_mps, "Divides by N.");
   list.add_of_samples("speed_largest_mps", "Speed, largest", "m/s", m.speed_largest_mps, "Largest sample.");
@@ -93,14 +95,17 @@ void list_lane_keeping(const DriveMeasures& m, const MeasureSettings& settings, 
       m.histogram.fraction(LateralPositionHistogram::bins / 2),
       "Share of the samples in the middle one of 21 equal intervals across the lane; lane changes included "
       "(Lebram, Engström and Gustavsson 2006, figure 5).");
-  list.of(m.samples, 0);
+  const std::size_t in_lanes = m.histogram.total();
+  list.of(in_lanes, m.samples - std::min(m.samples, in_lanes));
   list.add_of_samples("lane_changes", "Lane changes", "", static_cast<double>(m.lane_changes.size()),
                       fmt::format("Dated where the reference point crosses the line; counted once it is {:g} m beyond.",
                                   settings.lane_changes.hysteresis_m));
   list.add("between_lane_changes_s", "Time between lane changes", "s", m.between_lane_changes_s,
            "Simulated time over the number of lane changes.");
+  list.of(m.head_is_known ? m.samples : 0, m.head_is_known ? 0 : m.samples);
   list.add_of_samples("mirror_glances", "Mirror glances", "", static_cast<double>(m.glances.size()),
-                      fmt::format("From the head's heading at 10 Hz; at least {:g} s inside a mirror's area.",
+                      fmt::format("From the head's heading at 10 Hz; at least {:g} s inside a mirror's area. Undefined "
+                                  "where nothing told the head's heading.",
                                   settings.glances.minimum_s));
   list.add("between_glances_s", "Time between glances", "s", m.between_glances_s,
            "Simulated time over the number of mirror glances.");
@@ -192,7 +197,8 @@ void list_incidents(const DriveMeasures& m, const MeasureSettings& settings, Lis
     else
       largest_mps = std::max(largest_mps.value_or(0.0), *collision.closing_speed_mps);
   list.of(collisions.size(), 0);
-  list.add("collisions", "Collisions", "", static_cast<double>(collisions.size()),
+  list.add("collisions", "Collisions", "",
+           m.samples > 0 || !collisions.empty() ? std::optional(static_cast<double>(collisions.size())) : std::nullopt,
            "Contacts of the car with vehicles, people, objects or what stands beside the road, each when it began.");
   list.of(collisions.size() - unknown, unknown);
   list.add("collision_closing_speed_largest_mps", "Collisions, largest closing speed", "m/s", largest_mps,

@@ -52,7 +52,7 @@ std::string measure_table(const DriveMeasures& measures, const MeasureSettings& 
 
   const auto to_left =
       std::ranges::count_if(measures.lane_changes, [](const LaneChange& c) { return c.lanes_to_left > 0; });
-  rows.add("Lane changes", fmt::format("{}", measures.lane_changes.size()),
+  rows.add("Lane changes", measures.has_lanes() ? fmt::format("{}", measures.lane_changes.size()) : "–",
            fmt::format("{} to the left, {} to the right. Dated where the reference point crosses "
                        "the line; counted once it is {:g} m beyond.",
                        to_left, static_cast<long>(measures.lane_changes.size()) - to_left,
@@ -64,7 +64,7 @@ std::string measure_table(const DriveMeasures& measures, const MeasureSettings& 
   for (const GlanceArea& area : measures.glance_areas)
     areas += fmt::format("{}{} {}", areas.empty() ? "" : ", ",
                          std::ranges::count(measures.glances, area.name, &Glance::area), area.name);
-  rows.add("Mirror glances", fmt::format("{}", measures.glances.size()),
+  rows.add("Mirror glances", measures.head_is_known ? fmt::format("{}", measures.glances.size()) : "not known",
            fmt::format("{}. From the head's heading at 10 Hz; at least {:g} s inside a mirror's area.", areas,
                        settings.glances.minimum_s));
   rows.add("Time between glances", seconds(measures.between_glances_s),

@@ -1,6 +1,8 @@
 #include "logging/report/pool.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 #include <utility>
 
 #include "logging/session_reader.hpp"
@@ -23,9 +25,10 @@ std::string label_of(const Subject& subject) {
 }
 
 /// What was answered, and for how long they drove.
-Expected<void> take_answers(const Opened& session, PooledSubject& pooled) {
-  const auto answers = session.reader.questionnaire();
+Expected<void> take_answers(const Opened& session, PooledDrive& pooled) {
+  auto answers = session.reader.questionnaire();
   if (!answers) return tl::unexpected(answers.error());
+  leave_out_impossible(*answers, pooled.measures.impossible);
   for (const QuestionnaireRecord& answer : *answers) {
     if (answer.item == "playing_time") {
       pooled.playing_time = ObservedTime{answer.observed_s, !answer.censored};
@@ -41,9 +44,32 @@ Expected<void> take_answers(const Opened& session, PooledSubject& pooled) {
   return {};
 }
 
+/// What of their drives' answers is the person's own.
+void take_agreed(PooledSubject& pooled) {
+  if (std::ranges::adjacent_find(pooled.drives, std::ranges::not_equal_to{}, &PooledDrive::order) !=
+      pooled.drives.end())
+    pooled.subject.order.clear();
+  std::map<std::string, std::vector<double>> values;
+  std::vector<const PooledDrive*> timed;
+  for (const PooledDrive& drive : pooled.drives) {
+    for (const auto& [item, value] : drive.answers) values[item].push_back(value);
+    if (drive.playing_time) timed.push_back(&drive);
+  }
+  for (const auto& [item, own] : values)
+    if (std::ranges::adjacent_find(own, std::ranges::not_equal_to{}) == own.end()) pooled.answers[item] = own.front();
+  const auto differ = [](const PooledDrive* a, const PooledDrive* b) {
+    return a->playing_time->time_s != b->playing_time->time_s || a->playing_time->stopped != b->playing_time->stopped ||
+           a->reason != b->reason;
+  };
+  if (timed.empty() || std::ranges::adjacent_find(timed, differ) != timed.end()) return;
+  pooled.playing_time = timed.front()->playing_time;
+  pooled.reason = timed.front()->reason;
+}
+
 Expected<PooledDrive> pool_drive(const std::vector<const Opened*>& sessions, const MeasureSettings& settings) {
   PooledDrive drive;
   drive.label = sessions.front()->label;
+  drive.order = sessions.front()->subject.order;
   DriveRecords all;
   for (const Opened* session : sessions) {
     auto records = read_drive_records(session->reader);
@@ -55,6 +81,8 @@ Expected<PooledDrive> pool_drive(const std::vector<const Opened*>& sessions, con
     if (const auto seed = seeds.find("drive"); seed != seeds.end()) drive.seeds.push_back(seed->second);
   }
   drive.measures = compute_drive_measures(all, settings);
+  for (const Opened* session : sessions)
+    if (auto taken = take_answers(*session, drive); !taken) return tl::unexpected(taken.error());
   return drive;
 }
 
@@ -89,6 +117,9 @@ void append(DriveRecords& all, DriveRecords next) {
   move_behind(all.inputs, next.inputs);
   move_behind(all.events, next.events);
   move_behind(all.speed_limits_mps, next.speed_limits_mps);
+  all.impossible.samples += next.impossible.samples;
+  all.impossible.inputs += next.impossible.inputs;
+  if (all.impossible.first.empty()) all.impossible.first = std::move(next.impossible.first);
   all.car_width_m = std::max(all.car_width_m, next.car_width_m);  // Parts of one drive are of one car.
 }
 
@@ -111,10 +142,8 @@ Expected<std::vector<PooledSubject>> pool_sessions(std::span<const std::filesyst
     const auto& other = opened.front().reader.info().other;
     if (const auto driver = other.find("driver"); driver != other.end()) pooled.driver = driver->second;
     std::vector<std::string> labels;
-    for (const Opened& session : opened) {
+    for (const Opened& session : opened)
       if (std::ranges::find(labels, session.label) == labels.end()) labels.push_back(session.label);
-      if (auto taken = take_answers(session, pooled); !taken) return tl::unexpected(taken.error());
-    }
     for (const auto& label : labels) {
       std::vector<const Opened*> of_label;
       for (const Opened& session : opened)
@@ -123,9 +152,19 @@ Expected<std::vector<PooledSubject>> pool_sessions(std::span<const std::filesyst
       if (!drive) return tl::unexpected(drive.error());
       pooled.drives.push_back(std::move(*drive));
     }
+    take_agreed(pooled);
     subjects.push_back(std::move(pooled));
   }
   return subjects;
+}
+
+std::vector<std::string> items_of(std::span<const PooledSubject> subjects, const std::string& label) {
+  std::set<std::string> items;
+  for (const PooledSubject& subject : subjects)
+    for (const PooledDrive& drive : subject.drives)
+      if (drive.label == label)
+        for (const auto& answer : drive.answers) items.insert(answer.first);
+  return {items.begin(), items.end()};
 }
 
 std::vector<std::string> labels_of(std::span<const PooledSubject> subjects) {

@@ -20,19 +20,25 @@ namespace septet::logging {
 
 struct PooledDrive {
   std::string label;  ///< Part and condition: "game", "game rain"; empty where neither is told.
+  std::string order;  ///< Which of the driver's drives it was, as its first session tells.
   std::vector<std::filesystem::path> sessions;
   std::vector<std::uint64_t> seeds;
   bool ended_cleanly = true;  ///< All of them.
   DriveMeasures measures;
+  std::map<std::string, double> answers;  ///< By item, scores among them; of its last session that has them.
+  std::optional<ObservedTime> playing_time;
+  std::string reason;  ///< For which they stopped.
 };
 
 struct PooledSubject {
-  Subject subject;     ///< Of their first session; group and columns are those of a person.
+  Subject
+      subject;  ///< Of their first session; group and columns are those of a person, an order only where all drives have it.
   std::string driver;  ///< The simulated one; empty: a person.
   std::vector<PooledDrive> drives;
-  std::map<std::string, double> answers;  ///< By item, scores among them; of the last session that has them.
+  // Of the person: what only one of their drives has, or all that have it say alike. What differs is the drive's alone.
+  std::map<std::string, double> answers;
   std::optional<ObservedTime> playing_time;
-  std::string reason;  ///< For which they stopped.
+  std::string reason;
 };
 
 /// Ordered by participant; the sessions of each in the order in which they are given.
@@ -41,6 +47,9 @@ Expected<std::vector<PooledSubject>> pool_sessions(std::span<const std::filesyst
 
 /// `next` behind `all`, as a later part of the same drive with a gap before it.
 void append(DriveRecords& all, DriveRecords next);
+
+/// Items that somebody has answered in a drive with this label, in order.
+std::vector<std::string> items_of(std::span<const PooledSubject> subjects, const std::string& label);
 
 /// Labels of all drives, in the order in which they come first.
 std::vector<std::string> labels_of(std::span<const PooledSubject> subjects);

@@ -58,6 +58,7 @@ std::string ending(const ReportData& data) {
     warn(
         "The recording has no clean end: the program was stopped while it drove. What is here is what was safely "
         "written.");
+  if (data.impossible.any()) warn(told(data.impossible));
   if (data.missing_ticks > 0) warn(fmt::format("The log has gaps: {} ticks are missing.", data.missing_ticks));
   return html;
 }
@@ -117,8 +118,9 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   html += tile(position.samples ? fmt::format("{:.2f}", position.sd_m) : "–", "m",
                is_few ? fmt::format("SD of lateral position, of only {} samples", position.samples)
                       : std::string("SD of lateral position"));
-  html += tile(fmt::format("{}", measures.lane_changes.size()), "", "lane changes");
-  html += tile(fmt::format("{}", measures.glances.size()), "", "mirror glances");
+  html += tile(measures.has_lanes() ? fmt::format("{}", measures.lane_changes.size()) : "–", "", "lane changes");
+  html += tile(measures.head_is_known ? fmt::format("{}", measures.glances.size()) : "–", "",
+               measures.head_is_known ? "mirror glances" : "mirror glances: no head tracker told them");
   return html + "</div>\n";
 }
 
@@ -239,6 +241,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
   data.ended_cleanly = reader.ended_cleanly();
   data.missing_ticks = *missing;
   data.answers = std::move(*answers);
+  leave_out_impossible(data.answers, data.impossible);
   if (const auto row = data.info.other.find("outcome"); row != data.info.other.end()) {
     auto outcome = read_outcome(row->second);
     if (!outcome) return tl::unexpected(outcome.error());
@@ -252,7 +255,9 @@ std::string to_html(const ReportData& data) {
   const std::vector<ToldEvent> events = tell_events(data.events);
   std::string body = head(data, measures);
   if (data.samples.empty())
-    body += "<p class=\"warning\">The session holds no samples: nothing was driven.</p>\n";
+    body += data.impossible.samples > 0
+                ? "<p class=\"warning\">No sample is left that a figure could be made of.</p>\n"
+                : "<p class=\"warning\">The session holds no samples: nothing was driven.</p>\n";
   else
     body += route_chart(data, events) + speed_chart(data, measures, events) + lateral_position_chart(data, measures) +
             histogram_chart(measures) + measure_table(measures, data.settings);

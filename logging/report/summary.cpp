@@ -17,9 +17,11 @@ Json optional_number(const std::optional<double>& value) { return value ? number
 void add_measures(const DriveMeasures& m, Json& json) {
   const LateralPositionStatistics& position = m.lateral_position;
   const bool kept_lane = position.samples > 0;
-  json["distance_m"] = number(m.distance_m);
-  json["speed_mps"] = {
-      {"mean", number(m.speed_mean_mps)}, {"sd", number(m.speed_sd_mps)}, {"largest", number(m.speed_largest_mps)}};
+  const auto of_samples = [&](double value) { return m.samples > 0 ? number(value) : Json(nullptr); };
+  json["distance_m"] = of_samples(m.distance_m);
+  json["speed_mps"] = {{"mean", of_samples(m.speed_mean_mps)},
+                       {"sd", of_samples(m.speed_sd_mps)},
+                       {"largest", of_samples(m.speed_largest_mps)}};
   json["lateral_position_m"] = {{"mean", kept_lane ? number(position.mean_m) : Json(nullptr)},
                                 {"sd", kept_lane ? number(position.sd_m) : Json(nullptr)},
                                 {"samples", position.samples},
@@ -32,9 +34,9 @@ void add_measures(const DriveMeasures& m, Json& json) {
                                         {"off_every_lane", m.histogram.off_lane}};
   json["time_headway_s"] = {{"median", optional_number(m.following.headway.median_s)},
                             {"smallest", optional_number(m.following.headway.smallest_s)},
-                            {"following_s", number(sample_interval_s * static_cast<double>(m.following.samples))}};
-  json["lane_changes"] = m.lane_changes.size();
-  json["mirror_glances"] = m.glances.size();
+                            {"following_s", of_samples(sample_interval_s * static_cast<double>(m.following.samples))}};
+  json["lane_changes"] = m.has_lanes() ? Json(m.lane_changes.size()) : Json(nullptr);
+  json["mirror_glances"] = m.head_is_known ? Json(m.glances.size()) : Json(nullptr);
   json["measures"] = measures_json(m, {});
 }
 
@@ -60,6 +62,7 @@ Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader) {
   const auto answers = reader.questionnaire();
   if (!answers) return tl::unexpected(answers.error());
   DriveSummary::FromLog log{*missing, compute_drive_measures(*records), {}, *answers};
+  leave_out_impossible(log.answers, log.measures.impossible);
   for (const Event& event : records->events) ++log.events[event.kind];
   return log;
 }
@@ -76,6 +79,8 @@ std::string to_json(const DriveSummary& s) {
   json.update(json_of(s.outcome));
   json["log"]["missing_ticks"] = s.log ? Json(s.log->missing_ticks) : Json(nullptr);
   if (s.log) {
+    const ImpossibleNumbers& impossible = s.log->measures.impossible;
+    json["log"]["impossible"] = impossible.any() ? Json(told(impossible)) : Json(nullptr);
     add_measures(s.log->measures, json);
     json["events"] = s.log->events;
     json["answers"] = answers_json(s.log->answers);

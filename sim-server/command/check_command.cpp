@@ -15,8 +15,12 @@
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
+#include "logging/experiment/design.hpp"
+#include "logging/lesson/lesson.hpp"
+#include "logging/questionnaire.hpp"
 #include "logging/session_reader.hpp"
 #include "sim-server/command/check_rig.hpp"
+#include "sim-server/command/experiment_inputs.hpp"
 
 namespace septet::server {
 namespace {
@@ -46,12 +50,32 @@ void add_error(const Expected<Value>& result, Checked& checked) {
   checked.findings.push_back({Severity::error, line_in(result.error().where, checked.file), result.error()});
 }
 
+/// With the files that its drives are made from, as `septet experiment` finds them.
+void check_experiment(const std::string& text, Checked& checked) {
+  const auto experiment = logging::read_experiment(text, checked.file);
+  add_error(experiment, checked);
+  if (experiment) add_error(read_inputs(*experiment), checked);
+}
+
 void check_toml(const std::string& text, Checked& checked) {
   const auto keys = document::top_keys_of_toml(text, checked.file);
   const auto has = [&](const char* key) { return keys && std::ranges::find(*keys, key) != keys->end(); };
-  checked.kind = !keys ? "TOML" : has("shot") ? "film script" : has("body") ? "vehicle" : "rig";
+  const bool is_lesson = checked.file.ends_with(".lesson.toml") || has("task");
+  checked.kind = !keys                         ? "TOML"
+                 : has("shot")                 ? "film script"
+                 : has("body")                 ? "vehicle"
+                 : is_lesson                   ? "lesson"
+                 : has("item")                 ? "questionnaire"
+                 : has("group") || has("part") ? "experiment"
+                                               : "rig";
   if (!keys)
     add_error(keys, checked);
+  else if (checked.kind == "lesson")
+    add_error(logging::read_lesson(text, checked.file), checked);
+  else if (checked.kind == "questionnaire")
+    add_error(logging::read_questionnaire(text, checked.file), checked);
+  else if (checked.kind == "experiment")
+    check_experiment(text, checked);
   else if (has("shot"))
     add_error(film::read_script(text, checked.file), checked);
   else if (has("body"))
@@ -85,10 +109,11 @@ Checked check_file(const std::string& name) {
   }
   if (extension != ".xodr" && extension != ".xosc" && extension != ".toml") {
     checked.kind = "unknown";
-    checked.findings.push_back({Severity::error,
-                                0,
-                                {"it is neither .xodr, .xosc, .toml nor .sqlite", name,
-                                 "check roads, scenarios, rigs, vehicles, film scripts or sessions"}});
+    checked.findings.push_back(
+        {Severity::error,
+         0,
+         {"it is neither .xodr, .xosc, .toml nor .sqlite", name,
+          "check roads, scenarios, rigs, vehicles, film scripts, lessons, questionnaires, experiments or sessions"}});
     return checked;
   }
   checked.kind = extension == ".xodr" ? "road" : extension == ".xosc" ? "scenario" : "TOML";

@@ -10,18 +10,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
-#include "logging/session_reader.hpp"
+#include "engine/core/printable.hpp"
 #include "program/child_process.hpp"
 #include "program/console.hpp"
+#include "program/hosts_file.hpp"
 #include "program/machines.hpp"
 #include "program/run.hpp"
 #include "program/stop_signal.hpp"
+#include "sim-server/command/experiment_answers.hpp"
 #include "sim-server/command/experiment_ranks.hpp"
 #include "sim-server/command/experiment_results.hpp"
 #include "sim-server/command/experiment_run.hpp"
@@ -32,21 +33,6 @@ namespace fs = std::filesystem;
 using logging::PlannedDrive, logging::PlannedSubject;
 
 namespace {
-
-/// Questionnaires that a subject's last session lacks.
-std::vector<std::string> missing_answers(const Study& study, const std::vector<fs::path>& sessions) {
-  std::vector<std::string> missing = study.experiment.questionnaires;
-  for (const fs::path& session : sessions) {
-    const auto reader = logging::SessionReader::open(session);
-    const auto answers = reader ? reader->questionnaire() : Expected<std::vector<logging::QuestionnaireRecord>>();
-    if (!answers) continue;
-    std::erase_if(missing, [&](const std::string& name) {
-      const std::string prefix = fs::path(name).stem().string();
-      return std::ranges::any_of(*answers, [&](const auto& answer) { return answer.item.starts_with(prefix + '.'); });
-    });
-  }
-  return missing;
-}
 
 Expected<int> run_here(const ExperimentOptions& options, program::Machines* others) {
   const auto study = read_study(options);
@@ -82,8 +68,8 @@ constexpr std::string_view last_words = "septet experiment has ended with status
 Expected<int> run_by_ranks(const ExperimentOptions& options) {
   const auto mpirun = program::find_mpirun("--ranks");
   if (!mpirun) return tl::unexpected(mpirun.error());
-  if (std::error_code error; !options.hosts.empty() && !fs::is_regular_file(options.hosts, error))
-    return failure("there is no such file", options.hosts.string(), "write the names of machines, one a line");
+  if (!options.hosts.empty())
+    if (auto checked = program::check_hosts_file(options.hosts); !checked) return tl::unexpected(checked.error());
   std::vector<std::string> arguments = program::mpirun_arguments(options.ranks, options.hosts);
   const auto add = [&](std::initializer_list<std::string> more) { arguments.insert(arguments.end(), more); };
   add({(program::own_folder() / "septet").string(), "experiment", options.file, "--one-of-ranks"});
@@ -95,11 +81,18 @@ Expected<int> run_by_ranks(const ExperimentOptions& options) {
       {.program = mpirun->string(), .arguments = std::move(arguments), .environment = {}, .log = {}});
   if (!child) return tl::unexpected(child.error());
   std::optional<int> status;
+  // mpirun frames its own words by lines of dashes: what it says where it cannot start is a page long.
+  std::vector<std::string> page;
+  bool is_in_page = false;
   for (bool told_to_stop = false;;) {
     const auto exit = child->poll();
     while (const auto line = child->read_line(std::chrono::milliseconds(exit ? 0 : 100))) {
       const std::string_view text = *line;
-      if (int number = 0; !text.starts_with(last_words))
+      const bool is_frame = text.starts_with("----------");
+      if (is_frame) is_in_page = !is_in_page;
+      if (int number = 0; is_frame || is_in_page)
+        page.emplace_back(text);
+      else if (!text.starts_with(last_words))
         program::announce(text);
       else if (std::from_chars(text.data() + last_words.size(), text.data() + text.size(), number).ec == std::errc())
         status = number;
@@ -110,7 +103,17 @@ Expected<int> run_by_ranks(const ExperimentOptions& options) {
       child->send_signal(SIGTERM);
     }
   }
-  if (status) return *status;
+  if (status) {
+    for (const auto& line : page) program::announce(line);
+    return *status;
+  }
+  const auto words = std::ranges::find_if(
+      page, [](const std::string& line) { return !line.starts_with("----------") && !line.empty(); });
+  if (!options.hosts.empty() && words != page.end())
+    return failure(fmt::format("mpirun could not go on with these machines: {}", printable(*words, 200)),
+                   options.hosts.string(),
+                   "see that ssh reaches each of them without a password and that this Septet is installed there; "
+                   "finished drives are kept");
   return failure("the experiment's first program or mpirun was lost", "--ranks",
                  "give the command again: finished drives are kept");
 }
@@ -146,10 +149,10 @@ Expected<int> run_experiment_next(const ExperimentOptions& options) {
     const Stand own = stand_of(*study, subject);
     finished += own.is_finished;
     forgotten += own.is_forgotten;
-    if (own.is_finished && !own.is_forgotten)
-      for (const auto& questionnaire : missing_answers(*study, own.sessions))
-        missing += fmt::format("  {} has not answered {}: septet session answer {} {}\n", subject.participant,
-                               questionnaire, own.sessions.back().string(), questionnaire);
+    for (const MissingAnswers& due : missing_answers(*study, subject, own))
+      missing += fmt::format("  {} has not answered {}{}: {}\n", subject.participant, due.questionnaire,
+                             due.condition.empty() ? "" : " after " + due.condition,
+                             command_text("septet session answer", {due.session.string(), due.questionnaire}));
     if (own.is_finished || (!options.only.empty() && subject.participant != options.only)) continue;
     if (!next) {
       next = &subject;

@@ -16,7 +16,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/printable.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/core/version.hpp"
@@ -24,25 +23,13 @@
 #include "engine/document/text_file.hpp"
 #include "logging/session_reader.hpp"
 #include "program/resources.hpp"
+#include "sim-server/command/experiment_change.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
 using logging::Experiment, logging::PlannedDrive, logging::PlannedSubject;
 
 namespace {
-
-Expected<void> check_names(const Study& study) {
-  for (const auto& group : study.experiment.groups)
-    if (!group.driver.empty())
-      if (const auto driver = car_io::find_driver(group.driver); !driver) return tl::unexpected(driver.error());
-  for (const auto& part : study.experiment.parts)
-    if (const auto scenario = program::find_resource(part.scenario, "scenarios", ".xosc"); !scenario)
-      return tl::unexpected(scenario.error());
-  for (const auto& name : study.experiment.questionnaires)
-    if (const auto file = program::find_resource(name, "scenarios/questionnaires", ".toml"); !file)
-      return tl::unexpected(file.error());
-  return {};
-}
 
 fs::path list_of_forgotten(const fs::path& experiment) { return experiment / "forgotten.txt"; }
 
@@ -60,7 +47,7 @@ Expected<Study> read_study(const ExperimentOptions& options) {
   if (!text) return tl::unexpected(text.error());
   auto experiment = logging::read_experiment(*text, file->string());
   if (!experiment) return tl::unexpected(experiment.error());
-  Study study{std::move(*experiment), std::move(*text), file->stem().string(), {}, options.out};
+  Study study{std::move(*experiment), std::move(*text), file->stem().string(), {}, options.out, {}};
   study.plan = plan_of(study.experiment);
   if (study.folder.empty()) {
     const auto data = program::data_folder();
@@ -72,7 +59,9 @@ Expected<Study> read_study(const ExperimentOptions& options) {
     return failure(
         fmt::format("nobody is called \"{}\" in it", printable(options.only, 60)), "--only",
         fmt::format("they are called {} to {}", study.plan.front().participant, study.plan.back().participant));
-  if (auto known = check_names(study); !known) return tl::unexpected(known.error());
+  auto questionnaires = read_inputs(study.experiment);
+  if (!questionnaires) return tl::unexpected(questionnaires.error());
+  study.questionnaires = std::move(*questionnaires);
   return study;
 }
 
@@ -88,8 +77,7 @@ FoundDrive find_drive(const fs::path& folder) {
   if (!found.is_begun || !summary) return found;
   const auto json = document::Json::parse(*summary, nullptr, false);
   if (!json.is_object() || json.value("exit_status", -1) != 0 || !json.contains("distance_m")) return found;
-  // The summary is written after the session is closed; the side file says that it was not.
-  if (fs::exists(folder / "session.sqlite-wal", ignored)) return found;
+  // The summary is written after the session is closed. A side file may stay beside it: then somebody reads it.
   const auto reader = logging::SessionReader::open(folder / "session.sqlite");
   if (!reader || !reader->ended_cleanly()) return found;
   found.simulated_s = json.value("simulated_s", 0.0);
@@ -114,6 +102,7 @@ Stand stand_of(const Study& study, const PlannedSubject& subject) {
       stand.done_s += found.simulated_s;
       stand.total_s += found.simulated_s;
       stand.sessions.push_back(folder / "session.sqlite");
+      stand.drive_of_session.push_back(stand.drive);
     }
   }
   stand.is_finished = true;
@@ -139,14 +128,7 @@ std::vector<std::string> drive_arguments(const Experiment& experiment, const Pla
   const auto add = [&](std::initializer_list<std::string> more) { arguments.insert(arguments.end(), more); };
   if (!condition.name.empty()) add({"--condition", condition.name});
   if (!group.driver.empty()) add({"--driver", group.driver});
-  // What both say is the condition's, for that is what is compared.
-  const auto is_of_condition = [&](const std::string& parameter) {
-    const std::string name = parameter.substr(0, parameter.find('=') + 1);
-    return std::ranges::any_of(condition.parameters, [&](const auto& other) { return other.starts_with(name); });
-  };
-  for (const auto& parameter : part.parameters)
-    if (!is_of_condition(parameter)) add({"--parameter=" + parameter});
-  for (const auto& parameter : condition.parameters) add({"--parameter=" + parameter});
+  for (const auto& parameter : parameters_of(part, condition)) add({"--parameter=" + parameter});
   add({"--out", folder.string()});
   return arguments;
 }
@@ -177,13 +159,18 @@ Expected<std::unique_ptr<HeldFolder>> HeldFolder::hold(const Study& study) {
     const auto earlier = read_regular_file(own);
     if (!earlier) return tl::unexpected(earlier.error());
     if (*earlier != study.text)
-      return failure("the folder holds another experiment, or this one before it was changed", study.folder.string(),
-                     "choose another folder with --out");
+      if (auto same = check_same_drives(study, *earlier); !same) return tl::unexpected(same.error());
     const auto by = read_regular_file(study.folder / "version.txt");
     if (by && *by != version_text() + '\n')
       return failure(fmt::format("it was begun with Septet {}, and this is {}",
                                  printable(by->substr(0, by->find('\n'))), version_text()),
                      study.folder.string(), "go on with that one, or begin anew with --out");
+    if (*earlier == study.text) return held;
+    fs::path aside;
+    for (int number = 1; aside.empty() || fs::exists(aside, error); ++number)
+      aside = study.folder / fmt::format("experiment.{}.toml", number);
+    if (auto kept = document::write_text_file(aside, *earlier); !kept) return tl::unexpected(kept.error());
+    if (auto written = document::write_text_file(own, study.text); !written) return tl::unexpected(written.error());
     return held;
   }
   const auto written = document::write_text_files(

@@ -11,6 +11,7 @@
 #include "engine/core/expected.hpp"
 #include "logging/experiment/design.hpp"
 #include "sim-server/command/experiment_command.hpp"
+#include "sim-server/command/experiment_inputs.hpp"
 
 namespace septet::server {
 
@@ -22,7 +23,9 @@ struct Study {
   std::string text, name;  ///< The file and what it is called.
   std::vector<logging::PlannedSubject> plan;
   std::filesystem::path folder;
+  std::vector<DueQuestionnaire> questionnaires;
 };
+/// The experiment and all that its drives are made from. Error: the first of it that cannot be used.
 Expected<Study> read_study(const ExperimentOptions& options);
 
 std::filesystem::path drive_folder(const Study& study, const logging::PlannedSubject& subject,
@@ -49,6 +52,7 @@ struct Stand {
   double done_s = 0.0;   ///< Of this drive's laps.
   double total_s = 0.0;  ///< Of all.
   std::vector<std::filesystem::path> sessions;
+  std::vector<std::size_t> drive_of_session;  ///< Of the subject's drives, for each of `sessions`.
   bool is_finished = false;
   bool is_forgotten = false;  ///< Finished, and without sessions.
 };
@@ -58,6 +62,7 @@ Stand stand_of(const Study& study, const logging::PlannedSubject& subject);
 /// The experiment's folder, held until the object goes; a second run in it is refused.
 class HeldFolder {
  public:
+  /// Where the experiment's file has been changed since, it goes on all the same as long as nothing changes that was driven.
   static Expected<std::unique_ptr<HeldFolder>> hold(const Study& study);
   /// A folder as it is: nothing is written there.
   static Expected<std::unique_ptr<HeldFolder>> hold(const std::filesystem::path& folder);

@@ -19,6 +19,7 @@
 #include "logging/session_reader.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"
+#include "program/run.hpp"
 #include "sim-server/command/experiment_study.hpp"
 #include "sim-server/command/renewed_results.hpp"
 
@@ -79,47 +80,60 @@ void rename_folders(const std::vector<fs::path>& sessions, const std::string& pa
     }
 }
 
-Expected<void> delete_drives(const std::vector<fs::path>& sessions) {
-  // First out of sight, all of them or none; then away.
+/// Sessions with which nothing could be done, and why.
+struct LeftOver {
+  std::vector<fs::path> done;
+  std::vector<Error> why;
+};
+
+/// First all out of sight, then away: killed in between, what was seen by then is whole or gone.
+LeftOver delete_drives(const std::vector<fs::path>& sessions) {
   const auto hidden = [](const fs::path& session) { return fs::path(session.string() + ".forgotten"); };
+  LeftOver result;
   std::error_code error;
-  for (std::size_t i = 0; i < sessions.size(); ++i) {
-    fs::rename(sessions[i], hidden(sessions[i]), error);
-    if (!error) continue;
-    const auto reason = error.message();
-    for (std::size_t j = 0; j < i; ++j) fs::rename(hidden(sessions[j]), sessions[j], error);
-    return failure(reason, sessions[i].string(), "make its folder one that can be written; nothing was deleted");
-  }
   for (const fs::path& session : sessions) {
+    fs::rename(session, hidden(session), error);
+    if (error)
+      result.why.push_back({error.message(), session.string(), "make its folder one that can be written"});
+    else
+      result.done.push_back(session);
+  }
+  for (const fs::path& session : result.done) {
     fs::remove(hidden(session), error);
+    for (const char* beside : {"-wal", "-shm", "-journal"}) fs::remove(session.string() + beside, error);
     for (const char* beside : {"summary.json", "report.html", "debrief.html", "panorama.png"})
       fs::remove(session.parent_path() / beside, error);
     fs::remove_all(session.parent_path() / "screens", error);
     fs::remove(session.parent_path(), error);  // Only where nothing else is in it.
   }
+  return result;
+}
+
+/// The session comes last: as long as it tells who drove, the whole can be done again.
+Expected<void> make_anonymous(const fs::path& session) {
+  const auto draft = logging::write_anonymous_copy(session);
+  if (!draft) return tl::unexpected(draft.error());
+  std::error_code error;
+  if (auto renewed = renew_results(session.parent_path(), *draft, leave_person_out); !renewed) {
+    fs::remove(*draft, error);
+    return renewed;
+  }
+  fs::rename(*draft, session, error);
+  if (error)
+    return failure(error.message(), session.string(), "make its folder one that can be written, and do it again");
   return {};
 }
 
-Expected<void> make_anonymous(const std::vector<fs::path>& sessions) {
-  std::vector<fs::path> drafts;
-  std::error_code error;
+LeftOver make_anonymous(const std::vector<fs::path>& sessions) {
+  LeftOver result;
   for (const fs::path& session : sessions) {
-    auto draft = logging::write_anonymous_copy(session);
-    if (!draft) {
-      for (const fs::path& written : drafts) fs::remove(written, error);
-      return tl::unexpected(draft.error());
-    }
-    drafts.push_back(std::move(*draft));
+    auto done = make_anonymous(session);
+    if (done)
+      result.done.push_back(session);
+    else
+      result.why.push_back(std::move(done.error()));
   }
-  // The sessions come last: as long as one tells who drove, the whole can be done again.
-  for (std::size_t i = 0; i < sessions.size(); ++i)
-    if (auto renewed = renew_results(sessions[i].parent_path(), drafts[i], leave_person_out); !renewed) return renewed;
-  for (std::size_t i = 0; i < sessions.size(); ++i) {
-    fs::rename(drafts[i], sessions[i], error);
-    if (error)
-      return failure(error.message(), sessions[i].string(), "make its folder one that can be written, and do it again");
-  }
-  return {};
+  return result;
 }
 
 }  // namespace
@@ -199,31 +213,44 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   const auto found = find_sessions(options.places);
   if (!found) return tl::unexpected(found.error());
   std::vector<fs::path> theirs;
+  std::vector<Error> unread;  // They may be theirs, and are nobody else's reason to be kept.
   for (const fs::path& session : *found) {
-    const auto reader = logging::SessionReader::open(session);
-    if (!reader) return tl::unexpected(reader.error());
-    if (reader->info().participant == options.participant) theirs.push_back(session);
+    auto reader = logging::SessionReader::open(session);
+    if (!reader)
+      unread.push_back(std::move(reader.error()));
+    else if (reader->info().participant == options.participant)
+      theirs.push_back(session);
   }
-  if (theirs.empty())
-    return failure(fmt::format("none of {} sessions is of {}", found->size(), printable(options.participant, 60)),
+  const auto name_unread = [&] {
+    for (const Error& why : unread) program::say("septet: it could not be read whose it is: " + describe(why));
+  };
+  if (theirs.empty()) {
+    name_unread();
+    return failure(fmt::format("none of {} sessions {}is of {}", found->size() - unread.size(),
+                               unread.empty() ? "" : "that can be read ", printable(options.participant, 60)),
                    options.places.front().string(), "check the code and the folders");
+  }
   // First of all: killed from here on, the experiment still does not drive them anew.
   std::set<fs::path> experiments;
   for (const fs::path& session : theirs)
     if (auto experiment = experiment_of(session, options.participant)) experiments.insert(std::move(*experiment));
   for (const fs::path& experiment : experiments)
     if (auto noted = note_forgotten(experiment, options.participant); !noted) return tl::unexpected(noted.error());
-  const auto done = options.delete_data ? delete_drives(theirs) : make_anonymous(theirs);
-  if (!done) return tl::unexpected(done.error());
-  for (const fs::path& session : theirs) {
-    const auto list = fs::absolute(session).parent_path().parent_path() / "best-list.json";
-    if (const auto gone = logging::forget_in_best_list(list, options.participant); !gone)
-      return tl::unexpected(gone.error());
-  }
-  rename_folders(theirs, options.participant);
-  program::announce(fmt::format("{} of {} sessions {}; make pooled reports and tables anew", theirs.size(),
+  const LeftOver result = options.delete_data ? delete_drives(theirs) : make_anonymous(theirs);
+  std::vector<Error> failed = result.why;
+  std::set<fs::path> lists;
+  for (const fs::path& session : result.done)
+    lists.insert(fs::absolute(session).parent_path().parent_path() / "best-list.json");
+  for (const fs::path& list : lists)
+    if (auto gone = logging::forget_in_best_list(list, options.participant); !gone)
+      failed.push_back(std::move(gone.error()));
+  rename_folders(result.done, options.participant);
+  program::announce(fmt::format("{} of {} sessions {}; make pooled reports and tables anew", result.done.size(),
                                 found->size(),
                                 options.delete_data ? "deleted" : "tell no longer who drove, their data are kept"));
+  name_unread();
+  for (const Error& why : failed) program::say("septet: not done: " + describe(why));
+  if (!unread.empty() || !failed.empty()) return program::failed_status;
   return 0;
 }
 

@@ -156,6 +156,13 @@ Expected<void> SessionLog::finish(const logging::DriveOutcome& outcome) {
   return writer_.finish({{"ended_why", std::string(name_of(outcome.end))}, {"outcome", to_json(outcome)}});
 }
 
+std::optional<std::string> SessionLog::remark() const {
+  if (!writer_.is_still_read()) return std::nullopt;
+  return "the log is whole; another program has it open, so session.sqlite-wal stays beside it: copy both, or close "
+         "that "
+         "program and have Septet read it once";
+}
+
 std::string SessionLog::ending(const ServeResult& result) const {
   std::string text = fmt::format("the drive ended after {:.1f} s: {}", result.simulated_s, text_of(result.end));
   if (bad_numbers_ > 0)

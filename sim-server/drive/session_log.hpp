@@ -59,6 +59,8 @@ class SessionLog {
   logging::DriveOutcome outcome(const ServeResult& result, const std::vector<HostedScreen>& screens) const;
   /// Closes the file; it says what became of the drive.
   Expected<void> finish(const logging::DriveOutcome& outcome);
+  /// What whoever copies the closed file has to know; nothing where it lies alone.
+  std::optional<std::string> remark() const;
   /// The end in a line: why, when, and what of the log whoever drove should know.
   std::string ending(const ServeResult& result) const;
 

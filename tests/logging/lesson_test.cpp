@@ -357,4 +357,29 @@ TEST_CASE(
   CHECK(early.front().from_s + settles_s(LessonMeasure::position) > 29.8);
 }
 
+TEST_CASE("without a head tracker tasks of mirrors are not known in the debrief and the rest is marked") {
+  std::vector<Sample> samples = good_drive();
+  change_lanes(samples, 3.0);
+  const auto lesson = lesson_of("mirror", 3.0, 2.0);
+  const std::string with_head = debrief_page(lesson, mark_lesson(lesson, samples, {}), samples, {});
+  CHECK(with_head.find("not known") == std::string::npos);
+  for (Sample& sample : samples) sample.gaze_heading_rad = 0.0;
+  for (const char* measure : {"mirror", "lookout"}) {
+    const auto task = lesson_of(measure, 3.0, 2.0);
+    const std::string page = debrief_page(task, mark_lesson(task, samples, {}), samples, {});
+    CHECK_MESSAGE(page.find("not known: nothing told where the head pointed") != std::string::npos, measure);
+    CHECK_MESSAGE(page.find("no occasion") == std::string::npos, measure);
+  }
+  const auto stop = lesson_of("stop", 3.0, 2.0);
+  CHECK(debrief_page(stop, mark_lesson(stop, samples, {}), samples, {}).find("no occasion") != std::string::npos);
+}
+
+TEST_CASE("the command that shows a moment again stays on one line") {
+  std::vector<Sample> samples = good_drive();
+  const auto lesson = lesson_of("speed", 50.0, 10.0);
+  const std::string page = debrief_page(lesson, mark_lesson(lesson, samples, {}), samples, {});
+  CHECK(page.find("<code style=\"white-space: nowrap\">septet replay session.sqlite --from 0</code>") !=
+        std::string::npos);
+}
+
 }  // namespace septet::logging

@@ -2,10 +2,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "engine/math/rigid_transform.hpp"
+#include "logging/report/group_report.hpp"
 #include "tests/checkout.hpp"
 #include "tests/logging/session_fixture.hpp"
 
@@ -70,6 +73,38 @@ TEST_CASE("the Python reader has everybody at every tick where the C++ reader ha
   }
   out.close();
   CHECK(run_check(session.string() + " " + csv.string()) == 0);
+}
+
+TEST_CASE("codes of participants survive pandas by the lines that docs/experiments.md gives") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> codes{"'07",  "+3",  "-x", "007", "1e5",
+                                       "=1+1", "@me", "NA", "nan", "null"};  // In the table's order.
+  std::vector<std::filesystem::path> sessions;
+  for (const std::string& code : codes) {
+    sessions.push_back(folder / std::to_string(sessions.size()) / "session.sqlite");
+    std::filesystem::create_directories(sessions.back().parent_path());
+    SessionInfo info = example_info();
+    info.participant = code;
+    auto writer = SessionWriter::create(sessions.back(), info);
+    REQUIRE(writer.has_value());
+    REQUIRE(writer->finish().has_value());
+  }
+  auto subjects = pool_sessions(sessions, {});
+  REQUIRE(subjects.has_value());
+  GroupReport report;
+  report.subjects = std::move(*subjects);
+  std::ofstream(folder / "subjects.csv") << to_csv(report);
+  std::ifstream document(source_folder() + "/docs/experiments.md");
+  std::string lines;
+  for (std::string line; std::getline(document, line);)
+    if (line.starts_with("subjects = pandas.read_csv(") || line.starts_with("subjects.participant = "))
+      lines += line + '\n';
+  std::string expected;
+  for (const std::string& code : codes) expected += (expected.empty() ? "" : ", ") + ('"' + code + '"');
+  std::ofstream(folder / "read.py") << "import pandas\n"
+                                    << lines << "assert list(subjects.participant) == [" << expected
+                                    << "], list(subjects.participant)\nassert subjects.distance_m.isna().all()\n";
+  CHECK(std::system(fmt::format("cd '{}' && /usr/bin/python3 read.py", folder.path().string()).c_str()) == 0);
 }
 
 }  // namespace septet::logging

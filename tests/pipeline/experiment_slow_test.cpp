@@ -68,12 +68,29 @@ TEST_CASE("an experiment run twice has identical numbers and one that was killed
   auto next = start("septet", {"experiment", "next", file, "--out", (folder / "whole").string()}, folder / "n.log");
   CHECK(next.read_line(patience).value_or("") == "4 of 4 subjects are finished, 1 of them forgotten");
 
-  // Another file in the same folder is another experiment.
-  write_text(folder / "e.toml", "title = \"other\"\n" + small_experiment);
-  const auto other = run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "4.log");
-  CHECK(other.code == 1);
-  CHECK(other.error.find("another experiment") != std::string::npos);
+  // Another file in the same folder is another experiment where it changes what was driven, or who is forgotten…
+  const auto changed = [&](const std::string& text) {
+    write_text(folder / "e.toml", text);
+    return run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "4.log");
+  };
+  const auto with = [&](const std::string& was, const std::string& is) {
+    std::string text = small_experiment;
+    return text.replace(text.find(was), was.size(), is);
+  };
+  for (const std::string& text : {with("seed = 5", "seed = 6"), with("= 40", "= 41"), with("1.2", "1.3"),
+                                  with("subjects = 2", "subjects = 1"), with("plain", "novice")}) {
+    const auto other = changed(text);
+    INFO(text);
+    CHECK(other.code == 1);
+    CHECK_MESSAGE(other.error.find("another experiment") != std::string::npos, other.error);
+    CHECK(content_of(folder / "whole/subjects.csv") == rest);
+  }
+  // … and else the same, mended: it goes on where it was.
+  const auto mended = changed("title = \"Mended\"\nquestionnaires = [\"ssq\"]\n" + small_experiment);
+  CHECK_MESSAGE(mended.code == 0, mended.error);
   CHECK(content_of(folder / "whole/subjects.csv") == rest);
+  CHECK(content_of(folder / "whole/experiment.1.toml") == small_experiment);
+  CHECK(content_of(folder / "whole/report.html").find("Mended") != std::string::npos);
 }
 
 TEST_CASE("an experiment that meets a full disk says so once and goes on to the same numbers when there is room") {
@@ -162,6 +179,68 @@ TEST_CASE("a participant who is forgotten is in no file of the drives any more a
       run("septet", {"session", "forget", "Q78", (folder / "data").string(), "--delete"}, folder / "f.log");
   CHECK(deleted.code == 0);
   CHECK_FALSE(fs::exists(folder / "data/Q78"));
+}
+
+TEST_CASE("an experiment whose second part cannot be driven drives nobody and next does not send anybody") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "e.toml";
+  write_text(
+      file, small_experiment +
+                "[[part]]\nname = \"task\"\nscenario = \"rescue-lane\"\nseconds = 6.0\nparameters = { no_such = 1 }\n");
+  for (const bool next : {false, true}) {
+    std::vector<std::string> words{"experiment"};
+    if (next) words.emplace_back("next");
+    words.insert(words.end(), {file.string(), "--out", (folder / "out").string()});
+    check_refused(run("septet", words, folder / "log"), {"part task", "no_such", "rescue-lane.xosc"}, folder / "out");
+  }
+}
+
+TEST_CASE("what is due after each condition is asked after each and answered is answered whatever the file is called") {
+  const TemporaryFolder folder;
+  write_text(
+      folder / "quest.toml",
+      "id = \"workload\"\ntitle = \"W\"\n[[item]]\nid = \"mental\"\ntext = \"How hard?\"\nleast = 0\nmost = 20\n");
+  write_text(folder / "answer.toml", "mental = 2\n");
+  const std::string quest = (folder / "quest.toml").string();
+  write_text(
+      folder / "e.toml",
+      "seed = 5\norder = \"as-listed\"\nquestionnaires = [\"paper\"]\nquestionnaires_after_each_condition = [\"" +
+          quest +
+          "\"]\n[[group]]\nname = \"a\"\nsubjects = 1\ndriver = \"plain\"\n"
+          "[[condition]]\nname = \"few\"\nparameters = { vehicles = 4 }\n"
+          "[[condition]]\nname = \"many\"\nparameters = { vehicles = 20 }\n"
+          "[[part]]\nname = \"task\"\nscenario = \"rescue-lane\"\nseconds = 2.0\n");
+  const std::vector<std::string> words{(folder / "e.toml").string(), "--out", (folder / "out").string()};
+  std::vector<std::string> whole{"experiment"};
+  whole.insert(whole.end(), words.begin(), words.end());
+  const auto driven = run("septet", whole, folder / "1.log");
+  REQUIRE_MESSAGE(driven.code == 0, driven.error);
+  const auto said_next = [&] {
+    std::vector<std::string> next{"experiment", "next"};
+    next.insert(next.end(), words.begin(), words.end());
+    auto process = start("septet", next, folder / "n.log");
+    std::string text;
+    while (const auto line = process.read_line(patience)) text += *line + '\n';
+    return text;
+  };
+  const auto answer = [&](const char* drive, const std::string& questionnaire) {
+    std::vector<std::string> arguments{
+        "session", "answer", (folder / "out/subjects/P01" / drive / "session.sqlite").string(), questionnaire};
+    arguments.insert(arguments.end(), {"--answers", (folder / "answer.toml").string()});
+    return run("septet", arguments, folder / "a.log").code;
+  };
+  std::string said = said_next();
+  CHECK(said.find("P01 has not answered " + quest + " after few") != std::string::npos);
+  CHECK(said.find("P01 has not answered " + quest + " after many") != std::string::npos);
+  CHECK(said.find("P01 has not answered paper:") != std::string::npos);
+  CHECK(answer("task-few-01", quest) == 0);
+  said = said_next();
+  CHECK(said.find("after few") == std::string::npos);
+  CHECK(said.find("after many") != std::string::npos);
+  CHECK(answer("task-many-01", quest) == 0);
+  write_text(folder / "answer.toml", "fun = 4\n");
+  CHECK(answer("task-few-01", "paper") == 0);  // Of one that is due once, any drive's will do.
+  CHECK(said_next() == "1 of 1 subjects are finished\n");
 }
 
 }  // namespace septet::pipeline

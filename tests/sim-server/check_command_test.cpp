@@ -42,6 +42,9 @@ TEST_CASE("every shipped file that check knows passes it as what it is") {
   const std::pair<const char*, const char*> shipped[] = {
       {"vehicles/volvo-s80.toml", "vehicle"},
       {"rigs/desktop.toml", "rig"},
+      {"scenarios/first-lesson/first-lesson.lesson.toml", "lesson"},
+      {"scenarios/questionnaires/ssq.toml", "questionnaire"},
+      {"scenarios/experiments/ambulance-24.toml", "experiment"},
       {"scenarios/motorway-ambulance/motorway-ambulance.xosc", "scenario"},
       {"scenarios/motorway-ambulance/motorway.xodr", "road"}};
   for (const auto& row : shipped) {
@@ -103,6 +106,52 @@ TEST_CASE("a film script is checked as one") {
   const auto json = nlohmann::json::parse(answer.text);
   CHECK(json["files"][0]["kind"] == "film script");
   CHECK(json["files"][0]["findings"][0]["line"] == 3);
+}
+
+TEST_CASE("lessons, questionnaires and experiments are judged as what they are, with the line of what is wrong") {
+  const std::string task = "title = \"T\"\naim = \"A\"\n[[task]]\nid = \"a\"\nsays = \"Do it\"\n";
+  const Written lesson("l.lesson.toml", task + "measure = \"spede\"\nbound = 1\ntolerance = 1\n"),
+      empty("e.lesson.toml", ""), question("q.toml", "id = \"q\"\ntitle = \"Q\"\n[[item]]\nid = \"a\"\nleast = 5\n");
+  for (const auto& [file, kind] : {std::pair(&lesson, "lesson"), {&empty, "lesson"}, {&question, "questionnaire"}}) {
+    const Answer answer = check({file->path.string()}, true);
+    CHECK(answer.status == 1);
+    const auto json = nlohmann::json::parse(answer.text);
+    CHECK(json["files"][0]["kind"] == kind);
+    CHECK(json["files"][0]["errors"] == 1);
+  }
+}
+
+TEST_CASE("an experiment is read with every part's scenario under every condition and what they name") {
+  const std::string group = "rig = \"desktop\"\n[[group]]\nname = \"g\"\nsubjects = 1\ndriver = \"novice\"\n",
+                    game = "[[part]]\nname = \"game\"\nscenario = \"winter-lorry\"\nup_to_min = 0.2\n",
+                    task = "[[part]]\nname = \"task\"\nscenario = \"rescue-lane\"\nseconds = 6.0\n";
+  const Written good("good-e.toml", group + game + task + "parameters = { vehicles = 40 }\n");
+  CHECK(check({good.path.string()}).text == "1 files, 0 errors, 0 warnings\n");
+  const Written no_xml("no.xosc", "Dear reader");
+  struct Wrong {
+    std::string text, says;
+  };
+  const Wrong all[] = {
+      {group + game + task + "parameters = { no_such = 40 }\n", "part task: the file has no parameter named"},
+      {group + game + task + "parameters = { vehicles = inf }\n", "part task: \"inf\""},
+      {group + game + task + "parameters = { vehicles = 1e9 }\n", "rescue-lane.xosc:"},
+      {group + game + task + "parameters = { vehicles = -1 }\n", "part task: \"-1\""},
+      {group + task +
+           "[[condition]]\nname = \"few\"\nparameters = { vehicles = 4 }\n[[condition]]\nname = \"odd\"\n"
+           "parameters = { vehicles = \"many\" }\n",
+       "part task under condition odd: \"many\""},
+      {group + game + "[[part]]\nname = \"x\"\nscenario = \"" + no_xml.path.string() + "\"\nseconds = 1\n", "no.xosc"},
+      {group + "[[part]]\nname = \"x\"\nscenario = \"no-such-scenario\"\nseconds = 1\n", "no-such-scenario"},
+      {"questionnaires_after_each_condition = [\"no-such-questionnaire\"]\n" + group + game, "no-such-questionnaire"},
+      {"[[group]]\nname = \"g\"\nsubjects = 1\ndriver = \"nobody\"\n" + game, "nobody"}};
+  for (const Wrong& wrong : all) {
+    const Written file("wrong-e.toml", wrong.text);
+    const Answer answer = check({file.path.string()});
+    INFO(answer.text);
+    CHECK(answer.status == 1);
+    CHECK(answer.text.find(wrong.says) != std::string::npos);
+    CHECK(answer.text.find("1 files, 1 errors, 0 warnings") != std::string::npos);
+  }
 }
 
 TEST_CASE("check answers in JSON what it says in lines") {

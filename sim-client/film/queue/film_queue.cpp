@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -117,8 +118,13 @@ std::vector<QueuedFilm> FilmQueue::films() const {
 Expected<std::uint64_t> FilmQueue::add(const QueuedFilm& film) {
   std::uint64_t next = 1;
   std::error_code error;
+  std::set<std::uint64_t> taken;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error))
-    if (const auto number = number_in(entry.path())) next = std::max(next, *number + 1);
+    if (const auto number = number_in(entry.path())) taken.insert(*number);
+  // Beyond all others, as long as there is such a number; then any that is free.
+  if (!taken.empty()) next = *taken.rbegin() + 1;
+  if (next > most_films)
+    for (next = 1; taken.contains(next);) ++next;
   // Whole before it has its name, and a name that nobody else takes: a link fails where there is one.
   std::string part = (path_ / "new-XXXXXX").string();
   if (const int own = ::mkstemp(part.data()); own >= 0)
@@ -137,7 +143,9 @@ Expected<std::uint64_t> FilmQueue::add(const QueuedFilm& film) {
     }
   }
   fs::remove(part, error);
-  if (next > most_films) return failure("the queue is full", path_.string(), "remove films that are made from it");
+  if (next > most_films)
+    return failure(fmt::format("the queue is full: it has a file for each number up to {}", most_films), path_.string(),
+                   "remove the files of films that are made (NNNNNN.json) from it");
   return next;
 }
 

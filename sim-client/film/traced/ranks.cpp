@@ -19,6 +19,7 @@
 #include "program/child_process.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
+#include "program/hosts_file.hpp"
 #include "program/machines.hpp"
 #include "program/run.hpp"
 #include "program/stop_signal.hpp"
@@ -137,8 +138,8 @@ Expected<StartEnd> start_once(const fs::path& mpirun, const RanksOptions& option
 Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string> arguments) {
   const auto mpirun = program::find_mpirun("--ranks");
   if (!mpirun) return tl::unexpected(mpirun.error());
-  if (std::error_code error; !options.hosts.empty() && !fs::is_regular_file(options.hosts, error))
-    return failure("there is no such file", options.hosts.string(), "write the names of machines, one a line");
+  if (!options.hosts.empty())
+    if (auto checked = program::check_hosts_file(options.hosts); !checked) return tl::unexpected(checked.error());
   const auto folder = pictures_folder(options.out);
   if (!folder) return tl::unexpected(folder.error());
   const auto notes = program::TemporaryFolder::make("septet-ranks");
