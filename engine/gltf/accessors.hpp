@@ -1,5 +1,5 @@
 #pragma once
-/// What accessors say: rows of numbers somewhere in a buffer (glTF 2.0, 3.6.2). Sparse ones are refused.
+/// What accessors say: rows of numbers somewhere in a buffer (glTF 2.0, 3.6.2), those that a sparse part writes over included.
 
 #include <cstddef>
 #include <cstdint>

@@ -9,11 +9,13 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
@@ -87,9 +89,11 @@ class Reader {
   Expected<void> check_extensions() const {
     for (const Json& extension : list_of(*container_.json, "extensionsRequired")) {
       const std::string name = extension.is_string() ? extension.get<std::string>() : std::string("?");
-      if (!name.starts_with("KHR_materials_") && name != "KHR_mesh_quantization" && name != "KHR_texture_transform")
-        return failure(fmt::format("it cannot be read without {}", printable(name, 60)), container_.where,
-                       "export it without compression and extensions");
+      constexpr std::array<std::string_view, 4> done{"KHR_mesh_quantization", "KHR_texture_transform",
+                                                     "KHR_materials_emissive_strength", "KHR_materials_transmission"};
+      if (std::ranges::find(done, name) == done.end())
+        return failure(fmt::format("it requires {}, which is not done", printable(name, 60)), container_.where,
+                       "export it without this extension, or without requiring it");
     }
     return {};
   }
@@ -218,8 +222,6 @@ class Reader {
     };
     const auto normals = optional_rows("NORMAL", 3, 3);
     if (!normals) return tl::unexpected(normals.error());
-    const auto uvs = optional_rows("TEXCOORD_0", 2, 2);
-    if (!uvs) return tl::unexpected(uvs.error());
     const auto colours = optional_rows("COLOR_0", 3, 4);
     if (!colours) return tl::unexpected(colours.error());
     std::vector<std::uint32_t> indices;
@@ -239,6 +241,9 @@ class Reader {
     const std::int64_t material = index_in(primitive, "material", static_cast<std::int64_t>(model_.looks.size()) - 1);
     if (material < 0 || static_cast<std::uint64_t>(material) >= model_.looks.size())
       return failure("its material is none of the file's", node_place(node), export_anew);
+    const PictureMapping& mapping = model_.looks[static_cast<std::size_t>(material)].mapping;
+    const auto uvs = optional_rows(fmt::format("TEXCOORD_{}", mapping.uv_set).c_str(), 2, 2);
+    if (!uvs) return tl::unexpected(uvs.error());
     return add_triangles(triangles, *positions, *normals, *uvs, look_of(static_cast<std::size_t>(material), *colours),
                          node, model_from_node, growing);
   }
@@ -273,10 +278,11 @@ class Reader {
     std::vector<std::uint32_t> placed(positions.count, geometry::no_vertex);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       geometry::PolygonCorners corners{0, 0, 0, geometry::no_vertex};
-      std::array<glm::vec2, 4> corner_uvs{};
+      std::array<glm::dvec2, 3> file_uvs{};
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t vertex = triangles[t][mirrors ? 2 - k : k];
-        if (uvs.count > 0) corner_uvs[k] = {wrapped(uvs.numbers[vertex * 2]), wrapped(uvs.numbers[vertex * 2 + 1])};
+        if (uvs.count > 0)
+          file_uvs[k] = model_.looks[look].mapping({uvs.numbers[vertex * 2], uvs.numbers[vertex * 2 + 1]});
         if (placed[vertex] == geometry::no_vertex || normals.count == 0) {
           const float* p = &positions.numbers[std::size_t{vertex} * 3];
           const glm::vec3 at = our_axes(glm::vec3(model_from_node * glm::vec4(p[0], p[1], p[2], 1.0f)));
@@ -299,14 +305,19 @@ class Reader {
       if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
       mesh.polygons.push_back(corners);
       mesh.polygon_materials.push_back(look);
-      mesh.corner_uvs.push_back(corner_uvs);
+      mesh.corner_uvs.push_back(near_origin(file_uvs));
       growing.has_uvs |= uvs.count > 0;
     }
     return {};
   }
 
-  /// Texture coordinates repeat; far ones would lose their digits.
-  static float wrapped(float uv) { return std::abs(uv) < 64.0f ? uv : uv - std::floor(uv); }
+  /// Texture coordinates repeat; far ones would lose their digits, so the whole triangle is moved by whole pictures.
+  static std::array<glm::vec2, 4> near_origin(const std::array<glm::dvec2, 3>& uvs) {
+    constexpr double far = 64.0;
+    const bool is_far = glm::any(glm::greaterThan(glm::abs(uvs[0]), glm::dvec2(far)));
+    const glm::dvec2 whole = is_far ? glm::floor(uvs[0]) : glm::dvec2(0.0);
+    return {uvs[0] - whole, uvs[1] - whole, uvs[2] - whole, glm::vec2(0.0f)};
+  }
 
   void finish() {
     for (Growing& growing : growing_) {
@@ -335,6 +346,12 @@ class Reader {
 };
 
 }  // namespace
+
+glm::dvec2 PictureMapping::operator()(const glm::dvec2& uv) const {
+  const glm::dvec2 scaled = scale * uv;
+  const double cosine = std::cos(rotation_rad), sine = std::sin(rotation_rad);
+  return offset + glm::dvec2(cosine * scaled.x + sine * scaled.y, cosine * scaled.y - sine * scaled.x);
+}
 
 Expected<Model> read_gltf(std::string_view bytes, std::string_view where,
                           const std::function<bool(std::string_view)>& begins_part) {

@@ -1,8 +1,9 @@
 #pragma once
 /// A person's own glTF 2.0 file as what the scenery draws: meshes by the node that they hang at, and the numbers of their materials.
 ///
-/// Read of a file: the default scene's nodes with their transforms; triangles, strips and fans with positions, normals, the first texture
-/// coordinates and the mean of the first vertex colours; of materials base colour (factor and PNG texture), metallic, roughness, emissive (with
+/// Read of a file: the default scene's nodes with their transforms; triangles, strips and fans with positions, normals, texture coordinates
+/// and the mean of the first vertex colours, sparse accessors too; of materials base colour (factor and PNG texture, which may name its set of
+/// coordinates and transform them), metallic, roughness, emissive (with
 /// KHR_materials_emissive_strength), alpha, and transmission as transparency. Skins and shapes to morph into stay as they were modelled; cameras,
 /// lights, animations and other textures are passed over.
 /// A file is whole in itself: a .glb, or a .gltf whose buffers are data: URIs. What it names outside of itself is never opened.
@@ -17,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/core/expected.hpp"
@@ -33,11 +35,22 @@ inline constexpr std::uint32_t largest_picture_px = 4096, drawn_picture_px = 102
 /// Further from its origin nothing lies; a file that says so is not in metres.
 inline constexpr float furthest_m = 2000.0f;
 
+/// Which texture coordinates of a vertex a picture lies by (glTF 2.0, 3.9.2), and KHR_texture_transform on them: scaled, then turned, then moved.
+struct PictureMapping {
+  std::uint32_t uv_set = 0;  ///< n of TEXCOORD_n.
+  glm::dvec2 scale{1.0}, offset{0.0};
+  double rotation_rad =
+      0.0;  ///< Of the coordinates about their origin, counter-clockwise as the picture is seen; v points down.
+
+  glm::dvec2 operator()(const glm::dvec2& uv) const;
+};
+
 /// A material. Colours are linear Rec. 709.
 struct Look {
   std::string name;
   glm::vec3 base_color{1.0f};
   std::int32_t picture = -1;  ///< Indexes Model::pictures; multiplies base_color.
+  PictureMapping mapping;     ///< Where the picture's coordinates come from.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
   glm::vec3 emission{0.0f};
 };

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
@@ -105,13 +106,29 @@ class Looks {
     if (metallic_roughness.contains("baseColorTexture")) {
       auto picture = picture_of(member(metallic_roughness, "baseColorTexture"), look.name);
       if (!picture) return tl::unexpected(picture.error());
-      if (*picture)
-        look.picture = drawn(std::move(**picture), *source_of(metallic_roughness["baseColorTexture"]), mode);
+      const Json& texture = metallic_roughness["baseColorTexture"];
+      if (*picture) look.picture = drawn(std::move(**picture), *source_of(texture), mode);
+      if (*picture) look.mapping = mapping_of(texture);
     }
     return look;
   }
 
  private:
+  static PictureMapping mapping_of(const Json& texture) {
+    const Json& transform = extension(texture, "KHR_texture_transform");
+    const std::int64_t set = index_in(transform, "texCoord", index_in(texture, "texCoord", 0));
+    constexpr double furthest = 1e6;
+    const auto pair = [&](const char* name, const glm::dvec2& otherwise) {
+      const Json& list = list_of(transform, name);
+      if (list.size() != 2 || !list[0].is_number() || !list[1].is_number()) return otherwise;
+      return glm::clamp(glm::dvec2(list[0].get<double>(), list[1].get<double>()), -furthest, furthest);
+    };
+    return {.uv_set = static_cast<std::uint32_t>(std::clamp<std::int64_t>(set, 0, 999)),
+            .scale = pair("scale", glm::dvec2(1.0)),
+            .offset = pair("offset", glm::dvec2(0.0)),
+            .rotation_rad = number_in(transform, "rotation", 0.0)};
+  }
+
   /// Which image a texture shows.
   std::optional<std::int64_t> source_of(const Json& texture) const {
     const std::int64_t index = index_in(texture, "index");

@@ -45,10 +45,13 @@ const char* name_of(VkResult result) {
 void require(VkResult result, const char* call) {
   if (result == VK_SUCCESS) return;
   const bool memory = result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY;
+  const bool no_driver = result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_INITIALIZATION_FAILED;
   throw Failure{Error{fmt::format("{} answered {} ({})", call, name_of(result), static_cast<int>(result)),
                       "the Vulkan device",
-                      memory ? "close other programs that use its memory, or make the picture smaller"
-                             : "look at the driver with vulkaninfo, or take the software device"}};
+                      memory      ? "close other programs that use its memory, or make the picture smaller"
+                      : no_driver ? "install a Vulkan driver: the graphics card's, or apt install mesa-vulkan-drivers, "
+                                    "which also draws without a card"
+                                  : "see what vulkaninfo --summary says of the driver"}};
 }
 
 }  // namespace septet::render::vulkan

@@ -178,6 +178,99 @@ TEST_CASE("a material's factors, its picture and the mean of vertex colours arri
   CHECK(model->pictures[0].at(3, 1) == image::Color{10, 20, 30, 40});
 }
 
+TEST_CASE("a texture lies by the coordinates that it names, scaled, turned and moved") {
+  const Bytes png = image::encode_png(image::Image(1, 1, {10, 20, 30, 255}));
+  const std::string png_bytes(reinterpret_cast<const char*>(png.data()), png.size());
+  // Rows of two numbers for three vertices: set 0 from byte 36, set 1 from byte 60.
+  const auto uvs = [&](const std::string& texture) {
+    const auto model = read(
+        File{.positions = bytes_of<float>(
+                 {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25f, 0, 0.75f, 0, 0.25f, 1, 0.5f, 0.1f, 0.6f, 0.1f, 0.5f, 0.2f}),
+             .primitives = R"([{"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":2},"material":0}])",
+             .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                          R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC2"},)"
+                          R"({"bufferView":0,"byteOffset":60,"componentType":5126,"count":3,"type":"VEC2"}])",
+             .more = fmt::format(R"("extensionsRequired":["KHR_texture_transform"],)"
+                                 R"("materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0{}}}}}}}],)"
+                                 R"("textures":[{{"source":0}}],"images":[{{"uri":"data:image/png;base64,{}"}}],)",
+                                 texture, base64(png_bytes))});
+    REQUIRE_MESSAGE(model.has_value(), (model ? "" : describe(model.error())));
+    REQUIRE(model->parts[0].mesh.corner_uvs.size() == 1);
+    return model->parts[0].mesh.corner_uvs[0];
+  };
+  const auto is_near = [](const glm::vec2& uv, float u, float v) { return glm::distance(uv, glm::vec2(u, v)) < 1e-6f; };
+  const auto transformed = [](const char* transform) {
+    return fmt::format(R"(,"extensions":{{"KHR_texture_transform":{{{}}}}})", transform);
+  };
+  CHECK(is_near(uvs("")[0], 0.25f, 0.0f));
+  CHECK(is_near(uvs(R"(,"texCoord":1)")[0], 0.5f, 0.1f));
+  CHECK(is_near(uvs(transformed(R"("offset":[0.5,0.25])"))[0], 0.75f, 0.25f));
+  CHECK(is_near(uvs(transformed(R"("scale":[2,3])"))[1], 1.5f, 0.0f));
+  // A quarter turn counter-clockwise, v pointing down: what lay to the right lies above.
+  CHECK(is_near(uvs(transformed(R"("rotation":1.5707963267948966)"))[1], 0.0f, -0.75f));
+  CHECK(is_near(uvs(transformed(R"("scale":[2,1],"rotation":1.5707963267948966,"offset":[0.1,1])"))[1], 0.1f, -0.5f));
+  CHECK(is_near(uvs(transformed(R"("texCoord":1,"offset":[0.5,0])"))[1], 1.1f, 0.1f));
+  CHECK(is_near(uvs(transformed(R"("offset":"left","scale":[1],"rotation":null)"))[0], 0.25f, 0.0f));
+  // Far away the whole triangle is moved by whole pictures.
+  const auto far = uvs(transformed(R"("offset":[1000,-1000])"));
+  CHECK(is_near(far[1] - far[0], 0.5f, 0.0f));
+  CHECK(std::abs(far[0].x) < 64.0f);
+}
+
+TEST_CASE("what is required and not done is refused by its name") {
+  for (const char* extension : {"KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit", "KHR_materials_clearcoat",
+                                "KHR_node_visibility", "EXT_meshopt_compression"}) {
+    CHECK(has(refused(File{.more = fmt::format(R"("extensionsRequired":["{}"],)", extension)}), extension));
+    CHECK(read(File{.more = fmt::format(R"("extensionsUsed":["{}"],)", extension)}).has_value());
+  }
+}
+
+TEST_CASE("rows that a sparse accessor names are written over the others, or over zeros") {
+  const auto with = [](const char* accessor) {
+    // Three places, then the indices 0, 2 as u16, a pad, and their places.
+    std::string bytes = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    bytes += bytes_of<std::uint16_t>({0, 2});
+    bytes += bytes_of<float>({0, 0, 5, 0, 1, 5});
+    return File{.positions = bytes,
+                .accessors = accessor,
+                .views = R"([{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":4},)"
+                         R"({"buffer":0,"byteOffset":40,"byteLength":24}])"};
+  };
+  const auto places = [](const File& file) {
+    const auto model = read(file);
+    REQUIRE_MESSAGE(model.has_value(), (model ? "" : describe(model.error())));
+    return model->parts.at(0).mesh.vertices_m;
+  };
+#define SPARSE(count, indices, values) \
+  R"("sparse":{"count":)" count R"(,"indices":{)" indices R"(},"values":{)" values "}}"
+  constexpr const char* over = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)" SPARSE(
+      "2", R"("bufferView":1,"componentType":5123)", R"("bufferView":2)") "}]";
+  const auto written = places(with(over));
+  REQUIRE(written.size() == 3);
+  CHECK(written[0] == glm::vec3(5, 0, 0));
+  CHECK(written[1] == glm::vec3(0, 1, 0));
+  CHECK(written[2] == glm::vec3(5, 0, 1));
+  constexpr const char* over_zeros = R"([{"componentType":5126,"count":3,"type":"VEC3",)" SPARSE(
+      "2", R"("bufferView":1,"componentType":5123)", R"("bufferView":2)") "}]";
+  CHECK(places(with(over_zeros))[1] == glm::vec3(0, 0, 0));
+  const std::pair<const char*, const char*> wrong[] = {
+      {SPARSE("4", R"("bufferView":1,"componentType":5123)", R"("bufferView":2)"), "counts 4 of 3"},
+      {SPARSE("0", R"("bufferView":1,"componentType":5123)", R"("bufferView":2)"), "counts 0 of 3"},
+      {SPARSE("2", R"("bufferView":1,"componentType":5126)", R"("bufferView":2)"), "reach beyond"},
+      {SPARSE("2", R"("bufferView":2,"componentType":5126)", R"("bufferView":2)"), "no whole numbers"},
+      {SPARSE("2", R"("bufferView":9,"componentType":5123)", R"("bufferView":2)"), "no buffer view"},
+      {SPARSE("2", R"("bufferView":1,"componentType":5123)", R"("bufferView":1)"), "reach beyond"},
+      {SPARSE("2", R"("bufferView":0,"byteOffset":12,"componentType":5125)", R"("bufferView":2)"), "of 3"},
+      {R"("sparse":7)", "of 3 rows"},
+  };
+#undef SPARSE
+  for (const auto& [sparse, what] : wrong) {
+    const std::string accessor =
+        R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)" + std::string(sparse) + "}]";
+    CHECK_MESSAGE(has(refused(with(accessor.c_str())), what), sparse);
+  }
+}
+
 TEST_CASE(
     "a file that is cut off anywhere is refused with a message, and so is one with any byte changed or still whole") {
   const File file;
