@@ -331,6 +331,18 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   return done;
 }
 
+/// Nothing is kept of a drive that failed before its first tick, but what its programs said.
+void remove_undriven(const fs::path& folder) {
+  {
+    const auto session = logging::SessionReader::open(folder / "session.sqlite");
+    const auto span = session ? session->time_span_s() : tl::unexpected(session.error());
+    if (!span || *span) return;
+  }
+  std::error_code ignored;
+  for (const char* name : {"session.sqlite", "session.sqlite-wal", "session.sqlite-shm", "summary.json", "report.html"})
+    fs::remove(folder / name, ignored);
+}
+
 /// One drive and what there is to look at after it, in a folder of its own.
 Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, const rig::Rig& rig,
                             const std::optional<PagePlace>& page) {
@@ -341,6 +353,7 @@ Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, cons
   if (!ending || !ending->driven) folder->undo();
   if (!ending) return tl::unexpected(ending.error());
   int& status = ending->status;
+  if (ending->driven && status == logging::failed_status && options.replay.empty()) remove_undriven(options.out);
   if (ending->driven) {
     if (!folder->aside().empty()) program::say(fmt::format("The earlier drive is in {}", folder->aside().string()));
     const auto shown = show_results(options, rig, status);
