@@ -95,9 +95,10 @@ Json json_of(const DriveOutcome& outcome) {
 
 std::string to_json(const DriveOutcome& outcome) { return document::text_of(json_of(outcome)); }
 
-Expected<DriveOutcome> read_outcome(const std::string& text) {
-  const auto refused = [] {
-    return failure("the meta row outcome is not what Septet writes", "session", "the file was altered: use a copy");
+Expected<DriveOutcome> read_outcome(const std::string& text, const std::string& where) {
+  const auto refused = [&] {
+    return failure("the meta row outcome is not what Septet writes", where,
+                   "the file was altered or damaged: use an unaltered copy");
   };
   try {
     const Json json = Json::parse(text);

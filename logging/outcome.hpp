@@ -47,6 +47,7 @@ struct DriveOutcome {
 };
 
 std::string to_json(const DriveOutcome& outcome);
-Expected<DriveOutcome> read_outcome(const std::string& json);
+/// `where` is the session, for who reads of a fault.
+Expected<DriveOutcome> read_outcome(const std::string& json, const std::string& where);
 
 }  // namespace septet::logging

@@ -22,25 +22,23 @@ std::string quoted(const std::string& text) {
   return sql + '\'';
 }
 
-/// Error: whoever writes it has not ended.
-Expected<void> check_closed(const std::filesystem::path& session) {
+/// Opens a session to change it, the newest commits of a killed drive folded in. Error: it is none, or whoever writes it has not
+/// ended.
+Expected<Database> open_closed(const std::filesystem::path& session) {
+  bool has_ended = false;
   {
+    // Asked of the reader first: it refuses what is no session, or one that somebody has altered.
     const auto reader = SessionReader::open(session);
     if (!reader) return tl::unexpected(reader.error());
-    if (reader->ended_cleanly()) return {};  // A side file that is there all the same is for somebody who reads it.
+    has_ended = reader->ended_cleanly();
   }
-  // Of a killed writer's side files nothing is left by now.
   std::error_code ignored;
-  if (std::filesystem::exists(session.string() + "-wal", ignored))
+  const bool has_wal = std::filesystem::exists(session.string() + "-wal", ignored);
+  auto database = Database::open(session, OpenMode::change);
+  // It succeeds only where nobody else has the file open; who has one open that has ended reads it.
+  if (database && has_wal && !database->execute("PRAGMA journal_mode=DELETE") && !has_ended)
     return failure("the drive is still going on", session.string(), "wait for its end");
-  return {};
-}
-
-/// Everything in one file, which nobody has open: what is put in its place would be read with its side files otherwise.
-Expected<void> join_side_files(const std::filesystem::path& session) {
-  const auto database = Database::open(session, OpenMode::read);
-  if (!database) return tl::unexpected(database.error());
-  return database->execute("PRAGMA journal_mode=DELETE");
+  return database;
 }
 
 Expected<void> strip(const Database& database, const SessionInfo& info) {
@@ -74,8 +72,7 @@ bool is_synchronised(const std::filesystem::path& path) {
 
 Expected<void> add_answers(const std::filesystem::path& session, const std::vector<QuestionnaireRecord>& answers,
                            const std::string& replace) {
-  if (auto closed = check_closed(session); !closed) return closed;
-  const auto database = Database::open(session, OpenMode::read);
+  const auto database = open_closed(session);
   if (!database) return tl::unexpected(database.error());
   auto done = database->execute("BEGIN IMMEDIATE");
   if (!done) return done;
@@ -92,8 +89,12 @@ Expected<void> add_answers(const std::filesystem::path& session, const std::vect
 }
 
 Expected<std::filesystem::path> write_anonymous_copy(const std::filesystem::path& session) {
-  if (auto closed = check_closed(session); !closed) return tl::unexpected(closed.error());
-  if (auto joined = join_side_files(session); !joined) return tl::unexpected(joined.error());
+  {
+    const auto database = open_closed(session);
+    if (!database) return tl::unexpected(database.error());
+    // Everything in one file, which nobody has open: what is put in its place would be read with its side files otherwise.
+    if (auto joined = database->execute("PRAGMA journal_mode=DELETE"); !joined) return tl::unexpected(joined.error());
+  }
   const std::filesystem::path draft = session.string() + ".part";
   std::error_code error;
   std::filesystem::remove(draft, error);
@@ -111,7 +112,7 @@ Expected<std::filesystem::path> write_anonymous_copy(const std::filesystem::path
   if (error)
     return failed({error.message(), draft.string(), "free some space, or make the folder one that can be written"});
   {
-    const auto copy = Database::open(draft, OpenMode::read);
+    const auto copy = Database::open(draft, OpenMode::change);
     if (!copy) return failed(copy.error());
     if (auto done = strip(*copy, info); !done) return failed(done.error());
   }

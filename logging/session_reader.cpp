@@ -9,36 +9,11 @@
 #include "logging/packed_snapshot.hpp"
 #include "logging/record_tables.hpp"
 #include "logging/schema.hpp"
+#include "logging/session_checks.hpp"
 #include "logging/sqlite_database.hpp"
 
 namespace septet::logging {
 namespace {
-
-/// Refuses what is not a session file of this version.
-Expected<void> check_format(const Database& database) {
-  const auto id = database.query_integer("PRAGMA application_id");
-  if (!id) return tl::unexpected(id.error());
-  if (*id != application_id)
-    return failure("this is an SQLite file, but not one of Septet's sessions", database.where(),
-                   "give a session file that Septet wrote");
-  const auto version = database.query_integer("PRAGMA user_version");
-  if (!version) return tl::unexpected(version.error());
-  if (*version < oldest_format_version || *version > format_version)
-    return failure(fmt::format("the session has format {}, and this Septet reads formats {} to {}", *version,
-                               oldest_format_version, format_version),
-                   database.where(), "use the version of Septet that wrote it (meta row septet_version)");
-  for (const Table& table : tables) {
-    auto statement = database.prepare("SELECT sql FROM sqlite_schema WHERE name = ? AND type = 'table'");
-    if (!statement) return tl::unexpected(statement.error());
-    statement->bind(1, table.name);
-    const auto row = statement->step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row || statement->text(0) != table.sql)
-      return failure(fmt::format("the table {} is missing or not that of format {}", table.name, *version),
-                     database.where(), "use an unaltered session file");
-  }
-  return {};
-}
 
 template <class T>
 Expected<std::vector<T>> read_rows(Expected<Statement> statement, Expected<T> (*read)(const Statement&)) {
@@ -126,6 +101,7 @@ Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
   const auto header = read_stored_header(bytes);
   if (!header) return damaged(header.error().what);
   if (header->tick != tick) return damaged(fmt::format("its bytes are those of tick {}", header->tick));
+  if (header->baseline.has_value() == rows.is_null(4)) return damaged("its row and its bytes name two baselines");
   const auto& previous = state_->previous;
   if (header->baseline && *header->baseline < tick && (!previous || previous->rest.tick < *header->baseline))
     return failure(fmt::format("the snapshot of tick {} is missing: the log has a gap", *header->baseline),
@@ -134,6 +110,7 @@ Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
     return damaged(fmt::format("it is a difference to tick {}, which is not the row before", *header->baseline));
   auto snapshot = state_->unpacker.unpack(bytes, header->baseline ? &*previous : nullptr);
   if (!snapshot) return damaged(snapshot.error().what);
+  if (snapshot->rest.simulated_time_s != rows.real(3)) return damaged("its row and its bytes name two times");
   state_->previous = *snapshot;
   // The row's own hash is the one that was recorded for comparison; whoever altered it has altered the session.
   snapshot->rest.state_hash = static_cast<std::uint64_t>(rows.integer(2));
@@ -162,6 +139,7 @@ Expected<SessionReader> SessionReader::open(const std::filesystem::path& path) {
 }
 
 const SessionInfo& SessionReader::info() const { return state_->info; }
+const std::filesystem::path& SessionReader::path() const { return state_->path; }
 bool SessionReader::ended_cleanly() const { return state_->ended_cleanly; }
 
 Expected<std::uint64_t> SessionReader::missing_ticks() const {
@@ -213,7 +191,8 @@ Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) 
                              after->value_or(std::numeric_limits<std::int64_t>::max()));
   if (!at) return tl::unexpected(at.error());
   const auto target = static_cast<Tick>(at->value_or(0));
-  auto rows = database.prepare("SELECT tick, data, state_hash FROM snapshots WHERE tick >= ? ORDER BY tick");
+  auto rows = database.prepare(
+      "SELECT tick, data, state_hash, simulated_time_s, baseline_tick FROM snapshots WHERE tick >= ? ORDER BY tick");
   if (!rows) return tl::unexpected(rows.error());
   rows->bind(1, first);
   SnapshotCursor cursor(std::make_unique<SnapshotCursor::State>(
@@ -281,16 +260,15 @@ Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_befor
   return rows->empty() ? std::nullopt : std::optional(std::move(rows->front()));
 }
 
-Expected<void> SessionReader::check_integrity() const {
-  auto check = state_->database.prepare("PRAGMA integrity_check(1)");
-  if (!check) return tl::unexpected(check.error());
-  const auto row = check->step();
-  if (!row) return tl::unexpected(row.error());
-  const std::string answer = *row ? check->text(0) : "no answer";
-  if (answer != "ok")
-    return failure(fmt::format("the file is damaged: {}", answer), state_->database.where(),
-                   "use a copy, or rescue what is left with `sqlite3 FILE .recover`");
-  return {};
+Expected<std::vector<Tick>> SessionReader::saved_state_ticks() const {
+  const auto has_states = has_table_called(state_->database, saved_states.name);
+  if (!has_states) return tl::unexpected(has_states.error());
+  if (!*has_states) return std::vector<Tick>();
+  const auto read_tick = [](const Statement& row) -> Expected<Tick> { return static_cast<Tick>(row.integer(0)); };
+  return read_rows<Tick>(prepare_range(state_->database, "tick", saved_states.name, {}, "tick"), read_tick);
 }
+
+Expected<void> SessionReader::check_integrity() const { return logging::check_integrity(state_->database); }
+Expected<void> SessionReader::check_values() const { return logging::check_values(state_->database); }
 
 }  // namespace septet::logging

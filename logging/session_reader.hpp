@@ -1,6 +1,6 @@
 #pragma once
 /// Reads a session file (FORMAT.md), also one whose writer was killed, and one that is still being
-/// written.
+/// written. Nothing beside the file, nor the file, is changed: it may be somebody else's.
 ///
 /// The file is not trusted: a foreign, newer or damaged one is refused with one Error, at opening
 /// or, for damage that only reading meets, at the call that meets it. Memory is bounded by what a
@@ -51,6 +51,7 @@ class SessionReader {
   ~SessionReader();
 
   const SessionInfo& info() const;
+  const std::filesystem::path& path() const;
   /// Whether the writer closed the file itself.
   bool ended_cleanly() const;
   /// Ticks from 0 to the newest that have no snapshot: gaps of early builds, or rows that somebody removed.
@@ -73,9 +74,12 @@ class SessionReader {
   Expected<std::vector<ActuatorRecord>> actuators(TickRange range = {}) const;
   /// The last saved state at or before a tick, if there is one.
   Expected<std::optional<StateRecord>> saved_state(Tick at_or_before) const;
+  Expected<std::vector<Tick>> saved_state_ticks() const;
 
   /// Reads every page of the file; an Error names what is damaged.
   Expected<void> check_integrity() const;
+  /// Reads every row: each value has its column's type, each text is UTF-8. SQLite alone minds neither.
+  Expected<void> check_values() const;
 
  private:
   struct State;

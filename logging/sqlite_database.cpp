@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 #include <sqlite3.h>
 
+#include "logging/files_beside.hpp"
+
 namespace septet::logging {
 namespace {
 
@@ -23,6 +25,11 @@ tl::unexpected<Error> sqlite_failure(sqlite3* database, const std::string& where
     case SQLITE_IOERR:
       return failure(fmt::format("the disk reports an error ({})", sqlite3_errmsg(database)), where,
                      "check free space, quota and the disk itself; what was written so far is safe");
+    case SQLITE_INTERRUPT:
+      return failure("the file is damaged or made to keep its reader busy: one question takes too long", where,
+                     "use a copy, and do not trust who sent it");
+    case SQLITE_READONLY:
+      return failure("the file cannot be written", where, "check the permissions of the file and its folder");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return failure("another program holds the file", where, "close that program and try again");
@@ -30,6 +37,18 @@ tl::unexpected<Error> sqlite_failure(sqlite3* database, const std::string& where
       return failure(fmt::format("SQLite says: {}", database ? sqlite3_errmsg(database) : "out of memory"), where,
                      "check the file with `sqlite3 FILE 'PRAGMA integrity_check'`");
   }
+}
+
+/// Reads the schema, and with it what lies beside the file.
+constexpr std::string_view first_question = "SELECT 1 FROM sqlite_schema LIMIT 1";
+
+/// The most rows that a file can hold, each takes 4 bytes and more: a damaged one may lead in circles.
+std::uint64_t most_rows(const std::string& where) {
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  for (const char* ending : {"", "-wal"})
+    if (const auto size = std::filesystem::file_size(where + ending, error); !error) bytes += size;
+  return bytes / 4 + 1;
 }
 
 /// A path as a file: URI; SQLite reads %, ? and # there.
@@ -65,8 +84,14 @@ void Statement::bind(int index, const std::optional<std::int64_t>& value) {
 }
 
 Expected<bool> Statement::step() {
+  limit_->steps_left = limit_->steps_a_row;
   const int code = sqlite3_step(statement_.get());
-  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_ROW) {
+    // Asked of the file system only now and then: it grows while a drive is recorded.
+    constexpr std::uint64_t rows_between_looks = 1 << 16;
+    if (++rows_ % rows_between_looks != 0 || rows_ <= most_rows(where_)) return true;
+    return failure("the file is damaged: its rows have no end", where_, "use a copy");
+  }
   if (code == SQLITE_DONE) return false;
   auto error = sqlite_failure(sqlite3_db_handle(statement_.get()), where_);
   sqlite3_reset(statement_.get());
@@ -80,6 +105,28 @@ Expected<void> Statement::run() {
   return {};
 }
 
+int Statement::columns() const { return sqlite3_column_count(statement_.get()); }
+std::string Statement::column_name(int column) const {
+  const char* name = sqlite3_column_name(statement_.get(), column);
+  return name ? name : "";
+}
+bool Statement::is_of_declared_type(int column) const {
+  const char* declared = sqlite3_column_decltype(statement_.get(), column);
+  const std::string_view type = declared ? declared : "";
+  switch (sqlite3_column_type(statement_.get(), column)) {
+    case SQLITE_INTEGER:
+      return type == "INTEGER";
+    case SQLITE_FLOAT:
+      return type == "REAL";
+    case SQLITE_TEXT:
+      return type == "TEXT";
+    case SQLITE_BLOB:
+      return type == "BLOB";
+    default:
+      return true;
+  }
+}
+bool Statement::is_text(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_TEXT; }
 bool Statement::is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
 std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
 double Statement::real(int column) const {
@@ -98,52 +145,84 @@ std::span<const std::byte> Statement::blob(int column) const {
 
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
+Expected<Database> Database::open_with(const std::string& name, int flags, const std::string& where) {
+  sqlite3* handle = nullptr;
+  const int code = sqlite3_open_v2(name.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  Database database(handle, where);
+  if (code != SQLITE_OK) return sqlite_failure(handle, where);
+  sqlite3_extended_result_codes(handle, 1);
+  sqlite3_busy_timeout(handle, 2000);
+  distrust_schema(handle);
+  return database;
+}
+
 Expected<Database> Database::open(const std::filesystem::path& path, OpenMode mode) {
   const std::string where = path.string();
   std::error_code ignored;
-  if (mode == OpenMode::create && std::filesystem::exists(path, ignored))
-    return failure("the file exists already, and a log is never overwritten", where,
-                   "choose another name or remove it");
-  if (mode == OpenMode::read && !std::filesystem::is_regular_file(path, ignored))
+  if (mode == OpenMode::create) {
+    if (std::filesystem::exists(path, ignored))
+      return failure("the file exists already, and a log is never overwritten", where,
+                     "choose another name or remove it");
+    return open_with(where, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, where);
+  }
+  if (!std::filesystem::is_regular_file(path, ignored))
     return std::filesystem::exists(path, ignored)
                ? failure("this is no file that can be read as a log", where, "give the log itself")
                : failure("there is no such file", where, "check the path");
+  // SQLite deletes what lies beside an empty file.
+  if (std::filesystem::file_size(path, ignored) == 0)
+    return failure("this is not an SQLite file", where, "give a session file that Septet wrote");
+  // SQLite looks for what lies beside the file where a link leads to; so do we.
+  const std::filesystem::path real = std::filesystem::canonical(path, ignored);
+  if (ignored) return failure(ignored.message(), where, "check the path");
+  if (mode == OpenMode::read) return open_to_read(real, where);
+  if (auto checked = check_journal(real); !checked) return tl::unexpected(checked.error());
+  auto database = open_with(real.string(), SQLITE_OPEN_READWRITE, where);
+  if (!database) return database;
+  if (auto opened = database->query_integer(first_question); !opened) return tl::unexpected(opened.error());
+  return database;
+}
 
-  const auto open_with = [&](const std::string& name, int flags) {
-    sqlite3* handle = nullptr;
-    const int code = sqlite3_open_v2(name.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX, nullptr);
-    Database database(handle, where);
-    if (handle) {
-      sqlite3_extended_result_codes(handle, 1);
-      sqlite3_busy_timeout(handle, 2000);
-      sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-      sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    }
-    return std::pair(code, std::move(database));
+Expected<Database> Database::open_to_read(const std::filesystem::path& path, const std::string& where) {
+  const auto way = way_to_read(path);
+  if (!way) return tl::unexpected(way.error());
+  if (*way == ReadWay::copied) return open_copy(path, where);
+  const auto open_as = [&](const char* option) -> Expected<Database> {
+    auto database = open_with(uri_of(path.string()) + option, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, where);
+    if (!database) return database;
+    std::error_code ignored;
+    const auto bytes = std::filesystem::file_size(path, ignored);
+    allow_reading_alone(database->database_.get(), *database->limit_, ignored ? 0 : static_cast<std::int64_t>(bytes));
+    if (auto opened = database->query_integer(first_question); !opened) return tl::unexpected(opened.error());
+    return database;
   };
-  if (mode == OpenMode::create) {
-    auto [code, database] = open_with(where, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-    if (code != SQLITE_OK) return sqlite_failure(database.database_.get(), where);
-    return std::move(database);
+  if (*way == ReadWay::immutable) return open_as("?immutable=1");
+  // Without its index writable, a WAL that nobody writes is read all the same; one whose index says nothing is copied.
+  if (*way == ReadWay::with_wal)
+    return open_as("?readonly_shm=1").or_else([&](const Error&) { return open_copy(path, where); });
+  return open_as("");
+}
+
+Expected<Database> Database::open_copy(const std::filesystem::path& path, const std::string& where) {
+  const auto folder = PrivateFolder::create();
+  if (!folder) return tl::unexpected(folder.error());
+  const auto copy = copy_with_files_beside(path, *folder);
+  if (!copy) return tl::unexpected(copy.error());
+  {
+    const auto whole = open_with(copy->string(), SQLITE_OPEN_READWRITE, where);
+    if (!whole) return tl::unexpected(whole.error());
+    if (auto folded = whole->execute("PRAGMA journal_mode=DELETE"); !folded) return tl::unexpected(folded.error());
+    if (auto opened = whole->query_integer(first_question); !opened) return tl::unexpected(opened.error());
   }
-  // With write permission the WAL of a killed writer is folded in; without it, a closed file still
-  // reads as immutable.
-  auto [code, database] = open_with(where, SQLITE_OPEN_READWRITE);
-  if (code == SQLITE_OK && database.query_integer("SELECT count(*) FROM sqlite_schema")) return std::move(database);
-  const auto error = sqlite_failure(database.database_.get(), where);
-  if ((sqlite3_errcode(database.database_.get()) & 0xff) == SQLITE_NOTADB) return error;
-  auto [read_code, read_only] = open_with(uri_of(where) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
-  if (read_code == SQLITE_OK && !std::filesystem::exists(where + "-wal", ignored) &&
-      read_only.query_integer("SELECT count(*) FROM sqlite_schema"))
-    return std::move(read_only);
-  return error;
+  // The handle keeps the file: the folder can go at once, and nothing is left of a program that is killed.
+  return open_to_read(*copy, where);
 }
 
 Expected<Statement> Database::prepare(std::string_view sql) const {
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr) != SQLITE_OK)
     return sqlite_failure(database_.get(), where_);
-  return Statement(statement, where_);
+  return Statement(statement, where_, limit_.get());
 }
 
 Expected<void> Database::execute(const std::string& sql) const {

@@ -13,12 +13,18 @@
 #include "engine/core/bytes.hpp"
 #include "engine/core/expected.hpp"
 
+#include "logging/untrusted_database.hpp"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
 namespace septet::logging {
 
-enum class OpenMode { create, read };
+enum class OpenMode {
+  create,  ///< A new file.
+  read,    ///< Nothing in the file's folder is written, made or removed.
+  change,  ///< To change a closed file; what a killed program left is rolled back or folded in.
+};
 
 class Database;
 
@@ -40,6 +46,11 @@ class Statement {
   Expected<bool> step();
 
   const std::string& where() const { return where_; }
+  int columns() const;
+  std::string column_name(int column) const;
+  /// INTEGER, REAL, TEXT or BLOB as the table says, or NULL. SQLite alone stores anything anywhere.
+  bool is_of_declared_type(int column) const;
+  bool is_text(int column) const;
   bool is_null(int column) const;
   std::int64_t integer(int column) const;
   double real(int column) const;  ///< NaN for NULL.
@@ -52,15 +63,19 @@ class Statement {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const;
   };
-  Statement(sqlite3_stmt* statement, std::string where) : statement_(statement), where_(std::move(where)) {}
+  Statement(sqlite3_stmt* statement, std::string where, QuestionLimit* limit)
+      : statement_(statement), where_(std::move(where)), limit_(limit) {}
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
   std::string where_;
+  QuestionLimit* limit_;  ///< The database's.
+  std::uint64_t rows_ = 0;
 };
 
 class Database {
  public:
-  /// `create` makes a new file; `read` also repairs what a killed writer left in the WAL, where the
-  /// folder allows it.
+  /// The file may be somebody else's. To be read, it is opened where it lies, with the WAL of a drive that goes on or was killed,
+  /// or through a copy in the temporary folder where a journal must be rolled back.
+  /// Error: it is no database, or a journal beside it is not Septet's.
   static Expected<Database> open(const std::filesystem::path& path, OpenMode mode);
 
   Expected<Statement> prepare(std::string_view sql) const;
@@ -76,7 +91,13 @@ class Database {
   struct Close {
     void operator()(sqlite3* database) const;
   };
-  Database(sqlite3* database, std::string where) : database_(database), where_(std::move(where)) {}
+  Database(sqlite3* database, std::string where)
+      : limit_(std::make_unique<QuestionLimit>()), database_(database), where_(std::move(where)) {}
+  static Expected<Database> open_with(const std::string& name, int flags, const std::string& where);
+  static Expected<Database> open_to_read(const std::filesystem::path& path, const std::string& where);
+  static Expected<Database> open_copy(const std::filesystem::path& path, const std::string& where);
+
+  std::unique_ptr<QuestionLimit> limit_;  ///< Outlives the handle, which looks at it.
   std::unique_ptr<sqlite3, Close> database_;
   std::string where_;
 };

@@ -1,5 +1,8 @@
 #include "program/run.hpp"
 
+#include <sys/resource.h>
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,7 +15,15 @@
 
 namespace septet::program {
 
+void keep_private() {
+  constexpr mode_t of_others = S_IRWXG | S_IRWXO;
+  ::umask(::umask(of_others) | of_others);
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+}
+
 int run(std::string_view name, const std::function<Expected<int>()>& work) {
+  keep_private();
   survive_failed_writes();
   std::string wrong;
   try {

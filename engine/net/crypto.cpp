@@ -42,11 +42,22 @@ Identity Identity::generate() { return from_seed(random_key()); }
 Identity Identity::from_seed(const std::array<std::uint8_t, 32>& seed) {
   start_sodium();
   Identity identity;
-  crypto_sign_seed_keypair(identity.public_key_.data(), identity.secret_key_.data(), seed.data());
+  crypto_sign_seed_keypair(identity.public_key_.data(), identity.secret_key_.bytes().data(), seed.data());
   return identity;
 }
 
-Identity::~Identity() { sodium_memzero(secret_key_.data(), secret_key_.size()); }
+SecretKey::SecretKey() {
+  start_sodium();
+  bytes_ = static_cast<Bytes*>(sodium_malloc(sizeof(Bytes)));
+  SEPTET_CHECK(bytes_, "no memory for a key of {} bytes", sizeof(Bytes));
+  bytes_->fill(0);
+}
+SecretKey::SecretKey(const SecretKey& other) : SecretKey() { *bytes_ = *other.bytes_; }
+SecretKey& SecretKey::operator=(const SecretKey& other) {
+  *bytes_ = *other.bytes_;
+  return *this;
+}
+SecretKey::~SecretKey() { sodium_free(bytes_); }
 
 SessionId random_session_id() {
   start_sodium();

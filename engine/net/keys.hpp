@@ -22,24 +22,36 @@ using PublicKey = std::array<std::uint8_t, 32>;
 /// Random per server start; signed into every tick, and told to clients over the scene lane.
 using SessionId = std::array<std::uint8_t, 16>;
 
+/// The 64 bytes of a secret key in memory of their own: in no core file, not swapped out where the system allows that, between pages that nobody
+/// may touch, and overwritten at the end.
+class SecretKey {
+ public:
+  using Bytes = std::array<std::uint8_t, 64>;
+  SecretKey();
+  SecretKey(const SecretKey& other);
+  SecretKey& operator=(const SecretKey& other);
+  ~SecretKey();
+  Bytes& bytes() { return *bytes_; }
+  const Bytes& bytes() const { return *bytes_; }
+
+ private:
+  Bytes* bytes_;
+};
+
 class Identity {
  public:
   /// A fresh pair from the system's random source.
   static Identity generate();
   static Identity from_seed(const std::array<std::uint8_t, 32>& seed);
 
-  Identity(const Identity&) = default;
-  Identity& operator=(const Identity&) = default;
-  ~Identity();
-
   const PublicKey& public_key() const { return public_key_; }
   /// Ed25519 secret key as libsodium keeps it (seed, then public key).
-  const std::array<std::uint8_t, 64>& secret_key() const { return secret_key_; }
+  const std::array<std::uint8_t, 64>& secret_key() const { return secret_key_.bytes(); }
 
  private:
   Identity() = default;
   PublicKey public_key_{};
-  std::array<std::uint8_t, 64> secret_key_{};
+  SecretKey secret_key_;
 };
 
 SessionId random_session_id();

@@ -1,6 +1,7 @@
 #include "engine/net/secure_server.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,14 @@ namespace {
 constexpr double handshakes_per_s = 50.0;
 constexpr double unconfirmed_s = 10.0;
 constexpr double refusal_report_s = 1.0, same_refusal_report_s = 30.0;
-/// Two pings: who is silent for longer may have been started anew elsewhere.
-constexpr double alive_s = 0.5;
+/// Two pings: who is silent for longer may have been started anew elsewhere, unless it is usually heard more seldom.
+constexpr double least_alive_s = 0.5;
+/// How often a client is heard is known after so many silences; a silence is longer than the datagrams of one thing to say are apart.
+constexpr int known_silences = 4;
+constexpr double silence_s = 0.05;
+/// Of one of whom that is not yet known: it may draw its first picture.
+constexpr double unknown_alive_s = 5.0;
+constexpr double forgets_silences_s = 10.0;
 /// No answer is longer than its question.
 constexpr std::size_t smallest_hello_bytes = 3 + 32;
 /// What one connection may send before the next one has its turn.
@@ -29,7 +36,25 @@ struct Connection {
   Key32 client_ephemeral{};
   Bytes response{};
   std::string drop_reason{};  ///< Not empty: to be disconnected.
+  int silences = 0;
+  double usual_silence_s = 0.0;  ///< The longest of late: that of a screen at one picture a second is a second.
+
+  void hear(double now_s, double before_s);
+  double alive_s(double timeout_s) const;
 };
+
+void Connection::hear(double now_s, double before_s) {
+  const double was_silent_s = now_s - before_s;
+  usual_silence_s = std::max(was_silent_s, usual_silence_s * std::exp(-was_silent_s / forgets_silences_s));
+  if (was_silent_s >= silence_s && silences < known_silences) ++silences;
+}
+
+/// For how long it may be silent and is still thought to be there.
+double Connection::alive_s(double timeout_s) const {
+  const double most_s = std::min(timeout_s, unknown_alive_s);
+  return silences < known_silences ? most_s
+                                   : std::clamp(2.0 * usual_silence_s, least_alive_s, std::max(most_s, least_alive_s));
+}
 
 }  // namespace
 
@@ -176,8 +201,10 @@ void SecureServer::State::take_data(const ReceivedDatagram& datagram, std::vecto
   Connection& connection = found->second;
   if (!connection.drop_reason.empty()) return;
   std::vector<ChannelMessage> messages;
+  const double heard_before_s = connection.channel.heard_s();
   const Channel::Verdict verdict = connection.channel.accept(datagram, now_s, messages);
   if (verdict == Channel::Verdict::refused) return;
+  connection.hear(now_s, heard_before_s);
   if (!connection.confirmed) confirm(connection, events);
   for (ChannelMessage& message : messages)
     events.push_back({.kind = ServerEvent::Kind::message,
@@ -204,9 +231,9 @@ void SecureServer::State::mark_the_silent() {
     return !entry.second.confirmed && now_s - entry.second.created_s > unconfirmed_s;
   });
   for (auto& [number, connection] : connections) {
-    const double silence_s = now_s - connection.channel.heard_s();
-    if (connection.confirmed && connection.drop_reason.empty() && silence_s > options.limits.timeout_s)
-      connection.drop_reason = fmt::format("not heard for {:.1f} s", silence_s);
+    const double silent_s = now_s - connection.channel.heard_s();
+    if (connection.confirmed && connection.drop_reason.empty() && silent_s > options.limits.timeout_s)
+      connection.drop_reason = fmt::format("not heard for {:.1f} s", silent_s);
   }
 }
 
@@ -269,7 +296,8 @@ std::uint32_t SecureServer::State::unused_number() const {
 const Connection* SecureServer::State::living_namesake(const PublicKey& key, const Address& from) const {
   for (const auto& [number, connection] : connections)
     if (connection.confirmed && connection.drop_reason.empty() && connection.client.key == key &&
-        connection.channel.peer() != from && listened_s - connection.channel.heard_s() < alive_s)
+        connection.channel.peer() != from &&
+        listened_s - connection.channel.heard_s() < connection.alive_s(options.limits.timeout_s))
       return &connection;
   return nullptr;
 }

@@ -9,9 +9,9 @@
 /// time-out, or as soon as its queue is full, and costs at most that queue. Several pumps per tick
 /// make transfers faster.
 ///
-/// One key is one client: while it is alive another one with its key is refused. A client that
-/// was started anew is let in when the old one has been silent for half a second, or at once from
-/// its old address.
+/// One key is one client: while it is heard at all another one with its key is refused. A client that
+/// was started anew is let in when the old one has been silent for twice as long as it usually is, half
+/// a second at least, 5 s at most and where that is not yet known; or at once from its old address.
 
 #include <cstdint>
 #include <map>

@@ -7,22 +7,46 @@
     session.driver_car()                 # the driver's car, every tick
 
 Units stand in the columns' names; positions are of the middle of the rear axle on the ground, world frame: x east, y north,
-z up. A session whose writer was killed, or is still writing, opens as well. The file is opened for reading only.
+z up. A session whose writer was killed, or is still writing, opens as well. The file may be somebody else's: nothing beside it is changed,
+and whatever is wrong with it is a SessionError.
 """
 
+import contextlib
+import functools
 import json
-import sqlite3
-import struct
-import zlib
 from pathlib import Path
 
 import numpy as np
 import pandas
 
 from septet_snapshot import DIAGNOSTICS, DRIVER_CAR, ENVIRONMENT, FIELDS, LAMPS, SessionError, motion_of, unpack  # noqa: F401
+from septet_untrusted import DAMAGE, UntrustedDatabase
 
 APPLICATION_ID = 0x53535444
 FORMAT_VERSION = 2
+_TEXTS = ("role", "name", "kind", "detail", "item", "question", "answer", "reason")
+
+
+@contextlib.contextmanager
+def _names(session):
+    """Whatever the file's bytes lead to is told of the file."""
+    try:
+        yield
+    except SessionError as error:
+        if str(error).startswith(str(session.path)):
+            raise
+        raise SessionError(f"{session.path}: {error}") from error
+    except DAMAGE as error:
+        raise SessionError(f"{session.path}: the session is damaged or was altered ({type(error).__name__}: {str(error)[:200]}): "
+                           "use an unaltered copy") from error
+
+
+def _told(method):
+    @functools.wraps(method)
+    def call(self, *arguments, **named):
+        with _names(self):
+            return method(self, *arguments, **named)
+    return call
 
 
 class Session:
@@ -30,18 +54,24 @@ class Session:
 
     def __init__(self, path):
         self.path = Path(path)
-        if not self.path.is_file():
-            raise SessionError(f"{path}: there is no such file; a drive writes session.sqlite into its --out folder")
-        self._database = sqlite3.connect(f"file:{self.path.resolve().as_posix().replace('?', '%3f').replace('#', '%23')}?mode=ro", uri=True)
-        try:
-            (application,) = self._database.execute("PRAGMA application_id").fetchone()
-            (version,) = self._database.execute("PRAGMA user_version").fetchone()
-        except sqlite3.DatabaseError as error:
-            raise SessionError(f"{path}: not a session file ({error})") from error
+        with _names(self):
+            self._database = UntrustedDatabase(self.path)
+            try:
+                self._check()
+            except BaseException:
+                self.close()
+                raise
+
+    def _check(self):
+        (application,) = self._database.ask("PRAGMA application_id").fetchone()
+        (version,) = self._database.ask("PRAGMA user_version").fetchone()
         if application != APPLICATION_ID:
-            raise SessionError(f"{path}: not a session of Septet (application id {application})")
-        if version > FORMAT_VERSION:
-            raise SessionError(f"{path}: format {version}; this reader knows format {FORMAT_VERSION}: take the one beside the Septet that drove")
+            raise SessionError(f"{self.path}: not a session of Septet (application id {application})")
+        if not 1 <= version <= FORMAT_VERSION:
+            raise SessionError(f"{self.path}: format {version}; this reader knows format {FORMAT_VERSION}: take the one beside the Septet that drove")
+        for kind, name in self._database.ask("SELECT type, name FROM sqlite_schema"):
+            if kind == "trigger":
+                raise SessionError(f"{self.path}: the session holds a trigger, which none of Septet's does: use an unaltered session file")
 
     def __enter__(self):
         return self
@@ -52,34 +82,60 @@ class Session:
     def close(self):
         self._database.close()
 
+    def _has_table(self, name):
+        kinds = [kind for (kind,) in self._database.ask("SELECT type FROM sqlite_schema WHERE name = ? COLLATE NOCASE", name)]
+        if kinds not in ([], ["table"]):
+            raise SessionError(f"{self.path}: {name} is no table but {', '.join(map(str, kinds))}: use an unaltered session file")
+        return bool(kinds)
+
+    def _rows(self, columns, name, rest=""):
+        if not self._has_table(name):
+            raise SessionError(f"{self.path}: the table {name} is missing: use an unaltered session file")
+        return self._database.ask(f"SELECT {columns} FROM {name} {rest}")
+
     def _table(self, name):
-        return pandas.read_sql_query(f"SELECT * FROM {name}", self._database)
+        cursor = self._rows("*", name)
+        columns = [column[0] for column in cursor.description]
+        table = pandas.DataFrame(cursor.fetchall(), columns=columns)
+        for column in columns:
+            if column in _TEXTS or column == "report":
+                continue
+            if table[column].dtype == object:
+                if not table[column].map(lambda value: value is None or isinstance(value, (int, float))).all():
+                    raise SessionError(f"{self.path}: the column {column} of {name} holds what is no number: use an unaltered copy")
+                table[column] = pandas.to_numeric(table[column])
+        return table
 
     @property
+    @_told
     def meta(self):
         """Key to value, as text: who drove, seeds, how it ended (FORMAT.md, `meta`)."""
-        return dict(self._database.execute("SELECT key, value FROM meta"))
+        return dict(self._rows("key, value", "meta").fetchall())
 
     @property
+    @_told
     def files(self):
         """(role, name) to content, of every file that the drive was made from."""
-        return {(role, name): content for role, name, content in self._database.execute("SELECT role, name, content FROM files")}
+        return {(role, name): content for role, name, content in self._rows("role, name, content", "files")}
 
     @property
+    @_told
     def has_snapshots(self):
         """False of a drive whose log kept samples alone."""
-        return self._database.execute("SELECT EXISTS (SELECT 1 FROM snapshots)").fetchone()[0] == 1
+        return self._rows("1", "snapshots", "LIMIT 1").fetchone() is not None
 
+    @_told
     def vehicle_models(self):
         """What a participant's `model` is, by its index. Sessions of earlier builds do not say it."""
         text = self.meta.get("vehicle_models")
         if text is None:
             raise SessionError(f"{self.path}: the session does not say what its vehicles are; it is of an earlier build: drive it again")
-        try:
-            return json.loads(text)
-        except json.JSONDecodeError as error:
-            raise SessionError(f"{self.path}: its vehicle_models are no JSON: use an unaltered session") from error
+        models = json.loads(text)
+        if not isinstance(models, list) or not all(isinstance(model, dict) for model in models):
+            raise SessionError(f"{self.path}: its vehicle_models are not what Septet writes: use an unaltered session")
+        return models
 
+    @_told
     def who(self):
         """Everybody who ever took part: name, what they are, and from when to when; one row a participant."""
         return self._who(_Seen().of(self.snapshots()))
@@ -87,6 +143,8 @@ class Session:
     def _who(self, seen):
         names = json.loads(self.meta.get("participant_names", "{}"))
         models = self.vehicle_models() if "vehicle_models" in self.meta else []
+        if not isinstance(names, dict):
+            raise SessionError(f"{self.path}: its participant_names are not what Septet writes: use an unaltered session")
         rows = []
         for number, (index, first_s, last_s) in sorted(seen.times.items()):
             model = models[index] if index < len(models) else {}
@@ -96,6 +154,7 @@ class Session:
                                                "first_seen_s", "last_seen_s"])
 
     @property
+    @_told
     def samples(self):
         """Ten rows a second: position in the lane, headway, controls. `time_headway_s` is added, NaN at a standstill."""
         samples = self._table("samples")
@@ -103,55 +162,66 @@ class Session:
         return samples
 
     @property
+    @_told
     def events(self):
         return self._table("events")
 
     @property
+    @_told
     def questionnaire(self):
         return self._table("questionnaire")
 
     @property
+    @_told
     def actuators(self):
         """What fan, shaker and wheel force were told, ten rows a second; empty in sessions of earlier builds."""
-        if self._database.execute("SELECT count(*) FROM sqlite_schema WHERE name = 'actuators'").fetchone()[0]:
+        if self._has_table("actuators"):
             return self._table("actuators")
         return pandas.DataFrame(columns=["tick", "fan", "vibration", "vibration_hz", "steering", "is_cut"])
 
     @property
+    @_told
     def driver_inputs(self):
         """The input of every tick, without the raw reports."""
         return self._table("driver_inputs").drop(columns="report")
 
     def snapshots(self):
         """Every tick in order, decoded. Raises SessionError where bytes are damaged."""
-        before = None
-        for tick, baseline, data in self._database.execute("SELECT tick, baseline_tick, data FROM snapshots ORDER BY tick"):
-            try:
-                before = unpack(data, before if baseline is not None else None)
-            except (IndexError, AttributeError, OverflowError, ValueError, struct.error, zlib.error) as error:
-                raise SessionError(f"{self.path}: the snapshot of tick {tick} is damaged") from error
-            yield before
+        with _names(self):
+            before = None
+            for tick, baseline, data in self._rows("tick, baseline_tick, data", "snapshots", "ORDER BY tick"):
+                try:
+                    before = unpack(data, before if baseline is not None else None)
+                except (SessionError, *DAMAGE) as error:
+                    raise SessionError(f"{self.path}: the snapshot of tick {tick} is damaged ({str(error)[:200]})") from error
+                yield before
 
+    @_told
     def participants(self, every=1):
         """Everybody's motion: one row a participant and tick, of every `every`-th tick."""
         return _participants(self._each(every))
 
+    @_told
     def driver_car(self, every=1):
         """The driver's car as its instruments show it, and what went wrong so far; one row a tick."""
         return _driver_car(self._each(every))
 
+    @_told
     def head(self, every=1):
         """Where the driver's eyes were beside the rig's eye point, and how far the pictures were turned to the left; one row a tick."""
         return _head(self._each(every))
 
+    @_told
     def game(self, every=12):
         """How a game stands, ten times a second unless told otherwise; no row where the scenario is none."""
         return _game(self._each(every))
 
+    @_told
     def environment(self, every=120):
         """Weather and light, once a second unless told otherwise."""
         return _environment(self._each(every))
 
+    @_told
     def motion_tables(self, every=12):
         """All of these by name, and `who`, in one pass over the snapshots."""
         seen = _Seen()

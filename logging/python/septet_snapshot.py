@@ -181,10 +181,12 @@ def unpack(data, baseline):
     if kind > 1:
         raise SessionError(f"participants told in way {kind}: this reader knows 0 and 1")
     ids = list(read.ids(read.varint())) if kind == 1 else snapshot.ids.tolist()
-    read.varint()  # How long the columns are: they say it themselves.
+    size = read.varint()
     went_wrong = baseline.went_wrong if baseline is not None else {}
-    columns = zlib.decompress(data[read.at:], wbits=-15) if ids else b""
     cells = len(ids) * len(FIELDS)
+    if not cells <= size <= 11 * cells:  # A byte each, and those that are large ten more.
+        raise SessionError(f"{size} bytes of columns for {len(ids)} participants")
+    columns = zlib.decompressobj(wbits=-15).decompress(data[read.at:], max_length=size) if ids else b""
     differences = np.frombuffer(columns, np.uint8, cells).astype(np.int64)
     escapes = _Bytes(columns[cells:])
     for cell in np.flatnonzero(differences == _ESCAPE):

@@ -243,7 +243,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
   data.answers = std::move(*answers);
   leave_out_impossible(data.answers, data.impossible);
   if (const auto row = data.info.other.find("outcome"); row != data.info.other.end()) {
-    auto outcome = read_outcome(row->second);
+    auto outcome = read_outcome(row->second, reader.path().string());
     if (!outcome) return tl::unexpected(outcome.error());
     data.outcome = std::move(*outcome);
   }

@@ -1,11 +1,13 @@
 /// `septet-sound`: the sound of a recorded session as a file. `septet sound` starts it.
 
+#include <filesystem>
 #include <string>
 
 #include <fmt/core.h>
 
 #include "engine/core/version.hpp"
 #include "program/command_line.hpp"
+#include "program/confinement.hpp"
 #include "sim-client/sound/sound_program.hpp"
 
 int main(int argc, char** argv) {
@@ -36,6 +38,9 @@ int main(int argc, char** argv) {
   app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
   return program::run("septet", app, argc, argv, [&] {
     options.stage.speakers = speakers == "5.1" ? audio::Speakers::surround_51 : audio::Speakers::stereo;
+    // The file itself, or the session in whose folder it will lie: its folder is meant.
+    program::write_only_below(
+        {std::filesystem::absolute(options.out.empty() ? options.session : options.out).parent_path()});
     return sound::run_sound(options);
   });
 }

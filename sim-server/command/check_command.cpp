@@ -19,8 +19,12 @@
 #include "logging/lesson/lesson.hpp"
 #include "logging/questionnaire.hpp"
 #include "logging/session_reader.hpp"
+#include "logging/whole_session.hpp"
+#include "program/clock.hpp"
+#include "program/console.hpp"
 #include "sim-server/command/check_rig.hpp"
 #include "sim-server/command/experiment_inputs.hpp"
+#include "sim-server/drive/drive_loader.hpp"
 
 namespace septet::server {
 namespace {
@@ -89,14 +93,28 @@ void check_session(Checked& checked) {
   const auto session = logging::SessionReader::open(checked.file);
   add_error(session, checked);
   if (!session) return;
-  add_error(session->check_integrity(), checked);
-  const auto span = session->time_span_s();
-  add_error(span, checked);
+  program::ProgressLine progress;
+  const auto whole = logging::read_whole(*session, [&](double share) {
+    if (progress.is_due(program::monotonic_s()))
+      progress.show(fmt::format("{}: {:.0f} % read", checked.file, 100.0 * share));
+  });
+  progress.close();
+  add_error(whole, checked);
+  const auto log = session->info().other.find("log");
+  const bool has_samples_alone = log != session->info().other.end() && log->second == "samples";
+  if (whole && !has_samples_alone) {
+    add_error(load_drive(session->info(), checked.file), checked);
+    if (whole->snapshots == 0) add_error(session->shown_span_s(), checked);
+  }
   const auto warn = [&](const char* what, const char* remedy) {
     checked.findings.push_back({Severity::warning, 0, {what, checked.file, remedy}});
   };
-  if (span && !*span) warn("it holds no snapshot", "expect nothing to be shown of it");
-  if (!session->ended_cleanly()) warn("its drive was interrupted", "expect the last tenth of a second to be missing");
+  if (has_samples_alone) warn("it holds no snapshot", "expect nothing to be shown of it");
+  if (!session->ended_cleanly())
+    warn("its drive was interrupted", "expect the last tenth of a second to be missing");
+  else if (whole && !whole->has_digest)
+    warn("it does not tell what was recorded, for it is of an earlier build",
+         "know that it can be read, and not whether it was altered");
 }
 
 Checked check_file(const std::string& name) {

@@ -12,6 +12,7 @@
 #include "engine/simulation/server_step.hpp"
 #include "logging/input_hash.hpp"
 #include "logging/outcome.hpp"
+#include "logging/session_digest.hpp"
 #include "logging/session_reader.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/session_log.hpp"
@@ -32,11 +33,11 @@ bool is_altered(const DriverInput& input, const DriverCar& car) {
 }
 
 /// Whether the inputs are those that were driven with, by the hash that the log ends with; nothing where it was not closed.
-Expected<std::optional<bool>> are_original(const logging::SessionInfo& info,
+Expected<std::optional<bool>> are_original(const std::filesystem::path& file, const logging::SessionInfo& info,
                                            const std::vector<logging::InputRecord>& inputs) {
   const auto row = info.other.find("outcome");
   if (row == info.other.end()) return std::optional<bool>();
-  const auto outcome = logging::read_outcome(row->second);
+  const auto outcome = logging::read_outcome(row->second, file.string());
   if (!outcome) return tl::unexpected(outcome.error());
   StateHash hash;
   for (const auto& input : inputs) logging::add_to_hash(input, hash);
@@ -98,9 +99,10 @@ Expected<std::vector<LoggedCommand>> commands_of(const std::filesystem::path& fi
 }
 
 struct Verified {
-  Tick first = 0;           ///< Where it began.
-  std::uint64_t ticks = 0;  ///< Run again.
-  bool goes_on = false;     ///< The drive is still being written.
+  Tick first = 0;             ///< Where it began.
+  std::uint64_t ticks = 0;    ///< Run again.
+  bool goes_on = false;       ///< The drive is still being written.
+  bool scene_agrees = false;  ///< Else it is not known: the session does not tell.
 };
 
 /// Whether the session has grown since it was read up to this tick.
@@ -123,9 +125,9 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   if (inputs->empty())
     return refused(file, "the session holds no driver inputs: there is nothing to verify",
                    "give a session that was driven");
-  const auto original = are_original(session->info(), *inputs);
+  const auto original = are_original(file, session->info(), *inputs);
   if (!original) return tl::unexpected(original.error());
-  const auto drive = load_drive(session->info());
+  const auto drive = load_drive(session->info(), file.string());
   if (!drive) return tl::unexpected(drive.error());
   const auto& other = session->info().other;
   const auto engine = other.find("traffic");
@@ -135,7 +137,9 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   if (!commands) return tl::unexpected(commands.error());
   auto state = state_at(file, *session, *drive->model, from_s, std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
-  Verified verified{.first = state->tick};
+  const auto scene = logging::is_scene_as_driven(*session);
+  if (!scene) return tl::unexpected(scene.error());
+  Verified verified{.first = state->tick, .scene_agrees = scene->has_value()};
   auto recorded = state->tick == 0 ? session->snapshots() : session->snapshots_from(state->time_s());
   if (!recorded) return tl::unexpected(recorded.error());
 
@@ -215,6 +219,9 @@ Expected<int> run_verify(const std::filesystem::path& session, double from_s) {
           : "";
   fmt::print("{} ticks run again{}: every state hash agrees\n", verified->ticks, from);
   if (verified->goes_on) fmt::print("this drive goes on: what came since then was not run again\n");
+  fmt::print("{}\n", verified->scene_agrees
+                         ? "the scene is the one that was driven in"
+                         : "the scene is not compared: the session does not tell which one was driven in");
   return 0;
 }
 

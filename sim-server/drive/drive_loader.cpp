@@ -188,7 +188,7 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
   return drive;
 }
 
-Expected<LoadedDrive> load_drive(const logging::SessionInfo& session) {
+Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std::string& where) {
   const auto seed = session.seeds.find("drive");
   std::vector<scenario::ParameterValue> parameters;
   for (const auto& [name, value] : session.parameters) parameters.push_back({name, value});
@@ -196,8 +196,8 @@ Expected<LoadedDrive> load_drive(const logging::SessionInfo& session) {
       [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
         for (const auto& source : session.files)
           if (source.role == role && (!role.starts_with("catalog") || source.name == name)) return source;
-        return failure(fmt::format("the session holds no {} {}", role, name), "session",
-                       "it was written by another version of Septet");
+        return failure(fmt::format("the session holds no {} {}", role, name), where,
+                       "it was altered, or written by another version of Septet: use an unaltered copy");
       },
       seed == session.seeds.end() ? 1 : seed->second, {}, std::move(parameters));
 }

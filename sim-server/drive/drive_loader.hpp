@@ -35,6 +35,7 @@ struct LoadedDrive {
 };
 
 Expected<LoadedDrive> load_drive(const DriveFiles& files);
-Expected<LoadedDrive> load_drive(const logging::SessionInfo& session);
+/// Of a session again; `where` is its file, for who reads what it lacks.
+Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std::string& where);
 
 }  // namespace septet::server

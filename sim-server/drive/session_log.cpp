@@ -67,6 +67,7 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
   auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
   if (!writer) return tl::unexpected(writer.error());
   SessionLog log(std::move(*writer), drive.model, real_time, drive_options.log_samples_only);
+  log.digest_.add(info);
   log.observer_.glances.settings.areas = logging::glance_areas(drive.rig);
   return log;
 }
@@ -76,7 +77,9 @@ void SessionLog::record_scene(const scene::Store& store) {
   scene::describe_store(store, [&](const scene::Command& command) {
     Bytes bytes;
     scene::encode(command, bytes);
-    writer_.record(logging::SceneEdit{0, std::move(bytes)});
+    logging::SceneEdit edit{0, std::move(bytes)};
+    digest_.add(edit);
+    writer_.record(std::move(edit));
   });
 }
 
@@ -95,9 +98,12 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   for (auto& event : observation.events) record(std::move(event));
   if (observation.sample) {
     if (sampled_) sampled_(*observation.sample);
+    digest_.add(*observation.sample);
     writer_.record(*observation.sample);
   }
-  if (!samples_only_) writer_.record(std::move(taken));
+  if (samples_only_) return;
+  digest_.add_tick(tick_, simulated_time_s_, snapshot.state_hash);
+  writer_.record(std::move(taken));
 }
 
 std::optional<std::string> SessionLog::take_warning() {
@@ -153,14 +159,14 @@ logging::DriveOutcome SessionLog::outcome(const ServeResult& result, const std::
 }
 
 Expected<void> SessionLog::finish(const logging::DriveOutcome& outcome) {
-  return writer_.finish({{"ended_why", std::string(name_of(outcome.end))}, {"outcome", to_json(outcome)}});
+  return writer_.finish({{"ended_why", std::string(name_of(outcome.end))},
+                         {"outcome", to_json(outcome)},
+                         {logging::digest_row, to_json(digest_)}});
 }
 
 std::optional<std::string> SessionLog::remark() const {
   if (!writer_.is_still_read()) return std::nullopt;
-  return "the log is whole; another program has it open, so session.sqlite-wal stays beside it: copy both, or close "
-         "that "
-         "program and have Septet read it once";
+  return "the log is whole; another program has it open, so session.sqlite-wal stays beside it: copy both";
 }
 
 std::string SessionLog::ending(const ServeResult& result) const {
@@ -185,6 +191,7 @@ void SessionLog::record_command(Tick before, const simulation::OperatorCommand& 
 
 void SessionLog::record(logging::Event event) {
   if (happened_) happened_(event);
+  digest_.add(event);
   writer_.record(std::move(event));
 }
 

@@ -16,6 +16,7 @@
 #include "engine/simulation/state.hpp"
 #include "logging/drive_observer.hpp"
 #include "logging/outcome.hpp"
+#include "logging/session_digest.hpp"
 #include "logging/session_writer.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/server_options.hpp"
@@ -24,7 +25,7 @@
 namespace septet::server {
 
 /// The kind of the events that are operator's commands, and input like the driver's: their tick is that which they came before.
-inline constexpr std::string_view operator_command_event = "operator_command";
+inline constexpr std::string_view operator_command_event = logging::operator_command_kind;
 
 class SessionLog {
  public:
@@ -43,7 +44,9 @@ class SessionLog {
   /// Of an operator, applied before this tick.
   void record_command(Tick before, const simulation::OperatorCommand& command);
   void record_state(logging::StateRecord state) {
-    if (!samples_only_) writer_.record(std::move(state));
+    if (samples_only_) return;
+    digest_.add(state);
+    writer_.record(std::move(state));
   }
   void record_actuators(logging::ActuatorRecord actuators) { writer_.record(actuators); }
   void record_message(const std::string& kind, const std::string& text);
@@ -80,6 +83,7 @@ class SessionLog {
   double told_waited_s_ = 0.0;
   logging::DriveObserver observer_;
   StateHash inputs_hash_;
+  logging::SessionDigest digest_;
   std::uint32_t bad_numbers_ = 0;  ///< Of the last tick's diagnostics.
   std::optional<GameStanding> game_;
   Tick tick_ = 0;

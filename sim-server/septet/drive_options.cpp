@@ -1,7 +1,9 @@
 #include <filesystem>
+#include <vector>
 
 #include "car-io/driving_keys.hpp"
 #include "program/command_line.hpp"
+#include "program/confinement.hpp"
 #include "sim-server/command/other_program.hpp"
 #include "sim-server/command/replay_command.hpp"
 #include "sim-server/septet/options.hpp"
@@ -136,8 +138,9 @@ void add_drive_commands(CLI::App& app, Options& options) {
                            "Run the recorded input again and compare every tick's state hash");
   replay_command->callback([&] {
     options.work = [&] {
-      return options.verify ? run_verify(options.replay.replay, options.replay.replay_from_s)
-                            : run_drive(options.replay);
+      if (!options.verify) return run_drive(options.replay);
+      program::write_only_below({});
+      return run_verify(options.replay.replay, options.replay.replay_from_s);
     };
   });
 
@@ -176,7 +179,14 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->add_option("--brake-event", options.report.brake_event,
                    "Measure brake reactions from these events of the log: KIND, or KIND:WHAT ITS DETAIL HOLDS")
       ->default_str("none");
-  report_command->callback([&] { options.work = [&] { return run_report(options.report); }; });
+  report_command->callback([&] {
+    options.work = [&] {
+      auto places = options.report.places;  // Without --out it writes beside what it reads.
+      places.emplace_back(".");
+      program::write_only_below(options.report.out.empty() ? places : std::vector{options.report.out});
+      return run_report(options.report);
+    };
+  });
 }
 
 }  // namespace septet::server

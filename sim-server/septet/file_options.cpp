@@ -2,6 +2,7 @@
 
 #include "car-io/devices/device_list.hpp"
 #include "program/command_line.hpp"
+#include "program/confinement.hpp"
 #include "sim-server/command/list_command.hpp"
 #include "sim-server/command/rig_command.hpp"
 #include "sim-server/command/road_command.hpp"
@@ -60,8 +61,12 @@ void add_file_commands(CLI::App& app, Options& options) {
       ->required();
   check_command->add_flag("--json", options.check.json, "Answer in JSON (docs/check.md)");
   check_command->add_flag("--strict", options.check.strict, "Warnings count as errors in the exit status");
-  check_command->callback(
-      [&] { options.work = [&]() -> Expected<int> { return run_check(options.check, std::cout); }; });
+  check_command->callback([&] {
+    options.work = [&]() -> Expected<int> {
+      program::write_only_below({});
+      return run_check(options.check, std::cout);
+    };
+  });
 }
 
 }  // namespace septet::server

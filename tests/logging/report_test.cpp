@@ -118,12 +118,12 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
 
 TEST_CASE("an outcome reads back as it was written and anything else is refused") {
   const DriveOutcome outcome = example_outcome();
-  const auto back = read_outcome(to_json(outcome));
+  const auto back = read_outcome(to_json(outcome), "a.sqlite");
   REQUIRE(back.has_value());
   CHECK(to_json(*back) == to_json(outcome));
   CHECK(back->end == DriveEnd::window_closed);
   for (const std::string text : {"", "{}", "[1]", "nonsense", "{\"ended\": \"nonsense\"}", "{\"ended\": 3}"})
-    CHECK_FALSE(read_outcome(text).has_value());
+    CHECK_FALSE(read_outcome(text, "a.sqlite").has_value());
 }
 
 TEST_CASE(

@@ -139,6 +139,44 @@ TEST_CASE(
   CHECK(site.clients[1]->obstacle() == Obstacle::none);
 }
 
+TEST_CASE("a client that is heard once a second stays, however often another one with its key knocks") {
+  // Its program draws a picture for so long each time; the first pictures take longer.
+  for (const double silence_s : {0.3, 0.6, 1.0, 1.5, 1.9}) {
+    CAPTURE(silence_s);
+    Site site(1, {});
+    site.run(0.05);
+    const ClientId first = site.id_of(0);
+    site.hung[0] = true;
+    site.add_client(1, Site::client_key(0));
+    for (double at_s = 0.0; at_s < 30.0; at_s += silence_s) {
+      site.hung[0] = true;
+      site.run(silence_s);
+      site.hung[0] = false;
+      site.run(0.02);
+      CHECK(site.server->clients() == std::vector{first});
+      CHECK(site.clients[1]->obstacle() == Obstacle::key_in_use);
+    }
+    CHECK(site.count(ServerEvent::Kind::connected) == 1);
+    // Gone for good, it makes room: within the time-out and the newcomer's next knock.
+    site.hung[0] = true;
+    site.run(7.5);
+    CHECK(site.clients[1]->state() == ClientState::connected);
+  }
+}
+
+TEST_CASE("a client that was slow once is not waited for long when it draws fast again") {
+  Site site(1, {});
+  site.run(1.0);
+  site.hung[0] = true;
+  site.run(1.5);
+  site.hung[0] = false;
+  site.run(30.0);
+  site.hung[0] = true;
+  site.add_client(1, Site::client_key(0));
+  site.run(1.5);
+  CHECK(site.clients[1]->state() == ClientState::connected);
+}
+
 TEST_CASE("a client that was started anew elsewhere is back within a second") {
   Site site(1, {});
   site.run(2.0);

@@ -4,8 +4,13 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
+#include <string>
+#include <utility>
 
 #include "tests/engine/net/net_fixtures.hpp"
 #include "tests/temporary_folder.hpp"
@@ -28,6 +33,31 @@ TEST_CASE("the first start makes a key file that only the owner can read and the
   CHECK(read->public_key() == made->public_key());
   CHECK(read->secret_key() == made->secret_key());
   CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
+}
+
+/// What the kernel says of the memory around an address ("VmFlags"), empty where it tells nothing.
+std::string memory_flags(const void* address) {
+  std::ifstream maps("/proc/self/smaps");
+  const auto wanted = reinterpret_cast<std::uintptr_t>(address);
+  bool is_there = false;
+  for (std::string line; std::getline(maps, line);) {
+    unsigned long from = 0, to = 0;
+    if (std::sscanf(line.c_str(), "%lx-%lx ", &from, &to) == 2) is_there = from <= wanted && wanted < to;
+    if (is_there && line.starts_with("VmFlags:")) return line + " ";
+  }
+  return {};
+}
+
+TEST_CASE("a secret key lies in memory that no core file takes, and so does each copy of it") {
+  const Identity one = Identity::generate();
+  Identity copy = one, assigned = Identity::generate();
+  assigned = one;
+  const Identity moved = std::move(copy);
+  for (const Identity* identity : std::initializer_list<const Identity*>{&one, &assigned, &moved}) {
+    CHECK(identity->secret_key() == one.secret_key());
+    CHECK(memory_flags(identity->secret_key().data()).find(" dd ") != std::string::npos);
+  }
+  CHECK(memory_flags(&one).find(" dd ") == std::string::npos);  // The question can be answered otherwise.
 }
 
 TEST_CASE("a key file that others can read or that is damaged is refused with a remedy") {
