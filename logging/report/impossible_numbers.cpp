@@ -16,33 +16,34 @@ struct Bound {
   double largest;
 };
 
-constexpr double seconds = 1e9, metres = 1e8, across_m = 1e4, mps = 1e3, mps2 = 1e4, radians = 1e4, share = 10.0;
+constexpr double bound_s = 1e9, bound_m = 1e8, bound_across_m = 1e4, bound_mps = 1e3, bound_mps2 = 1e4, bound_rad = 1e4,
+                 bound_share = 10.0;
 
 constexpr std::array sample_bounds{
-    Bound<Sample>{"simulated_time_s", &Sample::simulated_time_s, seconds},
-    Bound<Sample>{"x_m", &Sample::x_m, metres},
-    Bound<Sample>{"y_m", &Sample::y_m, metres},
-    Bound<Sample>{"z_m", &Sample::z_m, metres},
-    Bound<Sample>{"heading_rad", &Sample::heading_rad, radians},
-    Bound<Sample>{"speed_mps", &Sample::speed_mps, mps},
-    Bound<Sample>{"longitudinal_acceleration_mps2", &Sample::longitudinal_acceleration_mps2, mps2},
-    Bound<Sample>{"lateral_acceleration_mps2", &Sample::lateral_acceleration_mps2, mps2},
-    Bound<Sample>{"yaw_rate_radps", &Sample::yaw_rate_radps, radians},
-    Bound<Sample>{"road_s_m", &Sample::road_s_m, metres},
-    Bound<Sample>{"lateral_position_m", &Sample::lateral_position_m, across_m},
-    Bound<Sample>{"lane_width_m", &Sample::lane_width_m, across_m},
-    Bound<Sample>{"steering_wheel_rad", &Sample::steering_wheel_rad, radians},
-    Bound<Sample>{"accelerator", &Sample::accelerator, share},
-    Bound<Sample>{"brake", &Sample::brake, share},
-    Bound<Sample>{"clutch", &Sample::clutch, share},
-    Bound<Sample>{"gaze_heading_rad", &Sample::gaze_heading_rad, radians}};
-constexpr std::array leader_bounds{Bound<Leader>{"distance_gap_m", &Leader::distance_gap_m, metres},
-                                   Bound<Leader>{"distance_headway_m", &Leader::distance_headway_m, metres},
-                                   Bound<Leader>{"leader_speed_mps", &Leader::speed_mps, mps}};
-constexpr std::array input_bounds{Bound<DriverInput>{"steering_wheel_rad", &DriverInput::steering_wheel_rad, radians},
-                                  Bound<DriverInput>{"accelerator", &DriverInput::accelerator, share},
-                                  Bound<DriverInput>{"brake", &DriverInput::brake, share},
-                                  Bound<DriverInput>{"clutch", &DriverInput::clutch, share}};
+    Bound<Sample>{"simulated_time_s", &Sample::simulated_time_s, bound_s},
+    Bound<Sample>{"x_m", &Sample::x_m, bound_m},
+    Bound<Sample>{"y_m", &Sample::y_m, bound_m},
+    Bound<Sample>{"z_m", &Sample::z_m, bound_m},
+    Bound<Sample>{"heading_rad", &Sample::heading_rad, bound_rad},
+    Bound<Sample>{"speed_mps", &Sample::speed_mps, bound_mps},
+    Bound<Sample>{"longitudinal_acceleration_mps2", &Sample::longitudinal_acceleration_mps2, bound_mps2},
+    Bound<Sample>{"lateral_acceleration_mps2", &Sample::lateral_acceleration_mps2, bound_mps2},
+    Bound<Sample>{"yaw_rate_radps", &Sample::yaw_rate_radps, bound_rad},
+    Bound<Sample>{"road_s_m", &Sample::road_s_m, bound_m},
+    Bound<Sample>{"lateral_position_m", &Sample::lateral_position_m, bound_across_m},
+    Bound<Sample>{"lane_width_m", &Sample::lane_width_m, bound_across_m},
+    Bound<Sample>{"steering_wheel_rad", &Sample::steering_wheel_rad, bound_rad},
+    Bound<Sample>{"accelerator", &Sample::accelerator, bound_share},
+    Bound<Sample>{"brake", &Sample::brake, bound_share},
+    Bound<Sample>{"clutch", &Sample::clutch, bound_share},
+    Bound<Sample>{"gaze_heading_rad", &Sample::gaze_heading_rad, bound_rad}};
+constexpr std::array leader_bounds{Bound<Leader>{"distance_gap_m", &Leader::distance_gap_m, bound_m},
+                                   Bound<Leader>{"distance_headway_m", &Leader::distance_headway_m, bound_m},
+                                   Bound<Leader>{"leader_speed_mps", &Leader::speed_mps, bound_mps}};
+constexpr std::array input_bounds{Bound<DriverInput>{"steering_wheel_rad", &DriverInput::steering_wheel_rad, bound_rad},
+                                  Bound<DriverInput>{"accelerator", &DriverInput::accelerator, bound_share},
+                                  Bound<DriverInput>{"brake", &DriverInput::brake, bound_share},
+                                  Bound<DriverInput>{"clutch", &DriverInput::clutch, bound_share}};
 constexpr Tick last_tick = Tick{1} << 53;
 
 /// The first number of the row that is beyond its bound, in words; empty where each can be.
@@ -87,8 +88,8 @@ ImpossibleNumbers leave_out_impossible(std::vector<Sample>& samples, std::vector
 
 void leave_out_impossible(std::vector<QuestionnaireRecord>& answers, ImpossibleNumbers& found) {
   for (QuestionnaireRecord& answer : answers) {
-    const bool is_value = answer.value && std::abs(*answer.value) > seconds;
-    const bool is_time = !(std::abs(answer.observed_s) <= seconds);
+    const bool is_value = answer.value && std::abs(*answer.value) > bound_s;
+    const bool is_time = !(std::abs(answer.observed_s) <= bound_s);
     if (!is_value && !is_time) continue;
     if (found.first.empty())
       found.first = fmt::format("the answer {} is {:g}", answer.item, is_value ? *answer.value : answer.observed_s);

@@ -18,7 +18,7 @@ namespace {
 
 /// What was driven in the experiment's folder by this plan, in the words of each drive's command line; of who is forgotten, all that was
 /// planned.
-std::map<fs::path, std::vector<std::string>> driven(const Study& study) {
+std::map<fs::path, std::vector<std::string>> driven_words(const Study& study) {
   std::map<fs::path, std::vector<std::string>> drives;
   for (const PlannedSubject& subject : study.plan) {
     const Stand stand = stand_of(study, subject);
@@ -52,8 +52,8 @@ Expected<void> check_same_drives(const Study& study, const std::string& earlier_
   const auto earlier = logging::read_experiment(earlier_text, (study.folder / "experiment.toml").string());
   if (!earlier) return differs("its experiment.toml cannot be read");
   Study before{*earlier, earlier_text, study.name, plan_of(*earlier), study.folder, {}};
-  const auto now = driven(study);
-  for (const auto& [folder, words] : driven(before)) {
+  const auto now = driven_words(study);
+  for (const auto& [folder, words] : driven_words(before)) {
     const auto found = now.find(folder);
     const std::string drive = folder.lexically_relative(study.folder / "subjects").string();
     if (found == now.end()) return differs(drive + " was driven, and is not in it");

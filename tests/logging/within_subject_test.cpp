@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Drive {
+struct OneDrive {
   std::string participant = "P01", part = "bend", condition, order = "1";
   std::vector<QuestionnaireRecord> answers = {};
   double gaze_rad = 0.0;
   std::int32_t lane = -2;
 };
 
-fs::path write_drive(const fs::path& folder, const Drive& drive) {
+fs::path write_part(const fs::path& folder, const OneDrive& drive) {
   SessionInfo info = example_info();
   info.participant = drive.participant;
   info.other = {{"part", drive.part}, {"condition", drive.condition}, {"order", drive.order}};
@@ -67,7 +67,7 @@ std::string cell_in(const std::string& csv, std::size_t row, const std::string& 
   return "no column";
 }
 
-QuestionnaireRecord answer(const std::string& item, double value) {
+QuestionnaireRecord answer_of(const std::string& item, double value) {
   return {item, "", std::to_string(value), value, 10.0, false, ""};
 }
 
@@ -76,13 +76,13 @@ QuestionnaireRecord answer(const std::string& item, double value) {
 TEST_CASE("answers after two conditions are two columns and the plain one is empty where they differ") {
   const TemporaryFolder folder;
   const auto report = report_of(
-      {write_drive(folder.path(),
-                   {.condition = "clear",
-                    .order = "1",
-                    .answers = {answer("workload.mental", 2), answer("workload.effort", 7), answer("age.years", 40)}}),
-       write_drive(folder.path(), {.condition = "fog",
-                                   .order = "2",
-                                   .answers = {answer("workload.mental", 18), answer("workload.effort", 7)}})});
+      {write_part(folder.path(), {.condition = "clear",
+                                  .order = "1",
+                                  .answers = {answer_of("workload.mental", 2), answer_of("workload.effort", 7),
+                                              answer_of("age.years", 40)}}),
+       write_part(folder.path(), {.condition = "fog",
+                                  .order = "2",
+                                  .answers = {answer_of("workload.mental", 18), answer_of("workload.effort", 7)}})});
   const std::string csv = to_csv(report);
   INFO(csv);
   CHECK(cell_in(csv, 0, "bend clear.answer.workload.mental") == "2");
@@ -108,10 +108,10 @@ TEST_CASE("who dropped out of one condition has not dropped out of the other and
   const QuestionnaireRecord sick = {"drive_completed", "", std::nullopt, std::nullopt, 4.0, true, "felt sick"};
   const QuestionnaireRecord played = {"playing_time", "", std::nullopt, std::nullopt, 10.0, true, ""};
   const auto report =
-      report_of({write_drive(folder.path(), {.condition = "clear", .answers = {played}}),
-                 write_drive(folder.path(), {.condition = "fog", .answers = {sick}}),
-                 write_drive(folder.path(), {.participant = "P02", .condition = "clear", .answers = {played}}),
-                 write_drive(folder.path(), {.participant = "P02", .condition = "fog", .answers = {played}})});
+      report_of({write_part(folder.path(), {.condition = "clear", .answers = {played}}),
+                 write_part(folder.path(), {.condition = "fog", .answers = {sick}}),
+                 write_part(folder.path(), {.participant = "P02", .condition = "clear", .answers = {played}}),
+                 write_part(folder.path(), {.participant = "P02", .condition = "fog", .answers = {played}})});
   const std::string csv = to_csv(report);
   INFO(csv);
   CHECK(cell_in(csv, 0, "bend clear.stopped") == "0");
@@ -130,10 +130,10 @@ TEST_CASE("who dropped out of one condition has not dropped out of the other and
 TEST_CASE("rows of a table have as many cells as its head whoever lacks a drive or an answer") {
   const TemporaryFolder folder;
   const auto report =
-      report_of({write_drive(folder.path(), {.condition = "clear", .answers = {answer("q.a", 1)}}),
-                 write_drive(folder.path(), {.condition = "fog", .answers = {answer("q.a", 2), answer("q.b", 3)}}),
-                 write_drive(folder.path(), {.participant = "P02", .condition = "fog"}),
-                 write_drive(folder.path(), {.participant = "P03", .part = "", .answers = {answer("q.a", 4)}})});
+      report_of({write_part(folder.path(), {.condition = "clear", .answers = {answer_of("q.a", 1)}}),
+                 write_part(folder.path(), {.condition = "fog", .answers = {answer_of("q.a", 2), answer_of("q.b", 3)}}),
+                 write_part(folder.path(), {.participant = "P02", .condition = "fog"}),
+                 write_part(folder.path(), {.participant = "P03", .part = "", .answers = {answer_of("q.a", 4)}})});
   std::istringstream lines(to_csv(report));
   std::string head, line;
   std::getline(lines, head);
@@ -148,7 +148,7 @@ TEST_CASE("a code that a spreadsheet takes for something else is in the table wh
   const TemporaryFolder folder;
   std::vector<fs::path> sessions;
   for (const char* code : {"'07", "007", "=1+1", "NA", "null"})
-    sessions.push_back(write_drive(folder.path(), {.participant = code}));
+    sessions.push_back(write_part(folder.path(), {.participant = code}));
   const std::string csv = to_csv(report_of(sessions));
   const char* cells[] = {"''07", "007", "'=1+1", "NA", "null"};  // Less the first apostrophe, each is what was given.
   for (std::size_t row = 0; row < 5; ++row) CHECK(cell_in(csv, row, "participant") == cells[row]);
@@ -156,9 +156,9 @@ TEST_CASE("a code that a spreadsheet takes for something else is in the table wh
 
 TEST_CASE("without a head tracker glances are missing and not none, without a lane its changes") {
   const TemporaryFolder folder;
-  const auto report = report_of({write_drive(folder.path(), {.participant = "A", .gaze_rad = 0.7}),
-                                 write_drive(folder.path(), {.participant = "B"}),
-                                 write_drive(folder.path(), {.participant = "C", .gaze_rad = 0.1, .lane = 0})});
+  const auto report = report_of({write_part(folder.path(), {.participant = "A", .gaze_rad = 0.7}),
+                                 write_part(folder.path(), {.participant = "B"}),
+                                 write_part(folder.path(), {.participant = "C", .gaze_rad = 0.1, .lane = 0})});
   const std::string csv = to_csv(report);
   CHECK(cell_in(csv, 0, "bend.mirror_glances") == "2");
   CHECK(cell_in(csv, 1, "bend.mirror_glances") == "");

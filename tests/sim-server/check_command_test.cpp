@@ -132,7 +132,7 @@ TEST_CASE("an experiment is read with every part's scenario under every conditio
     std::string text, says;
   };
   const Wrong all[] = {
-      {group + game + task + "parameters = { no_such = 40 }\n", "part task: the file has no parameter named"},
+      {group + game + task + "parameters = { no_such = 40 }\n", "part task: the scenario has no parameter named"},
       {group + game + task + "parameters = { vehicles = inf }\n", "part task: \"inf\""},
       {group + game + task + "parameters = { vehicles = 1e9 }\n", "rescue-lane.xosc:"},
       {group + game + task + "parameters = { vehicles = -1 }\n", "part task: \"-1\""},

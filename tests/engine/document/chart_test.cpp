@@ -85,4 +85,23 @@ TEST_CASE("a page holds its charts side by side with a legend where there are se
   if (const char* keep = std::getenv("SEPTET_KEEP_CHART")) std::ofstream(keep) << svg;
 }
 
+TEST_CASE(
+    "a chart whose height means nothing has no numbers at its side, and points keep off the frame that is given") {
+  LineChart chart;
+  chart.series = {{"", {{1.0, 1.0}, {2.0, 1.0}}, Stroke::dots}};
+  chart.y = {0.0, 1.5};
+  const std::string with = to_svg(chart);
+  CHECK(with.find("y-tick") != std::string::npos);
+  chart.y_ticks.emplace();
+  chart.x = {0.5, 2.5};
+  const std::string without = to_svg(chart);
+  CHECK(without.find("y-tick") == std::string::npos);
+  CHECK(without.find("x-tick") != std::string::npos);
+  const auto first_x = [](const std::string& svg) { return std::stod(svg.substr(svg.find("cx=\"") + 4)); };
+  CHECK(first_x(without) > first_x(with) + 100.0);
+  chart.y_ticks = {1.0};
+  const std::string one = to_svg(chart);
+  CHECK(one.find("y-tick") == one.rfind("y-tick"));
+}
+
 }  // namespace septet::document
