@@ -151,13 +151,16 @@ void PastSessions::look_once() {
     }
   std::ranges::sort(newest, std::greater<>());
   if (newest.size() > most_listed_sessions) newest.resize(most_listed_sessions);
-  std::vector<std::pair<page::PastSession, fs::path>> listed;
+  // Whoever was listed stays until it has been read anew: a list that loses a row for a moment takes it from under a hand.
   const auto list = [&] {
+    std::vector<std::pair<const page::PastSession*, fs::path>> listed;
+    for (const auto& [written, file] : newest)
+      if (const auto at = known_.find(file); at != known_.end() && at->second.is_session)
+        listed.emplace_back(&at->second.session, file.parent_path());
+    std::ranges::stable_sort(listed, std::greater<>(), [](const auto& one) { return one.first->started_utc; });
     FoundSessions found{.sessions = {}, .folders = {}, .is_looking = true};
-    auto sorted = listed;
-    std::ranges::stable_sort(sorted, std::greater<>(), [](const auto& one) { return one.first.started_utc; });
-    for (auto& [session, folder] : sorted) {
-      found.sessions.push_back(std::move(session));
+    for (auto& [session, folder] : listed) {
+      found.sessions.push_back(*session);
       found.folders.push_back(std::move(folder));
     }
     const std::lock_guard lock(mutex_);
@@ -165,33 +168,29 @@ void PastSessions::look_once() {
     has_news_ = true;
     return !is_over_;
   };
-  const auto add = [&](Known& known, const fs::path& file) {
-    if (!known.is_session) return;
-    const fs::path folder = file.parent_path();
-    known.session.has_report = fs::is_regular_file(folder / "report.html", error);
-    known.session.has_debrief = fs::is_regular_file(folder / "debrief.html", error);
-    listed.emplace_back(known.session, folder);
+  const auto look_beside = [&](page::PastSession& session, const fs::path& file) {
+    session.has_report = fs::is_regular_file(file.parent_path() / "report.html", error);
+    session.has_debrief = fs::is_regular_file(file.parent_path() / "debrief.html", error);
   };
   // What is known already is there at once; what has to be read comes one after the other, the newest first.
   std::vector<std::pair<fs::file_time_type, fs::path>> unread;
-  for (const auto& [written, file] : newest)
-    if (const auto at = known_.find(file); at != known_.end() && at->second.written == written)
-      add(at->second, file);
-    else
-      unread.emplace_back(written, file);
+  for (const auto& [written, file] : newest) {
+    const auto at = known_.find(file);
+    if (at != known_.end()) look_beside(at->second.session, file);
+    if (at == known_.end() || at->second.written != written) unread.emplace_back(written, file);
+  }
   if (!list()) return;
   for (const auto& [written, file] : unread) {
-    const auto [at, is_new] = known_.try_emplace(file);
-    Known& known = at->second;
-    const std::uint64_t id = is_new ? next_id_++ : known.session.id;
-    known = {.written = written, .is_session = false, .session = {}};
+    Known read{.written = written, .is_session = false, .session = {}};
     if (const auto reader = logging::SessionReader::open(file)) {
-      known.is_session = true;
-      known.session = session_of(*reader);
+      read.is_session = true;
+      read.session = session_of(*reader);
     }
-    known.session.id = id;
-    known.session.folder = printable(file.parent_path().lexically_relative(folder_).string(), 400);
-    add(known, file);
+    const auto [at, is_new] = known_.try_emplace(file);
+    read.session.id = is_new ? next_id_++ : at->second.session.id;
+    read.session.folder = printable(file.parent_path().lexically_relative(folder_).string(), 400);
+    look_beside(read.session, file);
+    at->second = std::move(read);
     if (!list()) return;
   }
 }

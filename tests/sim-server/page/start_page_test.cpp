@@ -2,6 +2,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -154,6 +155,24 @@ TEST_CASE("only a port of this machine and a whole token are taken for a page th
   CHECK_FALSE(ListeningSocket::take({pipe_ends[0]}).has_value());
   ::close(pipe_ends[0]);
   ::close(pipe_ends[1]);
+}
+
+TEST_CASE("a port that another program has on one of the two addresses is refused, for a browser might ask that one") {
+  auto other = ListeningSocket::open(0).value().copy().value();
+  if (other.ipv6 < 0) return;  // No IPv6 here.
+  sockaddr_in6 place{};
+  socklen_t size = sizeof place;
+  REQUIRE(::getsockname(other.ipv6, reinterpret_cast<sockaddr*>(&place), &size) == 0);
+  ::close(std::exchange(other.ipv4, -1));
+  const auto refused = ListeningSocket::open(ntohs(place.sin6_port));
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().where.find("[::1]:") != std::string::npos);
+  // Two of different ports are no page's, nor is one of IPv6 in the place of the other.
+  auto mine = ListeningSocket::open(0).value().copy().value();
+  CHECK_FALSE(ListeningSocket::take({mine.ipv4, other.ipv6}).has_value());
+  CHECK_FALSE(ListeningSocket::take({-1, mine.ipv6}).has_value());
+  mine.close();
+  other.close();
 }
 
 }  // namespace septet::page
