@@ -40,6 +40,7 @@ struct Look {
   std::int32_t picture = -1;  ///< Indexes Model::pictures; multiplies base_color.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
   glm::vec3 emission{0.0f};
+  bool two_sided = false;  ///< The file's `doubleSided`.
 };
 
 /// What moves or shines as one, or everything else.
