@@ -119,6 +119,12 @@ double number_in(const Json& object, const char* name, double otherwise) {
   return std::isfinite(value) ? value : otherwise;
 }
 
+bool is_true_in(const Json& object, const char* name) {
+  if (!object.is_object()) return false;
+  const auto found = object.find(name);
+  return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
 std::string text_in(const Json& object, const char* name) {
   if (!object.is_object()) return {};
   const auto found = object.find(name);

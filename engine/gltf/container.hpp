@@ -37,6 +37,8 @@ double number_in(const Json& object, const char* name, double otherwise);
 
 /// A text of an object; empty where there is none.
 std::string text_in(const Json& object, const char* name);
+/// False where there is no such member, or one of another kind.
+bool is_true_in(const Json& object, const char* name);
 
 /// The bytes of a data: URI. Error: it is another URI, or no base64.
 Expected<std::string> bytes_of_uri(const std::string& uri, const std::string& where);

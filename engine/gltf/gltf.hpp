@@ -53,6 +53,7 @@ struct Look {
   PictureMapping mapping;     ///< Where the picture's coordinates come from.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
   glm::vec3 emission{0.0f};
+  bool two_sided = false;  ///< The file's `doubleSided`.
 };
 
 /// What moves or shines as one, or everything else.

@@ -95,6 +95,7 @@ class Looks {
       look.roughness *= mean.g;
       look.metallic *= mean.b;
     }
+    look.two_sided = is_true_in(material, "doubleSided");
     const double strength = number_in(extension(material, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
     constexpr double most_strength = 100.0;
     look.emission = factor_of(material, "emissiveFactor", glm::vec3(0.0f), 1.0f) *

@@ -7,6 +7,8 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/instant/adaptation.hpp"
+
 namespace septet::instant {
 namespace {
 
@@ -20,7 +22,10 @@ const Vec3 ozone_per_m{0.650e-6, 1.881e-6, 0.085e-6};
 const Vec3 ground_albedo{0.11, 0.12, 0.08};
 const Vec3 snow_albedo{0.75, 0.76,
                        0.78};  // Lying snow between bare tracks and what stands on it; fresh alone 0.8 to 0.9.
-const Vec3 night_sky{0.0011, 0.0018, 0.0036};
+const Vec3 night_sky{1.0e-5, 1.64e-5, 3.27e-5};  // Some 0.13 cd/m², as over a lit country.
+/// At night clouds send back the light of towns: brighter than a clear sky (Kyba et al. 2011).
+const Vec3 towns_on_clouds{4.18e-5, 3.82e-5, 3.64e-5};
+const Vec3 moonlight{0.73e-4, 0.91e-4, 1.27e-4};  // Some 0.7 lx: that of a full moon over lying snow.
 
 double luminance(const Vec3& color) { return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722)); }
 
@@ -187,9 +192,7 @@ SkyLight sky_light(const Environment& environment) {
   const Vec3 clear_total =
       clear_sky_irradiance + solar_constant * sun_scale * air.transmittance(2.0, sun.z) * std::max(0.0, sun.z);
   const Vec3 grey = Vec3(luminance(clear_total)) * Vec3(0.97, 1.0, 1.04);
-  // At night clouds send back the light of towns: brighter than a clear sky (Kyba et al. 2011).
-  const double night = step_between(0.02, -0.12, elevation);
-  const Vec3 towns = Vec3(0.0046, 0.0042, 0.0040) * (night * overcast);
+  const Vec3 towns = towns_on_clouds * overcast;
   const Vec3 sky_irradiance = glm::mix(clear_sky_irradiance, 0.25 * grey, overcast) +
                               (direct - sunlight) * (0.6 * std::max(0.0, sun.z)) + pi * towns;
   const Vec3 albedo = glm::mix(ground_albedo, snow_albedo, std::clamp(environment.snow_cover, 0.0, 1.0));
@@ -213,26 +216,28 @@ SkyLight sky_light(const Environment& environment) {
           glm::mix(horizon, glm::vec3(ground), static_cast<float>(step_between(0.0, 0.25, -z)));
     }
 
-  light.sky_irradiance = glm::vec3(sky_irradiance);
-  light.ground_irradiance = glm::vec3(pi * ground);
-  light.irradiance = instant::sky_irradiance(table, light.sky_irradiance, glm::vec3(ground));
-  light.night = static_cast<float>(night);
-  if (luminance(sunlight) > 0.01) {
+  Vec3 beam = sunlight;
+  if (luminance(sunlight) > 0.001) {
     light.light_direction = glm::vec3(sun);
-    light.light_irradiance = glm::vec3(sunlight);
   } else {
     // A moon stands opposite the sun, 40° up.
     const double moon_azimuth = azimuth + pi;
     light.light_direction =
         glm::vec3(std::cos(0.7) * std::sin(moon_azimuth), std::cos(0.7) * std::cos(moon_azimuth), std::sin(0.7));
-    light.light_irradiance = glm::vec3(Vec3(0.008, 0.010, 0.014) * night * (1.0 - 0.9 * overcast));
+    beam = moonlight * (1.0 - 0.9 * overcast);
   }
-  // The eye adapts to the light on level ground, but not wholly: dusk stays darker than noon.
-  const double level = luminance(Vec3(light.sky_irradiance)) +
-                       luminance(Vec3(light.light_irradiance)) * std::max(0.0f, light.light_direction.z);
+  const double level = luminance(sky_irradiance) + luminance(beam) * std::max(0.0f, light.light_direction.z);
+  const Adaptation adapted = adaptation(level * luminance_unit_cdpm2);
+  light.light_up = adapted.light_up;
+  light.night = adapted.night;
+  light.street_lamps = adapted.street_lamps;
+  for (glm::vec3& radiance : table.radiance) radiance *= adapted.light_up;
+  light.sky_irradiance = glm::vec3(sky_irradiance) * adapted.light_up;
+  light.ground_irradiance = glm::vec3(pi * ground) * adapted.light_up;
+  light.irradiance = instant::sky_irradiance(table, light.sky_irradiance, glm::vec3(ground) * adapted.light_up);
+  light.light_irradiance = glm::vec3(beam) * adapted.light_up;
   // Under a closed cover it stays a little duller still.
-  light.exposure = static_cast<float>((1.0 - 0.22 * overcast) *
-                                      std::clamp(0.58 * std::pow(7.5 / std::max(level, 1e-4), 0.72), 0.1, 9.0));
+  light.exposure = static_cast<float>(1.0 - 0.22 * overcast) * adapted.exposure;
   return light;
 }
 

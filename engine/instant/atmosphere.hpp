@@ -7,6 +7,8 @@
 /// Ready Sky" (2020), table 1; the haze follows the visibility by Koschmieder's relation β = 3.912 / V. Cornette and
 /// Shanks' phase function stands for the haze.
 ///
+/// What it comes to by day is said as it is; from dusk on as so many times brighter as adaptation.hpp says.
+///
 /// One unit of radiance is 8000 cd/m², about a clear noon's sky near the horizon; one unit of irradiance is 8000 lx.
 
 #include <array>
@@ -40,8 +42,11 @@ struct SkyLight {
   float fog_per_m = 0.0f;             ///< Extinction.
   float fall_per_m = 0.0f;            ///< Extinction by rain or snow, where they fall.
   float overcast = 0.0f;              ///< 0 broken clouds to 1 a closed cover.
-  float night = 0.0f;                 ///< 0 day to 1 night.
-  float exposure = 1.0f;              ///< Scene radiance to the tone curve's input, in the open.
+  /// Of `adaptation`: as so many times brighter all of this is said, and lamps are to be. At least 1.
+  float light_up = 1.0f;
+  float night = 0.0f;         ///< 0 day to 1 night.
+  float street_lamps = 0.0f;  ///< How far they are lit, 0 to 1.
+  float exposure = 1.0f;      ///< Scene radiance to the tone curve's input, in the open.
   SkyTable table;
 };
 

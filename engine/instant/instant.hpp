@@ -73,6 +73,8 @@ struct Instant {
   /// As strong as they look beside the light around them: by day as they are, at night and under roofs as many times stronger as the
   /// exposure there is less than a camera's. None whose pool cannot be seen.
   std::vector<Headlight> headlights;
+  /// As strong as they look beside the light around them. None whose light cannot be seen at three metres.
+  std::vector<BeaconLight> beacons;
   std::vector<GroundContact> contacts;  ///< Of participants, for renderers that do not find out by rays.
   std::vector<SmokePuff> smoke;         ///< Of fires, and the spray behind wheels.
   SootField soot;

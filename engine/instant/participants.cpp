@@ -138,6 +138,35 @@ RigidTransform limb_of(const scene::Instance& part, const DrawnParticipant& part
   }
 }
 
+/// To any side, of a lens that shines all over: a body that is nowhere hollow shows a quarter of its surface in the mean.
+glm::vec3 shone_around(const scene::Instance& part, const MeshSummary& mesh) {
+  const glm::vec3 size = glm::abs((mesh.bounds.max_m - mesh.bounds.min_m) * part.scale);
+  return mesh.emission * (0.5f * (size.x * size.y + size.y * size.z + size.z * size.x));
+}
+
+/// Beams of the lamps on the left and of those on the right of a vehicle, which move together between these distances from the eye: from further away no
+/// one sees that they are two, and a picture has few beams to spend.
+void add_headlights(std::vector<Headlight>& headlights, const RigidTransform& world_from_vehicle,
+                    std::span<const Vec3> lamps_m, double distance_m, float main_beam) {
+  constexpr double two_until_m = 24.0, one_from_m = 36.0, before_glass_m = 0.15, least_apart_m = 0.2;
+  Vec3 middle_m(3.6, 0.0, 0.65);
+  double aside_m = 0.0;
+  if (!lamps_m.empty()) {
+    middle_m = Vec3(before_glass_m, 0.0, 0.0);
+    for (const Vec3& lamp_m : lamps_m) middle_m += lamp_m / double(lamps_m.size());
+    for (const Vec3& lamp_m : lamps_m) aside_m += std::abs(lamp_m.y - middle_m.y) / double(lamps_m.size());
+  }
+  aside_m *= std::clamp((one_from_m - distance_m) / (one_from_m - two_until_m), 0.0, 1.0);
+  const glm::vec3 ahead(world_from_vehicle.orientation * Vec3(1, 0, 0));
+  if (aside_m < least_apart_m) {
+    headlights.push_back({world_from_vehicle * middle_m, ahead, beam::pair_intensity, main_beam});
+    return;
+  }
+  for (const double side : {1.0, -1.0})
+    headlights.push_back({world_from_vehicle * (middle_m + Vec3(0.0, side * aside_m, 0.0)), ahead,
+                          0.5f * beam::pair_intensity, main_beam});
+}
+
 }  // namespace
 
 float shining(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m) {
@@ -173,8 +202,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     const bool whole = participant.shown == Shown::whole;
     const double distance_m = glm::length(participant.world_from_vehicle.position_m - eye_m);
     const float sky = share_of_sky(participant.world_from_vehicle);
-    Vec3 lamps_m(0.0);
-    int head_lamps = 0;
+    std::vector<Vec3> head_lamps_m;
     const float main_beam = participant.lamps.has(Lamp::high_beam) ? 1.0f : 0.0f;
     const std::vector<scene::Instance>& parts = prototypes[participant.prototype].parts;
     for (const scene::Instance& part : parts) {
@@ -196,8 +224,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       placed.tint = glm::vec4(participant.paint, lit);
       result.meshes.push_back(placed);
       if (part.role == PartRole::lamp_head) {
-        lamps_m += middle_m;
-        ++head_lamps;
+        head_lamps_m.push_back(middle_m);
       }
       const bool in_range = distance_m >= part.visible_from_m && distance_m < part.visible_to_m;
       if (is_lamp(part.role) && lit > 0.0f && whole && in_range)
@@ -205,12 +232,11 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
                                 glm::vec3(participant.world_from_vehicle.orientation * facing(part.role, middle_m.x)),
                                 mesh.emission * lit, glow_radius_m(part.role),
                                 participant.world_from_vehicle.position_m.z, main_beam});
+      if (part.role == PartRole::beacon && lit > 0.0f && whole && in_range)
+        result.beacons.push_back({participant.world_from_vehicle * middle_m, shone_around(part, mesh) * lit});
     }
     if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
-      const Vec3 lamp_m = head_lamps > 0 ? lamps_m / double(head_lamps) + Vec3(0.15, 0, 0) : Vec3(3.6, 0, 0.65);
-      result.headlights.push_back({participant.world_from_vehicle * lamp_m,
-                                   glm::vec3(participant.world_from_vehicle.orientation * Vec3(1, 0, 0)),
-                                   beam::pair_intensity, main_beam});
+      add_headlights(result.headlights, participant.world_from_vehicle, head_lamps_m, distance_m, main_beam);
     }
   }
   std::stable_sort(result.meshes.begin(), result.meshes.end(),

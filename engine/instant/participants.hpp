@@ -21,12 +21,18 @@ struct LampGlow {
   float main_beam = 0.0f;  ///< Of a headlamp: how far its main beam is lit beside the dipped one, 0 to 1.
 };
 
-/// Where the headlights of one vehicle stand and point: a pair of beams (headlight_beam.hpp).
+/// Where the headlights of one vehicle stand and point (headlight_beam.hpp): near the eye each lamp's beam by itself, from further away the pair's as one.
 struct Headlight {
-  Vec3 position_m{0.0};                   ///< World; the middle between them.
+  Vec3 position_m{0.0};                   ///< World; of a pair the middle between them.
   glm::vec3 direction{1.0f, 0.0f, 0.0f};  ///< Unit, world axes; the level from which the beam's angles count.
-  float intensity = 0.0f;                 ///< Where the dipped beam is brightest, both together, in units of 8000 cd.
-  float main_beam = 0.0f;                 ///< How far the main beam is lit beside the dipped one, 0 to 1.
+  float intensity = 0.0f;  ///< Where the dipped beam is brightest, of a pair both together, in units of 8000 cd.
+  float main_beam = 0.0f;  ///< How far the main beam is lit beside the dipped one, 0 to 1.
+};
+
+/// A beacon that flashes now and lights what is around it, as far as its body does not keep the light off: to all sides alike.
+struct BeaconLight {
+  Vec3 position_m{0.0};       ///< World.
+  glm::vec3 intensity{0.0f};  ///< By colour, the emission of its lens times a quarter of its surface.
 };
 
 /// A body that stands on the ground and hides the sky from it: a box above its footprint.
@@ -41,6 +47,7 @@ struct PlacedParticipants {
   std::vector<PlacedMesh> meshes;  ///< Ordered by mesh.
   std::vector<LampGlow> glows;
   std::vector<Headlight> headlights;
+  std::vector<BeaconLight> beacons;
 };
 
 /// What an eye or a film takes in at once, s: a flash that is shorter is seen as bright as its share of that.

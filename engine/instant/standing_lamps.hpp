@@ -2,7 +2,8 @@
 /// Lamps that stand and shine down: those of streets and the rows below a tunnel's ceiling, found in the scene by what they are,
 /// triangles with an emission that look down.
 ///
-/// Each shines like a matt lamp: its intensity falls with the cosine from straight down. Nights and roofed places are shown as if all of
+/// One under a roof shines like a matt lamp: its intensity falls with the cosine from straight down. One in the open spreads its light as
+/// engine/world/street_lamp.hpp says. Nights and roofed places are shown as if all of
 /// their light were so many times brighter, so that a display need not show starlight (see Instant::headlights); what these lamps light keeps pace.
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
+#include "engine/instant/atmosphere.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
@@ -34,9 +36,8 @@ struct StandingLamp {
 
 /// How many times as strongly they light, as their emission says. Measured in scenarios/tunnel-fire 7.8 s after its beginning.
 inline constexpr float roofed_lamps_light_up = 6.0f;
-inline constexpr float lamps_light_up_at_night = 110.0f;
-/// Of those in the open; `night` from 0 to 1.
-inline float open_lamps_light_up(float night) { return glm::mix(1.0f, lamps_light_up_at_night, night); }
+/// Of those in the open: as much as all light there, as far as they are lit.
+inline float open_lamps_light_up(const SkyLight& light) { return glm::mix(1.0f, light.light_up, light.street_lamps); }
 
 /// A normal that looks down as a lamp's does.
 inline bool looks_down(const glm::vec3& normal) { return normal.z < -0.9f; }

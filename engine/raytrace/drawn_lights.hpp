@@ -40,7 +40,7 @@ inline Scattered scatter_evenly(const glm::vec3& albedo, PathRandom& random) {
   const glm::vec3 direction = way * per_m;
   const float cosine = -glm::dot(triangle.normal, direction);
   if (!(cosine > 1e-6f)) return {};
-  glm::vec3 emission = lamp.emission;
+  glm::vec3 emission = lamp.emission * lamp.share_at(cosine);
   if (lamp.textured) {
     Ray ray;
     ray.origin_m = from_m;

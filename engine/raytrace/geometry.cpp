@@ -181,8 +181,13 @@ Eight eight_of(const Number* row) {
   return numbers;
 }
 
-/// What only throws a shadow is met by rays for shadows alone: one hierarchy serves both, where Embree was built to look at masks.
-constexpr unsigned for_seeing = 1, for_shadows = 2;
+/// Which rays meet what: one hierarchy serves all, where Embree was built to look at masks; where it was not, no ray from a surface meets what is not seen.
+constexpr unsigned for_seeing = 1, for_shadows = 2, for_paths = 4;
+unsigned mask_of(const Place& place) {
+  if (place.seen) return for_seeing | for_shadows | for_paths;
+  return place.casts_shadow ? for_shadows | for_paths : for_paths;
+}
+unsigned mask_of(From from) { return from == From::eye ? for_seeing : for_paths; }
 
 /// What keeps its place while the shutter is open is copied to it, not placed as an instance: one hierarchy of all triangles lets a ray pass
 /// by what only stands near, where the boxes of instances overlap (trace/motorway: 1.35 times as many samples a second). But that
@@ -238,10 +243,10 @@ struct Geometry::Parts {
     }
   }
 
-  Scene build(std::span<const Place> places, bool with_unseen) {
+  Scene build(std::span<const Place> places, unsigned wanted) {
     Scene scene(rtcNewScene(device.get()));
     for (std::size_t n = 0; n < places.size(); ++n) {
-      if (!places[n].seen && !with_unseen) continue;
+      if (!(mask_of(places[n]) & wanted)) continue;
       Mesh& mesh = meshes[places[n].mesh];
       if (mesh.indices.empty()) continue;
       RTCGeometry geometry = nullptr;
@@ -252,7 +257,7 @@ struct Geometry::Parts {
         rtcSetGeometryInstancedScene(geometry, hierarchy(mesh, !places[n].fade.all()));
         set_place(geometry, places[n]);
       }
-      rtcSetGeometryMask(geometry, places[n].seen ? for_seeing | for_shadows : for_shadows);
+      rtcSetGeometryMask(geometry, mask_of(places[n]));
       rtcCommitGeometry(geometry);
       rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(n));
       rtcReleaseGeometry(geometry);
@@ -303,20 +308,20 @@ void Geometry::place(std::span<const Place> places, const Openings* openings) {
   parts_->seen.reset();
   parts_->shadows.reset();
   parts_->move(places);
-  parts_->seen = parts_->build(places, parts_->has_masks);
+  parts_->seen = parts_->build(places, parts_->has_masks ? for_seeing | for_shadows | for_paths : for_seeing);
   if (parts_->has_masks || std::ranges::all_of(places, &Place::seen)) {
     rtcRetainScene(parts_->seen.get());
     parts_->shadows.reset(parts_->seen.get());
   } else {
-    parts_->shadows = parts_->build(places, true);
+    parts_->shadows = parts_->build(places, for_shadows);
   }
 }
 
-bool Geometry::intersect(Four begin, Four way, float to_m, Hit& hit) const {
+bool Geometry::intersect(Four begin, Four way, float to_m, From from, Hit& hit) const {
   const float threshold = parts_->fades ? threshold_of(way[0], way[1], way[2]) : 0.0f;
   Query query(parts_->openings, parts_->standing, &threshold, nullptr);
   RTCRayHit found;
-  set_ray(found.ray, begin, way, to_m, for_seeing);
+  set_ray(found.ray, begin, way, to_m, mask_of(from));
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(parts_->seen.get(), &query.context, &found);
@@ -344,7 +349,7 @@ std::uint32_t Geometry::intersect(std::uint32_t which, const RayPacket& rays, To
       together == Together::side_by_side ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   const Int8 valid = truths_of(which);
   RTCRayHit8 found;
-  set_rays(found.ray, rays, for_seeing);
+  set_rays(found.ray, rays, mask_of(together == Together::side_by_side ? From::eye : From::surface));
   std::fill_n(found.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(found.hit.instID[0], packet_size, RTC_INVALID_GEOMETRY_ID);
   rtcIntersect8(reinterpret_cast<const int*>(&valid), parts_->seen.get(), &query.context, &found);

@@ -63,7 +63,10 @@ struct HitPacket {
   Hit operator[](std::size_t n) const { return {distance_m[n], place[n], triangle[n], u[n], v[n]}; }
 };
 
-/// Whether rays of a packet lie side by side, or begin anywhere.
+/// Whether a ray comes from the eye, or from a surface that is lit: that one meets what only throws a shadow for the eye, such as the driver's car.
+enum class From : std::uint8_t { eye, surface };
+
+/// Whether rays of a packet lie side by side, from the eye, or begin anywhere, on surfaces.
 enum class Together : std::uint8_t { side_by_side, anywhere };
 
 /// Where a mesh stands: a vertex at origin_m + turn · position_m.
@@ -71,7 +74,8 @@ struct Place {
   std::uint32_t mesh = 0;
   glm::vec3 origin_m{0.0f};
   glm::mat3 turn{1.0f};
-  bool seen = true;                ///< False: it only throws a shadow.
+  bool seen = true;                ///< False: no eye sees it, but what is around it does, and it throws a shadow.
+  bool casts_shadow = true;        ///< False: of what no eye sees, not even that.
   std::optional<Motion> motion{};  ///< From there at time 0.
   instant::LevelFade fade{};       ///< Rays whose threshold lies without it pass.
 };
@@ -105,7 +109,9 @@ class Geometry {
   void place(std::span<const Place> places, const Openings* openings);
 
   /// The first surface that is seen along the ray.
-  bool intersect(const Ray& ray, Hit& hit) const { return intersect(begin_of(ray), way_of(ray), ray.to_m, hit); }
+  bool intersect(const Ray& ray, Hit& hit, From from = From::eye) const {
+    return intersect(begin_of(ray), way_of(ray), ray.to_m, from, hit);
+  }
   /// Share of the light that comes along the ray from its far end, which is not before its beginning.
   float unshadowed(const Ray& ray) const { return unshadowed(begin_of(ray), way_of(ray), ray.to_m); }
 
@@ -119,7 +125,7 @@ class Geometry {
   using Four = float __attribute__((vector_size(16)));
   static Four begin_of(const Ray& ray) { return Four{ray.origin_m.x, ray.origin_m.y, ray.origin_m.z, ray.from_m}; }
   static Four way_of(const Ray& ray) { return Four{ray.direction.x, ray.direction.y, ray.direction.z, ray.time}; }
-  bool intersect(Four begin, Four way, float to_m, Hit& hit) const;
+  bool intersect(Four begin, Four way, float to_m, From from, Hit& hit) const;
   float unshadowed(Four begin, Four way, float to_m) const;
   explicit Geometry(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;

@@ -14,6 +14,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/world/street_lamp.hpp"
+
 namespace septet::raytrace {
 
 struct LampTriangle {
@@ -35,6 +37,10 @@ struct Lamp {
   glm::vec3 emission{0.0f};  ///< With which it lights.
   glm::vec3 way_m{0.0f};     ///< Until time 1.
   bool textured = false;     ///< Its image colours the emission.
+  bool spreads = false;      ///< It shines as a street lamp does (engine/world/street_lamp.hpp), not evenly.
+
+  /// Of its emission, what leaves it at this cosine to its axis, above 0.
+  float share_at(float cosine) const { return spreads ? street_lamp::spread(cosine) / cosine : 1.0f; }
 
   /// Which triangle a uniform number in [0, 1) draws, by area.
   std::size_t drawn_triangle(float uniform) const {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float same_way = 1.0f - 1e-6f;  ///< Cosine between normals that are one.
 
-bool stands_in_one_color(const Lamp& lamp) { return !lamp.textured && lamp.way_m == glm::vec3(0.0f); }
+bool stands_in_one_color(const Lamp& lamp) { return !lamp.textured && !lamp.spreads && lamp.way_m == glm::vec3(0.0f); }
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Face World::matt_face(const PlacedSurface& placed, std::uint32_t triangle) const
           placed.turned(third),
           glm::normalize(placed.is_turned ? placed.normal_turn * across : across),
           material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f)),
-          1.0f};
+          shows_back(material) ? Face::both_sides : Face::front_side};
 }
 
 void World::add_matt_faces() {

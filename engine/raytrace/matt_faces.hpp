@@ -16,7 +16,9 @@ struct alignas(64) Face {
   glm::vec3 corner_m{0.0f}, second{0.0f}, third{0.0f};  ///< From the first corner to the others.
   glm::vec3 normal{0.0f};                               ///< Unit.
   glm::vec3 color{0.0f};                                ///< Albedo; of a lamp its radiance.
-  float number = 0.0f;  ///< 1: it is matt, 0: it is not; of a lamp its area in all, m².
+  static constexpr float front_side = 1.0f, both_sides = 2.0f;
+  float number =
+      0.0f;  ///< Of the two: it is matt and seen from there, 0: it is not matt; of a lamp its area in all, m².
 };
 static_assert(sizeof(Face) == 16 * sizeof(float));
 

@@ -183,7 +183,9 @@ void MattPaths::trace(std::uint32_t begun) {
     for (std::size_t n = 0; n < packet_size; ++n)
       rows[n] = holds(met, n) ? &faces_.at(hits.place[n], hits.triangle[n]) : &faces_.other;
     const Face8 face(rows);
-    const std::uint32_t matt = bits_of(face.number > 0.0f) & met;
+    // From behind one that shows its front alone a path goes on by itself.
+    const Int8 seen = (face.number > 1.5f) | ((face.number > 0.0f) & (dot(face.normal, rays_.direction) < 0.0f));
+    const std::uint32_t matt = bits_of(seen) & met;
     // What misses everything sees nothing after its first edge.
     const std::uint32_t by_themselves = edge_ == 1 ? which & ~matt : met & ~matt;
     go_alone(by_themselves, met, hits);

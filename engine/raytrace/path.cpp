@@ -198,7 +198,7 @@ bool Path::arrive(bool met, Hit& hit, FirstSeen* first) {
     if (point_.opacity >= 1.0f || random_.uniform() < point_.opacity) break;
     ray_.origin_m = beside(point_.position_m, -point_.flat_normal);
     if (++passed == most_sheets_passed) break;
-    met = world_.geometry().intersect(ray_, hit);
+    met = world_.geometry().intersect(ray_, hit, edge_ == 1 ? From::eye : From::surface);
   }
   float edge_m = met ? glm::length(point_.position_m - edge_from_m) : std::numeric_limits<float>::infinity();
   if (first && met) note_first(ray_, hit, point_, edge_m, *first);
@@ -293,7 +293,7 @@ void Path::go_on() {
   while (leave(next)) {
     ++edge_;
     Hit hit;
-    const bool met = geometry.intersect(next, hit);
+    const bool met = geometry.intersect(next, hit, From::surface);
     ray_ = next;
     if (!arrive(met, hit, nullptr)) return;
   }

@@ -145,8 +145,8 @@ PhotonLights::Flight PhotonLights::towards_body(PathRandom& random, float time) 
   const glm::vec3 place = place_on_lamp(found->number, time, random, normal, radiance);
   const float solid_angle_sr = aim(beside(place, normal));
   const float cosine = glm::dot(normal, flight.ray.direction);
-  if (cosine > 0.0f)
-    flight.power = radiance * (world_.lamps()[found->number].area_m2 * cosine * solid_angle_sr * share);
+  const Lamp& lamp = world_.lamps()[found->number];
+  if (cosine > 0.0f) flight.power = radiance * (lamp.area_m2 * lamp.share_at(cosine) * cosine * solid_angle_sr * share);
   return flight;
 }
 
@@ -161,7 +161,10 @@ PhotonLights::Flight PhotonLights::from_lamp(PathRandom& random, float time) con
   flight.ray.time = time;
   flight.ray.origin_m = beside(place, normal);
   flight.ray.direction = Frame(normal).to_world(cosine_direction(random.pair()));
-  flight.power = radiance * (pi * world_.lamps()[number].area_m2 / (of_all * static_cast<float>(settings_.global)));
+  const Lamp& lamp = world_.lamps()[number];
+  const float cosine = std::max(1e-6f, glm::dot(normal, flight.ray.direction));
+  flight.power =
+      radiance * (pi * lamp.area_m2 * lamp.share_at(cosine) / (of_all * static_cast<float>(settings_.global)));
   return flight;
 }
 
@@ -177,7 +180,7 @@ void PhotonLights::follow(Flight flight, PhotonKind kind, PathRandom& random, st
     bool met = false;
     const glm::vec3 from_m = ray.origin_m;
     for (int passed = 0; passed < most_sheets_passed; ++passed) {
-      met = world_.geometry().intersect(ray, hit);
+      met = world_.geometry().intersect(ray, hit, From::surface);
       if (!met) return;
       world_.point(ray, hit, point);
       if (point.opacity >= 1.0f || random.uniform() < point.opacity) break;

@@ -49,6 +49,7 @@ float step_between(float low, float high, float x) {
 SceneIndex::SceneIndex(const scene::ResolvedScene& scene) {
   for (const scene::SurfaceMaterial& material : scene.materials) {
     cut.push_back(is_cut(material, scene));
+    shows_back.push_back(material.two_sided || cut.back() || material.stripe || material.opacity < opaque_from);
     plain.push_back(material.base_color_image < 0 && material.opacity >= opaque_from && material.metallic == 0.0f &&
                     material.roughness >= rough_from && material.clear_coat <= 0.0f && !material.wettable &&
                     material.retroreflection == 0.0f && material.emission == glm::vec3(0.0f));
@@ -116,6 +117,10 @@ const scene::SurfaceMaterial& World::material_of(const PlacedSurface& placed, st
   if (placed.materials.empty()) return no_material_;
   const std::uint32_t material = placed.materials[placed.materials.size() > 1 ? triangle : 0];
   return material < scene_.materials.size() ? scene_.materials[material] : no_material_;
+}
+
+bool World::shows_back(const scene::SurfaceMaterial& material) const {
+  return &material == &no_material_ || index_.shows_back[static_cast<std::size_t>(&material - scene_.materials.data())];
 }
 
 /// Between four texels; the image repeats.
@@ -228,6 +233,10 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   surface.normal = normal;
   if (placed.on_glass) return lie_on_glass(placed, ray, hit, point);
   point.share_of_sky = material.share_of_sky * placed.share_of_sky;
+  if (!point.from_front && !shows_back(material)) {
+    point.opacity = 0.0f;
+    return;
+  }
   if (nothing_lies_on_it_ && &material != &no_material_ &&
       index_.plain[static_cast<std::size_t>(&material - scene_.materials.data())]) {
     surface.diffuse = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
@@ -287,10 +296,15 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   if (point.opacity < 1.0f)  // The better it mirrors, the less is seen through it.
     point.opacity = std::clamp(
         point.opacity + luminance(schlick(surface.f0, std::min(1.0f, -glm::dot(normal, ray.direction)))), 0.0f, 1.0f);
-  if (point.from_front && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
+  if ((point.from_front || material.two_sided) && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
     point.emission =
         material.emission * (placed.tint.w * instant_.emission_share) * (textured ? color : glm::vec3(1.0f));
     point.lights_up = lights_up(placed, material, instant::looks_down(point.flat_normal));
+    const float cosine = -glm::dot(point.flat_normal, ray.direction);
+    if (cosine > 1e-6f && is_street_lamp(placed, material, instant::looks_down(point.flat_normal)))
+      point.lights_up *= street_lamp::spread(cosine) / cosine;
+    if (material.lit_by_night) point.emission *= instant_.light->night, point.lights_up = 0.0f;
+    if (!point.from_front) return;  // No lamp is looked at from behind.
     for (const std::uint32_t lamp : placed.lamps)
       if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
   }

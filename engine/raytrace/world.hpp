@@ -62,6 +62,7 @@ struct ClearBody {
 struct SceneIndex {
   explicit SceneIndex(const scene::ResolvedScene& scene);
   std::vector<bool> cut;            ///< For each material, whether its image has holes.
+  std::vector<bool> shows_back;     ///< For each material, whether it is seen from behind.
   std::vector<std::uint8_t> plain;  ///< For each material, whether it is a matt colour and no more.
   std::vector<bool> open;           ///< For each mesh, whether a ray may pass in places: holes, or glass.
   /// For each mesh its triangles' materials, by their index; one number for all of them, if they are of one.
@@ -160,6 +161,7 @@ class World : public Openings {
            const instant::PlacedMesh* later = nullptr);
   void add_headlights(const instant::Instant* later);
   void add_parts(std::vector<Place>& places, const instant::Instant* later);
+  bool is_street_lamp(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const;
   float lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const;
   void add_soups(std::vector<Place>& places, const instant::Instant* later, std::span<const ClearBody> bodies);
   void add_lamps(const std::vector<Place>& places);
@@ -167,6 +169,8 @@ class World : public Openings {
   void add_matt_faces();
   Face matt_face(const PlacedSurface& placed, std::uint32_t triangle) const;
   Corners corners(const PlacedSurface& placed, std::uint32_t triangle) const;
+  /// Whether it is seen from behind, as the rasteriser draws it.
+  bool shows_back(const scene::SurfaceMaterial& material) const;
   const scene::SurfaceMaterial& material_of(const PlacedSurface& placed, std::uint32_t triangle) const;
   /// Place in the material's image: of several pictures in it, that of the participant.
   static glm::vec2 in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv);

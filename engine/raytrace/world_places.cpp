@@ -86,7 +86,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
         to{glm::vec3(later->origin_m - origin_m_), later->world_from_object};
     if (!(from == to)) motion.emplace(from, to);
   }
-  places.push_back({number, origin, placed.world_from_object, placed.seen, motion, fade});
+  places.push_back({number, origin, placed.world_from_object, placed.seen, placed.casts_shadow, motion, fade});
   placed_.push_back({mesh.vertices,
                      mesh.indices,
                      mesh.parts,
@@ -185,10 +185,16 @@ std::vector<World::ClearBodySphere> World::clear_body_spheres() const {
   return spheres;
 }
 
+/// Where street lamps are lit, whatever stands in the open and shines down is one.
+bool World::is_street_lamp(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const {
+  return instant_.light->street_lamps > 0.0f && placed.stands && looks_down &&
+         material.share_of_sky * placed.share_of_sky >= 0.5f;
+}
+
 /// Lamps that stand are seen no brighter than a picture shows them; what those that look down light is lit as brightly as the rasteriser has it.
 float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const {
   if (!placed.stands) return 1.0f;
-  const float open = looks_down ? instant::open_lamps_light_up(instant_.light->night) / instant_.emission_share : 1.0f;
+  const float open = looks_down ? instant::open_lamps_light_up(*instant_.light) / instant_.emission_share : 1.0f;
   return glm::mix(instant::roofed_lamps_light_up, open, material.share_of_sky * placed.share_of_sky);
 }
 
@@ -198,7 +204,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
   if (part.material >= scene_.materials.size() || part.index_count < 3) return;
   const scene::SurfaceMaterial& material = scene_.materials[part.material];
   const glm::vec3 emission = material.emission * (placed.tint.w * instant_.emission_share);
-  if (!(luminance(emission) > 0.0f)) return;
+  if (!(luminance(emission) > 0.0f) || material.lit_by_night) return;
   Lamp lamp;
   glm::vec3 low(0.0f), high(0.0f);
   const auto finish = [&] {
@@ -206,6 +212,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
     lamp.radius_m = 0.5f * glm::length(high - low);
     if (lamp.triangle_count > 0) lamp.area_m2 = lamp.cumulative_area.back();
     lamp.axis /= std::max(lamp.area_m2, 1e-30f);
+    lamp.spreads = is_street_lamp(placed, material, instant::looks_down(lamp.axis));
     lamp.emission = emission * lights_up(placed, material, instant::looks_down(lamp.axis));
     lamp.power = lamp.area_m2 * luminance(lamp.emission);
     if (lamp.power > 0.0f) lamps_.push_back(std::move(lamp));

@@ -44,7 +44,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; }, detail, &volume);
   const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, mirror, offset_px);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
-  prepared.lit_by_lamps = lamps.shine(instant.light->night);
+  prepared.lit_by_lamps = lamps.shine(instant.light->street_lamps);
   prepared.mirrored_by_road = mirror.present;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
   prepared.light_clusters = store_light_clusters(context, eye_m, instant.headlights);

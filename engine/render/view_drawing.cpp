@@ -17,7 +17,8 @@ SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool 
           !casts_shadows(*instant.light),
           instant.environment.snow_cover > 0.0,
           !instant.soot.cover.empty(),
-          std::ranges::any_of(instant.headlights, [](const Headlight& light) { return light.main_beam > 0.0f; })};
+          std::ranges::any_of(instant.headlights, [](const Headlight& light) { return light.main_beam > 0.0f; }),
+          !instant.beacons.empty()};
 }
 
 namespace {

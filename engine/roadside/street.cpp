@@ -13,6 +13,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/standing_objects.hpp"
+#include "engine/roadside/street_lighting.hpp"
 #include "engine/roadside/town.hpp"
 
 namespace septet::roadside {
@@ -115,18 +116,6 @@ class LotBuilder {
   std::unordered_map<std::uint64_t, std::vector<Vec2>> signals_;
 };
 
-/// Beside the outermost lane that somebody walks or drives on.
-double lamp_t(const road::Road& road, double s_m, double side) {
-  const road::LaneSection& section = road::section_at(road, s_m);
-  const int count = side > 0 ? section.left_count : section.right_count;
-  double t = road::outer_border_t_m(road, section, 0, s_m);
-  for (int i = 1; i <= count; ++i) {
-    const int lane = side > 0 ? i : -i;
-    if (section.lane(lane).type != road::LaneType::none) t = road::outer_border_t_m(road, section, lane, s_m);
-  }
-  return t + side * 0.45;
-}
-
 }  // namespace
 
 TownHouseSize size_of(TownHouseKind kind) {
@@ -156,36 +145,10 @@ std::vector<TownHouse> town_houses(const RoadShape& roads, std::uint64_t seed) {
 }
 
 std::vector<StreetLamp> street_lamps(const RoadShape& roads) {
-  constexpr double spacing_m = 32.0, clear_of_signal_m = 4.0;
+  if (!gives(roads.network(), StandingKind::lamp)) return planned_lamps(roads);
   std::vector<StreetLamp> lamps;
-  if (gives(roads.network(), StandingKind::lamp)) {
-    for (const StandingObject& object : standing_objects(roads))
-      if (object.kind == StandingKind::lamp && lamps.size() < most_lamps) lamps.push_back({object.world_from_object});
-    return lamps;
-  }
-  for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index) {
-    const road::Road& road = roads.road(index);
-    if (road.junction != road::no_index) continue;
-    double side = 1.0;
-    for (double s = 0.5 * std::min(spacing_m, road.length_m); s < road.length_m && lamps.size() < most_lamps;
-         s += spacing_m) {
-      side = -side;  // On one side and the other by turns.
-      if (!is_in_town(roads.network(), index, s) || roads.structure_at(index, s, road::RoadStructure::Kind::tunnel))
-        continue;
-      const double t = lamp_t(road, s, side);
-      const road::RoadPoint at = roads.at(index, s, t);
-      const bool signal_near = std::ranges::any_of(road.signals, [&](const road::Signal& signal) {
-        return std::abs(signal.s_m - s) < clear_of_signal_m && (signal.t_m > 0.0) == (side > 0.0);
-      });
-      bool taken = signal_near;
-      for (const road::Location& location : road::roads_holding(roads.network(), Vec2(at.position_m)))
-        taken |= road::lane_type(roads.network(), location.position.road, location.lanes.lane_any_type,
-                                 location.position.s_m) != road::LaneType::none;
-      if (!taken)
-        lamps.push_back(
-            {{at.position_m, orientation_from_angles(at.heading_rad - side * 0.5 * std::numbers::pi, 0.0, 0.0)}});
-    }
-  }
+  for (const StandingObject& object : standing_objects(roads))
+    if (object.kind == StandingKind::lamp && lamps.size() < most_lamps) lamps.push_back({object.world_from_object});
   return lamps;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// What a town's streets are lined with: houses and lamps. What the scenery draws and what cars run against.
 ///
-/// The same network and seed give the same streets. Nothing of them stands on a lane of any road (a lawn excepted), in a junction or before a
-/// signal. World frame, metres.
+/// The same network and seed give the same streets. No house stands on a lane of any road (a lawn excepted), in a junction or before a
+/// signal; no lamp on a lane that is driven on. World frame, metres.
 
 #include <cstdint>
 #include <vector>
@@ -30,7 +30,7 @@ std::vector<TownHouse> town_houses(const RoadShape& roads, std::uint64_t seed);
 struct StreetLamp {
   RigidTransform world_from_lamp;  ///< Its foot; x towards the road.
 };
-inline constexpr double street_lamp_height_m = 6.0, street_lamp_arm_m = 1.1;
+/// Those of the file, or where it has none those that street_lighting.hpp plans.
 std::vector<StreetLamp> street_lamps(const RoadShape& roads);
 
 /// Whether p lies in a house or within `margin_m` of it.

@@ -208,6 +208,10 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
     apply(TagSet{id, surface_group, tag++, {"share_of_sky", double{parameters.share_of_sky}}});
   if (parameters.clear_coat != 0.0f)
     apply(TagSet{id, surface_group, tag++, {"clear_coat", double{parameters.clear_coat}}});
+  if (parameters.two_sided) apply(TagSet{id, surface_group, tag++, {"two_sided", true}});
+  if (parameters.ambient_share != 1.0f)
+    apply(TagSet{id, surface_group, tag++, {"ambient_share", double{parameters.ambient_share}}});
+  if (parameters.lit_by_night) apply(TagSet{id, surface_group, tag++, {"lit_by_night", true}});
   return id;
 }
 

@@ -43,6 +43,9 @@ struct MaterialParameters {
   std::uint32_t picture_columns = 1, picture_rows = 1;
   float share_of_sky = 1.0f;  ///< 0 in a tunnel: see SurfaceMaterial.
   float clear_coat = 0.0f;
+  bool two_sided = false;
+  float ambient_share = 1.0f;
+  bool lit_by_night = false;
 };
 
 struct ObjectParameters {

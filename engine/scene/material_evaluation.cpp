@@ -216,6 +216,9 @@ SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int
   material.picture_rows = std::clamp(tag_or(node, "picture_rows", 1u), 1u, 64u);
   material.clear_coat = static_cast<float>(std::clamp(tag_or(node, "clear_coat", 0.0), 0.0, 1.0));
   material.share_of_sky = static_cast<float>(std::clamp(tag_or(node, "share_of_sky", 1.0), 0.0, 1.0));
+  material.two_sided = tag_or(node, "two_sided", false);
+  material.ambient_share = static_cast<float>(std::clamp(tag_or(node, "ambient_share", 1.0), 0.0, 1.0));
+  material.lit_by_night = tag_or(node, "lit_by_night", false);
   return material;
 }
 

@@ -294,7 +294,8 @@ struct Resolver::State {
            a.metallic == b.metallic && a.opacity == b.opacity && a.refraction_index == b.refraction_index &&
            a.emission == b.emission && a.takes_paint == b.takes_paint && a.wettable == b.wettable &&
            a.stripe == b.stripe && a.retroreflection == b.retroreflection && a.picture_columns == b.picture_columns &&
-           a.picture_rows == b.picture_rows && a.share_of_sky == b.share_of_sky && a.clear_coat == b.clear_coat;
+           a.picture_rows == b.picture_rows && a.share_of_sky == b.share_of_sky && a.clear_coat == b.clear_coat &&
+           a.two_sided == b.two_sided && a.ambient_share == b.ambient_share && a.lit_by_night == b.lit_by_night;
   }
 
   void make_images(const Store& store) {

@@ -73,6 +73,13 @@ struct SurfaceMaterial {
   /// bounds of an instance with a material below ½ dim what drives through them.
   float share_of_sky = 1.0f;
   float clear_coat = 0.0f;  ///< Share of it that a clear coat covers, over all else that it is.
+  /// Its triangles are seen from behind, too, as they are from before; others are not there for who looks at their backs. What has holes or is seen
+  /// through always is. Light is kept off by either side of all.
+  bool two_sided = false;
+  /// Of the sky's and the ground's light that comes to it past what stands close around, where no ray asks: 1 in the open, 0.35 on a dashboard. The
+  /// sun's is not in it, for which shadows are drawn.
+  float ambient_share = 1.0f;
+  bool lit_by_night = false;  ///< A window: its emission comes with the night, and is seen and lights nothing.
 };
 
 /// What moves or lights a part of a vehicle.

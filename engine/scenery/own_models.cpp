@@ -34,6 +34,7 @@ Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const glt
     material.metallic = look.metallic;
     material.opacity = look.opacity;
     material.emission = look.emission;
+    material.two_sided = look.two_sided;
     material.takes_paint = without_number(look.name) == "paint";
     palette.push_back(builder.add_material(fmt::format("{}/{}", name, look.name), material));
   }

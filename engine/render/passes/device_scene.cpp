@@ -76,6 +76,7 @@ DeviceMaterial device_material(const SurfaceMaterial& material, const std::vecto
   result.wettable = material.wettable && !result.cut;
   result.coated = material.clear_coat > 0.0f && !result.cut && !result.blended && !result.wettable;
   result.stripe = material.stripe;
+  result.two_sided = material.two_sided && !result.cut && !result.blended && !result.stripe;
   // Fresnel at normal incidence, ((n − 1)/(n + 1))².
   const float ratio = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
   result.constants.base_color = glm::vec4(material.base_color, material.opacity);
@@ -83,6 +84,7 @@ DeviceMaterial device_material(const SurfaceMaterial& material, const std::vecto
   result.constants.surface = glm::vec4(material.metallic, ratio * ratio, material.clear_coat, material.takes_paint);
   result.constants.light = glm::vec4(material.share_of_sky, material.retroreflection,
                                      textured ? material.picture_columns : 1u, textured ? material.picture_rows : 1u);
+  result.constants.more = glm::vec4(material.ambient_share, material.lit_by_night, 0.0f, 0.0f);
   return result;
 }
 

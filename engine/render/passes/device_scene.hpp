@@ -22,12 +22,14 @@ struct MaterialConstants {
   glm::vec4 surface{0.0f};     ///< Metallic, reflectance at normal incidence, clear coat, takes paint.
   glm::vec4 light{1.0f};       ///< Share of the sky that the surface sees, retroreflection, columns and rows of
                                ///< pictures.
+  glm::vec4 more{1.0f, 0.0f, 0.0f, 0.0f};  ///< Share of light from around, lit by night.
 };
 
 struct DeviceMaterial {
   MaterialConstants constants;
   std::int32_t image = -1;  ///< −1: none.
-  bool cut = false, blended = false, glossy = false, coated = false, wettable = false, stripe = false;
+  bool cut = false, blended = false, glossy = false, coated = false, wettable = false, stripe = false,
+       two_sided = false;  ///< Opaque, and seen from both sides.
 };
 
 struct DeviceMesh {

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include "engine/world/street_lamp.hpp"
+
 namespace septet::render {
 namespace {
 
@@ -35,7 +37,10 @@ void add_lamp(LampField& field, const StandingLamp& lamp) {
           glm::dot(lamp.walls[1].way, way) < -lamp.walls[1].distance_m - behind_m)
         continue;
       const float square = level + height * height, distance = std::sqrt(square);
-      const float arriving = candela * height / (distance * square) * window;
+      const float cosine = height / distance, spread = lamp.roofed ? cosine : street_lamp::spread(cosine);
+      // A street lamp's light is as planned where it counts, and ends where it does not.
+      const float arriving =
+          candela * spread / square * (lamp.roofed ? window : 1.0f - (1.0f - window) * (1.0f - window));
       glm::vec4& texel = field.texels[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
       texel += glm::vec4(glm::vec3(way, height) * (arriving / distance), 0.0f);
       texel.w += lamp.roofed ? -arriving : arriving;

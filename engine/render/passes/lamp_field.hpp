@@ -28,8 +28,8 @@ struct LampField {
   float roofed_height_m = 5.0f;       ///< Mean height of those under roofs.
   std::vector<glm::vec4> texels;      ///< Rows to the north; empty without lamps.
 
-  /// Whether any of them lights something, in so deep a night (0 to 1).
-  bool shine(float night) const { return roofed || (open && night > 0.0f); }
+  /// Whether any of them lights something, where street lamps are lit as far (0 to 1).
+  bool shine(float street_lamps) const { return roofed || (open && street_lamps > 0.0f); }
 };
 
 /// The corner of the field around an eye.

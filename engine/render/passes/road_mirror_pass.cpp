@@ -110,7 +110,7 @@ PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& 
       mirrored_detail);
   const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, {false, width, height});
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
-  prepared.lit_by_lamps = lamps.shine(instant.light->night);
+  prepared.lit_by_lamps = lamps.shine(instant.light->street_lamps);
   prepared.uniforms = store(context, std::span(&uniforms, 1));
   prepared.light_clusters = store_light_clusters(context, eye_m, instant.headlights);
   return prepared;

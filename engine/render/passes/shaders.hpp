@@ -11,6 +11,7 @@ namespace septet::render::shaders {
 inline constexpr std::size_t clustered_headlights_constant = 14;
 /// Of those that include shaders/sunlit.glsl.
 inline constexpr std::size_t unshaded_constant = 13;
+inline constexpr std::size_t two_sided_constant = 16;
 inline constexpr std::size_t soft_shadows_constant = 15;
 
 std::span<const std::uint32_t> surface_vert();

@@ -12,13 +12,13 @@ struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
   std::uint32_t lamps;     ///< Likewise.
   std::uint32_t glossy;    ///< Likewise.
-  bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving;
+  bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving, two_sided;
   SurfaceKind kind;
   std::uint32_t key() const {
-    return textured | lamps << 2 | glossy << 5 | std::uint32_t{snowy} << 7 | std::uint32_t{sooty} << 8 |
-           static_cast<std::uint32_t>(kind) << 9 | std::uint32_t{road} << 11 | std::uint32_t{mirror} << 12 |
-           std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 | std::uint32_t{moving} << 15 |
-           std::uint32_t{unshaded} << 16;
+    return textured | (lamps & 7u) << 2 | (lamps >> 3) << 18 | glossy << 5 | std::uint32_t{snowy} << 7 |
+           std::uint32_t{sooty} << 8 | static_cast<std::uint32_t>(kind) << 9 | std::uint32_t{road} << 11 |
+           std::uint32_t{mirror} << 12 | std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 |
+           std::uint32_t{moving} << 15 | std::uint32_t{unshaded} << 16 | std::uint32_t{two_sided} << 17;
   }
 };
 
@@ -62,6 +62,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
                                                   : 1u};
   description.constants[shaders::clustered_headlights_constant] = context.refinements.clustered_headlights;
   description.constants[shaders::unshaded_constant] = variant.unshaded;
+  description.constants[shaders::two_sided_constant] = variant.two_sided;
   description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
@@ -78,7 +79,8 @@ void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device) {
 void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const SurfaceDraws& draws,
                    SurfaceKind kind, const SurfaceLight& light) {
   const VkCommandBuffer commands = context.slot.commands;
-  vkCmdSetCullMode(commands, kind == SurfaceKind::opaque ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+  bool culls = kind == SurfaceKind::opaque;
+  vkCmdSetCullMode(commands, culls ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
   VkPipeline bound_pipeline = VK_NULL_HANDLE;
   std::int32_t bound_image = -1;
   std::uint32_t bound_material = no_group;
@@ -95,9 +97,11 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const VkPipeline pipeline =
         pipeline_of(pass, context,
                     {texturing, light.lamps(), glossy, light.unshaded, light.snowy, light.sooty, material.wettable,
-                     light.mirror_of_road, draw.fading, retroreflective, moving, kind});
+                     light.mirror_of_road, draw.fading, retroreflective, moving, material.two_sided, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
+    if (const bool culled = kind == SurfaceKind::opaque && !material.two_sided; culled != culls)
+      vkCmdSetCullMode(commands, (culls = culled) ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
     if (textured && material.image != bound_image) {
       push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view,
                  material.wettable ? context.samplers.road : context.samplers.surface);

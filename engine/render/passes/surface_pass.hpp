@@ -24,12 +24,13 @@ struct SurfaceLight {
   bool snowy = false;
   bool sooty = false;           ///< FrameInput::soot is bound.
   bool main_beams = false;      ///< Some headlights have theirs on.
+  bool beacons = false;         ///< Light what is around them.
   bool mirror_of_road = false;  ///< Drawn as what a wet road mirrors: with an alpha of its own.
 
   /// As in shaders/surface.frag.
   std::uint32_t lamps() const {
     return std::uint32_t{headlights} | std::uint32_t{standing_lamps} << 1 |
-           std::uint32_t{headlights && main_beams} << 2;
+           std::uint32_t{headlights && main_beams} << 2 | std::uint32_t{beacons} << 3;
   }
 };
 

@@ -13,15 +13,30 @@
 namespace septet::render {
 namespace {
 
-void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const Headlight> headlights) {
-  std::vector<const Headlight*> nearest;
-  for (const Headlight& light : headlights) nearest.push_back(&light);
-  const auto distance = [&](const Headlight* light) {
+template <class Light>
+std::vector<const Light*> nearest_of(std::span<const Light> lights, const Vec3& eye_m, std::size_t most) {
+  std::vector<const Light*> nearest;
+  for (const Light& light : lights) nearest.push_back(&light);
+  const auto distance = [&](const Light* light) {
     return glm::dot(light->position_m - eye_m, light->position_m - eye_m);
   };
   std::stable_sort(nearest.begin(), nearest.end(),
-                   [&](const Headlight* a, const Headlight* b) { return distance(a) < distance(b); });
-  nearest.resize(std::min(nearest.size(), most_headlights));
+                   [&](const Light* a, const Light* b) { return distance(a) < distance(b); });
+  nearest.resize(std::min(nearest.size(), most));
+  return nearest;
+}
+
+void set_beacons(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const instant::BeaconLight> beacons) {
+  const auto nearest = nearest_of(beacons, eye_m, most_beacons);
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    uniforms.beacon_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), 0.0f);
+    uniforms.beacon_intensity[i] = glm::vec4(nearest[i]->intensity, 0.0f);
+  }
+  uniforms.soot_size.w = static_cast<float>(nearest.size());
+}
+
+void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const Headlight> headlights) {
+  const auto nearest = nearest_of(headlights, eye_m, most_headlights);
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     uniforms.headlight_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), nearest[i]->intensity);
     uniforms.headlight_direction[i] = glm::vec4(nearest[i]->direction, nearest[i]->main_beam);
@@ -116,10 +131,10 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   uniforms.wind = glm::vec4(instant::cloud_drift_m(environment, instant.simulated_time_s), 0.0f, instant.share_of_sky);
   set_headlights(uniforms, eye_m, instant.headlights);
   if (!instant.soot.cover.empty()) set_soot(uniforms, eye_m, instant.soot);
+  set_beacons(uniforms, eye_m, instant.beacons);
   constexpr double extent_m = LampField::side * LampField::texel_m;
   const glm::vec2 offset((Vec2(eye_m) - lamps.corner_m) / extent_m);
-  uniforms.lamp_field =
-      glm::vec4(offset, static_cast<float>(1.0 / extent_m), instant::open_lamps_light_up(light.night));
+  uniforms.lamp_field = glm::vec4(offset, static_cast<float>(1.0 / extent_m), instant::open_lamps_light_up(light));
   uniforms.lamp_hue = glm::vec4(lamps.hue, instant::roofed_lamps_light_up);
   set_water(uniforms, eye_m, instant, mirror);
   return uniforms;

@@ -14,7 +14,7 @@
 
 namespace septet::render {
 
-inline constexpr std::size_t most_headlights = 8;
+inline constexpr std::size_t most_headlights = 8, most_beacons = 4;
 
 struct ViewUniforms {
   glm::mat4 clip_from_relative;
@@ -30,8 +30,9 @@ struct ViewUniforms {
   glm::vec4 lamp_field, lamp_hue;
   glm::vec4 road, water, target;
   glm::vec4 offset;
+  std::array<glm::vec4, most_beacons> beacon_position, beacon_intensity;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 21 + 2 * most_headlights + 6 + 4) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 21 + 2 * most_headlights + 6 + 4 + 2 * most_beacons) * 16);
 
 /// Where the wet road's mirror image of a view lies in a picture.
 struct RoadMirror {

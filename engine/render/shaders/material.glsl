@@ -5,6 +5,7 @@ layout(push_constant) uniform Material {
   vec4 emission;    // rgb, roughness.
   vec4 surface;     // Metallic, reflectance at normal incidence, clear coat, takes paint.
   vec4 light;       // Share of the sky that the surface sees, retroreflection cd/(lx m²), columns and rows of pictures.
+  vec4 more;        // Share of light from around, lit by night.
 } material;
 
 // Of a clear coat: the twins of those in engine/scene/resolved_scene.hpp.

@@ -13,7 +13,7 @@ layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along
 layout(constant_id = 1) const uint cut = 0;       // Alpha cuts holes, both sides are drawn: 1 by coverage, 2 by pixels.
 layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky: 1 by its own layer, 2 by a clear coat, 3 by both.
 layout(constant_id = 3) const uint blended = 0;
-layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 standing lamps, 3 both; 5 and 7: some headlights' main beams, too.
+layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 standing lamps, 3 both; 5 and 7: some headlights' main beams, too; 8 more: beacons.
 layout(constant_id = 5) const uint snowy = 0;
 layout(constant_id = 6) const uint sooty = 0;
 layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels; drawn wider than it is where it is thin.
@@ -22,6 +22,7 @@ layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn as what a wet r
 layout(constant_id = 10) const uint fading = 0;         // Some pixels show another level of detail.
 
 layout(constant_id = 11) const uint retroreflective = 0;
+layout(constant_id = 16) const uint two_sided = 0;  // Opaque, and drawn from both sides.
 layout(constant_id = 12) const uint over_frames = 0;  // As in surface.vert.
 
 const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of what surfaces mirror in tunnels.
@@ -110,6 +111,17 @@ vec4 headlights(vec3 n) {
   return sum;
 }
 
+// Irradiance from beacons.
+vec3 beacons(vec3 n) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < int(view.soot_size.w); ++i) {
+    vec3 to_lamp = view.beacon_position[i].xyz - relative;
+    float square = dot(to_lamp, to_lamp);
+    sum += view.beacon_intensity[i].rgb * (max(0.0, dot(n, to_lamp)) * inversesqrt(square) / (square + 0.1));
+  }
+  return sum;
+}
+
 // Microfacets' sun (GGX, with Kelemen's visibility 1/(4·vh²)), per unit of irradiance on them.
 vec3 shine(vec3 facet, vec3 to_eye, vec3 f0, float roughness) {
   vec3 h = normalize(view.light_direction.xyz + to_eye);
@@ -141,7 +153,7 @@ void main() {
     if (alpha < 0.05) discard;
   }
   vec3 n = normalize(normal);
-  if (cut != 0 && !gl_FrontFacing) n = -n;
+  if ((cut != 0 || two_sided != 0) && !gl_FrontFacing) n = -n;
   float distance_m = length(relative);
   vec3 to_eye = -relative / distance_m;
   vec3 albedo = base.rgb;
@@ -179,16 +191,18 @@ void main() {
   float diffuse = max(facing, 0.0);
   if (cut != 0) diffuse = 0.75 * diffuse + 0.25 * abs(facing) + 0.1;  // Leaves let light through.
   vec3 sunlight = view.light_irradiance.rgb * lit;
-  vec3 ambient = (road != 0 ? view.sky_irradiance.rgb : irradiance_on(n)) * share_of_sky;  // Roads lie level.
+  // Roads lie level, in the open.
+  vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : irradiance_on(n) * (share_of_sky * material.more.x);
   // The lamps of a roofed place: their light from all sides, and near the eye their pools in it.
   float between_pools = 0.24 * (1.0 - share_of_sky);
   if ((lamps & 2) != 0) {
     vec4 thrown = standing_lamps(relative, n, share_of_sky);
     // Lamps below a ceiling leave it to what the road sends back.
     between_pools *= (1.0 - 0.7 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
-    ambient += thrown.rgb;
+    ambient += thrown.rgb * material.more.x;
   }
   ambient += vec3(1.5, 1.3, 1.0) * between_pools;
+  if ((lamps & 8) != 0) ambient += beacons(n);
   vec3 irradiance = sunlight * diffuse + ambient;
   vec3 radiance = albedo * (1.0 - material.surface.x) / pi;
   if ((lamps & 1) != 0) {
@@ -218,6 +232,7 @@ void main() {
     // What a layer mirrors does not reach the one below it, on its way in as on its way out.
     float cosine = clamp(dot(n, to_eye), 0.0, 1.0);
     vec3 mirrored = reflect(-to_eye, n), beam = sunlight * max(facing, 0.0), roof = under_roof * (1.0 - share_of_sky);
+    share_of_sky *= material.more.x;
     if ((glossy & 1) != 0) {
       vec3 f0 = mix(vec3(material.surface.y), albedo, material.surface.x), fresnel = layer_reflectance(cosine, f0, roughness);
       radiance = radiance * (1.0 - fresnel) * 0.92 + fresnel * (mirrored_sky(mirrored, roughness) * share_of_sky + roof) +

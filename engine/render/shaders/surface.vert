@@ -60,7 +60,7 @@ void main() {
   if (stripe != 0) nearer = widen_stripe();
   vec3 paint = material.surface.w > 0.5 ? tint.rgb : vec3(1.0);
   out_color = vec4(material.base_color.rgb * paint, material.base_color.a);
-  out_emission = vec4(material.emission.rgb * tint.a, material.light.x * light.x);
+  out_emission = vec4(material.emission.rgb * (tint.a * mix(1.0, view.ground_irradiance.w, material.more.y)), material.light.x * light.x);
   out_fog = fog_radiance(out_relative / max(length(out_relative), 1e-3), out_emission.w);
   vec3 drawn = mirror_of_road != 0 ? below_road(out_relative) : out_relative * (1.0 - nearer);
   gl_Position = view.clip_from_relative * vec4(drawn, 1.0);

@@ -20,13 +20,15 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 headlight_position[8];   // xyz relative. w: intensity.
   vec4 headlight_direction[8];  // xyz unit. w: main beam, 0 to 1.
   vec4 soot_x, soot_y, soot_z;  // Rows from relative places to cells of the soot.
-  vec4 soot_size;               // xyz: cells.
+  vec4 soot_size;               // xyz: cells. w: number of beacons.
   vec4 lamp_field;              // From relative places to the field's coordinates: xy·z + xy. w: how strongly lamps in the open light.
   vec4 lamp_hue;                // rgb. w: how strongly lamps under roofs light.
   vec4 road;    // xyz: normal of the road near the eye, w: its height along that from the eye.
   vec4 water;   // xy: the eye within a tile of puddles, m. z: 1 where mirror_image holds this view, w: where ripples hold rain.
   vec4 target;  // xy: a pixel as a share of the target's width and height. zw: the eye within a tile of ripples, tiles.
   vec4 offset;  // xy: of the samples of what stands still, NDC. z: how much of its depth it keeps. w: 1 where the sun or moon casts shadows that can be seen.
+  vec4 beacon_position[4];   // xyz relative.
+  vec4 beacon_intensity[4];  // rgb.
 } view;
 
 layout(set = 0, binding = 2) uniform sampler2D sky_table;

@@ -1,5 +1,7 @@
 #include "engine/render/vulkan/pipeline.hpp"
 
+#include <array>
+#include <tuple>
 #include <vector>
 
 #include "engine/effects/ice/ice_body.hpp"
@@ -78,7 +80,7 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
     }
   } modules{device.device, {}};
 
-  std::array<VkSpecializationMapEntry, 16> entries;
+  std::array<VkSpecializationMapEntry, std::tuple_size_v<decltype(description.constants)>> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, i * 4, 4};
   const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof description.constants,
                                        description.constants.data()};

@@ -67,7 +67,7 @@ struct PipelineDescription {
   bool marks = false;  ///< Alpha is stored, too: blended by itself, however the others are.
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 16> constants{};  ///< Specialization constants 0 to 15 of both stages.
+  std::array<std::uint32_t, 17> constants{};  ///< Specialization constants 0 to 16 of both stages.
 };
 
 /// Viewport, scissor, cull mode and front face are dynamic.

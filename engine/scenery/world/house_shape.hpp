@@ -1,6 +1,7 @@
 #pragma once
 /// A house: walls with windows, a saddle roof with eaves, its chimney.
 
+#include "engine/core/random.hpp"
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/roadside/buildings.hpp"
 #include "engine/scenery/world/world_finish.hpp"
@@ -14,5 +15,9 @@ struct HouseLook {
 
 /// In the block's place; the walls reach 1.5 m into the ground.
 void add_house(geometry::MeshBuilder& builder, const roadside::HouseBlock& block, const HouseLook& look);
+
+/// Panes of Ground::window_lit before that share of the windows of the same house, which of them `random` draws.
+void add_lit_windows(geometry::MeshBuilder& builder, const roadside::HouseBlock& block, const HouseLook& look,
+                     double share, Random& random);
 
 }  // namespace septet::scenery

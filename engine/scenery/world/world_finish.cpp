@@ -41,7 +41,7 @@ struct WorldLook {
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
 /// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 71> ground_looks{{
+constexpr std::array<WorldLook, 72> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
@@ -67,7 +67,7 @@ constexpr std::array<WorldLook, 71> ground_looks{{
     {"lamp red", {0.10f, 0.010f, 0.008f}, Texture::none, 0.4f},
     {"lamp amber", {0.40f, 0.20f, 0.02f}, Texture::none, 0.4f, 0.0f, {3.0f, 1.3f, 0.10f}},
     {"lamp green", {0.008f, 0.055f, 0.040f}, Texture::none, 0.4f},
-    {"lamp street", {0.7f, 0.7f, 0.7f}, Texture::none, 0.5f, 0.0f, {0.9f, 0.8f, 0.62f}},
+    {"lamp street", {0.7f, 0.7f, 0.7f}, Texture::none, 0.5f, 0.0f, {0.759f, 0.675f, 0.523f}},
     {"reflector", {0.75f, 0.75f, 0.72f}, Texture::none, 0.5f, 0.0f, {}, sheeting},
     {"post", {0.68f, 0.68f, 0.66f}, Texture::none, 0.7f},
     {"verge", {0.27f, 0.30f, 0.105f}, Texture::ground},
@@ -98,6 +98,7 @@ constexpr std::array<WorldLook, 71> ground_looks{{
     {"roof tiles", {0.34f, 0.13f, 0.080f}, Texture::none},
     {"roof dark", {0.085f, 0.085f, 0.090f}, Texture::none},
     {"planks", {0.30f, 0.055f, 0.040f}, Texture::none},
+    {"window lit", {0.040f, 0.050f, 0.065f}, Texture::none, 0.9f, 0.0f, {0.50f, 0.36f, 0.19f}},
     // Far forms: near colour times the mean of its texture.
     {"far asphalt", {0.105f, 0.104f, 0.102f}, Texture::none},
     {"palette", {1.0f, 1.0f, 1.0f}, Texture::palette},
@@ -224,6 +225,7 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, boo
     material.wettable =
         i <= index_of(Ground::mark) || i == index_of(Ground::paint) || i == index_of(Ground::far_asphalt);
     material.stripe = i == index_of(Ground::mark) || i == index_of(Ground::mark_tunnel);
+    material.lit_by_night = i == index_of(Ground::window_lit);
     material.share_of_sky = is_in_tunnel(static_cast<Ground>(i)) ? 0.0f : 1.0f;
     palette.push_back(builder.add_material(std::string("world/") + look.name, material));
   }

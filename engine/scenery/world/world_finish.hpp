@@ -64,6 +64,7 @@ enum class Ground : std::uint32_t {
   roof_tiles,
   roof_dark,
   planks,
+  window_lit,  ///< A pane before a lit room: as dark as others by day.
   far_asphalt,
   palette,
   // Colours of the palette, which are no materials of their own: see to_palette.

@@ -321,6 +321,22 @@ TEST_CASE("hostile files are refused, each by what is wrong with it") {
             "more than 200000 triangles"));
 }
 
+TEST_CASE("a material is seen from both sides where its file says so, and from its front alone otherwise") {
+  File file;
+  file.primitives = R"([{"attributes":{"POSITION":0},"material":0}])";
+  for (const auto& [said, two_sided] :
+       {std::pair{R"({"doubleSided":true})", true}, std::pair{R"({"doubleSided":false})", false},
+        std::pair{"{}", false}, std::pair{R"({"doubleSided":1})", false},
+        std::pair{R"({"doubleSided":"true"})", false}}) {
+    CAPTURE(std::string(said));
+    file.more = fmt::format(R"("materials":[{}],)", said);
+    const auto model = read(file);
+    REQUIRE(model.has_value());
+    CHECK(model->looks.at(0).two_sided == two_sided);
+    CHECK_FALSE(model->looks.back().two_sided);
+  }
+}
+
 TEST_CASE("what lies in another file is never opened") {
   for (const char* uri :
        {"../../../etc/passwd", "/etc/passwd", "file:///etc/passwd", "http://localhost/x", "scene.bin"}) {

@@ -63,7 +63,8 @@ TEST_CASE("a low sun gives the light that is told of it and not that light dimme
     Environment environment;
     environment.sun_elevation_rad = elevation_rad;
     environment.sun_illuminance_lux = illuminance_lux;
-    return double(brightness(sky_light(environment).light_irradiance));
+    const SkyLight light = sky_light(environment);
+    return double(brightness(light.light_irradiance) / light.light_up);
   };
   const double high = brightness_of_sun(0.75, 80000.0);
   CHECK(brightness_of_sun(0.05, 1500.0) / high == relative(1500.0 / 80000.0, 0.05));

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/instant/headlight_beam.hpp"
 #include "engine/world/limbs.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
@@ -161,7 +162,7 @@ TEST_CASE("a car that is shown by its shadow and light alone has both and nothin
                          car.world_from_vehicle.position_m, in_the_open);
   CHECK_FALSE(placed.meshes.empty());
   for (const PlacedMesh& mesh : placed.meshes) CHECK_FALSE(mesh.seen);
-  CHECK(placed.headlights.size() == 1);
+  CHECK(placed.headlights.size() == 2);
   CHECK(placed.glows.empty());
 }
 
@@ -201,7 +202,7 @@ TEST_CASE("the steering wheel's top goes to the left where the driver steers to 
   CHECK(top.z == doctest::Approx(std::cos(0.4)));
 }
 
-TEST_CASE("no snow lies on what drives and its beam begins between its head lamps") {
+TEST_CASE("no snow lies on what drives and its beams begin at its head lamps") {
   const ReferenceScene reference = reference_scene({{}, false, 0});
   DrawnParticipant car = reference_car(reference, {0, 0, 0});
   car.lamps.set(Lamp::low_beam, true);
@@ -210,15 +211,77 @@ TEST_CASE("no snow lies on what drives and its beam begins between its head lamp
                          car.world_from_vehicle.position_m, in_the_open);
   REQUIRE_FALSE(placed.meshes.empty());
   for (const PlacedMesh& mesh : placed.meshes) CHECK_FALSE(mesh.snowed_on);
-  REQUIRE(placed.headlights.size() == 1);
+  REQUIRE(placed.headlights.size() == 2);
   Vec3 low(1e9), high(-1e9);
   for (const LampGlow& glow : placed.glows) {
     if (!glow.beam) continue;
     low = glm::min(low, glow.position_m), high = glm::max(high, glow.position_m);
   }
   REQUIRE(low.x < high.x + 1e-3);
-  const Vec3 beam = placed.headlights[0].position_m;
-  CHECK(glm::length(beam - 0.5 * (low + high)) < 0.2);
+  REQUIRE(high.y - low.y > 0.5);
+  for (const Headlight& light : placed.headlights) {
+    CHECK(std::min(glm::length(light.position_m - low), glm::length(light.position_m - high)) < 0.2);
+    CHECK(light.intensity == doctest::Approx(0.5f * beam::pair_intensity));
+  }
+  CHECK(std::abs(placed.headlights[0].position_m.y - placed.headlights[1].position_m.y) > 0.5);
+}
+
+TEST_CASE("two beams of a car become one as it goes away, with the same light in all and without a leap") {
+  const ReferenceScene reference = reference_scene({{}, false, 0});
+  const std::vector<MeshSummary> meshes = summaries(reference.scene);
+  double apart_before_m = 1e9;
+  for (double distance_m = 10.0; distance_m < 60.0; distance_m += 0.5) {
+    DrawnParticipant car = reference_car(reference, {distance_m, 0, 0});
+    car.lamps.set(Lamp::low_beam, true);
+    const PlacedParticipants placed =
+        place_participants(std::span(&car, 1), reference.scene.prototypes, meshes, 0.0, Vec3(0.0), in_the_open);
+    CAPTURE(distance_m);
+    REQUIRE(!placed.headlights.empty());
+    REQUIRE(placed.headlights.size() <= 2);
+    float intensity = 0.0f;
+    for (const Headlight& light : placed.headlights) intensity += light.intensity;
+    CHECK(intensity == doctest::Approx(beam::pair_intensity));
+    const double apart_m = glm::length(placed.headlights.front().position_m - placed.headlights.back().position_m);
+    CHECK(apart_m <= apart_before_m + 1e-9);
+    CHECK(apart_before_m - apart_m < (apart_before_m > 1e8 ? 1e9 : 0.45));
+    apart_before_m = apart_m;
+    // Lamps fifteen metres before the eye and nearer are two where they are.
+    if (distance_m < 20.0) CHECK(apart_m > 0.8);
+    if (distance_m > 40.0) CHECK(apart_m == 0.0);
+  }
+}
+
+TEST_CASE("a beacon lights what is around it while it flashes, in its colour, and a dark one does not") {
+  ReferenceScene reference = reference_scene({{}, false, 0});
+  scene::Prototype prototype = reference.scene.prototypes.front();
+  std::vector<MeshSummary> meshes = summaries(reference.scene);
+  MeshSummary lens;
+  lens.bounds = {glm::vec3(-0.5f), glm::vec3(0.5f)};
+  lens.emission = {0.7f, 3.0f, 16.0f};
+  meshes.push_back(lens);
+  scene::Instance beacon;
+  beacon.mesh = static_cast<std::uint32_t>(meshes.size() - 1);
+  beacon.role = PartRole::beacon;
+  beacon.scale = {0.3f, 0.5f, 0.1f};
+  beacon.world_from_object.position_m = Vec3(0.5, 0.5, 2.0);
+  prototype.parts = {beacon};
+  DrawnParticipant ambulance;
+  ambulance.world_from_vehicle.position_m = Vec3(20.0, 0.0, 0.0);
+  const auto lit = [&](double at_s) {
+    return place_participants(std::span(&ambulance, 1), std::span(&prototype, 1), meshes, at_s, Vec3(0.0), in_the_open)
+        .beacons;
+  };
+  CHECK(lit(0.03).empty());
+  ambulance.lamps.set(Lamp::beacon, true);
+  const std::vector<BeaconLight> flash = lit(0.03);
+  REQUIRE(flash.size() == 1);
+  CHECK(flash[0].intensity.b > 4.0f * flash[0].intensity.g);
+  // A quarter of the box's surface, 0.46 m².
+  CHECK(flash[0].intensity.b == relative(16.0 * 0.115, 0.01));
+  CHECK(glm::length(flash[0].position_m - Vec3(20.5, 0.5, 2.0)) < 1e-6);
+  CHECK(lit(0.4).empty());
+  ambulance.shown = Shown::shadow_and_light;
+  CHECK(lit(0.03).empty());
 }
 
 TEST_CASE("whoever has the main beam on sends it out beside the dipped one and whoever has not does not") {
@@ -231,8 +294,8 @@ TEST_CASE("whoever has the main beam on sends it out beside the dipped one and w
       const PlacedParticipants placed =
           place_participants(std::span(&car, 1), reference.scene.prototypes, summaries(reference.scene), 0.0,
                              car.world_from_vehicle.position_m, in_the_open);
-      REQUIRE(placed.headlights.size() == (low || high ? 1 : 0));
-      if (low || high) CHECK(placed.headlights[0].main_beam == (high ? 1.0f : 0.0f));
+      REQUIRE(placed.headlights.size() == (low || high ? 2 : 0));
+      for (const Headlight& light : placed.headlights) CHECK(light.main_beam == (high ? 1.0f : 0.0f));
     }
 }
 

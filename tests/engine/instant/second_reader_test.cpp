@@ -146,7 +146,7 @@ TEST_CASE("a description depends on its input alone and headlights are in it onl
   CHECK(again.parts.size() == day.parts.size());
   stage.input.environment.sun_elevation_rad = -0.4;
   const Instant night = describe(stage.input, stage.summary);
-  CHECK(night.headlights.size() == 1);
+  CHECK(night.headlights.size() == 2);
   CHECK(night.emission_share < 0.5f);
 }
 

@@ -51,6 +51,7 @@ inline scene::ResolvedScene cornell_box() {
     material.base_color = color;
     material.roughness = 1.0f;
     material.emission = emission;
+    material.two_sided = emission == glm::vec3(0.0f);  // As all rectangles there; some look away.
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
   };

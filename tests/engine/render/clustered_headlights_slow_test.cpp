@@ -11,8 +11,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/image/png.hpp"
+#include "engine/instant/adaptation.hpp"
 #include "engine/instant/headlight_beam.hpp"
-#include "engine/instant/standing_lamps.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
@@ -57,7 +57,7 @@ RadianceImage light_of(Headlights headlights, int cars) {
                                return night;
                              }())));
   // Nights are shown so much brighter than they are (instant.cpp: seen_headlights).
-  const float bright = instant::beam::pair_intensity * instant::open_lamps_light_up(1.0f);
+  const float bright = instant::beam::pair_intensity * instant::most_light_up;
   for (int i = 0; i < cars; ++i)
     instant.headlights.push_back({Vec3(-30.0, 10.0 * (i - 0.5 * (cars - 1)), 0.65), {1, 0, 0}, bright});
   REQUIRE(renderer.draw(instant).has_value());

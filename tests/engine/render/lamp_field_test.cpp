@@ -42,8 +42,9 @@ scene::ResolvedScene hanging_lens(float up_or_down) {
 }  // namespace
 
 TEST_CASE(
-    "below a lamp the ground has its intensity over the height's square and beside it less by the cosine's fourth "
-    "power") {
+    "below a lamp the ground has its intensity over the height's square, and beside it as much under the sky, and less "
+    "by "
+    "the cosine's fourth power under a roof") {
   const Vec2 corner_m = lamp_field_corner({0, 0, 0});
   // In the middle of a texel.
   const Vec2 foot = corner_m + (Vec2(128, 128) + 0.5) * LampField::texel_m;
@@ -51,8 +52,12 @@ TEST_CASE(
   const float below = lamplight(texel(field, foot), up);
   CHECK(below == relative(candela / (height_m * height_m), 1e-4));
   const float beside = lamplight(texel(field, foot + Vec2(6, 0)), up);
+  CHECK(beside / below == relative(1.0f, 0.01));
+  CHECK(lamplight(texel(field, foot + Vec2(8, 0)), up) / below == relative(1.0f, 0.02));
+  CHECK(lamplight(texel(field, foot + Vec2(15, 0)), up) / below < 0.3f);
   // At 45°: cos⁴ is a quarter; the window that ends the lamp's reach takes a twentieth.
-  CHECK(beside / below == relative(0.25f, 0.06));
+  const LampField roofed = lamp_field(std::array{lamp(Vec3(foot, 6.0), true)}, corner_m);
+  CHECK(lamplight(texel(roofed, foot + Vec2(6, 0)), up) / lamplight(texel(roofed, foot), up) == relative(0.25f, 0.06));
   // A wall that looks at the lamp is lit, its back is not.
   const glm::vec4 there = texel(field, foot + Vec2(6, 0));
   CHECK(lamplight(there, {-1, 0, 0}) > 0.5f * beside);

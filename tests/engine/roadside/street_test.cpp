@@ -70,16 +70,18 @@ TEST_CASE("a town's houses depend on the seed, and the motorway has none") {
   CHECK(street_lamps(motorway).empty());
 }
 
-TEST_CASE("a street lamp stands beside lanes, never on one, and reaches towards its road") {
+TEST_CASE("a street lamp stands beside the lanes that are driven on, never on one, and reaches towards its road") {
   for (const char* name : {"fabriksgatan", "multi_intersections"}) {
     const road::RoadNetwork network = third_party_road(name);
     const std::vector<StreetLamp> lamps = street_lamps(RoadShape(network, 0.0));
     CHECK(lamps.size() > 15);
     int on_lane = 0, turned_away = 0;
     for (const StreetLamp& lamp : lamps) {
-      for (const road::Location& location : road::roads_holding(network, Vec2(lamp.world_from_lamp.position_m)))
-        on_lane += road::lane_type(network, location.position.road, location.lanes.lane_any_type,
-                                   location.position.s_m) != road::LaneType::none;
+      for (const road::Location& location : road::roads_holding(network, Vec2(lamp.world_from_lamp.position_m))) {
+        const road::LaneType type =
+            road::lane_type(network, location.position.road, location.lanes.lane_any_type, location.position.s_m);
+        on_lane += type != road::LaneType::none && type != road::LaneType::sidewalk;
+      }
       const auto reached = road::locate(network, Vec2(lamp.world_from_lamp * Vec3(2.0, 0, 0)));
       turned_away += !reached || reached->lanes.outside_m > 0.0;
     }
