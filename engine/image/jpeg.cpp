@@ -29,7 +29,7 @@ bool write(const Image& image, int quality, std::byte* row, unsigned char*& out,
   info.err = jpeg_std_error(&failure.manager);
   failure.manager.error_exit = fail;
   failure.manager.output_message = say_nothing;
-  if (setjmp(failure.back) != 0) {  // NOLINT(cert-err52-cpp): the library's only way out of an error.
+  if (setjmp(failure.back) != 0) {
     jpeg_destroy_compress(&info);
     return false;
   }

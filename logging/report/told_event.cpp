@@ -27,6 +27,7 @@ enum Row : std::size_t {
 Row row_of(std::string_view kind) {
   using enum Row;
   static const std::map<std::string_view, Row> rows{{"mark", marks},
+                                                    {"word", marks},
                                                     {"operator", operators},
                                                     {"operator_command", operators},
                                                     {"rating", ratings},
@@ -64,10 +65,10 @@ std::optional<std::string> rest_behind(std::string_view detail, std::string_view
   return at == detail.npos ? std::nullopt : std::optional(std::string(detail.substr(at + key.size())));
 }
 
-/// Who said it stands before " note=" or " wish=".
+/// Who said it stands before " note=", " wish=" or " text=".
 std::string said_by(std::string_view detail) {
   if (!detail.starts_with("by=")) return "";
-  const auto end = std::min(detail.find(" note="), detail.find(" wish="));
+  const auto end = std::min({detail.find(" note="), detail.find(" wish="), detail.find(" text=")});
   return fmt::format(" (by {})", detail.substr(3, end == detail.npos ? end : end - 3));
 }
 
@@ -124,6 +125,9 @@ std::string plain_text(const Event& event) {
 
 std::string text_of(const Event& event) {
   if (event.kind == "mark") return rest_behind(event.detail, "note=").value_or(event.detail) + said_by(event.detail);
+  if (event.kind == "word")
+    return fmt::format("to the driver: {}{}", rest_behind(event.detail, "text=").value_or(event.detail),
+                       said_by(event.detail));
   if (event.kind == "operator")
     return rest_behind(event.detail, "wish=").value_or(event.detail) + said_by(event.detail);
   if (event.kind == "rating") return rest_behind(event.detail, "wish=").value_or(event.detail) + said_by(event.detail);

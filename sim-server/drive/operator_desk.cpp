@@ -200,7 +200,7 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
     if (auto why_not = drive_.rearm_actuators(wish.name.empty() ? "operator" : wish.name)) return why_not;
     note(wish, "operator", "rearm");
   } else if (const auto* end = std::get_if<page::End>(&wish.wish)) {
-    is_ended_ = true;
+    if (std::exchange(is_ended_, true)) return "the drive is ending already";
     note(wish, "operator", (end->participant_stops ? "end participant_stops=1 reason=" : "end reason=") + end->reason);
     if (end->participant_stops && log_) log_->record_answer(logging::drop_out(drive_.state().time_s(), end->reason));
   } else if (const auto* changed = std::get_if<page::Change>(&wish.wish)) {

@@ -24,7 +24,11 @@ function offer_end(stops) {
   $('ending').showModal();
 }
 $('end').onclick = () => offer_end(false);
-$('ending').onclose = () => { if ($('ending').returnValue === 'yes') command({ do: 'end', reason: $('reason').value, participant_stops: $('participantstops').checked }); };
+$('ending').onclose = () => {
+  const chosen = $('ending').returnValue;
+  $('ending').returnValue = '';  // The word of one that was closed before may come after the next one's.
+  if (chosen === 'yes') command({ do: 'end', reason: $('reason').value, participant_stops: $('participantstops').checked });
+};
 $('markform').onsubmit = (event) => {
   event.preventDefault();
   command({ do: 'mark', note: $('note').value });

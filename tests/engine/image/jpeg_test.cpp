@@ -39,7 +39,7 @@ TEST_CASE("a JPEG is the picture in its size, within a few codes where it is smo
     for (std::uint32_t y = 0; y < height; ++y)
       for (std::uint32_t x = 0; x < width; ++x)
         picture.set(x, y,
-                    {static_cast<std::uint8_t>(x * 200 / width), static_cast<std::uint8_t>(y * 200 / height), 90, 255});
+                    {static_cast<std::uint8_t>(x * 200 / 640), static_cast<std::uint8_t>(y * 200 / 640), 90, 255});
     const Image back = decoded(encode_jpeg(picture));
     CHECK(back.width == width);
     CHECK(back.height == height);

@@ -97,6 +97,19 @@ def at_the_desk(trial, server_program, folder):
     desk.value("command({ do: 'back', seconds: 8 })")
     desk.until(f"(() => {{ {OWN} return Math.hypot(own[2] - there[0], own[3] - there[1]) > 15; }})()")
 
+    # A browser that dies with its foot on the brake: it is let go.
+    other = trial.browser("other")
+    other.open(url)
+    desk.click("#take")
+    other.click("#take")
+    other.until("mine")
+    other.value("hold_brake()")
+    desk.until("state.instructor_brakes")
+    other.kill()
+    desk.until("!state.instructor_brakes && state.commander === null")
+    desk.click("#take")
+    desk.until("mine")
+
     desk.value("document.getElementById('reason').value = 'done'")
     desk.click("#end")
     desk.click("#ending button[value=yes]")
