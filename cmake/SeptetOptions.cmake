@@ -23,9 +23,9 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   endif()
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # gcc 12 sees bounds broken within std::string's own operator+ (where a text is so long that it knows its end, as a path may be), and an
-  # empty std::optional read within its own destructor.
-  add_compile_options(-Wno-array-bounds -Wno-stringop-overflow -Wno-restrict -Wno-maybe-uninitialized)
+  # gcc 12 sees bounds broken within std::string's own operator+ (where a text is so long that it knows its end, as a path may be) and within
+  # std::vector as it grows, and an empty std::optional read within its own destructor.
+  add_compile_options(-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 set(CMAKE_C_FLAGS_RELEASE "-O2")
@@ -33,7 +33,8 @@ set(CMAKE_C_FLAGS_RELEASE "-O2")
 # optimising compiler; sanitizers have guards of their own.
 if(NOT SEPTET_SANITIZE)
   set(module $<STREQUAL:$<TARGET_PROPERTY:TYPE>,MODULE_LIBRARY>)
-  add_compile_options($<$<NOT:${module}>:-fPIE> -fstack-protector-strong -fstack-clash-protection $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=3>)
+  add_compile_options($<$<NOT:${module}>:-fPIE> -fstack-protector-strong -fstack-clash-protection $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=3>
+                      -D_GLIBCXX_ASSERTIONS)  # Each index of a std::vector, std::span and the like is looked at.
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     add_compile_options(-fcf-protection)
   endif()

@@ -1,5 +1,6 @@
 """The programs are built so that a slip in reading what comes from outside is stopped rather than used: addresses differ at each start, what
-the linker resolves is read-only before main, stack frames and copies are guarded, and calls and jumps land where functions begin.
+the linker resolves is read-only before main, stack frames and copies are guarded, calls and jumps land where functions begin, and each index of a container of
+the standard library is looked at.
 
     hardening_test.py PROCESSOR COMPILE_COMMANDS PROGRAM…
 """
@@ -56,7 +57,7 @@ def faults_of_program(program, processor):
 def faults_of_command(command):
     """What a program's own bytes need not show: few frames are longer than a page, few copies have a size that the compiler knows."""
     words = command.split()
-    for word in ["-fstack-protector-strong", "-fstack-clash-protection"]:
+    for word in ["-fstack-protector-strong", "-fstack-clash-protection", "-D_GLIBCXX_ASSERTIONS"]:
         if word not in words:
             yield f"compiled without {word}"
     if "-O0" not in words and "-D_FORTIFY_SOURCE=3" not in words:
