@@ -191,7 +191,8 @@ TEST_CASE("an experiment whose second part cannot be driven drives nobody and ne
     std::vector<std::string> words{"experiment"};
     if (next) words.emplace_back("next");
     words.insert(words.end(), {file.string(), "--out", (folder / "out").string()});
-    check_refused(run("septet", words, folder / (next ? "next.log" : "log")), {"part task", "no_such", "rescue-lane.xosc"}, folder / "out");
+    check_refused(run("septet", words, folder / (next ? "next.log" : "log")),
+                  {"part task", "no_such", "rescue-lane.xosc"}, folder / "out");
   }
 }
 
