@@ -166,9 +166,7 @@ Expected<void> SessionLog::finish(const logging::DriveOutcome& outcome) {
 
 std::optional<std::string> SessionLog::remark() const {
   if (!writer_.is_still_read()) return std::nullopt;
-  return "the log is whole; another program has it open, so session.sqlite-wal stays beside it: copy both, or join "
-         "them once that "
-         "program is closed: sqlite3 session.sqlite 'PRAGMA journal_mode=DELETE'";
+  return "the log is whole; another program has it open, so session.sqlite-wal stays beside it: copy both";
 }
 
 std::string SessionLog::ending(const ServeResult& result) const {
