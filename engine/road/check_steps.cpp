@@ -14,8 +14,8 @@ namespace septet::road {
 namespace {
 
 constexpr double least_step_m = 0.05;
-constexpr double beside_m = 1e-6;    ///< Before and behind a station, where one record and the next hold.
-constexpr double at_an_end_m = 1e-3; ///< A record so near to a road's end is met by nobody.
+constexpr double beside_m = 1e-6;     ///< Before and behind a station, where one record and the next hold.
+constexpr double at_an_end_m = 1e-3;  ///< A record so near to a road's end is met by nobody.
 
 /// What can step along a road, as elements of the file.
 struct StepCause {
@@ -46,7 +46,8 @@ void add_stations(const CubicProfile& profile, std::vector<double>& stations) {
 /// Ascending, each once, away from the road's ends: where a record of the surface begins.
 std::vector<double> stations_of(const Road& road) {
   std::vector<double> stations;
-  for (const CubicProfile* profile : {&road.elevation, &road.superelevation, &road.crossfall_left, &road.crossfall_right})
+  for (const CubicProfile* profile :
+       {&road.elevation, &road.superelevation, &road.crossfall_left, &road.crossfall_right})
     add_stations(*profile, stations);
   for (const LaneSection& section : road.sections) {
     stations.push_back(section.s_m);
@@ -92,8 +93,7 @@ Step step_at(const Road& road, double s_m) {
 const StepCause* cause_of(const Road& road, double s_m, double t_m) {
   const double by_elevation = std::abs(jump_of(road.elevation, s_m)),
                by_roll = std::abs(t_m * jump_of(road.superelevation, s_m)),
-               by_fall =
-                   std::abs(t_m * jump_of(t_m > 0.0 ? road.crossfall_left : road.crossfall_right, s_m));
+               by_fall = std::abs(t_m * jump_of(t_m > 0.0 ? road.crossfall_left : road.crossfall_right, s_m));
   const double most = std::max({by_elevation, by_roll, by_fall});
   if (most < 0.5 * least_step_m) return nullptr;
   return most == by_elevation ? &elevation : most == by_roll ? &superelevation : &crossfall;
@@ -106,11 +106,10 @@ void check_along(const CheckedFile& file, RoadIndex index) {
     const Step step = step_at(road, s);
     if (!(std::abs(step.height_m) > least_step_m)) continue;
     const StepCause* cause = cause_of(road, s, step.t_m);
-    file.findings.warning(
-        cause ? node_at(road_node, *cause, s) : road_node,
-        fmt::format("the surface of road {} steps by {:.3f} m at s={:.3f}, t={:.3f}, by its {}", road.id, step.height_m, s,
-                    step.t_m, cause ? cause->name : "lane height"),
-        "let each record begin where the one before ends");
+    file.findings.warning(cause ? node_at(road_node, *cause, s) : road_node,
+                          fmt::format("the surface of road {} steps by {:.3f} m at s={:.3f}, t={:.3f}, by its {}",
+                                      road.id, step.height_m, s, step.t_m, cause ? cause->name : "lane height"),
+                          "let each record begin where the one before ends");
   }
 }
 

@@ -32,8 +32,8 @@ std::string cubic(const char* element, double s, double a, double b = 0.0) {
 /// 100 m, one lane each way; the elevation rises by `step_m` at s = 20.
 std::string raised_by(double step_m) {
   SmallRoad road;
-  road.profiles = "<elevationProfile>" + cubic("elevation", 0, 1.0, 0.02) +
-                  cubic("elevation", 20, 1.4 + step_m, 0.02) + "</elevationProfile>";
+  road.profiles = "<elevationProfile>" + cubic("elevation", 0, 1.0, 0.02) + cubic("elevation", 20, 1.4 + step_m, 0.02) +
+                  "</elevationProfile>";
   return road.xml();
 }
 
@@ -42,7 +42,8 @@ std::string two_sections(const std::string& before, const std::string& first, co
   SmallRoad road;
   road.before_sections = before;
   const auto section = [&](int s, const std::string& lanes) {
-    return fmt::format("<laneSection s=\"{}\"><center>{}</center><right>{}</right></laneSection>", s, lane(0, 0), lanes);
+    return fmt::format("<laneSection s=\"{}\"><center>{}</center><right>{}</right></laneSection>", s, lane(0, 0),
+                       lanes);
   };
   road.sections = section(0, first) + section(50, second);
   return road.xml();
@@ -108,7 +109,8 @@ TEST_CASE("a step of a driving lane's height is named and a lowered kerb of a pa
   };
   SmallRoad road;
   const auto with = [&](const std::string& lanes) {
-    road.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" + lanes + "</right></laneSection>";
+    road.sections =
+        "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" + lanes + "</right></laneSection>";
     return steps_of(road.xml());
   };
   const Texts found = with(lane_of("driving"));
