@@ -58,7 +58,7 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. What the input did is in the car. A game, and an examiner, is hashed where there is one.
-SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road),
+SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
                      left_out(scenario, traffic, effects), kept(game, examiner, input), hashed(diagnostics, touching))
 
 namespace {

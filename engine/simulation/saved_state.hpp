@@ -15,7 +15,7 @@
 namespace septet::simulation {
 
 /// Changes whenever the meaning of the bytes does within a revision's name, as in a tree that is being worked on.
-inline constexpr std::uint32_t saved_state_version = 4;
+inline constexpr std::uint32_t saved_state_version = 5;
 /// No larger state is saved or restored. A tunnel full of smoke takes a few megabytes.
 inline constexpr std::size_t most_saved_bytes = std::size_t{64} << 20;
 
