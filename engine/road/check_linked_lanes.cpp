@@ -79,8 +79,15 @@ void check_gap(const CheckedFile& file, const LaneEnd& from, const LaneEnd& to, 
       "let linked lanes join", "asam.net:xodr:1.7.0:lane_smoothness.contact_point_no_horizontal_gaps");
 }
 
+/// From one section of a road to the next, where check_steps looks.
+bool are_within_a_road(const LaneEnd& from, const LaneEnd& to) {
+  return from.road == to.road && from.at_end != to.at_end &&
+         (from.at_end ? from.section + 1 == to.section : to.section + 1 == from.section);
+}
+
 /// Lanes with heights of their own step on purpose.
 void check_step(const CheckedFile& file, const LaneEnd& from, const LaneEnd& to, const Edge& a, const Edge& b) {
+  if (are_within_a_road(from, to)) return;
   if (!lane_of(file, from).heights.empty() || !lane_of(file, to).heights.empty()) return;
   const double step = 0.5 * std::abs(a.inner_m.z + a.outer_m.z - b.inner_m.z - b.outer_m.z);
   if (step <= tolerated_step_m) return;

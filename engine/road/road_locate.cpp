@@ -205,6 +205,7 @@ std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& w
   const CrossSection section = cross_section_at(road, s);
   const Vec3 point = section.place(t, surface_offset_m(road, s, t));
   SurfacePoint surface{location->position, point.z};
+  surface.outside_m = location->lanes.outside_m;
   if (road.flat && road.superelevation.empty()) {
     const Vec2 uphill = section.grade / (1.0 - section.plan.curvature_per_m * t) * section.plan.direction;
     surface.normal = glm::normalize(Vec3(-uphill.x, -uphill.y, 1.0));

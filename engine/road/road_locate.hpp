@@ -34,6 +34,7 @@ struct SurfacePoint {
   RoadPosition position;
   double height_m = 0.0;       ///< World z.
   Vec3 normal{0.0, 0.0, 1.0};  ///< Unit, upwards.
+  double outside_m = 0.0;      ///< How far the point lies outside the lanes, as Location's.
 };
 std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m,
                                        const RoadPosition* hint = nullptr, double reach_m = 20.0);

@@ -44,6 +44,7 @@ void check_rules(XmlFindings& findings, const pugi::xml_node& root, const RoadNe
   check_linked_lanes(file);
   check_lane_sections(file);
   check_redundancy(file);
+  check_steps(file);
 }
 
 const LaneSection& section_of(const CheckedFile& file, const LaneEnd& end) {

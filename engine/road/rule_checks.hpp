@@ -62,5 +62,6 @@ void check_connections(const CheckedFile& file);
 void check_linked_lanes(const CheckedFile& file);   ///< Both ways, widths, levels, gaps.
 void check_lane_sections(const CheckedFile& file);  ///< Levels, access, borders.
 void check_redundancy(const CheckedFile& file);
+void check_steps(const CheckedFile& file);  ///< Of the surface and of the lanes within each road.
 
 }  // namespace septet::road

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
 #include "engine/roadside/mentions.hpp"
 #include "engine/roadside/town.hpp"
 
 namespace septet::roadside {
 namespace {
 
+constexpr double post_out_m = 1.2, post_clear_m = 0.5;
 constexpr double least_line_m = 0.5, highest_barrier_m = 12.0, widest_barrier_m = 3.0;
 
 BarrierForm form_of(const road::RoadObject& object) {
@@ -48,6 +50,19 @@ bool gives_posts(const road::Road& road) {
     return mentions(object.type, "guide-post") || mentions(object.type, "guidepost") ||
            mentions(object.subtype, "delineator");
   });
+}
+
+/// Whether lanes of some road lie under a post or within `clear_m` beside it: what lies beside one road may lie on another, as the gore
+/// of an exit does.
+bool is_on_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, double t_m, double clear_m) {
+  const auto holds = [&](double t) {
+    const auto found = road::roads_holding(roads.network(), Vec2(roads.point(index, s_m, t)));
+    return std::ranges::any_of(found, [&](const road::Location& location) {
+      return road::lane_type(roads.network(), location.position.road, location.lanes.lane_any_type,
+                             location.position.s_m) != road::LaneType::none;
+    });
+  };
+  return holds(t_m) || holds(t_m - clear_m) || holds(t_m + clear_m);
 }
 
 }  // namespace
@@ -149,8 +164,9 @@ std::vector<BesideLine> marker_posts(const RoadShape& roads, const RoadTile& til
   for (double s = std::ceil(tile.s0_m / 50.0) * 50.0; s < tile.s1_m; s += 50.0) {
     const road::RoadExtent extent = road::road_extent(roads.road(tile.road), s);
     for (const double side : {1.0, -1.0}) {
-      const double t = (side > 0 ? extent.left_t_m : extent.right_t_m) + side * 1.2;
-      result.push_back({s - 0.5, s + 0.5, t, t});
+      const double t = (side > 0 ? extent.left_t_m : extent.right_t_m) + side * post_out_m;
+      if (!is_on_lanes(roads, tile.road, std::max(s - 0.5, tile.s0_m), t, post_clear_m))
+        result.push_back({s - 0.5, s + 0.5, t, t});
     }
   }
   return result;

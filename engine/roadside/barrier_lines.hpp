@@ -48,7 +48,7 @@ inline constexpr double barrier_step_m = 10.0;
 std::vector<BesideLine> noise_walls(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double noise_wall_step_m = 8.0;
 
-/// Reflecting posts every 50 m behind the rail, none in towns and junctions or where the file gives its own; each stands at the first station of its line, which is a metre long.
+/// Reflecting posts every 50 m behind the rail, none in towns and junctions, on or right beside another road's lanes, or where the file gives its own; each stands at the first station of its line, which is a metre long.
 std::vector<BesideLine> marker_posts(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double marker_post_step_m = 2.0;
 

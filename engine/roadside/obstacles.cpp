@@ -57,6 +57,8 @@ Make make_of(ObstacleKind kind) {
       return {0.05, endless_m, 0.45, 0.0};
     case ObstacleKind::post:
       return {signal_post_radius_m, 4.0, 0.30, 0.0};
+    case ObstacleKind::ground_face:
+      return {0.0, 0.0, 0.45, 0.0};  // Found under way (simulation/ground_faces.hpp).
   }
   return {0.1, 1.0, 0.4, 0.0};
 }

@@ -28,6 +28,9 @@ class Obstacles {
   /// Those within `reach_m` (at most 30) of p in plan, in a fixed order, woods' stems too; none where p is no number.
   std::vector<Obstacle> near(const Vec2& p, double reach_m) const;
 
+  /// The land on which they stand.
+  const Terrain& terrain() const { return terrain_; }
+
   /// All but the stems of woods.
   std::span<const Obstacle> listed() const { return obstacles_; }
 

@@ -8,14 +8,17 @@
 
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/roadside/ground_beside.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/ground_faces.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "engine/world/indicator.hpp"
 
 namespace septet::simulation {
 namespace {
 
-constexpr int car_steps = 8;  // About 1 kHz: what the wheels' spin and hop want.
+constexpr double road_reach_m = 60.0;  ///< Farther off no road is looked for.
+constexpr int car_steps = 8;           // About 1 kHz: what the wheels' spin and hop want.
 
 constexpr std::array<const char*, vehicle::wheel_count> wheel_names{"front_left", "front_right", "rear_left",
                                                                     "rear_right"};
@@ -55,7 +58,7 @@ void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double s
   }
 }
 
-/// The road's surface under each wheel, and how slippery it is there.
+/// What each wheel stands on, road or land, and how slippery it is there.
 vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event>& events) {
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
   const Environment& sky = state.scenario.environment;
@@ -64,26 +67,56 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
                             state.effects.ice.black, state.effects.ice.still.thawed_kh};
   const Vec2 heading{state.car.world_from_body.orientation * Vec3(1.0, 0.0, 0.0)};
   const Vec2 ahead = glm::length(heading) > 0.1 ? glm::normalize(heading) : Vec2(1.0, 0.0);
+  const double way_m = std::max(0.0, glm::dot(Vec2(state.car.velocity_mps), ahead)) * tick_s;
   vehicle::Ground ground;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     vehicle::WheelGround& wheel = ground[i];
-    if (find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], state.car_road.has_value(),
-                          state.wheel_roads[i], wheel)) {
-      find_kerb(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i],
-                wheel);
+    const road::RoadPosition stood = state.wheel_roads[i];
+    const bool has_place = state.car_road.has_value();
+    const auto outside_m =
+        find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], has_place, state.wheel_roads[i], wheel);
+    if (model.obstacles && (!outside_m || *outside_m > roadside::paved_edge_m)) {
+      find_land(model.roads, model.obstacles->terrain(), weather, centres[i],
+                outside_m ? &state.wheel_roads[i] : nullptr, wheel);
+      if (outside_m && has_place) stays_before_face(model, centres[i], stood, state.wheel_roads[i], wheel);
+      state.kerbs[i].reset();
+    } else if (outside_m) {
+      if (!has_place || !stays_before_face(model, centres[i], stood, state.wheel_roads[i], wheel))
+        find_kerb(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i],
+                  wheel, way_m);
       note_kerb(i, centres[i], wheel, model, state, events);
-      const double debris_m = obstacle_height_m(state.effects, wheel.point_m);
-      wheel.point_m.z += debris_m;
-      wheel.yields = debris_m > 0.0;
-      continue;
+    } else {
+      // A world without land: it is level, as high as the road that the car was last on.
+      wheel.point_m = Vec3(Vec2(centres[i]), 0.0);
+      if (state.car_road) wheel.point_m.z = road::evaluate(model.roads, *state.car_road).position_m.z;
+      wheel.friction = surface_friction(nullptr, weather);
     }
-    // Far off every road the ground goes on level at the height of the wheel's last contact.
-    wheel.point_m = {centres[i].x, centres[i].y,
-                     state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m};
-    wheel.friction = std::min(surface_friction(nullptr, weather), 0.5);
-    wheel.rolling_resistance = 4.0;
+    const double debris_m = obstacle_height_m(state.effects, wheel.point_m);
+    wheel.point_m.z += debris_m;
+    wheel.yields = debris_m > 0.0;
   }
   return ground;
+}
+
+/// Once the car has been off the roads for some seconds, and each minute from then on, the log says so; and when it is back.
+void note_off_road(const std::optional<road::Location>& place, State& state, std::vector<Event>& events) {
+  constexpr double beside_m = 2.0;  // Two wheels on the verge are not off the road.
+  constexpr auto first = static_cast<std::uint32_t>(5.0 * tick_rate_hz),
+                 again = static_cast<std::uint32_t>(60.0 * tick_rate_hz);
+  if (place && place->lanes.outside_m <= beside_m) {
+    if (state.off_road_ticks >= first)
+      events.push_back({"off_road", driver_participant,
+                        fmt::format("state=back after_s={:.1f}", state.off_road_ticks / tick_rate_hz)});
+    state.off_road_ticks = 0;
+    return;
+  }
+  const std::uint32_t ticks = ++state.off_road_ticks;
+  if (ticks < first || (ticks - first) % again != 0) return;
+  events.push_back(
+      {"off_road", driver_participant,
+       fmt::format("state=off since_s={:.1f} distance_m={} speed_mps={:.2f}", ticks / tick_rate_hz,
+                   place ? fmt::format("{:.1f}", place->lanes.outside_m) : fmt::format("{:.0f}+", road_reach_m),
+                   glm::length(state.car.velocity_mps))});
 }
 
 /// What the hull met, for the log and for the debris.
@@ -140,9 +173,10 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   const auto ground = ground_below(model, state, events);
   const std::uint32_t bad_before = state.car.bad_numbers;
   const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
-  const auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m),
-                                                                 vehicle::hull_reach_m(model.car) + on_the_way_m)
-                                         : std::vector<Obstacle>{};
+  auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m),
+                                                           vehicle::hull_reach_m(model.car) + on_the_way_m)
+                                   : std::vector<Obstacle>{};
+  append_faces(model, state, ground, obstacles);
   vehicle::HullReport met;
   const auto wheels_before = state.car.wheels;
   std::array<double, vehicle::wheel_count> squeeze_m{};
@@ -161,9 +195,10 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const DrivenCar car = driven_car(model, state);
   const Vec3 origin = car.outputs.world_from_vehicle.position_m;
-  if (const auto place =
-          road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
-    state.car_road = place->position;
+  const auto place =
+      road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, road_reach_m);
+  if (place) state.car_road = place->position;
+  note_off_road(place, state, events);
   return car;
 }
 

@@ -64,7 +64,8 @@ SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. What the input did is in the car. Faults, a game, and an examiner are hashed where there are any.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull, wheel_roads, kerbs, strikes, car_road),
-                     left_out(scenario, traffic, effects), kept(game, examiner, input), hashed(diagnostics, touching))
+                     kept(off_road_ticks), left_out(scenario, traffic, effects), kept(game, examiner, input),
+                     hashed(diagnostics, touching))
 
 namespace {
 

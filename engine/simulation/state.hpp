@@ -44,6 +44,7 @@ struct State {
   std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;      ///< One event a touch.
   std::array<std::optional<WheelStrike>, vehicle::wheel_count> strikes;  ///< One event a strike.
   std::optional<road::RoadPosition> car_road;
+  std::uint32_t off_road_ticks = 0;  ///< Since the car was last on a road or right beside it.
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
@@ -59,7 +60,7 @@ struct State {
 /// Something that happened in a step, for the log.
 struct Event {
   std::string
-      kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "bad_number", "traffic", "right_of_way", ….
+      kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "off_road", "bad_number", "traffic", "right_of_way", ….
   std::optional<ParticipantId> participant;
   std::string detail;
 };

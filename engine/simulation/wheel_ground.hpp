@@ -5,12 +5,14 @@
 /// and from patches on it (OpenDRIVE; their surface "wet", "snow" or "ice" goes with temperature, any other is paved and goes with
 /// the weather, too); what is left of the black ice on a lane lies over them. RoadCondition's frictionScaleFactor multiplies all of it.
 
+#include <optional>
 #include <span>
 
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/roadside/raised_areas.hpp"
+#include "engine/roadside/terrain.hpp"
 #include "engine/simulation/effects/black_ice.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -25,14 +27,22 @@ struct RoadWeather {
 };
 
 /// Under a wheel whose centre is at `centre_m`. `place` is where the wheel was (read where `has_place`) and becomes where it is.
-/// Nothing where no road is near: the caller knows how the land goes on. `raised` may be null: there is nothing.
-bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const RoadWeather& weather,
-                       const Vec3& centre_m, bool has_place, road::RoadPosition& place, vehicle::WheelGround& wheel);
+/// Returns how far that lies outside the lanes, where the surface goes on as it ends; nothing where no road is near.
+/// `raised` may be null: there is nothing.
+std::optional<double> find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised,
+                                        const RoadWeather& weather, const Vec3& centre_m, bool has_place,
+                                        road::RoadPosition& place, vehicle::WheelGround& wheel);
 
-/// Looks for a kerb, a wheel's radius before and behind its centre: sets `wheel.edge_m`. `ahead`: the car's heading, level, unit
-/// length. Costs nothing on roads whose lanes have one height, far from what is raised.
+/// The land beside the roads under a wheel: its height, and grass in the weather. `place`: of a road near it, or null.
+void find_land(const road::RoadNetwork& roads, const roadside::Terrain& terrain, const RoadWeather& weather,
+               const Vec3& centre_m, const road::RoadPosition* place, vehicle::WheelGround& wheel);
+
+/// Looks for a kerb or a step, a wheel's radius before and behind its centre, and before it the way of a tick farther: sets
+/// `wheel.edge_m`. `ahead`: the car's heading, level, unit length. Costs nothing where a road does not step (ground_faces.hpp), far
+/// from what is raised.
 void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m,
-               const Vec2& ahead, double radius_m, const road::RoadPosition& place, vehicle::WheelGround& wheel);
+               const Vec2& ahead, double radius_m, const road::RoadPosition& place, vehicle::WheelGround& wheel,
+               double way_m = 0.0);
 
 double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather);
 

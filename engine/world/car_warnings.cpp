@@ -5,7 +5,7 @@
 namespace septet {
 namespace {
 
-constexpr std::uint8_t version = 1;
+constexpr std::uint8_t warnings_version = 1;
 constexpr bool CarWarnings::*lamps[] = {&CarWarnings::tyre_pressure, &CarWarnings::anti_lock, &CarWarnings::engine,
                                         &CarWarnings::lamp};
 
@@ -17,14 +17,14 @@ Bytes encode_car_warnings(const CarWarnings& warnings) {
     bits = static_cast<std::uint8_t>(bits | (warnings.*lamps[i] ? 1 << i : 0));
   Bytes bytes;
   ByteWriter out(bytes);
-  out.put(version);
+  out.put(warnings_version);
   out.put(bits);
   return bytes;
 }
 
 Expected<CarWarnings> decode_car_warnings(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
-  if (in.get<std::uint8_t>() != version) in.fail();
+  if (in.get<std::uint8_t>() != warnings_version) in.fail();
   const auto bits = in.get<std::uint8_t>();
   if (!in.ok() || in.remaining() != 0 || bits == 0 || bits >> std::size(lamps) != 0)
     return failure("these are no warning lamps", "car warnings keyframe",

@@ -28,6 +28,8 @@ std::string_view name_of(ObstacleKind kind) {
       return "house";
     case ObstacleKind::post:
       return "post";
+    case ObstacleKind::ground_face:
+      return "step of the ground";
   }
   return "";
 }

@@ -24,7 +24,8 @@ enum class ObstacleKind : std::uint8_t {
   tree,
   bush,
   house,
-  post,  ///< Of a sign, a traffic light or a lamp.
+  post,         ///< Of a sign, a traffic light or a lamp.
+  ground_face,  ///< Where the ground rises at once by more than a wheel climbs.
 };
 
 /// "guard rail", "tree", …: for the log.

@@ -33,7 +33,7 @@ road::RoadNetwork straight_road(const std::string& objects) {
 double friction_at(const road::RoadNetwork& roads, const simulation::RoadWeather& weather, double x_m, double y_m) {
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  REQUIRE(simulation::find_wheel_ground(roads, nullptr, weather, {x_m, y_m, 0.3}, false, place, wheel));
+  REQUIRE(simulation::find_wheel_ground(roads, nullptr, weather, {x_m, y_m, 0.3}, false, place, wheel).has_value());
   return wheel.friction;
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("far from every road there is no surface to find") {
   const auto roads = straight_road("");
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  CHECK_FALSE(simulation::find_wheel_ground(roads, nullptr, {}, {50.0, 500.0, 0.3}, false, place, wheel));
+  CHECK_FALSE(simulation::find_wheel_ground(roads, nullptr, {}, {50.0, 500.0, 0.3}, false, place, wheel).has_value());
 }
 
 TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the road there is none") {
@@ -99,7 +99,7 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   const auto edge = [&](const Vec3& centre_m, const Vec2& ahead) {
     vehicle::WheelGround wheel;
     road::RoadPosition place;
-    REQUIRE(simulation::find_wheel_ground(*roads, nullptr, {}, centre_m, false, place, wheel));
+    REQUIRE(simulation::find_wheel_ground(*roads, nullptr, {}, centre_m, false, place, wheel).has_value());
     simulation::find_kerb(*roads, nullptr, centre_m, ahead, 0.32, place, wheel);
     return wheel.edge_m;
   };
@@ -141,7 +141,7 @@ TEST_CASE("an island and a kerb stone that are objects are met as kerbs and pain
   const auto met = [&](double x_m, double y_m, const Vec2& ahead) {
     vehicle::WheelGround wheel;
     road::RoadPosition place;
-    REQUIRE(simulation::find_wheel_ground(roads, &raised, {}, {x_m, y_m, 0.3}, false, place, wheel));
+    REQUIRE(simulation::find_wheel_ground(roads, &raised, {}, {x_m, y_m, 0.3}, false, place, wheel).has_value());
     simulation::find_kerb(roads, &raised, {x_m, y_m, 0.3}, ahead, 0.32, place, wheel);
     return Met{wheel.point_m.z, wheel.edge_m};
   };

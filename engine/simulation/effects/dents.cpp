@@ -114,6 +114,7 @@ std::optional<Standing> standing(ObstacleKind kind) {
   constexpr double long_m = 10.0, high_m = 4.0;
   switch (kind) {
     case ObstacleKind::guard_rail:
+    case ObstacleKind::ground_face:
       return Standing{long_m, 0.75};
     case ObstacleKind::concrete_barrier:
       return Standing{long_m, 0.9};

@@ -11,6 +11,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/plants.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/engine/road/third_party_road.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::roadside {
@@ -51,6 +52,33 @@ TEST_CASE(
     CHECK(std::ranges::count(middle, ObstacleKind::concrete_barrier) == static_cast<std::ptrdiff_t>(middle.size()));
     CHECK(std::ranges::count(kinds_near(on_motorway(s, 23.85), 1.0), ObstacleKind::guard_rail) > 0);
     for (const double t : {-3.0, -11.0, -20.0, 3.0, 20.0}) CHECK(kinds_near(on_motorway(s, t), 1.2).empty());
+  }
+}
+
+TEST_CASE("nothing that is put beside a road stands on the lanes of another") {
+  // Marker posts of an exit's gore; trees and houses. What a road file itself places stands where it says.
+  const auto stands_on_lanes = [](const road::RoadNetwork& network) {
+    int count = 0;
+    const Obstacles obstacles(network, 1);
+    for (const Obstacle& obstacle : obstacles.listed()) {
+      if (obstacle.kind != ObstacleKind::marker_post && obstacle.kind != ObstacleKind::tree &&
+          obstacle.kind != ObstacleKind::bush)
+        continue;
+      for (const road::Location& location : road::roads_holding(network, obstacle.from_m)) {
+        const road::RoadPosition& at = location.position;
+        const auto type = road::lane_type(network, at.road, location.lanes.lane_any_type, at.s_m);
+        if (type == road::LaneType::none) continue;
+        ++count;
+        MESSAGE(name_of(obstacle.kind) << " on road " << network.roads[at.road].id << " at s=" << at.s_m
+                                       << ", t=" << at.t_m);
+      }
+    }
+    return count;
+  };
+  CHECK(stands_on_lanes(road::motorway()) == 0);
+  for (const char* name : {"highway_exit", "e6mini", "soderleden", "curves_elevation"}) {
+    CAPTURE(name);
+    CHECK(stands_on_lanes(road::third_party_road(name)) == 0);
   }
 }
 

@@ -63,7 +63,7 @@ double friction_at(const IceState& ice, double s_m, int lane, double temperature
   weather.thawed_kh = ice.still.thawed_kh;
   road::RoadPosition place;
   vehicle::WheelGround wheel;
-  REQUIRE(find_wheel_ground(motorway(), nullptr, weather, at + Vec3(0, 0, 0.3), false, place, wheel));
+  REQUIRE(find_wheel_ground(motorway(), nullptr, weather, at + Vec3(0, 0, 0.3), false, place, wheel).has_value());
   return wheel.friction;
 }
 

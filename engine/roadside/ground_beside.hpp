@@ -1,0 +1,39 @@
+#pragma once
+/// The ground beside the roads as wheels find it: the land that is drawn, everywhere, standing still.
+///
+/// From the road's edge it falls into the land over the width of the verge; farther out it is the grid of the drawn land, between whose
+/// corners it is bilinear. Ditches are drawn and not felt: the way into the land is one even bank. On it lies the unevenness of a meadow (ISO
+/// 8608: a sum of waves of the class's density, between 1 and 20 m long, in all directions), which pictures are too coarse to show.
+///
+/// Pure functions; safe from many threads. World frame, metres.
+
+#include "engine/road/road_network.hpp"
+#include "engine/road/road_position.hpp"
+#include "engine/roadside/terrain.hpp"
+
+namespace septet::roadside {
+
+/// Of grass; values with their sources: ground_beside.toml.
+struct GroundCover {
+  double friction = 0.0;            ///< Peak coefficient, dry.
+  double rolling_resistance = 1.0;  ///< Times that of asphalt.
+  double roughness_m3 = 0.0;        ///< Displacement power spectral density at 0.1 cycles/m.
+};
+const GroundCover& meadow();
+
+/// Nearer than this to the lanes the road's surface goes on: its paved or gravel edge.
+inline constexpr double paved_edge_m = 0.7;
+
+struct GroundBeside {
+  double height_m = 0.0;
+  Vec3 normal{0.0, 0.0, 1.0};  ///< Unit, upwards.
+};
+
+/// At a point outside the lanes. `hint`: a place on a road near it, or null.
+GroundBeside ground_beside(const road::RoadNetwork& roads, const Terrain& terrain, const Vec2& p,
+                           const road::RoadPosition* hint);
+
+/// How far the meadow's unevenness lifts a point over the drawn land.
+double unevenness_m(const Vec2& p);
+
+}  // namespace septet::roadside

@@ -1,0 +1,159 @@
+// Steps in a road under the driver's car: the ground gives it no energy, and what is higher than a wheel climbs stops it.
+#include "engine/simulation/ground_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "engine/simulation/driver_car.hpp"
+#include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/road/road_files.hpp"
+
+using namespace septet;
+using namespace septet::simulation;
+
+namespace {
+
+Model model_on(const std::string& xml) {
+  Model model;
+  model.roads = road::read_or_fail(xml);
+  model.scenario.entities.resize(1);
+  model.scenario.entities[0].model = *find_vehicle_model("volvo-s80");
+  model.driver_entity = 0;
+  model.car = vehicle::read_car("volvo-s80");
+  return model;
+}
+
+/// 200 m along x, 200 m wide, whose elevation rises by `step_m` at s = 40.
+std::string stepped(double step_m) {
+  road::SmallRoad road{.length_m = 200.0};
+  road.profiles = fmt::format(
+      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><elevation s=\"40\" a=\"{}\" b=\"0\" "
+      "c=\"0\" "
+      "d=\"0\"/></elevationProfile>",
+      step_m);
+  road.sections = "<laneSection s=\"0\"><left>" + road::lane(1, 100.0) + "</left><center>" + road::lane(0, 0) +
+                  "</center><right>" + road::lane(-1, 100.0) + "</right></laneSection>";
+  return road.xml();
+}
+
+/// What a drive over a step does, coasting in neutral.
+struct Drive {
+  double most_over_start_j = -1e30,
+         most_gain_j = 0.0;    ///< Of energy: over that of the beginning, and over the least so far.
+  double most_rise_m = -1e30;  ///< Of the centre of mass.
+  double farthest_x_m = 0.0, end_speed_mps = 0.0, start_j = 0.0;
+  bool struck = false;
+  std::uint32_t bad_numbers = 0;
+};
+
+Drive drive_over(const Model& model, double speed_mps, double heading_rad, double seconds = 4.0) {
+  State state;
+  const RigidTransform start{Vec3(40.0 - 6.0 * std::cos(heading_rad), -6.0 * std::sin(heading_rad), 0.0),
+                             glm::angleAxis(heading_rad, Vec3(0.0, 0.0, 1.0))};
+  state.car = vehicle::standstill(model.car, start, speed_mps);
+  state.input.selector = GearSelector::neutral;
+  Drive drive;
+  drive.start_j = vehicle::mechanical_energy_j(model.car, state.car);
+  const double start_z_m = state.car.world_from_body.position_m.z;
+  double least_j = drive.start_j;
+  std::vector<Event> events;
+  for (int tick = 0; tick < seconds * tick_rate_hz; ++tick) {
+    advance_car(model, state, events);
+    const Vec3& at = state.car.world_from_body.position_m;
+    const double energy_j = vehicle::mechanical_energy_j(model.car, state.car);
+    least_j = std::min(least_j, energy_j);
+    drive.most_over_start_j = std::max(drive.most_over_start_j, energy_j - drive.start_j);
+    drive.most_gain_j = std::max(drive.most_gain_j, energy_j - least_j);
+    drive.most_rise_m = std::max(drive.most_rise_m, at.z - start_z_m);
+    drive.farthest_x_m = std::max(drive.farthest_x_m, at.x);
+  }
+  drive.end_speed_mps = glm::length(state.car.velocity_mps);
+  drive.struck = std::ranges::any_of(events, [](const Event& event) { return event.kind == "collision"; });
+  drive.bad_numbers = state.car.bad_numbers;
+  return drive;
+}
+
+}  // namespace
+
+TEST_CASE("over no step of a road does the ground give the car energy") {
+  // What a blow gives back was stored in it: a crushed front and a suspension return less than a quarter.
+  for (const double step_m :
+       {0.02, 0.05, 0.1, 0.2, 0.24, 0.3, 0.5, 1.0, 3.0, 30.0, -0.05, -0.2, -0.5, -1.0, -3.0, -30.0}) {
+    const Model model = model_on(stepped(step_m));
+    for (const double speed_mps : {3.0, 10.0, 20.0, 45.0})
+      for (const double heading_rad : {0.0, 0.4, 1.0}) {
+        CAPTURE(step_m);
+        CAPTURE(speed_mps);
+        CAPTURE(heading_rad);
+        const Drive drive = drive_over(model, speed_mps, heading_rad);
+        const double fallen_j = std::max(0.0, -step_m) * model.car.body.mass_kg * 9.81;
+        CHECK(drive.bad_numbers == 0);
+        CHECK(drive.most_over_start_j < 1.0);
+        CHECK(drive.most_gain_j < 1500.0 + 0.25 * (drive.start_j + fallen_j));
+        CHECK(drive.most_rise_m < 1.2);  // 0.24 m at 45 m/s lifts one side, 0.9 m.
+      }
+  }
+}
+
+TEST_CASE("a face higher than a wheel's radius stops the car as a wall does and a low one is driven over") {
+  for (const double step_m : {0.35, 1.0, 3.0, 30.0}) {
+    const Model model = model_on(stepped(step_m));
+    for (const double speed_mps : {3.0, 10.0, 20.0, 45.0})
+      for (const double heading_rad : {0.0, 0.4, -0.4, 1.0, -1.0}) {
+        CAPTURE(step_m);
+        CAPTURE(speed_mps);
+        CAPTURE(heading_rad);
+        const Drive drive = drive_over(model, speed_mps, heading_rad);
+        CHECK(drive.struck);
+        CHECK(drive.farthest_x_m < 40.0);  // Its centre of mass.
+        CHECK(drive.most_rise_m < 0.1);
+      }
+  }
+  for (const double step_m : {0.05, 0.1, -0.1, -0.5}) {
+    CAPTURE(step_m);
+    const Drive drive = drive_over(model_on(stepped(step_m)), 15.0, 0.0);
+    CHECK_FALSE(drive.struck);
+    CHECK(drive.farthest_x_m > 60.0);
+  }
+}
+
+TEST_CASE("a car that pushes against a face with all its power stays before it") {
+  const Model model = model_on(stepped(1.0));
+  State state;
+  state.car = vehicle::standstill(model.car, {Vec3(30.0, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}, 5.0);
+  state.input.accelerator = 1.0;
+  std::vector<Event> events;
+  for (int tick = 0; tick < 10 * 120; ++tick) advance_car(model, state, events);
+  CHECK(state.car.world_from_body.position_m.x < 40.0);
+  CHECK(std::abs(state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m) < 0.3);
+}
+
+TEST_CASE("a bridge over the road is no face and a road that lies higher beside it stops nobody who stays on his") {
+  // Road b crosses 6 m above road a at x = 50.
+  const auto one = [](const char* id, double x, double y, double heading, double z) {
+    return fmt::format(
+        "<road id=\"{}\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" "
+        "length=\"100\"><line/></geometry></planView><elevationProfile><elevation s=\"0\" a=\"{}\" b=\"0\" c=\"0\" "
+        "d=\"0\"/></elevationProfile><lanes><laneSection s=\"0\"><left>{}</left><center>{}</center><right>{}</right>"
+        "</laneSection></lanes></road>",
+        id, x, y, heading, z, road::lane(1, 3.5), road::lane(0, 0), road::lane(-1, 3.5));
+  };
+  const Model model = model_on("<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/>" + one("a", 0, 0, 0, 0) +
+                               one("b", 50, -50, 1.5707963267948966, 6.0) + "</OpenDRIVE>");
+  for (const double y_m : {-1.75, -3.2, 0.0}) {  // One with a corner beside its own lanes.
+    CAPTURE(y_m);
+    State state;
+    state.car = vehicle::standstill(model.car, {Vec3(20.0, y_m, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}, 15.0);
+    std::vector<Event> events;
+    advance_car(model, state, events);
+    for (int tick = 0; tick < 4 * 120; ++tick) advance_car(model, state, events);
+    CHECK(std::ranges::none_of(events, [](const Event& event) { return event.kind == "collision"; }));
+    CHECK(state.car.world_from_body.position_m.x > 65.0);
+    CHECK(std::abs(state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m) < 0.3);
+  }
+}
