@@ -86,7 +86,7 @@ page::PastSession session_of(const logging::SessionReader& reader) {
   session.note = printable(row("note"), 500);
   add_marks(session, reader);
   // A session without snapshots knows it by its outcome alone.
-  const auto outcome = logging::read_outcome(row("outcome"));
+  const auto outcome = logging::read_outcome(row("outcome"), reader.path().string());
   const double seconds = outcome ? outcome->simulated_s : std::strtod(row("ended_simulated_time_s").c_str(), nullptr);
   if (std::isfinite(seconds)) session.simulated_s = seconds;
   return session;
