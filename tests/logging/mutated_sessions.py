@@ -46,7 +46,7 @@ CRAFTED = {
     "an outcome that is none": "UPDATE meta SET value = '{}' WHERE key = 'outcome'",
     "digests that are none": "UPDATE meta SET value = '[]' WHERE key = 'digests'",
     "text that is no UTF-8": "UPDATE events SET detail = CAST(x'ff80' AS TEXT)",
-    "a column of a function": "ALTER TABLE samples ADD COLUMN more AS (hex(randomblob(1000000)))",
+    "a column of a function": "ALTER TABLE samples ADD COLUMN more AS (hex(zeroblob(1000000)))",
 }
 
 
