@@ -170,6 +170,7 @@ void PastSessions::look_once() {
     const fs::path folder = file.parent_path();
     known.session.has_report = fs::is_regular_file(folder / "report.html", error);
     known.session.has_debrief = fs::is_regular_file(folder / "debrief.html", error);
+    known.session.has_film = fs::is_regular_file(folder / "film.mp4", error);
     listed.emplace_back(known.session, folder);
   };
   // What is known already is there at once; what has to be read comes one after the other, the newest first.
