@@ -26,6 +26,7 @@
 #include "sim-server/command/experiment_next.hpp"
 #include "sim-server/command/operate_choices.hpp"
 #include "sim-server/command/past_sessions.hpp"
+#include "sim-server/command/past_work.hpp"
 #include "sim-server/command/questionnaire_answers.hpp"
 #include "sim-server/page/request_checks.hpp"
 #include "sim-server/page/start_page.hpp"
@@ -109,6 +110,8 @@ class Operation {
   void show();
   void obey(const page::OperatorWish& wish);
   std::optional<std::string> take_answers(const page::Answer& answer);
+  std::optional<std::string> make(const page::Make& wish);
+  std::optional<std::filesystem::path> folder_of(std::uint64_t session) const;
   Expected<void> start(const page::DriveChoice& choice);
   void attend_drive();
   void attend_past();
@@ -126,6 +129,7 @@ class Operation {
   page::StartView view_;
   std::unique_ptr<page::StartPage> page_;  ///< None while a drive serves it.
   std::optional<RunningDrive> drive_;
+  PastWork work_;
   int drives_ = 0;
 };
 
@@ -143,11 +147,17 @@ void Operation::show() {
   found_ = past_.found();
   view_.sessions = found_.sessions;
   view_.is_looking = found_.is_looking;
+  view_.work = work_.view();
   page_->show(view_, found_.folders);
 }
 
 /// Sessions are shown as they are found, a few times a second.
 void Operation::attend_past() {
+  const bool was_making = work_.is_running();
+  if (work_.attend()) {
+    if (was_making && !work_.is_running()) past_.look();
+    show();
+  }
   const auto now = std::chrono::steady_clock::now();
   if (!page_ || now - shown_at_ < show_found_every || !past_.has_news()) return;
   shown_at_ = now;
@@ -188,6 +198,10 @@ void Operation::obey(const page::OperatorWish& wish) {
       if (const auto started = start(begin->choice); !started) why_not = describe(started.error());
   } else if (const auto* answer = std::get_if<page::Answer>(&wish.wish)) {
     why_not = take_answers(*answer);
+  } else if (const auto* wished = std::get_if<page::Make>(&wish.wish)) {
+    why_not = make(*wished);
+  } else if (std::holds_alternative<page::StopMaking>(wish.wish)) {
+    if (!work_.stop()) why_not = "nothing is being made";
   } else if (drive_) {  // Cancel.
     drive_->is_cancelled = true;
     drive_->process.send_signal(SIGTERM);
@@ -199,12 +213,25 @@ void Operation::obey(const page::OperatorWish& wish) {
 }
 
 std::optional<std::string> Operation::take_answers(const page::Answer& answer) {
-  const auto session = std::ranges::find(found_.sessions, answer.session, &page::PastSession::id);
-  if (session == found_.sessions.end()) return "there is no such session any more";
-  const auto folder = found_.folders[static_cast<std::size_t>(session - found_.sessions.begin())];
-  if (auto why_not = keep_answers(questionnaires_, answer, folder / "session.sqlite")) return why_not;
+  const auto folder = folder_of(answer.session);
+  if (!folder) return "there is no such session any more";
+  if (auto why_not = keep_answers(questionnaires_, answer, *folder / "session.sqlite")) return why_not;
   past_.look();
   return std::nullopt;
+}
+
+std::optional<fs::path> Operation::folder_of(std::uint64_t session) const {
+  const auto found = std::ranges::find(found_.sessions, session, &page::PastSession::id);
+  if (found == found_.sessions.end()) return std::nullopt;
+  return found_.folders[static_cast<std::size_t>(found - found_.sessions.begin())];
+}
+
+std::optional<std::string> Operation::make(const page::Make& wish) {
+  if (wish.what != "film" && wish.what != "replay") return "only a film or a replay can be made";
+  const auto folder = folder_of(wish.session);
+  if (!folder) return "there is no such session any more";
+  const auto started = work_.start(wish, *folder, logs_.path() / fmt::format("work-{}.log", ++drives_));
+  return started ? std::nullopt : std::optional(describe(started.error()));
 }
 
 void Operation::attend_drive() {

@@ -62,7 +62,7 @@ struct PastSession {
   std::string folder;    ///< As it is called below the folder of all drives.
   std::string started_utc, scenario, rig, driver, participant, ended, note;
   double simulated_s = 0.0;
-  bool has_report = false, has_debrief = false;
+  bool has_report = false, has_debrief = false, has_film = false;
   std::vector<std::string> answered;  ///< What answers are called that it holds: "paper", "ssq-before".
   std::string lesson;                 ///< Its title, where the drive was one; else empty.
   std::optional<double> mark;         ///< Of the lesson, 0 to 10; nothing: too short to be marked, or nothing was seen.

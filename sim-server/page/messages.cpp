@@ -186,6 +186,10 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
     message.wish = Brake{flag("held")};
   else if (wish == "back")
     message.wish = Back{static_cast<double>(std::min<std::uint64_t>(count_member(json, "seconds"), 3600))};
+  else if (wish == "make")
+    message.wish = Make{count_member(json, "session"), text_member(json, "what", 10)};
+  else if (wish == "stop_making")
+    message.wish = StopMaking{};
   else if (wish == "watch")
     message.wish = Watch{text_member(json, "screen", most_name_characters)};
   else if (wish == "answer")

@@ -74,12 +74,19 @@ struct Brake {
 struct Back {
   double seconds = 0.0;
 };
+/// A film or a replay of a past drive.
+struct Make {
+  std::uint64_t session = 0;
+  std::string what;  ///< "film" or "replay".
+};
+/// What is being made of a past drive is not wanted any more.
+struct StopMaking {};
 /// To see what a screen shows large, five times a second; no screen: no more. Anybody may.
 struct Watch {
   std::string screen;
 };
 using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look, Answer,
-                          Watch, Say, Brake, Back>;
+                          Watch, Say, Brake, Back, Make, StopMaking>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Which the answer names.

@@ -41,6 +41,7 @@ Json json_of(const PastSession& session) {
                {"simulated_s", document::number(session.simulated_s)},
                {"has_report", session.has_report},
                {"has_debrief", session.has_debrief},
+               {"has_film", session.has_film},
                {"answered", session.answered},
                {"lesson", session.lesson},
                {"mark", nullptr},
@@ -101,6 +102,13 @@ std::string start_state_text(const StartView& view, const std::optional<Commande
                {"commander", nullptr},
                {"sessions", std::move(sessions)},
                {"looking", view.is_looking}};
+  json["work"] = nullptr;
+  if (view.work)
+    json["work"] = {{"session", view.work->session},
+                    {"what", view.work->what},
+                    {"running", view.work->is_running},
+                    {"failed", view.work->has_failed},
+                    {"said", view.work->said}};
   if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
   return words_of(json);
 }

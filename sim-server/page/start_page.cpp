@@ -27,6 +27,11 @@ constexpr const char* past_policy =
     "default-src 'none'; style-src 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; "
     "form-action 'none'";
 
+/// A browser shows a film by itself in a page of its own making.
+constexpr const char* film_policy =
+    "default-src 'none'; media-src 'self'; style-src 'unsafe-inline'; frame-ancestors 'none'; base-uri 'none'; "
+    "form-action 'none'";
+
 /// A word of a file's name, as Septet makes them.
 bool is_plain(std::string_view word) {
   return !word.empty() && word.size() <= 60 && std::ranges::all_of(word, [](char c) {
@@ -48,8 +53,10 @@ std::optional<FoundResource> read_past(const fs::path& folder, std::string_view 
   // A link in the folder leads nowhere else.
   const fs::path within = fs::canonical(folder, error);
   if (error || std::ranges::mismatch(within, file).in1 != within.end()) return std::nullopt;
-  auto bytes = read_regular_file(file, largest_past_file_bytes);
+  const bool is_film = name.ends_with(".mp4");
+  auto bytes = read_regular_file(file, is_film ? largest_film_bytes : largest_past_file_bytes);
   if (!bytes) return std::nullopt;
+  if (is_film) return FoundResource{"video/mp4", std::move(*bytes), film_policy};
   return FoundResource{name.ends_with(".png") ? "image/png" : "text/html; charset=utf-8", std::move(*bytes),
                        past_policy};
 }
@@ -57,7 +64,7 @@ std::optional<FoundResource> read_past(const fs::path& folder, std::string_view 
 }  // namespace
 
 bool is_past_file(std::string_view name) {
-  if (name == "report.html" || name == "debrief.html" || name == "panorama.png") return true;
+  if (name == "report.html" || name == "debrief.html" || name == "panorama.png" || name == "film.mp4") return true;
   constexpr std::string_view screens = "screens/", png = ".png";
   if (!name.starts_with(screens) || !name.ends_with(png)) return false;
   name = name.substr(screens.size(), name.size() - screens.size() - png.size());
@@ -112,7 +119,8 @@ struct StartPage::Shared {
       return reply->why_not ? void() : send_state();
     }
     if (!std::holds_alternative<Start>(message->wish) && !std::holds_alternative<Cancel>(message->wish) &&
-        !std::holds_alternative<Answer>(message->wish))
+        !std::holds_alternative<Answer>(message->wish) && !std::holds_alternative<Make>(message->wish) &&
+        !std::holds_alternative<StopMaking>(message->wish))
       return answer("no drive goes on");
     if (!wishes.put({browser, message->id, helm.commander()->name, std::move(message->wish)}))
       answer("what was asked before has not yet been done");

@@ -22,6 +22,15 @@
 
 namespace septet::page {
 
+/// What is made of a past drive.
+struct PastWorkView {
+  std::uint64_t session = 0;
+  std::string what;  ///< "film" or "replay".
+  bool is_running = false, has_failed = false;
+  std::string said;  ///< Its newest line.
+  bool operator==(const PastWorkView&) const = default;
+};
+
 /// How things stand without a drive.
 struct StartView {
   bool is_starting = false;
@@ -30,6 +39,7 @@ struct StartView {
   std::string last;               ///< How the last drive ended, or why it did not start.
   bool has_failed = false;        ///< That.
   std::vector<PastSession> sessions;
+  std::optional<PastWorkView> work;
   bool is_looking = false;  ///< Not all of them have been read yet.
 };
 
@@ -53,6 +63,7 @@ class StartPage {
 
 /// Files of a past session that may be looked at: those of its results, and the pictures that they show.
 bool is_past_file(std::string_view name);
-inline constexpr std::size_t largest_past_file_bytes = std::size_t{64} << 20;
+inline constexpr std::size_t largest_past_file_bytes = std::size_t{64} << 20,
+                             largest_film_bytes = std::size_t{512} << 20;
 
 }  // namespace septet::page

@@ -69,6 +69,9 @@ function session_row(session) {
   files.className = 'buttons';
   for (const [file, name, is_there] of [['report.html', t('past.report'), session.has_report], ['debrief.html', t('past.debrief'), session.has_debrief]])
     if (is_there) files.append(row_button(name, 'file', () => look(session.id, file)));
+  if (session.has_film) files.append(row_button(t('past.film'), 'file', () => look(session.id, 'film.mp4')));
+  for (const [what, name] of [['film', session.has_film ? t('past.film_anew') : t('past.make_film')], ['replay', t('past.replay')]])
+    files.append(row_button(name, `make ${what}`, () => make_of(session.id, what)));
   if (hello.choices.questionnaires.length) files.append(row_button(t('past.questionnaire'), 'questionnaire', () => ask_driver(session)));
   if (session.answered.length) {
     const answered = document.createElement('p');
@@ -79,7 +82,22 @@ function session_row(session) {
   return row;
 }
 
+/// A film, or a replay on the screens of the server's machine.
+function make_of(session, what) {
+  ask({ do: 'make', session, what }, (answer) => { if (!answer.ok) alarm(heard(answer.why)); });
+}
+
+function show_work() {
+  const work = state.work, session = work && state.sessions.find((one) => one.id === work.session);
+  $('pastwork').hidden = !work;
+  if (!work) return;
+  const how = t(work.running ? 'past.work_running' : work.failed ? 'past.work_failed' : 'past.work_over');
+  $('pastworktext').textContent = `${t(work.what === 'film' ? 'past.work_film' : 'past.work_replay', { drive: session ? `${title_of(session)}, ${local_time(session.started_utc)}` : '' })}: ${[how, work.said].filter(Boolean).join(' · ')}`;
+  $('pastworkstop').hidden = !work.running;
+}
+
 function show_sessions() {
+  show_work();
   const wanted = state.sessions.filter(is_wanted), body = $('sessions'), key = JSON.stringify(wanted);
   $('pastlooking').hidden = !state.looking;
   $('pastlooking').textContent = t('past.looking', { count: state.sessions.length });
@@ -104,5 +122,6 @@ function look(id, file) {
   });
 }
 
+$('pastworkstop').onclick = () => ask({ do: 'stop_making' }, () => {});
 $('pastform').onsubmit = (event) => event.preventDefault();
 $('pastsearch').oninput = $('pastwhich').onchange = show_sessions;

@@ -143,6 +143,8 @@ def with_a_screen(trial, folder):
     desk.value(f"{OWN} change(`put x_m=${{own[2]}} y_m=${{own[3]}} heading_rad=${{own[4]}} speed_mps=45`)")
     desk.value("var large = new Set(); new MutationObserver(() => large.add(document.getElementById('large').src))"
                ".observe(document.getElementById('large'), { attributes: true })")
+    desk.value("change('fault what=anti_lock'); change('fault what=misfire')")  # Which his instruments tell.
+    desk.until("state.faults[4] && state.faults[5]")
     desk.click("#thumbnails button")
     desk.until("large.size > 4 && document.getElementById('large').naturalWidth >= 640")
     assert desk.value("document.getElementById('large').getBoundingClientRect().width") >= 640

@@ -64,6 +64,25 @@ def main():
                       " async (answer) => { report = await (await fetch(answer.path)).text(); })")
         browser.until("report.includes('</html>')")
 
+        # Its film, by a click, and read from the row.
+        browser.click("#sessions button.make.film")
+        browser.until("state.work && state.work.what === 'film'")
+        browser.until("!state.work.running && state.sessions[0].has_film")
+        assert not browser.value("state.work.failed"), browser.value("state.work.said")
+        browser.value("var film = null; ask({ do: 'look', session: state.sessions[0].id, file: 'film.mp4' },"
+                      " async (answer) => { film = await (await fetch(answer.path)).blob(); })")
+        browser.until("film && film.type === 'video/mp4' && film.size > 10000")
+        # A replay goes on beside the page until it is stopped; a second one is refused meanwhile.
+        browser.click("#sessions button.make.replay")
+        browser.until("state.work.what === 'replay' && state.work.running")
+        browser.value("var refused = ''; ask({ do: 'make', session: state.sessions[0].id, what: 'film' }, (answer) => refused = answer.why || 'done')")
+        browser.until("refused !== ''")
+        assert "goes on already" in browser.value("refused"), browser.value("refused")
+        if len(sys.argv) > 3:
+            browser.picture(sys.argv[3] + "/replay.png")
+        browser.click("#pastworkstop")
+        browser.until("!state.work.running && !state.work.failed")
+
         # What the driver answers afterwards: by the page's dialog, and what cannot be is refused.
         browser.click("#sessions button.questionnaire")
         browser.until("document.getElementById('asking').open")
