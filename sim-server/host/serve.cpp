@@ -75,7 +75,9 @@ struct ScreenLoop : Loop {
   std::string alarm = {};  ///< As the driver reads it.
 
   void show_alarm() {
-    if (auto now = source.alarm(); now != alarm) {
+    std::string now = source.alarm();
+    if (const std::string word = source.word_to_driver(); !word.empty()) now += (now.empty() ? "" : "\n") + word;
+    if (now != alarm) {
       alarm = std::move(now);
       host.give_notice({alarm, host.notice().keys});
     }
