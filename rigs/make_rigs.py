@@ -69,6 +69,7 @@ def mirrors(right_deg):
 
 
 MIRRORS = mirrors(187)
+SOUND = "[sound]\n\n"  # Stereo on the usual device.
 
 
 def inset(name, left, top, width, pixels):
@@ -93,7 +94,7 @@ write("seven-screens", "# Seven projection screens around a complete car: 220 x 
 
 MONITOR = (1920, 1080)
 desk = [("left", ""), ("middle", "instruments = true\n"), ("right", "")]  # They see the mirrors where they are.
-three = "[car]\nsource = \"automatic\"\n\n" + MIRRORS + "".join(
+three = "[car]\nsource = \"automatic\"\n\n" + SOUND + MIRRORS + "".join(
     screen(name, 90 - 60 * i, 30 - 60 * i, 34, MONITOR[0], 0.8, rise_m=-0.1, height_px=MONITOR[1], extra=f"monitor = {i}\nshow_interior = true\n{more}")
     for i, (name, more) in enumerate(desk))
 write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measure your own and change the corners. Made by make_rigs.py.", three)
@@ -101,5 +102,5 @@ write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measu
 WINDOW = (1280, 747)
 insets = inset(INSIDE, 0.40, 0.02, 0.24, WINDOW) + inset(LEFT, 0.01, 0.58, 0.17, WINDOW) + inset(RIGHT, 0.82, 0.58, 0.17, WINDOW)
 write("desktop", "# One window on a desktop, with the three mirrors as insets while it does not see them in their places. Made by make_rigs.py.",
-      "[car]\nsource = \"keyboard\"\n\n" + MIRRORS
+      "[car]\nsource = \"keyboard\"\n\n" + SOUND + MIRRORS
       + screen("desktop", 37, -37, 38.7, WINDOW[0], 0.7, rise_m=-0.15, extra="show_interior = true\ninstruments = true\n" + insets))

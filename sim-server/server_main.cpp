@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
   app.add_flag("--start-now", options.start_now, "Do not wait until the driver presses a key or a pedal");
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
+  app.add_flag("--no-sound", options.no_sound, "Silent, also where the rig has a sound");
   app.add_option("--page", options.page_port, "Port of the operator's page on 127.0.0.1; 0: any free one")
       ->default_str("no page")
       ->check(CLI::Range(0, 65535));

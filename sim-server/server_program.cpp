@@ -375,7 +375,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     if (drive.log) drive.log->record_message("screen", text);
   };
   environment.show = [&](const std::string& text) { progress.message(text); };
-  if (rig.sound && !options.lockstep && !options.no_screens)
+  if (rig.sound && !options.no_sound && !options.lockstep && !options.no_screens)
     environment.hear =
         drive_sound(rig, drive.live ? drive.loaded.model : nullptr, drive.session ? &*drive.session : nullptr,
                     drive.store, environment.message, [&drive, &rig] {

@@ -169,22 +169,32 @@ void add_picture(Frame& frame, ResourceId radiance, ResourceId picture) {
                        });
 }
 
-void add_overlay(Frame& frame, ResourceId picture, bool new_text) {
+void add_overlay(Frame& frame, ResourceId picture, bool new_text, const std::vector<OverlayText>& passing) {
   RendererState& state = frame.state;
   const ResourceId atlas = frame.graph.add_image("text atlas", state.overlay_pass->atlas, state.atlas_access);
   if (new_text)
     frame.graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}},
                          [&frame] { upload_atlas(*frame.state.overlay_pass, frame.context); });
-  if (frame.instant.overlay.empty()) return;
-  frame.graph.add_pass(
-      "overlay",
-      {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}},
-      [&frame] {
-        const FrameTargets& targets = frame.state.targets;
-        draw_overlay(*frame.state.overlay_pass, frame.context, frame.instant.overlay, targets.picture.view,
-                     targets.width, targets.height);
-        mark_pass(frame.context, "overlay");
-      });
+  const auto add = [&](const std::vector<OverlayText>& texts) {
+    if (texts.empty()) return;
+    frame.graph.add_pass(
+        "overlay",
+        {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}},
+        [&frame, texts = &texts] {
+          const FrameTargets& targets = frame.state.targets;
+          draw_overlay(*frame.state.overlay_pass, frame.context, *texts, targets.picture.view, targets.width,
+                       targets.height);
+          mark_pass(frame.context, "overlay");
+        });
+  };
+  add(frame.instant.overlay);
+  if (passing.empty()) return;
+  const ResourceId kept =
+      frame.graph.add_image("picture without passing texts", state.targets.kept, state.targets.kept_access);
+  frame.graph.add_pass("kept picture", {{{picture, Access::transfer_source}}, {{kept, Access::transfer_destination}}},
+                       [&frame] { keep_picture(frame.state.targets, frame.context); });
+  frame.graph.keep(kept, Access::transfer_source);
+  add(passing);
 }
 
 void add_present(Frame& frame, ResourceId picture, std::uint32_t window_image) {
@@ -199,7 +209,7 @@ void add_present(Frame& frame, ResourceId picture, std::uint32_t window_image) {
 
 }  // namespace
 
-void draw_frame(RendererState& state, const Instant& instant) {
+void draw_frame(RendererState& state, const Instant& instant, const std::vector<OverlayText>& passing) {
   RenderStatistics& statistics = state.statistics;
   statistics.triangles = statistics.shadow_triangles = statistics.draws = statistics.instances = 0;
   PassContext context{state.device,   state.memory,     state.layout,
@@ -218,7 +228,11 @@ void draw_frame(RendererState& state, const Instant& instant) {
       state,   context,
       instant, prepare_frame(context, state.scene, instant, state.lamps, targets.width, targets.height, offset_px),
       {},      {}};
-  const bool new_text = lay_out(*state.overlay_pass, instant.overlay);
+  std::vector<OverlayText> texts = instant.overlay;
+  texts.insert(texts.end(), passing.begin(), passing.end());
+  const bool new_text = lay_out(*state.overlay_pass, texts);
+  targets.is_kept = !passing.empty();
+  if (targets.is_kept && targets.kept.image == VK_NULL_HANDLE) create_kept_target(targets, state.memory);
   prepare_rare_targets(state, context, instant, frame.prepared);
 
   const ResourceId radiance = frame.graph.add_image("radiance", targets.radiance, targets.radiance_access),
@@ -236,7 +250,7 @@ void draw_frame(RendererState& state, const Instant& instant) {
                         instant.exposure.scale());
   if (state.bloom_pass.present()) add_bloom_passes(frame.graph, state.bloom_pass, context, radiance, targets.radiance);
   add_picture(frame, radiance, picture);
-  add_overlay(frame, picture, new_text);
+  add_overlay(frame, picture, new_text, passing);
   frame.graph.keep(picture, Access::transfer_source);
   const std::optional<std::uint32_t> window_image = next_window_image(state, context.slot);
   if (window_image) add_present(frame, picture, *window_image);

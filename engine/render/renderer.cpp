@@ -63,7 +63,7 @@ Expected<void> Renderer::resize(std::uint32_t width, std::uint32_t height) {
   return {};
 }
 
-Expected<void> Renderer::draw(const Instant& instant) {
+Expected<void> Renderer::draw(const Instant& instant, const std::vector<OverlayText>& passing) {
   for (const MirrorGlass& mirror : instant.mirrors)
     SEPTET_CHECK(mirror.picture.viewport.x >= 0 && mirror.picture.viewport.y >= 0, "a mirror's picture at ({}, {})",
                  mirror.picture.viewport.x, mirror.picture.viewport.y);
@@ -74,19 +74,19 @@ Expected<void> Renderer::draw(const Instant& instant) {
         "a view of {} × {} pixels at ({}, {}) in a picture of {} × {}", w, h, x, y, width(), height());
   }
   try {
-    draw_frame(*state_, instant);
+    draw_frame(*state_, instant, passing);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
   return {};
 }
 
-Expected<void> Renderer::draw(FrameInput input) {
+Expected<void> Renderer::draw(FrameInput input, std::vector<OverlayText> passing) {
   if (state_->lit_environment != input.environment) {
     state_->light = std::make_shared<const SkyLight>(sky_light(input.environment));
     state_->lit_environment = input.environment;
   }
-  return draw(instant::describe(std::move(input), state_->scene.summary, state_->light));
+  return draw(instant::describe(std::move(input), state_->scene.summary, state_->light), passing);
 }
 
 Expected<image::Image> Renderer::read_back() {

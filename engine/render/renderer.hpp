@@ -91,13 +91,14 @@ class Renderer {
   /// Gives the picture another size, such as that of a window that was resized.
   Expected<void> resize(std::uint32_t width, std::uint32_t height);
 
-  /// Draws one frame and, with a window, presents it, scaled to the window. Views lie within the picture (checked). The
+  /// Draws one frame and, with a window, presents it, scaled to the window as far as its shape allows, black beside it. Views lie within the picture (checked). The
   /// instant was described in the scene that was uploaded.
-  Expected<void> draw(const Instant& instant);
-  /// The same for what a frame shows in the scene that was uploaded.
-  Expected<void> draw(FrameInput input);
+  Expected<void> draw(const Instant& instant, const std::vector<OverlayText>& passing = {});
+  /// The same for what a frame shows in the scene that was uploaded. `passing` are texts that the window has over the rest and
+  /// read_back has not.
+  Expected<void> draw(FrameInput input, std::vector<OverlayText> passing = {});
 
-  /// The last frame: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.
+  /// The last frame without its passing texts: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.
   Expected<image::Image> read_back();
   /// The light of the same frame, of which the picture is what a display shows at `exposure` (engine/instant/tone_curve.hpp).
   Expected<RadianceImage> read_radiance();

@@ -117,6 +117,7 @@ struct EnvironmentAction {
   std::optional<double> sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux;
   std::optional<double> visibility_m, cloud_cover, rain_mm_per_h, snow_mm_per_h, road_wetness, friction_scale,
       snow_cover;
+  std::optional<double> frost;  ///< On the driver's windscreen as the drive begins, 0 to 1 of a frosty morning's.
   std::optional<double> temperature_k, wind_speed_mps, wind_direction_rad;
 };
 

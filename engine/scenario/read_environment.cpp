@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "engine/scenario/scenario_reading.hpp"
 
@@ -79,10 +80,12 @@ EnvironmentAction read_environment(const Element& environment) {
   if (const Element weather = environment.child("Weather")) read_weather(weather, action);
   if (const Element road = environment.child("RoadCondition")) {
     action.friction_scale = road.number("frictionScaleFactor", 0.0, 100.0);
-    // The standard's precipitation says what falls, and nothing says what lies.
+    // The standard's precipitation says what falls, and nothing says what lies, there or on a windscreen.
     for (const Element& property : road.child("Properties").children("Property"))
-      if (property.text("name") == "septet:snowCover")
+      if (const std::string name = property.text("name"); name == "septet:snowCover")
         action.snow_cover = std::clamp(property.number("value", 0.0), 0.0, 1.0);
+      else if (name == "septet:frost")
+        action.frost = std::clamp(property.number("value", 0.0), 0.0, 1.0);
     if (road.has("wetness")) {
       action.road_wetness = road.word<double>(
           "wetness",

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <fmt/core.h>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "engine/core/check.hpp"
 #include "engine/instant/mirror_view.hpp"
@@ -47,6 +52,36 @@ ScreenViews panel_views(const rig::Screen& screen) {
   result.only_instruments = true;
   result.views.push_back({.projection = *projection, .viewport = {0, 0, screen.width_px, screen.height_px}});
   return result;
+}
+
+/// Where a view has the dials of the car's inside; nothing where they are not before the eyes.
+std::optional<instant::PixelRectangle> dials_in(const instant::FrameView& view) {
+  namespace panel = instrument_panel;
+  glm::dvec2 low(1e6), high(-1e6);
+  for (const double across : {-0.5, 0.5})
+    for (const double upward : {-0.5, 0.5}) {
+      const Vec3 at = panel::middle_m + across * panel::width_m * panel::right + upward * panel::height_m * panel::up;
+      const glm::dvec4 clip = view.projection.clip_from_eye_relative * glm::dvec4(at - view.projection.eye_m, 1.0);
+      if (clip.w < 1e-3) return std::nullopt;
+      const glm::dvec2 share(0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w);
+      low = glm::min(low, share);
+      high = glm::max(high, share);
+    }
+  if (high.x < 0.0 || low.x > 1.0 || high.y < 0.0 || low.y > 1.0) return std::nullopt;
+  low = glm::max(low, 0.0);
+  high = glm::min(high, 1.0);
+  const glm::dvec2 size(view.viewport.width, view.viewport.height);
+  return instant::PixelRectangle{view.viewport.x + static_cast<std::int32_t>(low.x * size.x),
+                                 view.viewport.y + static_cast<std::int32_t>(low.y * size.y),
+                                 static_cast<std::uint32_t>(std::ceil((high.x - low.x) * size.x)),
+                                 static_cast<std::uint32_t>(std::ceil((high.y - low.y) * size.y))};
+}
+
+bool overlap(const instant::PixelRectangle& a, const instant::PixelRectangle& b) {
+  const auto meet = [](std::int64_t from, std::int64_t size, std::int64_t other_from, std::int64_t other_size) {
+    return from < other_from + other_size && other_from < from + size;
+  };
+  return meet(a.x, a.width, b.x, b.width) && meet(a.y, a.height, b.y, b.height);
 }
 
 /// What a cluster shows does not depend on the weather, but it is dimmed at night.
@@ -107,6 +142,10 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
     frame_view.projection = *projection;
     frame_view.viewport = viewport(view, screen);
     frame_view.mirrored = view.mirrored;
+    // An inset that would lie on the dials, which move when the head turns, lies above them.
+    if (view.mirror && screen.show_interior)
+      if (const auto dials = dials_in(result.views.front()); dials && overlap(*dials, frame_view.viewport))
+        frame_view.viewport.y = std::max(0, dials->y - static_cast<std::int32_t>(frame_view.viewport.height) - 2);
     result.views.push_back(frame_view);
     if (is_whole && screen.show_interior)
       result.mirrors = seen_mirrors(rig, screen, frame_view.projection, frame_view.viewport);

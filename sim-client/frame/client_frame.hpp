@@ -24,7 +24,7 @@ struct ScreenViews {
 };
 
 /// The screen is a window for eyes at `head`; where that is turned, the window has gone round with them. Mirrors stay where the car has
-/// them; an inset shows one while this screen does not see it in its place. Refuses a screen that the eyes do not see from its front.
+/// them; an inset shows one while this screen does not see it in its place, above the dials where it would lie on them. Refuses a screen that the eyes do not see from its front.
 Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen, const Head& head = {});
 
 /// `shown` as seen from a viewpoint, in whose frame the views are given.

@@ -140,15 +140,23 @@ void add_instruments(instant::FrameInput& frame, const Readings& readings, const
   frame.meshes.push_back(std::move(mesh));
 }
 
+double hands_rad(double steering_wheel_rad) {
+  const double turned_rad = std::abs(steering_wheel_rad);
+  if (!(turned_rad < 1e3)) return 0.0;
+  const double in_grip_rad = std::fmod(turned_rad, hands_reach_rad + hands_back_in_rad);
+  const double held_rad = in_grip_rad < hands_reach_rad
+                              ? in_grip_rad
+                              : hands_reach_rad * (1.0 - (in_grip_rad - hands_reach_rad) / hands_back_in_rad);
+  return std::copysign(held_rad, steering_wheel_rad);
+}
+
 void add_hands(instant::FrameInput& frame, double steering_wheel_rad, const Participant& car,
                const scene::ResolvedScene& scene) {
   const auto prototype = prototype_of(scene, "cockpit/hands");
   if (!prototype) return;
-  // Further than that arms do not go: the wheel slides through the hands.
-  constexpr double most_rad = 1.6;
   instant::DrawnParticipant hands = instant::drawn_participant(car, *prototype);
   hands.lamps = {};
-  hands.steering_wheel_rad = std::clamp(steering_wheel_rad, -most_rad, most_rad);
+  hands.steering_wheel_rad = hands_rad(steering_wheel_rad);
   frame.participants.push_back(hands);
 }
 

@@ -32,6 +32,12 @@ std::vector<scene::SurfaceVertex> lit_on_panel(const Readings& readings);
 /// Into a frame in which the inside of `car` is drawn. What the scene does not have (yet) is left out.
 void add_instruments(instant::FrameInput& frame, const Readings& readings, const Participant& car,
                      const scene::ResolvedScene& scene);
+
+/// How far the hands have turned with the hand wheel. They go with it as far as they reach and while it goes on, back to where they began: so no sleeve comes
+/// before dials and road. A function of the angle alone, continuous; 0 for an angle that is none.
+inline constexpr double hands_reach_rad = 1.0, hands_back_in_rad = 0.45;
+double hands_rad(double steering_wheel_rad);
+/// With hands at an angle of hands_rad.
 void add_hands(instant::FrameInput& frame, double steering_wheel_rad, const Participant& car,
                const scene::ResolvedScene& scene);
 

@@ -177,9 +177,9 @@ std::vector<instant::OverlayText> key_table(const std::string& headline, const r
   return texts;
 }
 
-instant::OverlayText top_line(std::string text, const rig::Screen& screen) {
+instant::OverlayText low_line(std::string text, const rig::Screen& screen) {
   const double height_px = std::clamp(screen.height_px / 36.0, 10.0, 22.0);
-  auto result = line(std::move(text), 0.02 * screen.width_px, 0.02 * screen.height_px, height_px, amber);
+  auto result = line(std::move(text), 0.01 * screen.width_px, screen.height_px - 4.0 * height_px, height_px, amber);
   result.background = dark_panel;
   return result;
 }

@@ -26,7 +26,7 @@ std::vector<instant::OverlayText> notice(const std::string& text, const rig::Scr
 /// The table of keys in the middle of the screen, under such a notice ("Press any key to start"; empty: none).
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
 
-/// A modest line at the upper edge of the screen.
-instant::OverlayText top_line(std::string text, const rig::Screen& screen);
+/// A modest line near the lower left corner of the screen: below mirrors and dials.
+instant::OverlayText low_line(std::string text, const rig::Screen& screen);
 
 }  // namespace septet::frame

@@ -109,6 +109,12 @@ std::optional<double> swept_share(const glm::dvec2& place_m) {
   return std::nullopt;
 }
 
+glm::dvec2 place_on_wiper(const Wiper& wiper, double reach_m, double share) {
+  const double angle = wiper.rest_rad + share * wiper.turn_rad;
+  const double down = std::max(0.0, 1.0 - share / rises_by_share);
+  return wiper.pivot_m + reach_m * glm::dvec2(std::cos(angle), std::sin(angle)) - glm::dvec2(0.0, parked_m * down);
+}
+
 std::vector<GlassDrop> drops_on_glass(const Environment& environment, double time_s) {
   std::vector<GlassDrop> drops;
   const double rain = environment.rain_mm_per_h;
@@ -138,15 +144,16 @@ void add_windscreen(instant::FrameInput& frame, const Snapshot& shown, const Par
   if (!water || !black) return;
   const Environment& environment = shown.environment;
   const double share = wiper_share(environment.rain_mm_per_h, shown.simulated_time_s);
-  GlassPen blades(car, *black);
-  for (const Wiper& wiper : wipers) {
-    const double angle = wiper.rest_rad + share * wiper.turn_rad;
-    const glm::dvec2 along(std::cos(angle), std::sin(angle));
-    const auto at = [&](double reach_m) { return wiper.pivot_m + reach_m * along; };
-    add_bar(blades, at(wiper.from_m), at(wiper.to_m), 0.006, -0.006);
-    add_bar(blades, at(-0.03), at(0.5 * (wiper.from_m + wiper.to_m)), 0.009, -0.012);
+  // Those that rest lie below the cowl's line, where dashboard and bonnet hide them from every eye.
+  if (share > 0.0) {
+    GlassPen blades(car, *black);
+    for (const Wiper& wiper : wipers) {
+      const auto at = [&](double reach_m) { return place_on_wiper(wiper, reach_m, share); };
+      add_bar(blades, at(wiper.from_m), at(wiper.to_m), 0.006, -0.006);
+      add_bar(blades, at(-0.03), at(0.5 * (wiper.from_m + wiper.to_m)), 0.009, -0.012);
+    }
+    frame.meshes.push_back(blades.take());
   }
-  frame.meshes.push_back(blades.take());
   const std::vector<GlassDrop> drops = drops_on_glass(environment, shown.simulated_time_s);
   if (drops.empty()) return;
   GlassPen pen(car, *water);

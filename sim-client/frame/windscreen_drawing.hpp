@@ -23,6 +23,10 @@ struct Wiper {
   double rest_rad, turn_rad;
 };
 extern const std::vector<Wiper> wipers;
+/// At rest they lie so far below where their sweep begins, below the cowl's line, and have come up when a share of it is done.
+inline constexpr double parked_m = 0.10, rises_by_share = 0.08;
+/// Where on the glass the place `reach_m` from a wiper's pivot is, at a share of its sweep.
+glm::dvec2 place_on_wiper(const Wiper& wiper, double reach_m, double share);
 
 /// 0 at rest to 1 at the other end of the sweep.
 double wiper_share(double rain_mm_per_h, double time_s);

@@ -8,6 +8,7 @@ class VirtualDisplay final : public Display {
  public:
   explicit VirtualDisplay(render::Renderer renderer) : renderer_(std::move(renderer)) {}
   render::Renderer& renderer() override { return renderer_; }
+  std::optional<Size> window_size() const override { return std::nullopt; }
   void attend() override {}
   Leaving poll_leaving() override { return Leaving::no; }
   std::optional<DriverInput> controls(double, double) override { return std::nullopt; }

@@ -27,6 +27,12 @@ class Display {
   virtual ~Display() = default;
 
   virtual render::Renderer& renderer() = 0;
+  struct Size {
+    std::uint32_t width_px = 0, height_px = 0;
+    bool operator==(const Size&) const = default;
+  };
+  /// Of the window; nothing for an off-screen display, and while a window has no area.
+  virtual std::optional<Size> window_size() const = 0;
   /// Takes what the window system has to say: often enough that keys are read while a picture is drawn in another thread.
   virtual void attend() = 0;
   /// The same; whether the person wants to leave, or to pause, by what: a key once when it is pressed.

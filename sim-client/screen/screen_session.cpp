@@ -5,6 +5,8 @@
 #include <future>
 #include <stop_token>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -26,6 +28,7 @@
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
 #include "sim-client/screen/thumbnail_maker.hpp"
+#include "sim-client/screen/window_shape.hpp"
 
 namespace septet::screen {
 namespace {
@@ -55,6 +58,8 @@ class Session {
   Expected<void> draw_lockstep();
   Expected<void> draw_real_time(double now_s);
   Expected<void> draw_lost(double now_s);
+  /// A screen whose place nobody has measured is seen in the window's own pixels, whatever its shape is by now.
+  Expected<void> take_window_shape();
   Expected<void> draw(const Snapshot& snapshot, const std::optional<std::string>& message);
   /// Does the renderer's `work` in a thread of its own: meanwhile keys are read and the server hears that this screen is there,
   /// however long a picture or a scene takes. `work` leaves the link alone; after it the link may belong to another drive.
@@ -70,8 +75,8 @@ class Session {
   Expected<void> show_closely(Tick tick, double now_s);
   void send_pictures();
   void say_goodbye();
-  /// That pictures come slowly, and on the screen ahead what the driver is to read.
-  void add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot);
+  /// That pictures come slowly, and on the screen ahead what the driver is to read; in no kept picture.
+  std::vector<instant::OverlayText> driver_texts(const Snapshot& snapshot);
   void wait(double seconds);
 
   const ScreenOptions& options_;
@@ -82,7 +87,8 @@ class Session {
   std::uint64_t uploaded_revision_ = 0;
   std::uint32_t welcomes_ = 0;
   rig::Rig rig_;
-  const rig::Screen* screen_ = nullptr;
+  rig::Screen* screen_ = nullptr;
+  rig::Screen screen_of_rig_;  ///< As the rig has it, whatever shape its window has.
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_, large_pictures_{large_picture};
@@ -109,17 +115,18 @@ Expected<void> Session::take_welcome() {
   if (!rig) return tl::unexpected(rig.error());
   rig_ = std::move(*rig);
   screen_ = nullptr;
-  for (const auto& screen : rig_.screens)
+  for (auto& screen : rig_.screens)
     if (screen.name == options_.name) screen_ = &screen;
   if (!screen_) return failure("the rig has no such screen", options_.name, "start one of the rig's screens");
   if (auto seen = screen_frames_.look_through(rig_, *screen_); !seen) return seen;
   drawn_tick_.reset();
   resolver_.forget();
   uploaded_revision_ = 0;
+  const bool is_other_screen =
+      screen_of_rig_.width_px != screen_->width_px || screen_of_rig_.height_px != screen_->height_px;
+  screen_of_rig_ = *screen_;
   // A server that was started again brings the same rig as a rule: its content is new, the picture's place is not.
-  if (display_ && display_->renderer().width() == screen_->width_px &&
-      display_->renderer().height() == screen_->height_px)
-    return {};
+  if (display_ && !is_other_screen) return {};
   // It takes a tenth of a second, in which the scene arrives.
   std::jthread receiving([this](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -148,11 +155,24 @@ Expected<void> Session::bring_scene_up() {
   return beside_lane([&] { return display_->renderer().upload(scene); });
 }
 
+Expected<void> Session::take_window_shape() {
+  const auto size = display_->window_size();
+  render::Renderer& renderer = display_->renderer();
+  if (!size || !takes_window_shape(rig_, screen_of_rig_)) return {};
+  if (*size != Display::Size{renderer.width(), renderer.height()})
+    if (auto resized = renderer.resize(size->width_px, size->height_px); !resized) return resized;
+  if (*size == Display::Size{screen_->width_px, screen_->height_px}) return {};
+  *screen_ = shaped_to_window(screen_of_rig_, rig_.eye_point_m, size->width_px, size->height_px);
+  return screen_frames_.look_through(rig_, *screen_);
+}
+
 Expected<void> Session::draw(const Snapshot& snapshot, const std::optional<std::string>& message) {
   const double begun_s = program::monotonic_s();
+  if (auto shaped = take_window_shape(); !shaped) return shaped;
   auto input = screen_frames_.frame(snapshot, resolver_.scene(), message);
-  if (!message) add_driver_texts(input, snapshot);
-  if (auto drawn = beside_lane([&] { return display_->renderer().draw(std::move(input)); }); !drawn) return drawn;
+  auto texts = message ? std::vector<instant::OverlayText>{} : driver_texts(snapshot);
+  const auto work = [&] { return display_->renderer().draw(std::move(input), std::move(texts)); };
+  if (auto drawn = beside_lane(work); !drawn) return drawn;
   last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
 }
@@ -189,13 +209,14 @@ void Session::take_effects(const Snapshot& snapshot) {
   screen_frames_.show(snapshot, link_.history(), 1.0 / link_.welcome()->tick_rate_hz, resolver_.scene());
 }
 
-void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot) {
-  const auto add = [&](const std::vector<instant::OverlayText>& texts) {
-    input.overlay.insert(input.overlay.end(), texts.begin(), texts.end());
+std::vector<instant::OverlayText> Session::driver_texts(const Snapshot& snapshot) {
+  std::vector<instant::OverlayText> texts;
+  const auto add = [&](const std::vector<instant::OverlayText>& more) {
+    texts.insert(texts.end(), more.begin(), more.end());
   };
   if (!options_.is_virtual)
     if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe")))
-      input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));
+      texts.push_back(frame::low_line(std::move(*slow), *screen_));
   const bool is_ahead = screen_ == &rig::screen_ahead(rig_);
   const control::Notice& notice = link_.notice();
   const bool unasked = is_ahead && notice.keys && snapshot.simulated_time_s < keys_shown_for_s;
@@ -208,6 +229,7 @@ void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snaps
     add(frame::key_table(is_ahead ? notice.text : "", *screen_));
   else if (is_ahead)
     add(frame::notice(notice.text, *screen_));
+  return texts;
 }
 
 Expected<void> Session::keep_picture(Tick tick) {

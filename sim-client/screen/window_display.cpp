@@ -35,6 +35,10 @@ class WindowDisplay final : public Display {
       : window_(std::move(window)), renderer_(std::move(renderer)) {}
 
   render::Renderer& renderer() override { return renderer_; }
+  std::optional<Size> window_size() const override {
+    const Size size{window_->width(), window_->height()};
+    return size.width_px > 0 && size.height_px > 0 ? std::optional(size) : std::nullopt;
+  }
   void attend() override {
     window_->poll();
     const bool keys_key = window_->is_down(Key::f1);

@@ -39,7 +39,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
+/// An empty name is no display, as for X itself: services and cron set it so.
+bool has_display() {
+  const auto names_one = [](const char* variable) {
+    const char* name = std::getenv(variable);
+    return name && *name != '\0';
+  };
+  return names_one("DISPLAY") || names_one("WAYLAND_DISPLAY");
+}
 
 /// The keys of a drive whose machines are all this one: made for it, gone with it.
 Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
@@ -156,6 +163,7 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   if (options.start_now) add({"--start-now"});
   if (options.virtual_screens) add({"--lockstep"});
   if (options.no_screens) add({"--no-screens"});
+  if (options.no_sound) add({"--no-sound"});
   return server;
 }
 

@@ -33,6 +33,7 @@ struct DriveOptions {
   std::optional<int> page_port;         ///< Of the operator's page; 0: any free one; none: there is no page.
   std::vector<std::string> page_hosts;  ///< By what names, beside this machine's own, it may be asked for.
   bool no_screens = false;              ///< Server and car only.
+  bool no_sound = false;                ///< Also where the rig has a sound.
 };
 
 /// Of a drive that is not told how long to last, off-screen. One in a window, and a replay, last as for `--seconds 0`.

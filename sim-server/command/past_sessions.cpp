@@ -171,6 +171,7 @@ void PastSessions::look_once() {
   const auto look_beside = [&](page::PastSession& session, const fs::path& file) {
     session.has_report = fs::is_regular_file(file.parent_path() / "report.html", error);
     session.has_debrief = fs::is_regular_file(file.parent_path() / "debrief.html", error);
+    session.has_film = fs::is_regular_file(file.parent_path() / "film.mp4", error);
   };
   // What is known already is there at once; what has to be read comes one after the other, the newest first.
   std::vector<std::pair<fs::file_time_type, fs::path>> unread;

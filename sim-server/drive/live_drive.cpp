@@ -49,7 +49,7 @@ Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const simu
 }
 
 LiveDrive::LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state)
-    : model_(std::move(model)), seat_(std::move(seat)), state_(std::move(state)) {
+    : model_(std::move(model)), seat_(std::move(seat)), state_(std::move(state)), word_(seat_.car == nullptr) {
   newest_ = memory_.share(simulation::capture_snapshot(*model_, state_));
 }
 
@@ -266,6 +266,7 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   for (const auto& event : events)
     if (event.kind == "traffic")
       messages_.push_back("the road holds another number of vehicles than the swarm was asked for: " + event.detail);
+  word_.take(newest_->snapshot(), events);
   if (told_)
     for (const auto& event : events) told_(event, state_.time_s());
   if (auto error = state_.traffic->take_error()) {

@@ -19,6 +19,7 @@
 #include "engine/rig/rig.hpp"
 #include "engine/simulation/operator_command.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "sim-server/drive/driver_word.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "sim-server/host/remote_car.hpp"
 #include "sim-server/host/tick_source.hpp"
@@ -77,6 +78,7 @@ class LiveDrive final : public TickSource {
   bool driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) override;
   void stand_still() override;
   std::string alarm() const override;
+  std::string word_to_driver() const override { return seat_.look ? std::string() : word_.text(); }
   double shaking_share() const override { return dose_.is_reached() ? 0.0 : guard_.share; }
   double tick_rate_hz() const override { return simulation::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
@@ -110,6 +112,7 @@ class LiveDrive final : public TickSource {
        is_stopped_ = false;  ///< The emergency stop now, and since it was pressed until re-armed.
   int rearm_held_ticks_ = 0, resting_ticks_ = 0;
   std::optional<std::string> cut_why_;
+  DriverWord word_;
   car_io::ActuatorGuard guard_;
   std::optional<road::RoadPosition> felt_at_;
   double bump_ = 0.0, blow_ = 0.0;  ///< What is left of the last.

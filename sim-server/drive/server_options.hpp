@@ -34,6 +34,7 @@ struct ServerOptions {
   bool start_now = false;  ///< Do not wait for a person to take the controls.
   bool lockstep = false;
   bool no_screens = false;
+  bool no_sound = false;                ///< Also where the rig has a sound.
   std::optional<int> page_port;         ///< Of the operator's page; 0: any free one; none: there is no page.
   std::vector<std::string> page_hosts;  ///< By what names, beside this machine's own, it may be asked for.
   std::optional<page::Handover>

@@ -82,7 +82,7 @@ struct ScreenLoop : Loop {
 
   std::string word() const { return environment.word ? environment.word() : std::string(); }
   void show_alarm() {
-    if (auto now = below(source.alarm(), word()); now != alarm) {
+    if (auto now = below(below(source.alarm(), source.word_to_driver()), word()); now != alarm) {
       alarm = std::move(now);
       host.give_notice({alarm, host.notice().keys});
     }

@@ -31,6 +31,8 @@ class TickSource {
   virtual void stand_still() {}
   /// What the driver must read on the screen ahead as long as it holds: an emergency stop. Empty: nothing.
   virtual std::string alarm() const { return {}; }
+  /// What has just happened to the driver's car, where a person drives it, and what to press; lines. Empty: nothing.
+  virtual std::string word_to_driver() const { return {}; }
   /// How much of what shakes the driver may do so: the sound's low frequencies, on which a shaker may hang, go by it. 0: it is cut.
   virtual double shaking_share() const { return 1.0; }
   virtual double tick_rate_hz() const = 0;

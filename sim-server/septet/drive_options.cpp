@@ -28,6 +28,7 @@ void add_drive_options(CLI::App& command, DriveOptions& drive, const std::string
       ->check(number_between(0.0, 1e6));
   command.add_flag("--full-screen", drive.full_screen,
                    "Cover whole monitors: those that the rig names, else the first");
+  command.add_flag("--no-sound", drive.no_sound, "Silent, also where the rig has a sound");
   command.add_flag("--virtual", drive.virtual_screens,
                    "Off-screen pictures in lockstep, even where there is a display");
 }

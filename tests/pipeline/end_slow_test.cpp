@@ -252,6 +252,14 @@ TEST_CASE(
   CHECK(why(out) == "time_over");
   check_results(out);
 
+  // To X an empty name is no display either: services and cron set it so.
+  auto nameless = start(
+      "septet",
+      {"drive", "--seconds", "0.1", "--rig", (folder / "small.toml").string(), "--out", (folder / "nameless").string()},
+      folder / "nameless.err", {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
+  CHECK(exit_code(nameless) == 0);
+  CHECK(fs::exists(folder / "nameless" / "panorama.png"));
+
   auto blind = start(
       "septet",
       {"drive", "--seconds", "300", "--rig", (folder / "small.toml").string(), "--out", (folder / "blind").string()},

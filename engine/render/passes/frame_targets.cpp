@@ -40,9 +40,23 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
   targets.shadow_map = create_image(memory, description);
 }
 
+void create_kept_target(FrameTargets& targets, vulkan::MemoryPool& memory) {
+  vulkan::ImageDescription description = targets.picture.description;
+  description.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  targets.kept = create_image(memory, description);
+}
+
+void keep_picture(const FrameTargets& targets, PassContext& context) {
+  VkImageCopy region{};
+  region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.extent = {targets.width, targets.height, 1};
+  vkCmdCopyImage(context.slot.commands, targets.picture.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, targets.kept.image,
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory) {
   for (vulkan::DeviceImage* image :
-       {&targets.radiance, &targets.depth, &targets.mapped, &targets.picture, &targets.shadow_map})
+       {&targets.radiance, &targets.depth, &targets.mapped, &targets.picture, &targets.kept, &targets.shadow_map})
     destroy_image(memory, *image);
   targets = {};
 }
@@ -135,7 +149,8 @@ void read_image(const vulkan::DeviceImage& image, const vulkan::Device& device, 
 void read_picture(const FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory,
                   std::span<std::uint8_t> rgba) {
   SEPTET_CHECK(rgba.size() == std::size_t{4} * targets.width * targets.height, "{} bytes", rgba.size());
-  read_image(targets.picture, device, memory, std::as_writable_bytes(rgba), [](VkCommandBuffer) {});
+  read_image(targets.is_kept ? targets.kept : targets.picture, device, memory, std::as_writable_bytes(rgba),
+             [](VkCommandBuffer) {});
 }
 
 void read_radiance(FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory,

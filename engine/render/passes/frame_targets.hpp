@@ -14,16 +14,20 @@ struct FrameTargets {
   vulkan::DeviceImage radiance, depth;
   vulkan::DeviceImage mapped;   ///< The display's codes, before smoothing; absent without it.
   vulkan::DeviceImage picture;  ///< The finished frame, the display's codes.
+  vulkan::DeviceImage kept;     ///< The same without passing texts; absent before there are any.
+  bool is_kept = false;         ///< Whether the last frame has it.
   vulkan::DeviceImage shadow_map;
   /// How each was left by the last frame.
   Access radiance_access = Access::none, depth_access = Access::none, mapped_access = Access::none,
-         picture_access = Access::none, shadow_access = Access::none;
+         picture_access = Access::none, kept_access = Access::none, shadow_access = Access::none;
 
   bool smoothed() const { return mapped.image != VK_NULL_HANDLE; }
 };
 
 void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, const TargetFormats& formats,
                           std::uint32_t width, std::uint32_t height, bool smoothed);
+/// `kept`, of the picture's size.
+void create_kept_target(FrameTargets& targets, vulkan::MemoryPool& memory);
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory);
 
 /// Begins drawing into all of a target and its depth, cleared to darkness of this alpha and an empty depth.
@@ -34,7 +38,9 @@ void clear_inset(PassContext& context, const FrameTargets& targets, const PixelR
 
 /// Replaces an image's texels by way of the frame's arena.
 void upload_texels(PassContext& context, const vulkan::DeviceImage& image, std::span<const std::byte> texels);
-/// Waits, and copies the picture's pixels.
+/// Copies the picture, a transfer source, into `kept`, a transfer destination.
+void keep_picture(const FrameTargets& targets, PassContext& context);
+/// Waits, and copies the picture's pixels; without passing texts.
 void read_picture(const FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory,
                   std::span<std::uint8_t> rgba);
 /// The same of the radiance, the mean of its samples, as half floats; it leaves its access changed.

@@ -1,6 +1,8 @@
 #include "engine/render/vulkan/swapchain.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 namespace septet::render::vulkan {
 namespace {
@@ -110,12 +112,34 @@ void present(Swapchain& swapchain, const Device& device, std::uint32_t index) {
 
 void record_copy(VkCommandBuffer commands, const DeviceImage& picture, const Swapchain& swapchain,
                  std::uint32_t index) {
+  const VkExtent2D whole = swapchain.extent;
+  const double scale =
+      std::min(double(whole.width) / picture.description.width, double(whole.height) / picture.description.height);
+  const auto fitted = [scale](std::uint32_t size_px, std::uint32_t room_px) {
+    return std::min(room_px, static_cast<std::uint32_t>(std::lround(scale * size_px)));
+  };
+  const std::uint32_t width = fitted(picture.description.width, whole.width),
+                      height = fitted(picture.description.height, whole.height);
+  if (width < whole.width || height < whole.height) {
+    const VkClearColorValue black{{0.0f, 0.0f, 0.0f, 1.0f}};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(commands, swapchain.images[index], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &all);
+    VkMemoryBarrier2 cleared{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    cleared.srcStageMask = cleared.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    cleared.srcAccessMask = cleared.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    VkDependencyInfo before{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    before.memoryBarrierCount = 1;
+    before.pMemoryBarriers = &cleared;
+    vkCmdPipelineBarrier2(commands, &before);
+  }
+  const auto left = static_cast<std::int32_t>((whole.width - width) / 2),
+             top = static_cast<std::int32_t>((whole.height - height) / 2);
   VkImageBlit2 region{VK_STRUCTURE_TYPE_IMAGE_BLIT_2};
   region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.srcOffsets[1] = {static_cast<std::int32_t>(picture.description.width),
                           static_cast<std::int32_t>(picture.description.height), 1};
-  region.dstOffsets[1] = {static_cast<std::int32_t>(swapchain.extent.width),
-                          static_cast<std::int32_t>(swapchain.extent.height), 1};
+  region.dstOffsets[0] = {left, top, 0};
+  region.dstOffsets[1] = {left + static_cast<std::int32_t>(width), top + static_cast<std::int32_t>(height), 1};
   VkBlitImageInfo2 info{VK_STRUCTURE_TYPE_BLIT_IMAGE_INFO_2};
   info.srcImage = picture.image;
   info.srcImageLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;

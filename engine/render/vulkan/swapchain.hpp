@@ -24,7 +24,7 @@ void destroy_swapchain(Swapchain& swapchain, const Device& device);
 std::optional<std::uint32_t> acquire(Swapchain& swapchain, const Device& device, VkSemaphore acquired);
 void present(Swapchain& swapchain, const Device& device, std::uint32_t index);
 
-/// Copies the picture over the whole of the window's image, scaled; a transfer source and a transfer destination.
+/// Copies the picture into the window's image, scaled as far as its shape allows, with black bars beside it; a transfer source and a transfer destination.
 void record_copy(VkCommandBuffer commands, const DeviceImage& picture, const Swapchain& swapchain, std::uint32_t index);
 
 }  // namespace septet::render::vulkan

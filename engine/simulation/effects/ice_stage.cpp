@@ -85,6 +85,29 @@ void hang_at_bridge(const road::RoadNetwork& roads, road::RoadIndex index, const
     }
 }
 
+/// 0 to 1, as the scenario's Init says last.
+double frost_asked_for(const scenario::Scenario& scenario) {
+  double share = 0.0;
+  for (const scenario::InitAction& action : scenario.init)
+    if (const auto* environment = std::get_if<scenario::EnvironmentAction>(&action.what))
+      share = environment->frost.value_or(share);
+  return share;
+}
+
+void renew(EffectKeyframe& keyframe, std::uint32_t id, std::uint16_t kind, Bytes data, Tick shows) {
+  if (data != keyframe.data) keyframe = {id, kind, std::move(data), shows};
+}
+
+/// The keyframes tell what there is; one that has told of something also tells that it is gone.
+void tell_panes(Tick shows, IceState& state) {
+  if (!state.panes.empty() || !state.glass_keyframe.data.empty())
+    renew(state.glass_keyframe, ice::glass_effect_id, ice::glass_keyframe_kind, ice::encode_glass(state.panes), shows);
+}
+void tell_still_ice(Tick shows, IceState& state) {
+  if (!state.still.empty() || !state.keyframe.data.empty())
+    renew(state.keyframe, ice::effect_id, ice::keyframe_kind, ice::encode(state.still), shows);
+}
+
 }  // namespace
 
 IceState initial_ice(const road::RoadNetwork& roads, const scenario::Scenario& scenario,
@@ -101,13 +124,18 @@ IceState initial_ice(const road::RoadNetwork& roads, const scenario::Scenario& s
                   effect && effect->kind == scenario::EffectAction::Kind::spill && effect->part == "ice-slab")
                 lay(*effect, scenario.entities[effect->entity],
                     effect->entity == driver ? driver_id : first_id + effect->entity, state.still);
-  if (storyboard.environment.temperature_k >= ice::freezing_k) return state;
-  state.panes.push_back(
-      {driver_id, ice::morning_frost(storyboard.environment.temperature_k, static_cast<std::uint32_t>(seed)), {}});
-  for (road::RoadIndex i = 0; i < roads.roads.size(); ++i)
-    for (const road::RoadStructure& structure : roads.roads[i].structures)
-      (structure.kind == road::RoadStructure::Kind::tunnel ? hang_at_tunnel : hang_at_bridge)(roads, i, structure, seed,
-                                                                                              state.still);
+  if (const double air_k = storyboard.environment.temperature_k; air_k < ice::freezing_k) {
+    ice::Frost frost = ice::morning_frost(air_k, static_cast<std::uint32_t>(seed));
+    frost.thickness_kgpm2 *= frost_asked_for(scenario);
+    if (frost.thickness_kgpm2 > 0.0) state.panes.push_back({driver_id, frost, {}});
+    for (road::RoadIndex i = 0; i < roads.roads.size(); ++i)
+      for (const road::RoadStructure& structure : roads.roads[i].structures)
+        (structure.kind == road::RoadStructure::Kind::tunnel ? hang_at_tunnel : hang_at_bridge)(roads, i, structure,
+                                                                                                seed, state.still);
+  }
+  // The world may stand at its first instant until the driver is ready: it has its ice then, too.
+  tell_panes(0, state);
+  tell_still_ice(0, state);
   return state;
 }
 
@@ -149,18 +177,15 @@ void shake_glass(const ShakenGlass& glass, IceState& state) {
 }
 
 void advance_ice(const IceWeather& weather, double step_s, Tick shows, IceState& state) {
-  const auto renew = [&](EffectKeyframe& keyframe, std::uint32_t id, std::uint16_t kind, Bytes data) {
-    if (data != keyframe.data) keyframe = {id, kind, std::move(data), shows};
-  };
   if (!state.panes.empty() || !state.glass_keyframe.data.empty()) {
     for (ice::Pane& pane : state.panes) ice::warm(pane.frost, weather.temperature_k, weather.driver_speed_mps, step_s);
     std::erase_if(state.panes,
                   [](const ice::Pane& pane) { return pane.stars.empty() && !(pane.frost.thickness_kgpm2 > 0.0); });
-    renew(state.glass_keyframe, ice::glass_effect_id, ice::glass_keyframe_kind, ice::encode_glass(state.panes));
+    tell_panes(shows, state);
   }
   if (state.still.empty() && state.keyframe.data.empty()) return;
   state.still.thawed_kh += ice::degree_hours(weather.temperature_k, step_s);
-  renew(state.keyframe, ice::effect_id, ice::keyframe_kind, ice::encode(state.still));
+  tell_still_ice(shows, state);
 }
 
 }  // namespace septet::simulation

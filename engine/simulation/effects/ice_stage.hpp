@@ -18,11 +18,12 @@ struct IceState {
   std::vector<BlackIce> black;    ///< One for each sheet of `still`, in its order.
   std::vector<ice::Pane> panes;   ///< Windscreens with frost or cracks.
   EffectKeyframe keyframe;        ///< No bytes while there is no ice.
-  EffectKeyframe glass_keyframe;  ///< No bytes before there are panes.
+  EffectKeyframe glass_keyframe;  ///< Likewise, of panes.
 };
 
 /// Slabs that the storyboard will spill lie on their roofs from the start, where they find room; in frost, icicles hang at the
-/// mouths of tunnels and along bridges, and the driver's windscreen has frost.
+/// mouths of tunnels and along bridges, and the driver's windscreen has as much of a morning's frost as the scenario asks for
+/// (septet:frost of Init's environment; none unless it does). The keyframes show tick 0.
 IceState initial_ice(const road::RoadNetwork& roads, const scenario::Scenario& scenario,
                      const scenario::ScenarioState& storyboard, scenario::EntityIndex driver, ParticipantId driver_id,
                      ParticipantId first_id, std::uint64_t seed);

@@ -106,6 +106,11 @@ TEST_CASE("every shipped rig is read") {
   }
 }
 
+TEST_CASE("a drive at a desk is heard and one in a hall has the sound of its own installation") {
+  for (const char* name : {"three-monitors", "desktop"}) CHECK(read_rig(shipped(name), name)->sound.has_value());
+  CHECK_FALSE(read_rig(shipped("seven-screens"), "seven-screens")->sound.has_value());
+}
+
 TEST_CASE("a screen has the monitor that its rig names and none unless it does") {
   const std::string good = one_screen;
   const auto plain = read_rig(good, "my.toml"),

@@ -294,13 +294,15 @@ TEST_CASE("the road's condition brings wetness and lying snow and a scale of all
   const std::string condition =
       "<GlobalAction><EnvironmentAction><Environment name=\"winter\"><Weather temperature=\"268\"/>"
       "<RoadCondition frictionScaleFactor=\"0.8\" wetness=\"moist\"><Properties>"
-      "<Property name=\"septet:snowCover\" value=\"0.6\"/></Properties></RoadCondition>"
+      "<Property name=\"septet:snowCover\" value=\"0.6\"/><Property name=\"septet:frost\" "
+      "value=\"7\"/></Properties></RoadCondition>"
       "</Environment></EnvironmentAction></GlobalAction>";
   Drive drive(scenario_text(condition + two_cars, story_text("")));
   CHECK(drive.state.friction_scale == doctest::Approx(0.8));
   CHECK(drive.state.environment.road_wetness == doctest::Approx(0.25));
   CHECK(drive.state.environment.snow_cover == doctest::Approx(0.6));
   CHECK(drive.state.environment.temperature_k == doctest::Approx(268.0));
+  CHECK(std::get<EnvironmentAction>(drive.scenario.init.front().what).frost == 1.0);
 }
 
 }  // namespace septet::scenario

@@ -1,6 +1,7 @@
 #include "engine/simulation/effects/ice_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -36,6 +37,13 @@ scenario::Scenario lorry_with(std::initializer_list<scenario::EffectAction> slab
   scenario::Event event;
   for (const scenario::EffectAction& action : slabs) event.actions.push_back({"", 0, action});
   scenario.stories.emplace_back().acts.emplace_back().groups.emplace_back().maneuvers.emplace_back().events = {event};
+  return scenario;
+}
+
+/// Such a lorry on a morning whose scenario asks for so much frost on the windscreen.
+scenario::Scenario frosty(double share) {
+  scenario::Scenario scenario = lorry_with({});
+  scenario.init.push_back({.what = scenario::EnvironmentAction{.frost = share}});
   return scenario;
 }
 
@@ -148,10 +156,10 @@ TEST_CASE("black ice lies within its lane on the road, and nowhere where there i
 
 TEST_CASE("the keyframe of still ice is renewed when there is another to tell and not before") {
   IceState state = start(lorry_with({slab(-2.6, -0.2)}), 280.0);
-  advance_ice({270.0, 20.0}, 0.1, 2, state);
-  CHECK(state.keyframe.tick == 2);
+  REQUIRE(ice::decode(state.keyframe.data));
+  CHECK(ice::decode(state.keyframe.data)->slabs.size() == 1);
   advance_ice({270.0, 20.0}, 0.1, 4, state);
-  CHECK(state.keyframe.tick == 2);
+  CHECK(state.keyframe.tick == 0);
   advance_ice({290.0, 20.0}, 60.0, 6, state);
   CHECK(state.keyframe.tick == 6);
   release_slab(2, {-2.6, -0.2}, 0.08, state);
@@ -161,8 +169,34 @@ TEST_CASE("the keyframe of still ice is renewed when there is another to tell an
   CHECK(ice::decode(state.keyframe.data)->slabs.empty());
 }
 
+TEST_CASE(
+    "a windscreen has no frost unless the scenario asks for it, and then as much as it asks for, from the first "
+    "instant") {
+  CHECK(start(lorry_with({}), 268.15).panes.empty());
+  CHECK(start(lorry_with({}), 233.15).glass_keyframe.data.empty());
+  CHECK(start(frosty(0.0), 268.15).panes.empty());
+  CHECK(start(frosty(1.0), ice::freezing_k).panes.empty());
+  CHECK(start(frosty(1.0), 290.0).glass_keyframe.data.empty());
+  for (const double share : {0.01, 0.25, 0.5, 0.9, 1.0}) {
+    const IceState state = start(frosty(share), 268.15);
+    REQUIRE(state.panes.size() == 1);
+    CHECK(state.panes[0].frost.thickness_kgpm2 == doctest::Approx(0.15 * share));
+    CHECK(state.glass_keyframe.tick == 0);
+    const auto told = ice::decode_glass(state.glass_keyframe.data);
+    REQUIRE(told);
+    REQUIRE(told->size() == 1);
+    CHECK(std::abs((*told)[0].frost.thickness_kgpm2 - 0.15 * share) < 0.00051);  // Told in g/m².
+  }
+  // Init may set the environment more than once: the last word counts, and one that says nothing of frost leaves it.
+  scenario::Scenario twice = frosty(1.0);
+  twice.init.push_back({.what = scenario::EnvironmentAction{.snow_cover = 1.0}});
+  CHECK(start(twice, 268.15).panes.size() == 1);
+  twice.init.push_back({.what = scenario::EnvironmentAction{.frost = 0.0}});
+  CHECK(start(twice, 268.15).panes.empty());
+}
+
 TEST_CASE("a windscreen has frost in the morning and stars where blows shook it, but for those at walking pace") {
-  IceState state = start(lorry_with({}), 268.15);
+  IceState state = start(frosty(1.0), 268.15);
   REQUIRE(state.panes.size() == 1);
   CHECK(state.panes[0].vehicle == 1);
   CHECK(state.panes[0].frost.thickness_kgpm2 == doctest::Approx(0.15));
@@ -196,7 +230,7 @@ TEST_CASE("a windscreen has frost in the morning and stars where blows shook it,
 }
 
 TEST_CASE("the blower thaws the driver's windscreen until nothing of it is left to tell") {
-  IceState state = start(lorry_with({}), 268.15);
+  IceState state = start(frosty(1.0), 268.15);
   double before = state.panes[0].frost.melted_kgpm2.back();
   for (int i = 0; i < 120; ++i) advance_ice({268.15, 20.0}, 0.5, 2, state);
   REQUIRE(state.panes.size() == 1);

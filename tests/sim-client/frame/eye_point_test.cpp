@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/world/instrument_panel.hpp"
 #include "engine/world/interpolate.hpp"
 #include "sim-client/frame/client_frame.hpp"
 #include "tests/relative.hpp"
@@ -109,6 +110,35 @@ TEST_CASE("between two ticks the head is between its two places") {
   CHECK(half.from_rest_m.y == doctest::Approx(-0.1));
   CHECK(half.turn_rad == doctest::Approx(0.4));
   CHECK(interpolate(before, after, 0.5).driver_car.head == after.driver_car.head);
+}
+
+TEST_CASE("no inset lies on the dials, whichever way the driver looks") {
+  namespace panel = instrument_panel;
+  const rig::Rig rig = rig_of("desktop");
+  const rig::Screen& screen = rig.screens.front();
+  for (const Vec3& moved_m : {Vec3(0.0), Vec3(0.2, 0.1, -0.1), Vec3(-0.2, -0.1, 0.1)})
+    for (double turn_rad = -1.2; turn_rad <= 1.2; turn_rad += 0.05) {
+      CAPTURE(turn_rad);
+      const auto views = screen_views(rig, screen, {moved_m, turn_rad});
+      REQUIRE(views);
+      const instant::OffAxisView& through = views->views.front().projection;
+      for (std::size_t i = 1; i < views->views.size(); ++i) {
+        const instant::PixelRectangle& inset = views->views[i].viewport;
+        for (const double across : {-0.5, -0.3, 0.0, 0.3, 0.5})
+          for (const double upward : {-0.5, 0.0, 0.5}) {
+            const Vec3 at =
+                panel::middle_m + across * panel::width_m * panel::right + upward * panel::height_m * panel::up;
+            const glm::dvec4 clip = through.clip_from_eye_relative * glm::dvec4(at - through.eye_m, 1.0);
+            if (clip.w < 1e-3) continue;
+            const double x = (0.5 + 0.5 * clip.x / clip.w) * screen.width_px,
+                         y = (0.5 + 0.5 * clip.y / clip.w) * screen.height_px;
+            const bool on_inset =
+                x > inset.x && x < inset.x + double(inset.width) && y > inset.y && y < inset.y + double(inset.height);
+            CHECK_FALSE(on_inset);
+          }
+        CHECK(inset.y >= 0);
+      }
+    }
 }
 
 }  // namespace septet::frame

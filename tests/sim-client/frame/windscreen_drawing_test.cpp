@@ -42,6 +42,20 @@ TEST_CASE("a place was last wiped when a blade stood there") {
   CHECK_FALSE(last_passed_s(0.0, 0.5, 10.0));
 }
 
+TEST_CASE("wipers at rest lie below the cowl's line, and sweep the glass that they clear") {
+  for (const Wiper& wiper : wipers)
+    for (double reach_m = wiper.from_m; reach_m <= wiper.to_m; reach_m += 0.01) {
+      CHECK(place_on_wiper(wiper, reach_m, 0.0).y < -0.04);
+      for (const double share : {0.1, 0.3, 0.5, 0.8, 0.99}) {
+        const glm::dvec2 place_m = place_on_wiper(wiper, reach_m, share);
+        CHECK(place_m.y > 0.0);
+        const auto swept = swept_share(place_m);
+        if (reach_m > wiper.from_m + 0.001 && reach_m < wiper.to_m - 0.001 && &wiper == &wipers.front())
+          CHECK(swept.value_or(-1.0) == relative(share, 1e-6));
+      }
+    }
+}
+
 TEST_CASE("a heavier rain leaves more drops behind the wipers, snow none") {
   Environment environment;
   const auto wiped = [&](double rain_mm_per_h) {

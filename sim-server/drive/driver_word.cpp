@@ -1,0 +1,75 @@
+#include "sim-server/drive/driver_word.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "engine/world/vehicle_model.hpp"
+#include "sim-client/frame/cockpit_drawing.hpp"
+
+namespace septet::server {
+namespace {
+
+/// Of a collision's detail; nothing where it has none.
+std::optional<double> closing_speed_mps(std::string_view detail) {
+  constexpr std::string_view key = "closing_speed_mps=";
+  const auto at = detail.find(key);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = detail.substr(at + key.size());
+  double value = 0.0;
+  if (std::from_chars(rest.data(), rest.data() + rest.size(), value).ec != std::errc{}) return std::nullopt;
+  return std::isfinite(value) ? std::optional(std::abs(value)) : std::nullopt;
+}
+
+std::string with_article(std::string what) {
+  std::ranges::replace_if(
+      what, [](char c) { return c == '_' || c == '-'; }, ' ');
+  const bool begins_with_vowel = std::string_view("aeiou").find(what.front()) != std::string_view::npos;
+  return (begins_with_vowel ? "an " : "a ") + what;
+}
+
+/// What was hit: somebody of the snapshot, or what stands beside the road, which the detail begins with.
+std::string struck(const Snapshot& now, const simulation::Event& event) {
+  if (event.participant) {
+    const Participant* other = find_participant(now, *event.participant);
+    return other ? with_article(std::string(vehicle_models()[other->model].name)) : "somebody";
+  }
+  const std::string what = event.detail.substr(0, event.detail.find(' '));
+  return what.empty() || what.find('=') != std::string::npos ? "something" : with_article(what);
+}
+
+}  // namespace
+
+void DriverWord::take(const Snapshot& now, std::span<const simulation::Event> events) {
+  now_s_ = now.simulated_time_s;
+  if (now.driver_car.lane != 0 || now.tick <= 1) on_lane_s_ = now_s_;
+  if (!frame::is_stalled(now.driver_car) || now.tick <= 1) runs_s_ = now_s_;
+  for (const simulation::Event& event : events) {
+    if (event.kind != "collision") continue;
+    const double mps = closing_speed_mps(event.detail).value_or(0.0);
+    // Of the blows of one crash the worst is told.
+    const bool is_told = !blow_.empty() && now_s_ - blow_at_s_ < blow_shown_s;
+    if (mps < least_blow_mps || (is_told && mps < blow_mps_)) continue;
+    blow_ = struck(now, event);
+    blow_mps_ = mps;
+    blow_at_s_ = now_s_;
+  }
+}
+
+std::string DriverWord::text() const {
+  std::string text;
+  const auto add = [&](const std::string& line) { text += (text.empty() ? "" : "\n") + line; };
+  if (!blow_.empty() && now_s_ - blow_at_s_ < blow_shown_s)
+    add(fmt::format("You have hit {} at {:.0f} km/h.", blow_, 3.6 * blow_mps_));
+  if (now_s_ - on_lane_s_ >= off_road_after_s) add("You are off the road.");
+  if (now_s_ - runs_s_ >= stalled_after_s)
+    add(by_keyboard_ ? "The engine has stalled: V held starts it." : "The engine has stalled: the clutch starts it.");
+  if (!text.empty()) add("Escape, then R: begin again. Escape, then Enter: end.");
+  return text;
+}
+
+}  // namespace septet::server

@@ -1,0 +1,83 @@
+#include "sim-server/drive/driver_word.hpp"
+
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/world/vehicle_model.hpp"
+
+namespace septet::server {
+namespace {
+
+/// Half a second after half a second, on a lane with a running engine unless said otherwise.
+struct Told {
+  DriverWord word;
+  Snapshot now;
+  explicit Told(bool by_keyboard = true) : word(by_keyboard) {
+    now.driver_car.lane = -1;
+    now.driver_car.engine_radps = 80.0;
+  }
+  std::string after(double seconds, std::vector<simulation::Event> events = {}) {
+    word.take(now, events);
+    for (int i = 0; i < static_cast<int>(2.0 * seconds); ++i) {
+      now.tick += 60;
+      now.simulated_time_s += 0.5;
+      word.take(now, {});
+    }
+    return word.text();
+  }
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a driver who has hit something reads what and how fast, and what to press, for some seconds") {
+  Told told;
+  CHECK(told.after(5.0).empty());
+  const std::string text =
+      told.after(0.0, {{"collision", std::nullopt, "tree closing_speed_mps=41.58 delta_v_mps=43.49"}});
+  CHECK(has(text, "You have hit a tree at 150 km/h."));
+  CHECK(has(text, "Escape, then R: begin again"));
+  CHECK(has(told.after(7.0), "tree"));
+  CHECK(told.after(1.5).empty());
+}
+
+TEST_CASE("of the blows of one crash the worst is told, a touch is not, and words that are none do no harm") {
+  Told told;
+  told.now.participants = {{.id = 7, .model = *find_vehicle_model("ambulance")}};
+  CHECK(has(told.after(0.0, {{"collision", ParticipantId{7}, "closing_speed_mps=10.00"}}),
+            "hit an ambulance at 36 km/h"));
+  CHECK(has(told.after(1.0, {{"collision", std::nullopt, "guard_rail closing_speed_mps=4.00 delta_v_mps=1"}}),
+            "ambulance"));
+  CHECK(has(told.after(1.0, {{"collision", ParticipantId{99}, "closing_speed_mps=20.00"}}), "somebody at 72"));
+  CHECK(told.after(9.0).empty());
+  for (const char* detail :
+       {"", "closing_speed_mps=", "closing_speed_mps=nan", "closing_speed_mps=1.5", "tree", " closing_speed_mps=x"})
+    CHECK(told.after(0.0, {{"collision", std::nullopt, detail}}).empty());
+  CHECK(has(told.after(0.0, {{"collision", std::nullopt, "closing_speed_mps=5"}}), "hit something at 18 km/h"));
+  CHECK(told.after(9.0, {{"kerb", std::nullopt, "closing_speed_mps=50"}}).empty());
+}
+
+TEST_CASE("off every lane and a stall are told of once they have lasted, and no longer than they last") {
+  Told told;
+  CHECK(told.after(1.0).empty());
+  told.now.driver_car.lane = 0;
+  CHECK(told.after(3.0).empty());
+  CHECK(has(told.after(1.5), "You are off the road."));
+  CHECK(has(told.after(100.0), "off the road"));
+  told.now.driver_car.lane = 2;
+  CHECK(told.after(0.5).empty());
+  told.now.driver_car.engine_radps = 0.0;
+  CHECK(told.after(1.0).empty());
+  CHECK(has(told.after(2.0), "stalled: V held"));
+  told.now.driver_car.engine_radps = 90.0;
+  CHECK(told.after(0.5).empty());
+  Told pedals(false);
+  pedals.now.driver_car.engine_radps = 0.0;
+  CHECK(has(pedals.after(4.0), "the clutch starts it"));
+  CHECK_FALSE(has(pedals.after(4.0), "V held"));
+}
+
+}  // namespace septet::server
