@@ -44,7 +44,7 @@ void add_stations(const CubicProfile& profile, std::vector<double>& stations) {
 }
 
 /// Ascending, each once, away from the road's ends: where a record of the surface begins.
-std::vector<double> stations_of(const Road& road) {
+std::vector<double> seams_of(const Road& road) {
   std::vector<double> stations;
   for (const CubicProfile* profile :
        {&road.elevation, &road.superelevation, &road.crossfall_left, &road.crossfall_right})
@@ -102,7 +102,7 @@ const StepCause* cause_of(const Road& road, double s_m, double t_m) {
 void check_along(const CheckedFile& file, RoadIndex index) {
   const Road& road = file.network.roads[index];
   const pugi::xml_node& road_node = file.road_nodes[index];
-  for (const double s : stations_of(road)) {
+  for (const double s : seams_of(road)) {
     const Step step = step_at(road, s);
     if (!(std::abs(step.height_m) > least_step_m)) continue;
     const StepCause* cause = cause_of(road, s, step.t_m);

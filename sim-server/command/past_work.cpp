@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The last line that says anything, made printable.
-std::string last_line_of(const fs::path& log) {
+std::string last_said_in(const fs::path& log) {
   std::string last;
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);)
@@ -55,7 +55,7 @@ bool PastWork::attend() {
   }
   const auto exit = process_->poll();
   const page::PastWorkView before = *view_;
-  view_->said = last_line_of(log_);
+  view_->said = last_said_in(log_);
   if (exit) {
     view_->is_running = false;
     view_->has_failed = exit->code != 0 && !is_stopped_;

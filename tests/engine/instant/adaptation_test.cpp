@@ -14,7 +14,7 @@
 namespace septet::instant {
 namespace {
 
-SkyLight light_at(double elevation_deg, double clouds, double snow = 0.0, double visibility_m = 50000.0) {
+SkyLight light_under(double elevation_deg, double clouds, double snow = 0.0, double visibility_m = 50000.0) {
   Environment environment;
   environment.sun_azimuth_rad = 2.0;
   environment.sun_elevation_rad = glm::radians(elevation_deg);
@@ -24,17 +24,19 @@ SkyLight light_at(double elevation_deg, double clouds, double snow = 0.0, double
   return sky_light(environment);
 }
 
-float brightness(const glm::vec3& color) { return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+float luminance_of(const glm::vec3& color) { return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 /// What a display is given of level ground of that albedo, without lamps.
 float shown_ground(const SkyLight& light, float albedo) {
-  const float level =
-      brightness(light.sky_irradiance) + brightness(light.light_irradiance) * std::max(0.0f, light.light_direction.z);
+  const float level = luminance_of(light.sky_irradiance) +
+                      luminance_of(light.light_irradiance) * std::max(0.0f, light.light_direction.z);
   return light.exposure * albedo * level / glm::pi<float>();
 }
 
 /// Of the sky, the mean of what a level surface sees.
-float shown_sky(const SkyLight& light) { return light.exposure * brightness(light.sky_irradiance) / glm::pi<float>(); }
+float shown_sky(const SkyLight& light) {
+  return light.exposure * luminance_of(light.sky_irradiance) / glm::pi<float>();
+}
 
 float code(float exposed) { return 255.0f * display_code(glm::vec3(exposed)).g; }
 
@@ -64,19 +66,19 @@ TEST_CASE("an eye's gain grows and what it makes of light falls, at every step f
 TEST_CASE("under a closed cover sky and land never grow brighter as the sun sinks from 17 to -11 degrees") {
   float sky = 1e9f, land = 1e9f;
   for (double elevation = 17.0; elevation >= -11.0; elevation -= 0.1) {
-    const SkyLight light = light_at(elevation, 1.0);
+    const SkyLight light = light_under(elevation, 1.0);
     CAPTURE(elevation);
     CHECK(shown_sky(light) <= 1.0001f * sky);
     CHECK(shown_ground(light, 0.2f) <= 1.0001f * land);
     sky = shown_sky(light), land = shown_ground(light, 0.2f);
     // Straight up and at the horizon before and behind the driver, not in the mean alone.
-    CHECK(light.exposure * brightness(sky_radiance(light, {0, 0, 1})) < 2.0f * sky);
+    CHECK(light.exposure * luminance_of(sky_radiance(light, {0, 0, 1})) < 2.0f * sky);
   }
-  const float road = code(shown_ground(light_at(1.1, 1.0), 0.1f)),
-              earlier = code(shown_ground(light_at(17.0, 1.0), 0.1f));
+  const float road = code(shown_ground(light_under(1.1, 1.0), 0.1f)),
+              earlier = code(shown_ground(light_under(17.0, 1.0), 0.1f));
   CHECK(road >= 45.0f);
   CHECK(road <= earlier);
-  CHECK(shown_sky(light_at(-40.0, 1.0)) <= 0.5f * shown_sky(light_at(-1.7, 1.0)));
+  CHECK(shown_sky(light_under(-40.0, 1.0)) <= 0.5f * shown_sky(light_under(-1.7, 1.0)));
 }
 
 TEST_CASE("land never grows brighter as the sun sinks, whatever the clouds, the snow and the air") {
@@ -85,7 +87,7 @@ TEST_CASE("land never grows brighter as the sun sinks, whatever the clouds, the 
       for (const double visibility_m : {300.0, 5e3, 1e5}) {
         float land = 1e9f;
         for (double elevation = 17.0; elevation >= -14.0; elevation -= 0.5) {
-          const SkyLight light = light_at(elevation, clouds, snow, visibility_m);
+          const SkyLight light = light_under(elevation, clouds, snow, visibility_m);
           CAPTURE(elevation);
           CAPTURE(clouds);
           CAPTURE(visibility_m);
@@ -98,18 +100,18 @@ TEST_CASE("land never grows brighter as the sun sinks, whatever the clouds, the 
 TEST_CASE("a lamp is shown as bright beside the light around it as it is") {
   // Headlights give the road 30 m ahead some 12 lx; twilight's ground gives 400 lx the same gain as theirs.
   for (const double elevation : {20.0, 5.0, 1.1, -1.7, -5.0, -12.0}) {
-    const SkyLight light = light_at(elevation, 1.0);
+    const SkyLight light = light_under(elevation, 1.0);
     const Adaptation own = adaptation(8000.0 *
-                                      (brightness(light.sky_irradiance) +
-                                       brightness(light.light_irradiance) * std::max(0.0f, light.light_direction.z)) /
+                                      (luminance_of(light.sky_irradiance) +
+                                       luminance_of(light.light_irradiance) * std::max(0.0f, light.light_direction.z)) /
                                       light.light_up);
     CHECK(light.light_up == doctest::Approx(own.light_up));
     CHECK(open_lamps_light_up(light) <= light.light_up);
   }
   // By day street lamps are out, and they are lit before it is dark.
-  CHECK(light_at(5.0, 1.0).street_lamps == 0.0f);
-  CHECK(open_lamps_light_up(light_at(5.0, 1.0)) == 1.0f);
-  CHECK(light_at(-3.0, 1.0).street_lamps == 1.0f);
+  CHECK(light_under(5.0, 1.0).street_lamps == 0.0f);
+  CHECK(open_lamps_light_up(light_under(5.0, 1.0)) == 1.0f);
+  CHECK(light_under(-3.0, 1.0).street_lamps == 1.0f);
 }
 
 }  // namespace septet::instant

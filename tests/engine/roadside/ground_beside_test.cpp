@@ -17,7 +17,7 @@
 namespace septet::roadside {
 namespace {
 
-const Terrain& motorway_land() {
+const Terrain& land_beside_motorway() {
   static const Terrain terrain(RoadShape(road::motorway(), usual_overrun_m), 1);
   return terrain;
 }
@@ -28,7 +28,7 @@ Vec2 beside(double s_m, double out_m) {
   return Vec2(road::evaluate(road::motorway(), {0, s_m, extent.right_t_m - out_m}).position_m);
 }
 
-double height_at(const Vec2& p) { return ground_beside(road::motorway(), motorway_land(), p, nullptr).height_m; }
+double height_at(const Vec2& p) { return ground_beside(road::motorway(), land_beside_motorway(), p, nullptr).height_m; }
 
 }  // namespace
 
@@ -52,8 +52,8 @@ TEST_CASE("far from the roads the ground is the drawn land with the unevenness o
   for (double s_m = 200.0; s_m < 6000.0; s_m += 100.0) {
     for (const double out_m : {80.0, 200.0}) {
       const Vec2 corner = glm::round(beside(s_m, out_m) / land_cell_m) * land_cell_m;
-      if (motorway_land().nearest(corner).outside_m < 45.0) continue;
-      const double over_m = height_at(corner) - motorway_land().height_m(corner);
+      if (land_beside_motorway().nearest(corner).outside_m < 45.0) continue;
+      const double over_m = height_at(corner) - land_beside_motorway().height_m(corner);
       CHECK(over_m == doctest::Approx(unevenness_m(corner)).epsilon(1e-6));
       sum_m2 += over_m * over_m;
       ++count;
@@ -78,7 +78,7 @@ TEST_CASE("the unevenness has the variance of its class and no mean") {
 
 TEST_CASE("the normal is that of the heights around") {
   const Vec2 p = beside(1000.0, 30.0);
-  const GroundBeside ground = ground_beside(road::motorway(), motorway_land(), p, nullptr);
+  const GroundBeside ground = ground_beside(road::motorway(), land_beside_motorway(), p, nullptr);
   CHECK(glm::length(ground.normal) == doctest::Approx(1.0));
   CHECK(-ground.normal.x / ground.normal.z == doctest::Approx((height_at(p + Vec2(0.3, 0.0)) - ground.height_m) / 0.3));
   CHECK(-ground.normal.y / ground.normal.z == doctest::Approx((height_at(p + Vec2(0.0, 0.3)) - ground.height_m) / 0.3));
