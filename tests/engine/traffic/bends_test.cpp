@@ -280,7 +280,7 @@ TEST_CASE("a swarm is set out no faster than bends and limits allow") {
       }
       advance(parameters, network, somebody, tick_s, random, state);
     }
-    CHECK(told.size() >= 6);
+    CHECK(told.size() >= 3);
   }
 }
 
