@@ -21,7 +21,7 @@ struct GroundCover {
 };
 const GroundCover& meadow();
 
-/// Nearer than this to the lanes the road's surface goes on: its paved or gravel edge.
+/// Nearer than this to the lanes the ground is level across and paved, as the road is.
 inline constexpr double paved_edge_m = 0.7;
 
 struct GroundBeside {

@@ -75,9 +75,15 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
     const bool has_place = state.car_road.has_value();
     const auto outside_m =
         find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], has_place, state.wheel_roads[i], wheel);
-    if (model.obstacles && (!outside_m || *outside_m > roadside::paved_edge_m)) {
+    if (model.obstacles && (!outside_m || *outside_m > 0.0)) {
+      const bool paved = outside_m && *outside_m <= roadside::paved_edge_m;
+      const double road_friction = wheel.friction;
       find_land(model.roads, model.obstacles->terrain(), weather, centres[i],
                 outside_m ? &state.wheel_roads[i] : nullptr, wheel);
+      if (paved) {
+        wheel.friction = road_friction;
+        wheel.rolling_resistance = 1.0;
+      }
       if (outside_m && has_place) stays_before_face(model, centres[i], stood, state.wheel_roads[i], wheel);
       state.kerbs[i].reset();
     } else if (outside_m) {
