@@ -104,7 +104,8 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   return ground;
 }
 
-/// Once the car has been off the roads for some seconds, and each minute from then on, the log says so; and when it is back.
+/// Once the car has been off the roads for some seconds, and each minute from then on, the log says so; and when it is
+/// back.
 void note_off_road(const std::optional<road::Location>& place, State& state, std::vector<Event>& events) {
   constexpr double beside_m = 2.0;  // Two wheels on the verge are not off the road.
   constexpr auto first = static_cast<std::uint32_t>(5.0 * tick_rate_hz),

@@ -13,7 +13,8 @@
 namespace septet::simulation {
 namespace {
 
-/// From here on one for each corner of the hull: how deep one has come in says nothing of the others. No listed obstacle has such a number.
+/// From here on one for each corner of the hull: how deep one has come in says nothing of the others. No listed
+/// obstacle has such a number.
 constexpr std::uint32_t first_face_run = 0x7fff'fff0u;
 constexpr double surface_reach_m = 60.0;
 /// Lower than this the hull passes over it (hull.cpp) and the wheels climb.
@@ -106,7 +107,8 @@ vehicle::WheelGround plane_at(const Model& model, const road::RoadPosition& plac
   return wheel;
 }
 
-/// The nearest place around a point where the ground goes on from `floor`: one that slides along a face takes its ground along.
+/// The nearest place around a point where the ground goes on from `floor`: one that slides along a face takes its
+/// ground along.
 std::optional<road::RoadPosition> nearest_before_face(const Model& model, const Vec2& p,
                                                       const road::RoadPosition& stood,
                                                       const vehicle::WheelGround& floor) {
