@@ -57,8 +57,10 @@ std::vector<double> seams_of(const Road& road) {
   }
   std::erase_if(stations, [&](double s) { return s < at_an_end_m || s > road.length_m - at_an_end_m; });
   std::ranges::sort(stations);
-  const auto twice = std::ranges::unique(stations, [](double a, double b) { return b - a <= 2.0 * beside_m; });
-  stations.erase(twice.begin(), twice.end());
+  // Not std::ranges::unique: clang 14 cannot compile it.
+  stations.erase(
+      std::unique(stations.begin(), stations.end(), [](double a, double b) { return b - a <= 2.0 * beside_m; }),
+      stations.end());
   return stations;
 }
 

@@ -52,8 +52,8 @@ bool gives_posts(const road::Road& road) {
   });
 }
 
-/// Whether lanes of some road lie under a post or within `clear_m` beside it: what lies beside one road may lie on another, as the gore
-/// of an exit does.
+/// Whether lanes of some road lie under a post or within `clear_m` beside it: what lies beside one road may lie on
+/// another, as the gore of an exit does.
 bool is_on_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, double t_m, double clear_m) {
   const auto holds = [&](double t) {
     const auto found = road::roads_holding(roads.network(), Vec2(roads.point(index, s_m, t)));

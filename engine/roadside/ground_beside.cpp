@@ -17,7 +17,8 @@ namespace septet::roadside {
 namespace {
 
 constexpr double road_reach_m = 60.0;
-/// The strip beside the road as scenery/world/verges.cpp draws it: from the edge into the land, over the land's grid, and under it.
+/// The strip beside the road as scenery/world/verges.cpp draws it: from the edge into the land, over the land's grid,
+/// and under it.
 constexpr double bank_until_m = 9.5, strip_until_m = 20.0, grid_from_m = 38.0, strip_lift_m = 0.35;
 constexpr double uneven_from_m = 2.0, uneven_until_m = 6.0;
 

@@ -1,9 +1,10 @@
 #pragma once
 /// The ground beside the roads as wheels find it: the land that is drawn, everywhere, standing still.
 ///
-/// From the road's edge it falls into the land over the width of the verge; farther out it is the grid of the drawn land, between whose
-/// corners it is bilinear. Ditches are drawn and not felt: the way into the land is one even bank. On it lies the unevenness of a meadow (ISO
-/// 8608: a sum of waves of the class's density, between 1 and 20 m long, in all directions), which pictures are too coarse to show.
+/// From the road's edge it falls into the land over the width of the verge; farther out it is the grid of the drawn
+/// land, between whose corners it is bilinear. Ditches are drawn and not felt: the way into the land is one even bank.
+/// On it lies the unevenness of a meadow (ISO 8608: a sum of waves of the class's density, between 1 and 20 m long, in
+/// all directions), which pictures are too coarse to show.
 ///
 /// Pure functions; safe from many threads. World frame, metres.
 
@@ -21,7 +22,7 @@ struct GroundCover {
 };
 const GroundCover& meadow();
 
-/// Nearer than this to the lanes the road's surface goes on: its paved or gravel edge.
+/// Nearer than this to the lanes the ground is level across and paved, as the road is.
 inline constexpr double paved_edge_m = 0.7;
 
 struct GroundBeside {

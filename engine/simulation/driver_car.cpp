@@ -75,9 +75,15 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
     const bool has_place = state.car_road.has_value();
     const auto outside_m =
         find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], has_place, state.wheel_roads[i], wheel);
-    if (model.obstacles && (!outside_m || *outside_m > roadside::paved_edge_m)) {
+    if (model.obstacles && (!outside_m || *outside_m > 0.0)) {
+      const bool paved = outside_m && *outside_m <= roadside::paved_edge_m;
+      const double road_friction = wheel.friction;
       find_land(model.roads, model.obstacles->terrain(), weather, centres[i],
                 outside_m ? &state.wheel_roads[i] : nullptr, wheel);
+      if (paved) {
+        wheel.friction = road_friction;
+        wheel.rolling_resistance = 1.0;
+      }
       if (outside_m && has_place) stays_before_face(model, centres[i], stood, state.wheel_roads[i], wheel);
       state.kerbs[i].reset();
     } else if (outside_m) {
@@ -98,7 +104,8 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   return ground;
 }
 
-/// Once the car has been off the roads for some seconds, and each minute from then on, the log says so; and when it is back.
+/// Once the car has been off the roads for some seconds, and each minute from then on, the log says so; and when it is
+/// back.
 void note_off_road(const std::optional<road::Location>& place, State& state, std::vector<Event>& events) {
   constexpr double beside_m = 2.0;  // Two wheels on the verge are not off the road.
   constexpr auto first = static_cast<std::uint32_t>(5.0 * tick_rate_hz),

@@ -13,7 +13,8 @@
 namespace septet::simulation {
 namespace {
 
-/// From here on one for each corner of the hull: how deep one has come in says nothing of the others. No listed obstacle has such a number.
+/// From here on one for each corner of the hull: how deep one has come in says nothing of the others. No listed
+/// obstacle has such a number.
 constexpr std::uint32_t first_face_run = 0x7fff'fff0u;
 constexpr double surface_reach_m = 60.0;
 /// Lower than this the hull passes over it (hull.cpp) and the wheels climb.
@@ -43,7 +44,7 @@ bool differs(const road::CubicProfile& profile, double from_s_m, double to_s_m) 
 /// Road or land, where a road is near.
 std::optional<road::SurfacePoint> ground_at(const Model& model, const Vec2& p, const road::RoadPosition& hint) {
   auto surface = road::surface_at(model.roads, p, &hint, surface_reach_m);
-  if (!surface || !model.obstacles || surface->outside_m <= roadside::paved_edge_m) return surface;
+  if (!surface || !model.obstacles || surface->outside_m <= 0.0) return surface;
   const auto land = roadside::ground_beside(model.roads, model.obstacles->terrain(), p, &surface->position);
   surface->height_m = land.height_m;
   surface->normal = land.normal;
@@ -106,7 +107,8 @@ vehicle::WheelGround plane_at(const Model& model, const road::RoadPosition& plac
   return wheel;
 }
 
-/// The nearest place around a point where the ground goes on from `floor`: one that slides along a face takes its ground along.
+/// The nearest place around a point where the ground goes on from `floor`: one that slides along a face takes its
+/// ground along.
 std::optional<road::RoadPosition> nearest_before_face(const Model& model, const Vec2& p,
                                                       const road::RoadPosition& stood,
                                                       const vehicle::WheelGround& floor) {
@@ -131,10 +133,17 @@ bool may_step(const road::Road& road, double s_m, double reach_m) {
 
 bool stays_before_face(const Model& model, const Vec3& centre_m, const road::RoadPosition& stood,
                        road::RoadPosition& place, vehicle::WheelGround& ground) {
-  constexpr double least_over_m = 0.05, least_rise_m = 0.15;  // The first as chassis.cpp tells edges from walls.
+  constexpr double least_over_m = 0.05;  // As chassis.cpp tells edges from walls.
   if (centre_m.z - ground.point_m.z > least_over_m) return false;
+  const Vec2 foot_m(road::evaluate(model.roads, stood).position_m);
+  constexpr double farthest_m =
+      3.0;  // A plane that goes on farther is nobody's ground; the chassis is lifted out of this one.
+  if (glm::distance(foot_m, Vec2(centre_m)) > farthest_m) return false;
   vehicle::WheelGround before = plane_at(model, stood, Vec2(centre_m));
-  if (ground.point_m.z - before.point_m.z < least_rise_m) return false;
+  const double risen_m = ground.point_m.z - before.point_m.z;
+  if (risen_m < least_face_m) return false;
+  // Where a bank meets level land the ground turns, and does not step.
+  if (risen_m < highest_strange_m && !edge_between(Rise(model, stood, before), foot_m, Vec2(centre_m))) return false;
   place = stood;
   if (const auto nearer = nearest_before_face(model, Vec2(centre_m), stood, before)) {
     place = *nearer;

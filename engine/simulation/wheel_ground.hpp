@@ -1,9 +1,11 @@
 #pragma once
-/// What a wheel of the driver's car stands on: the road's surface or what lies raised on it, and how slippery it is just there.
+/// What a wheel of the driver's car stands on: the road's surface or what lies raised on it, and how slippery it is
+/// just there.
 ///
-/// Friction comes from the weather (wetness, snow and temperature of the scenario's environment), from the material of the lane,
-/// and from patches on it (OpenDRIVE; their surface "wet", "snow" or "ice" goes with temperature, any other is paved and goes with
-/// the weather, too); what is left of the black ice on a lane lies over them. RoadCondition's frictionScaleFactor multiplies all of it.
+/// Friction comes from the weather (wetness, snow and temperature of the scenario's environment), from the material of
+/// the lane, and from patches on it (OpenDRIVE; their surface "wet", "snow" or "ice" goes with temperature, any other
+/// is paved and goes with the weather, too); what is left of the black ice on a lane lies over them. RoadCondition's
+/// frictionScaleFactor multiplies all of it.
 
 #include <optional>
 #include <span>
@@ -26,9 +28,9 @@ struct RoadWeather {
   double thawed_kh = 0.0;
 };
 
-/// Under a wheel whose centre is at `centre_m`. `place` is where the wheel was (read where `has_place`) and becomes where it is.
-/// Returns how far that lies outside the lanes, where the surface goes on as it ends; nothing where no road is near.
-/// `raised` may be null: there is nothing.
+/// Under a wheel whose centre is at `centre_m`. `place` is where the wheel was (read where `has_place`) and becomes
+/// where it is. Returns how far that lies outside the lanes, where the surface goes on as it ends; nothing where no
+/// road is near. `raised` may be null: there is nothing.
 std::optional<double> find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised,
                                         const RoadWeather& weather, const Vec3& centre_m, bool has_place,
                                         road::RoadPosition& place, vehicle::WheelGround& wheel);
@@ -37,9 +39,9 @@ std::optional<double> find_wheel_ground(const road::RoadNetwork& roads, const ro
 void find_land(const road::RoadNetwork& roads, const roadside::Terrain& terrain, const RoadWeather& weather,
                const Vec3& centre_m, const road::RoadPosition* place, vehicle::WheelGround& wheel);
 
-/// Looks for a kerb or a step, a wheel's radius before and behind its centre, and before it the way of a tick farther: sets
-/// `wheel.edge_m`. `ahead`: the car's heading, level, unit length. Costs nothing where a road does not step (ground_faces.hpp), far
-/// from what is raised.
+/// Looks for a kerb or a step, a wheel's radius before and behind its centre, and before it the way of a tick farther:
+/// sets `wheel.edge_m`. `ahead`: the car's heading, level, unit length. Costs nothing where a road does not step
+/// (ground_faces.hpp), far from what is raised.
 void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m,
                const Vec2& ahead, double radius_m, const road::RoadPosition& place, vehicle::WheelGround& wheel,
                double way_m = 0.0);

@@ -10,6 +10,8 @@ constexpr double bumper_clearance_m = 0.25;
 constexpr double stiffness_npm = 4e5;
 constexpr double damping_nspm = 8e3;
 constexpr double body_friction = 0.5;
+constexpr double buried_m = 0.5;  ///< Deeper, the force grows no more, and lifts the corner out no faster than…
+constexpr double out_mps = 1.0;   ///< …this: nobody came there by his own way, so nothing is stored.
 }  // namespace
 
 void add_body_contact(const VehicleParameters& parameters, const Ground& ground, const VehicleState& state,
@@ -31,7 +33,8 @@ void add_body_contact(const VehicleParameters& parameters, const Ground& ground,
     const Vec3 normal = body_from_world * below.normal;
     const Vec3 speed_mps = velocity_mps + glm::cross(state.angular_velocity_radps, point_m);
     const double approach_mps = -glm::dot(speed_mps, normal);
-    const double push_n = std::max(0.0, stiffness_npm * depth_m + damping_nspm * approach_mps);
+    double push_n = std::max(0.0, stiffness_npm * std::min(depth_m, buried_m) + damping_nspm * approach_mps);
+    if (depth_m > buried_m) push_n *= std::clamp(1.0 + approach_mps / out_mps, 0.0, 1.0);
     const Vec3 sliding_mps = speed_mps + approach_mps * normal;
     const double slide_mps = glm::length(sliding_mps);
     const Vec3 push = push_n * normal - body_friction * push_n / std::max(slide_mps, 0.1) * sliding_mps;

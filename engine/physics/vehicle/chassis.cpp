@@ -118,8 +118,12 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
       path_mps.y = 0.5 * (wheel.travel_rate_mps - opposite_rate_mps) * load.place.contact_slope.y;
     }
     const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) + path_mps;
-    const double load_n = std::max(0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) -
-                                            tyre.vertical_damping_nspm * glm::dot(patch_mps, normal));
+    const double out_mps = glm::dot(patch_mps, normal);
+    double load_n = std::max(
+        0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) - tyre.vertical_damping_nspm * out_mps);
+    // A wheel whose hub lies under the ground did not come there on its own way: it is lifted out slowly, not thrown.
+    constexpr double most_out_mps = 1.0;
+    if (height_m < 0.0) load_n *= std::clamp(1.0 - out_mps / most_out_mps, 0.0, 1.0);
     TyreContact contact;
     contact.load_n = load_n;
     contact.friction = ground.friction * wheel.damage.grip();

@@ -1,4 +1,5 @@
-// Steps within one road: each profile that can make one, from 0.05 m on, with road and s; and what steps on purpose in silence.
+// Steps within one road: each profile that can make one, from 0.05 m on, with road and s; and what steps on purpose in
+// silence.
 #include <algorithm>
 #include <string>
 #include <vector>

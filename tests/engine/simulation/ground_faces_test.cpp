@@ -1,4 +1,5 @@
-// Steps in a road under the driver's car: the ground gives it no energy, and what is higher than a wheel climbs stops it.
+// Steps in a road under the driver's car: the ground gives it no energy, and what is higher than a wheel climbs stops
+// it.
 #include "engine/simulation/ground_faces.hpp"
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "engine/road/road_position.hpp"
 #include "engine/roadside/ground_beside.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
@@ -138,5 +139,39 @@ TEST_CASE("a car that leaves the road at speed stays on the ground and gains no 
       REQUIRE(over_land_m(state) < 3.0);
     }
     CHECK(state.car.bad_numbers == 0);
+  }
+}
+
+TEST_CASE("a car that slides off a steep bank stands on the land at its foot") {
+  // Banked by 60 degrees, its left edge the lower one, on level land.
+  Model model;
+  road::SmallRoad road{.length_m = 300.0};
+  road.profiles = "<lateralProfile><superelevation s=\"0\" a=\"-1.0\" b=\"0\" c=\"0\" d=\"0\"/></lateralProfile>";
+  road.sections = "<laneSection s=\"0\"><center>" + road::lane(0, 0) + "</center><right>" + road::lane(-1, 7.0) +
+                  "</right></laneSection>";
+  model.roads = road::read_or_fail(road.xml());
+  model.scenario.entities.resize(1);
+  model.scenario.entities[0].model = *find_vehicle_model("volvo-s80");
+  model.driver_entity = 0;
+  model.car = vehicle::read_car("volvo-s80");
+  model.obstacles = std::make_shared<const roadside::Obstacles>(model.roads, 1);
+  for (const double speed_mps : {0.0, 10.0, 25.0}) {
+    CAPTURE(speed_mps);
+    State state;
+    state.car =
+        vehicle::standstill(model.car, road::world_from_road(road::evaluate(model.roads, {0, 100.0, -3.5})), speed_mps);
+    state.input.selector = GearSelector::neutral;
+    std::vector<Event> events;
+    for (int tick = 0; tick < 12 * 120; ++tick) {
+      advance_car(model, state, events);
+      REQUIRE(state.car.world_from_body.position_m.z > -12.0);
+      REQUIRE(state.car.world_from_body.position_m.z < 20.0);
+    }
+    CHECK(state.car.bad_numbers == 0);
+    const Vec2 at(state.car.world_from_body.position_m);
+    const double over_m = state.car.world_from_body.position_m.z -
+                          roadside::ground_beside(model.roads, model.obstacles->terrain(), at, nullptr).height_m;
+    CHECK(over_m > -0.3);
+    CHECK(over_m < 2.0);
   }
 }
