@@ -58,7 +58,7 @@ Expected<bool> has_hot_journal(const fs::path& database) {
   if (is_magic(bytes_at(journal, -static_cast<off_t>(journal_magic.size()), journal_magic.size())))
     return failure(
         "this journal names another file, which would be deleted when the session is opened: it is not Septet's",
-        journal.string(), "do not trust who sent it; the session is opened without the journal");
+        journal.string(), "do not trust who sent it; without this journal the session can be read");
   const std::string first = bytes_at(journal, 0, 1);
   if (first.empty() && found->st_size > 0)
     return failure("the journal beside the session cannot be read", journal.string(), "check its permissions");

@@ -213,6 +213,8 @@ def main():
             for reader, words in readers.items():
                 if reader == "film" and not (options.film_every and passed % options.film_every == 1):
                     continue
+                (folder / "sound.wav").unlink(missing_ok=True)
+                shutil.rmtree(folder / "film", ignore_errors=True)
                 status, said = run(*words)
                 if status != 0:
                     breaches += 1
