@@ -75,9 +75,9 @@ def main():
         # A replay goes on beside the page until it is stopped; a second one is refused meanwhile.
         browser.click("#sessions button.make.replay")
         browser.until("state.work.what === 'replay' && state.work.running")
-        browser.value("var refused = ''; ask({ do: 'make', session: state.sessions[0].id, what: 'film' }, (answer) => refused = answer.why || 'done')")
-        browser.until("refused !== ''")
-        assert "goes on already" in browser.value("refused"), browser.value("refused")
+        browser.value("var why_refused = ''; ask({ do: 'make', session: state.sessions[0].id, what: 'film' }, (answer) => why_refused = answer.why || 'done')")
+        browser.until("why_refused !== ''")
+        assert "goes on already" in browser.value("why_refused"), browser.value("why_refused")
         if len(sys.argv) > 3:
             browser.picture(sys.argv[3] + "/replay.png")
         browser.click("#pastworkstop")
