@@ -75,9 +75,9 @@ struct Place {
   glm::vec3 origin_m{0.0f};
   glm::mat3 turn{1.0f};
   bool seen = true;                ///< False: no eye sees it, but what is around it does, and it throws a shadow.
-  bool casts_shadow = true;        ///< False: of what no eye sees, not even that.
   std::optional<Motion> motion{};  ///< From there at time 0.
   instant::LevelFade fade{};       ///< Rays whose threshold lies without it pass.
+  bool casts_shadow = true;        ///< False: what no eye sees throws no shadow, either.
 };
 
 /// What a surface lets through where it is not all there: asked for meshes with holes or glass.

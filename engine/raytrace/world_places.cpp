@@ -86,7 +86,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
         to{glm::vec3(later->origin_m - origin_m_), later->world_from_object};
     if (!(from == to)) motion.emplace(from, to);
   }
-  places.push_back({number, origin, placed.world_from_object, placed.seen, placed.casts_shadow, motion, fade});
+  places.push_back({number, origin, placed.world_from_object, placed.seen, motion, fade, placed.casts_shadow});
   placed_.push_back({mesh.vertices,
                      mesh.indices,
                      mesh.parts,

@@ -19,17 +19,19 @@ TEST_CASE("a hit names the place, its distance and its triangle, also where seve
   const std::vector<Place> places{{0},
                                   {.mesh = 0, .origin_m = {10.0f, 0.0f, 1.0f}},
                                   {.mesh = 0, .origin_m = {20.0f, 0.0f, 2.0f}, .turn = twice},
-                                  {.mesh = 0, .origin_m = {30.0f, 0.0f, 3.0f}, .seen = false}};
+                                  {.mesh = 0, .origin_m = {30.0f, 0.0f, 3.0f}, .seen = false},
+                                  {.mesh = 0, .origin_m = {40.0f, 0.0f, 4.0f}, .seen = false, .casts_shadow = false}};
   geometry->place(places, nullptr);
-  for (std::uint32_t n = 0; n < 4; ++n) {
+  for (std::uint32_t n = 0; n < 5; ++n) {
     CAPTURE(n);
     const float z = static_cast<float>(n);
     const Ray down{.origin_m = {10.0f * z, 0.0f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
     Hit hit;
     const bool found = geometry->intersect(down, hit);
     CHECK(found == (n < 3));
-    CHECK(geometry->unshadowed(down) == 0.0f);
-    if (!found) continue;
+    CHECK(geometry->unshadowed(down) == (n < 4 ? 0.0f : 1.0f));
+    // What no eye sees is there for what it stands around.
+    if (!found) CHECK(geometry->intersect(down, hit, From::surface));
     CHECK(hit.place == n);
     CHECK(hit.triangle == 0);
     CHECK(hit.distance_m == doctest::Approx(5.0f - z));
