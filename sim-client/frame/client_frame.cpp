@@ -58,11 +58,12 @@ ScreenViews panel_views(const rig::Screen& screen) {
 std::optional<instant::PixelRectangle> dials_in(const instant::FrameView& view) {
   namespace panel = instrument_panel;
   glm::dvec2 low(1e6), high(-1e6);
-  for (const double across : {-0.5, 0.5})
+  // One end of them may be behind the eyes while the other is seen.
+  for (const double across : {-0.5, -0.4, -0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5})
     for (const double upward : {-0.5, 0.5}) {
       const Vec3 at = panel::middle_m + across * panel::width_m * panel::right + upward * panel::height_m * panel::up;
       const glm::dvec4 clip = view.projection.clip_from_eye_relative * glm::dvec4(at - view.projection.eye_m, 1.0);
-      if (clip.w < 1e-3) return std::nullopt;
+      if (clip.w < 1e-3) continue;
       const glm::dvec2 share(0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w);
       low = glm::min(low, share);
       high = glm::max(high, share);
@@ -71,10 +72,9 @@ std::optional<instant::PixelRectangle> dials_in(const instant::FrameView& view) 
   low = glm::max(low, 0.0);
   high = glm::min(high, 1.0);
   const glm::dvec2 size(view.viewport.width, view.viewport.height);
-  return instant::PixelRectangle{view.viewport.x + static_cast<std::int32_t>(low.x * size.x),
-                                 view.viewport.y + static_cast<std::int32_t>(low.y * size.y),
-                                 static_cast<std::uint32_t>(std::ceil((high.x - low.x) * size.x)),
-                                 static_cast<std::uint32_t>(std::ceil((high.y - low.y) * size.y))};
+  const glm::ivec2 from(glm::floor(low * size)), to(glm::ceil(high * size));
+  return instant::PixelRectangle{view.viewport.x + from.x, view.viewport.y + from.y,
+                                 static_cast<std::uint32_t>(to.x - from.x), static_cast<std::uint32_t>(to.y - from.y)};
 }
 
 bool overlap(const instant::PixelRectangle& a, const instant::PixelRectangle& b) {
