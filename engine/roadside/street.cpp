@@ -19,7 +19,7 @@
 namespace septet::roadside {
 namespace {
 
-constexpr std::size_t most_houses = 6000, most_lamps = 12000;
+constexpr std::size_t most_houses = 6000;
 constexpr double house_clear_m = 2.0, signal_clear_m = 3.0, least_gap_m = 2.5;
 constexpr PlaneCells house_cells{32.0};
 

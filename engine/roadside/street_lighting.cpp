@@ -16,7 +16,6 @@
 namespace septet::roadside {
 namespace {
 
-constexpr std::size_t most_lamps = 12000;
 constexpr double least_apart_m = 8.0, clear_of_signal_m = 4.0, row_spacing_m = 30.0, from_end_m = 5.0;
 constexpr double from_kerb_m = 0.45, pavement_for_pole_m = 1.5;
 constexpr double sample_m = 3.0, candidate_m = 3.0, candidate_reach_m = 32.0;

@@ -7,6 +7,7 @@
 ///
 /// The same network gives the same lamps. World frame, metres.
 
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -15,6 +16,8 @@
 #include "engine/roadside/street.hpp"
 
 namespace septet::roadside {
+
+inline constexpr std::size_t most_lamps = 12000;  ///< Of a network; further ones are left away.
 
 /// Of a network whose file places none itself (street_lamps asks).
 std::vector<StreetLamp> planned_lamps(const RoadShape& roads);
