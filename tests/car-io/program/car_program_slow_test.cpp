@@ -21,7 +21,7 @@ struct Ended {
 /// Runs septet-car and takes both outputs together.
 Ended septet_car(const std::string& arguments) {
   Ended ended;
-  FILE* pipe = ::popen(fmt::format(septet::build_folder() + "/septet-car {} 2>&1", arguments).c_str(), "r");
+  FILE* pipe = ::popen(fmt::format("{}/septet-car {} 2>&1", septet::build_folder(), arguments).c_str(), "r");
   REQUIRE(pipe != nullptr);
   char buffer[256];
   while (std::fgets(buffer, sizeof buffer, pipe)) ended.output += buffer;
