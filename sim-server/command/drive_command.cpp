@@ -211,17 +211,20 @@ Expected<program::ChildProcess> start_server(program::ChildOptions server, const
 struct Ending {
   bool driven = false;  ///< There is something to look at.
   int status = logging::failed_status;
-  std::string text;    ///< The last line; empty where the server has said all.
-  bool again = false;  ///< The driver wants to begin again.
+  std::string text;     ///< The last line; empty where the server has said all.
+  bool again = false;   ///< The driver wants to begin again.
+  bool unseen = false;  ///< No screen could be started.
 };
 
 /// What the server's "ended NAME TEXT" says, and what its exit tells without it.
 Ending ending_of(const program::ChildExit& exit, const std::optional<std::string>& last_words, bool was_ready) {
   if (last_words) {
     const auto text = last_words->find(' ', std::string_view("ended ").size());
-    const std::string name(logging::name_of(logging::DriveEnd::restart));
+    const auto is_called = [&](logging::DriveEnd end) {
+      return last_words->starts_with(fmt::format("ended {} ", logging::name_of(end)));
+    };
     return {true, exit.code, text == std::string::npos ? *last_words : last_words->substr(text + 1),
-            last_words->starts_with("ended " + name + ' ')};
+            is_called(logging::DriveEnd::restart), is_called(logging::DriveEnd::no_screens)};
   }
   if (exit.signal != 0 && program::stop_signal() && !was_ready)
     return {false, logging::stopped_status, "stopped before the drive began"};
@@ -339,7 +342,7 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   return done;
 }
 
-/// Nothing is kept of a drive that failed before its first tick, but what its programs said.
+/// Nothing is kept of a drive that no screen showed before its first tick, but what its programs said.
 void remove_undriven(const fs::path& folder) {
   {
     const auto session = logging::SessionReader::open(folder / "session.sqlite");
@@ -361,7 +364,7 @@ Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, cons
   if (!ending || !ending->driven) folder->undo();
   if (!ending) return tl::unexpected(ending.error());
   int& status = ending->status;
-  if (ending->driven && status == logging::failed_status && options.replay.empty()) remove_undriven(options.out);
+  if (ending->unseen && options.replay.empty()) remove_undriven(options.out);
   if (ending->driven) {
     if (!folder->aside().empty()) program::say(fmt::format("The earlier drive is in {}", folder->aside().string()));
     const auto shown = show_results(options, rig, status);

@@ -108,7 +108,7 @@ COMMANDS = {
     "report": lambda session, out: run(septet, "report", session, "--out", out / "report.html"),
     "pooled report": lambda session, out: run(septet, "report", session.parent, session.parent, "--out", out / "pooled"),
     "sound": lambda session, out: run(septet, "sound", session, "--out", out / "drive.wav"),
-    "film": lambda session, out: run(septet, "film", session, "--width", "64", "--height", "36", "--fps", "1", "--out", out / "film"),
+    "film": lambda session, out: run(septet, "film", session, "--size", "64x36", "--fps", "1", "--out", out / "film"),
     "forget somebody else": lambda session, out: run(septet, "session", "forget", "nobody", session.parent) == 1 and 0,
     "Python": lambda session, out: run("/usr/bin/python3", "-c", read_in_python, session, python_reader),
     "operate": operate,

@@ -29,7 +29,7 @@ class LockstepRig {
  public:
   explicit LockstepRig(std::size_t screens)
       : rig({.screens = screens, .faults = {.latency_s = 0.0003}, .real_time = false}) {
-    rig.run_for(0.5);
+    rig.run_for(2.0);  // So long that the server knows how often each screen is heard.
   }
 
   server::ServeResult serve(double seconds, const std::function<void()>& each_ms) {

@@ -61,7 +61,7 @@ TEST_CASE("a drive that goes on is verified as far as it has come and that is sa
   CHECK(exit_code(server) == 3);
   auto whole = start("septet", {"replay", "--verify", session.string()}, folder / "verify.err");
   CHECK(whole.read_line(patience).has_value());
-  CHECK_FALSE(whole.read_line(patience).has_value());  // It is over.
+  while (const auto line = whole.read_line(patience)) CHECK_FALSE(line->starts_with("this drive goes on"));
   CHECK(exit_code(whole) == 0);
 
   // A second drive does not go where one lies, and says how it would.

@@ -14,7 +14,7 @@
 
 namespace septet::render {
 
-inline constexpr std::size_t most_headlights = 8, most_beacons = 4;
+inline constexpr std::size_t most_headlights = 10, most_beacons = 4;
 
 struct ViewUniforms {
   glm::mat4 clip_from_relative;

@@ -17,8 +17,8 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 billboard_right, billboard_up;    // xyz: the screen's axes. right.w: radians a pixel.
   vec4 weather;            // Wetness, snow cover, simulated time s, rain mm/h.
   vec4 wind;               // xy: drift of the clouds, m. z: number of headlights. w: share of the sky where the eye is.
-  vec4 headlight_position[8];   // xyz relative. w: intensity.
-  vec4 headlight_direction[8];  // xyz unit. w: main beam, 0 to 1.
+  vec4 headlight_position[10];   // xyz relative. w: intensity.
+  vec4 headlight_direction[10];  // xyz unit. w: main beam, 0 to 1.
   vec4 soot_x, soot_y, soot_z;  // Rows from relative places to cells of the soot.
   vec4 soot_size;               // xyz: cells. w: number of beacons.
   vec4 lamp_field;              // From relative places to the field's coordinates: xy·z + xy. w: how strongly lamps in the open light.

@@ -106,7 +106,7 @@ TEST_CASE("without mpirun an experiment for several programs says what is missin
   CHECK_MESSAGE(ended.error.find("openmpi-bin") != std::string::npos, ended.error);
   const Ended no_hosts = experiment.make("none", {"--hosts", (experiment.folder / "nowhere").string()});
   CHECK(no_hosts.code == 1);
-  CHECK_MESSAGE(no_hosts.error.find("no such file") != std::string::npos, no_hosts.error);
+  CHECK_MESSAGE(no_hosts.error.find("No such file or directory") != std::string::npos, no_hosts.error);
 }
 
 }  // namespace septet::pipeline

@@ -208,7 +208,7 @@ TEST_CASE("what mpirun cannot do is said in one line") {
     check_refused(run("septet-film", film.arguments(out, more), err, std::move(environment)), words, out);
   };
   refused({"--ranks", "2"}, {{"PATH", (film.folder / "none").string()}}, {"mpirun", "openmpi-bin"});
-  refused({"--hosts", (film.folder / "none").string()}, for_mpirun, {"none", "no such file"});
+  refused({"--hosts", (film.folder / "none").string()}, for_mpirun, {"none", "No such file or directory"});
   refused({"--ranks", "0"}, for_mpirun, {"--ranks", "0"});
   std::vector<std::string> raster = film.arguments(out, {"--ranks", "2"});
   std::ranges::replace(raster, "traced", "raster");
