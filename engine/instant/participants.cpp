@@ -148,7 +148,7 @@ glm::vec3 shone_around(const scene::Instance& part, const MeshSummary& mesh) {
 /// one sees that they are two, and a picture has few beams to spend.
 void add_headlights(std::vector<Headlight>& headlights, const RigidTransform& world_from_vehicle,
                     std::span<const Vec3> lamps_m, double distance_m, float main_beam) {
-  constexpr double two_until_m = 15.0, one_from_m = 24.0, before_glass_m = 0.15, least_apart_m = 0.2;
+  constexpr double two_until_m = 19.0, one_from_m = 28.0, before_glass_m = 0.15, least_apart_m = 0.2;
   Vec3 middle_m(3.6, 0.0, 0.65);
   double aside_m = 0.0;
   if (!lamps_m.empty()) {

@@ -342,12 +342,12 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   return done;
 }
 
-/// Nothing is kept of a drive that no screen showed before its first tick, but what its programs said.
+/// Nothing is kept of a drive of no time that no screen could show, but what its programs said.
 void remove_undriven(const fs::path& folder) {
   {
     const auto session = logging::SessionReader::open(folder / "session.sqlite");
     const auto span = session ? session->time_span_s() : tl::unexpected(session.error());
-    if (!span || *span) return;
+    if (!span || (*span && (*span)->second > 0.0)) return;
   }
   std::error_code ignored;
   for (const char* name : {"session.sqlite", "session.sqlite-wal", "session.sqlite-shm", "summary.json", "report.html"})

@@ -270,7 +270,7 @@ TEST_CASE(
   CHECK(complaint.find("no screen can be started") != std::string::npos);
   CHECK(complaint.find("screens/a.log") != std::string::npos);
   CHECK(last_words(blind).find("no screen could be started") != std::string::npos);
-  // Nothing was driven, so there is nothing to look at but what the screens said.
+  // The world waited for its driver meanwhile: there is nothing to look at but what the screens said.
   for (const char* name : {"session.sqlite", "summary.json", "report.html"})
     CHECK_FALSE(fs::exists(folder / "blind" / name));
   CHECK(fs::exists(folder / "blind" / "screens" / "a.log"));

@@ -109,7 +109,7 @@ TEST_CASE("the help of a drive has the keys and every default") {
 TEST_CASE("septet list names what there is with a description each") {
   const std::string scenarios = output_of("septet list scenarios");
   CHECK(has(scenarios, "motorway-ambulance  A game: follow the ambulance"));
-  CHECK(has(scenarios, "winter-lorry        Ice slides"));
+  CHECK(has(scenarios, "winter-lorry        Behind a lorry with ice on its roof: Ice slides"));
   const std::string rigs = output_of("septet list rigs");
   CHECK(has(rigs, "desktop         One window on a desktop"));
   CHECK(has(rigs, "seven-screens   Seven projection screens"));
