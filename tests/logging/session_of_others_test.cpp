@@ -240,11 +240,11 @@ TEST_CASE("a session with a trigger, or with a view or a foreign table in the pl
     const fs::path session = folder / "altered.sqlite";
     fs::copy_file(good, session, fs::copy_options::overwrite_existing);
     execute(session, sql);
-    const std::string before = bytes_in(session);
-    CHECK_FALSE_MESSAGE(SessionReader::open(session).has_value(), name);
-    CHECK_FALSE_MESSAGE(add_answers(session, {}).has_value(), name);
-    CHECK_FALSE_MESSAGE(write_anonymous_copy(session).has_value(), name);
-    CHECK_MESSAGE(bytes_in(session) == before, name);
+    const std::string before = bytes_in(session), kind(name);
+    CHECK_FALSE_MESSAGE(SessionReader::open(session).has_value(), kind);
+    CHECK_FALSE_MESSAGE(add_answers(session, {}).has_value(), kind);
+    CHECK_FALSE_MESSAGE(write_anonymous_copy(session).has_value(), kind);
+    CHECK_MESSAGE(bytes_in(session) == before, kind);
   }
 }
 

@@ -183,7 +183,7 @@ TEST_CASE("a session without samples has no figure that is 0") {
   DriveSummary summary;
   summary.log = *log;
   const auto json = nlohmann::json::parse(to_json(summary));
-  for (const auto& [key, measure] : json["measures"].items()) CHECK_MESSAGE(measure["value"].is_null(), key);
+  for (const auto& measure : json["measures"].items()) CHECK_MESSAGE(measure.value()["value"].is_null(), measure.key());
   for (const char* key : {"distance_m", "lane_changes", "mirror_glances"}) CHECK_MESSAGE(json[key].is_null(), key);
   CHECK(json["speed_mps"]["mean"].is_null());
   CHECK(json["time_headway_s"]["following_s"].is_null());

@@ -44,7 +44,8 @@ TEST_CASE("files are 0600 and folders 0700, and the user's umask may only narrow
                                                       {0077u, 0600u, 0700u},
                                                       {0277u, 0400u, 0500u},
                                                       {0007u, 0600u, 0700u}}) {
-    CAPTURE(umask);
+    const auto asked = umask;
+    CAPTURE(asked);
     const TemporaryFolder folder;
     CHECK(run_as_program([&, mask = umask] {
             ::umask(mask);

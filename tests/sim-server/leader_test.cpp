@@ -49,7 +49,9 @@ TEST_CASE("headway and gap of the log are along the lane in which both drive, no
     double curvature_per_m;
     int lane;
   } bends[] = {{0.02, -1}, {0.02, -2}, {-0.02, -1}, {1.0 / 150.0, -2}, {-1.0 / 400.0, -2}};
-  for (const auto& [curvature, lane] : bends) {
+  for (const auto& bend : bends) {
+    const double curvature = bend.curvature_per_m;
+    const int lane = bend.lane;
     CAPTURE(curvature);
     CAPTURE(lane);
     const auto width = [](int id) {

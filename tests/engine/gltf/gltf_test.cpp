@@ -264,10 +264,10 @@ TEST_CASE("rows that a sparse accessor names are written over the others, or ove
       {R"("sparse":7)", "of 3 rows"},
   };
 #undef SPARSE
-  for (const auto& [sparse, what] : wrong) {
+  for (const auto& row : wrong) {
     const std::string accessor =
-        R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)" + std::string(sparse) + "}]";
-    CHECK_MESSAGE(has(refused(with(accessor.c_str())), what), sparse);
+        R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)" + std::string(row.first) + "}]";
+    CHECK_MESSAGE(has(refused(with(accessor.c_str())), row.second), accessor);
   }
 }
 
@@ -328,7 +328,8 @@ TEST_CASE("a material is seen from both sides where its file says so, and from i
        {std::pair{R"({"doubleSided":true})", true}, std::pair{R"({"doubleSided":false})", false},
         std::pair{"{}", false}, std::pair{R"({"doubleSided":1})", false},
         std::pair{R"({"doubleSided":"true"})", false}}) {
-    CAPTURE(std::string(said));
+    const std::string material = said;
+    CAPTURE(material);
     file.more = fmt::format(R"("materials":[{}],)", said);
     const auto model = read(file);
     REQUIRE(model.has_value());

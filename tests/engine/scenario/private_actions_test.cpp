@@ -26,7 +26,8 @@ TEST_CASE(
                {R"(<spiral curvStart="0" curvEnd="0.02"/>)", hill, place_text(-2, 100)},
                {R"(<arc curvature="0.01"/>)", "", askew}};
   for (const auto& [shape, profiles, place] : roads) {
-    CAPTURE(shape + profiles + place);
+    const std::string where = shape + profiles + place;
+    CAPTURE(where);
     const std::string init = private_text("A", place + speed_text(12)) + private_text("B", place_text(-3, 900));
     Drive drive(
         scenario_text(init,

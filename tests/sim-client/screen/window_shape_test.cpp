@@ -41,7 +41,8 @@ TEST_CASE("a desktop's window of any shape shows the world undistorted, its heig
                                             {3440u, 1440u},
                                             {1080u, 1920u},
                                             {640u, 374u}}) {
-    CAPTURE(width_px);
+    const auto wide = width_px;
+    CAPTURE(wide);
     const rig::Screen shaped = shaped_to_window(desktop, rig.eye_point_m, width_px, height_px);
     CHECK(shaped.width_px == width_px);
     CHECK(shaped.height_px == height_px);
