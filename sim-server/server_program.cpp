@@ -378,10 +378,9 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   if (rig.sound && !options.no_sound && !options.lockstep && !options.no_screens)
     environment.hear =
         drive_sound(rig, drive.live ? drive.loaded.model : nullptr, drive.session ? &*drive.session : nullptr,
-                    drive.store, environment.message, [&drive, &rig] {
-                      // A shaker on the low frequencies hangs on the same device, and what it plays on is nobody's any more.
-                      if (drive.live && rig.sound->speakers == rig::Sound::Speakers::surround_51)
-                        drive.live->cut_actuators("the sound has stopped");
+                    drive.store, environment.message, [&drive] {
+                      // The shaker hangs on the same device, and what it plays on is nobody's any more.
+                      if (drive.live) drive.live->cut_actuators("the sound has stopped");
                     });
   ServeResult result;
   std::vector<HostedScreen> screens;

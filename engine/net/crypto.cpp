@@ -54,7 +54,7 @@ SecretKey::SecretKey() {
 }
 SecretKey::SecretKey(const SecretKey& other) : SecretKey() { *bytes_ = *other.bytes_; }
 SecretKey& SecretKey::operator=(const SecretKey& other) {
-  *bytes_ = *other.bytes_;
+  if (this != &other) *bytes_ = *other.bytes_;
   return *this;
 }
 SecretKey::~SecretKey() { sodium_free(bytes_); }

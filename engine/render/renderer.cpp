@@ -81,7 +81,7 @@ Expected<void> Renderer::draw(const Instant& instant, const std::vector<OverlayT
   return {};
 }
 
-Expected<void> Renderer::draw(FrameInput input, std::vector<OverlayText> passing) {
+Expected<void> Renderer::draw(FrameInput input, const std::vector<OverlayText>& passing) {
   if (state_->lit_environment != input.environment) {
     state_->light = std::make_shared<const SkyLight>(sky_light(input.environment));
     state_->lit_environment = input.environment;

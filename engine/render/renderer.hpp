@@ -96,7 +96,7 @@ class Renderer {
   Expected<void> draw(const Instant& instant, const std::vector<OverlayText>& passing = {});
   /// The same for what a frame shows in the scene that was uploaded. `passing` are texts that the window has over the rest and
   /// read_back has not.
-  Expected<void> draw(FrameInput input, std::vector<OverlayText> passing = {});
+  Expected<void> draw(FrameInput input, const std::vector<OverlayText>& passing = {});
 
   /// The last frame without its passing texts: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.
   Expected<image::Image> read_back();

@@ -113,7 +113,8 @@ std::string to_csv(const GroupReport& report) {
       csv += ',' + cell(own + "order");
       if (has_playing_time(report, label))
         for (const char* name : {"playing_time_s", "stopped", "reason"}) csv += ',' + cell(own + name);
-      for (const auto& item : items_of(report.subjects, label)) csv += ',' + cell(own + "answer." + item);
+      for (const auto& item : items_of(report.subjects, label))
+        csv += ',' + cell(fmt::format("{}answer.{}", own, item));
     }
     for (const char* name : {"drives", "seeds", "ended_cleanly", "samples", "impossible_samples"})
       csv += ',' + cell(prefix + name);

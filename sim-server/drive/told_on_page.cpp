@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <fmt/core.h>
+
 namespace septet::server {
 namespace {
 
@@ -54,7 +56,7 @@ std::optional<page::PageEvent> told_on_page(const logging::Event& event) {
   for (const auto& [name, value] : told.values) {
     std::string words = name == "what" ? "" : name + ' ';
     std::ranges::replace(words, '_', ' ');
-    told.text += separator + words + value;
+    told.text += fmt::format("{}{}{}", separator, words, value);
     separator = ", ";
   }
   return told;
