@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <fmt/core.h>
-
 namespace septet::server {
 namespace {
 
