@@ -181,7 +181,7 @@ def main():
                    "report": [options.septet, "report", session, "--out", folder / "report.html"],
                    "sound": [options.septet, "sound", session, "--out", folder / "sound.wav"],
                    "Python": ["/usr/bin/python3", "-c", PYTHON, session, python],
-                   "film": [options.septet, "film", session, "--width", "64", "--height", "36", "--fps", "1", "--out", folder / "film"]}
+                   "film": [options.septet, "film", session, "--size", "64x36", "--fps", "1", "--out", folder / "film"]}
         passed = breaches = 0
         for what, sql in CRAFTED.items():
             shutil.copyfile(good, session)
