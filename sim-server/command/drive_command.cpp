@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
@@ -28,6 +27,7 @@
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
 #include "sim-server/command/drive_folder.hpp"
+#include "sim-server/command/last_line.hpp"
 #include "sim-server/command/panorama_file.hpp"
 #include "sim-server/page/listening_socket.hpp"
 #include "sim-server/page/request_checks.hpp"
@@ -120,15 +120,6 @@ class RunningScreen {
   int deaths_ = 0;  ///< Since it last showed a picture.
   Clock::time_point next_start_{};
 };
-
-/// The last line of a text file.
-std::string last_line_of(const fs::path& file) {
-  std::ifstream in(file);
-  std::string last;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) last = line;
-  return last;
-}
 
 program::ChildOptions server_options(const DriveOptions& options, const fs::path& rig, const fs::path& keys) {
   program::ChildOptions server;

@@ -2,26 +2,13 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
-#include "engine/core/printable.hpp"
+#include "sim-server/command/last_line.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
-namespace {
-
-/// The last line that says anything, made printable.
-std::string last_said_in(const fs::path& log) {
-  std::string last;
-  std::ifstream in(log);
-  for (std::string line; std::getline(in, line);)
-    if (line.find_first_not_of(" \r\t") != std::string::npos) last = printable(line);
-  return last;
-}
-
-}  // namespace
 
 Expected<void> PastWork::start(const page::Make& make, const fs::path& folder, const fs::path& log) {
   if (process_)
@@ -55,7 +42,7 @@ bool PastWork::attend() {
   }
   const auto exit = process_->poll();
   const page::PastWorkView before = *view_;
-  view_->said = last_said_in(log_);
+  view_->said = last_line_of(log_);
   if (exit) {
     view_->is_running = false;
     view_->has_failed = exit->code != 0 && !is_stopped_;
