@@ -256,7 +256,8 @@ StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
     kept.push_back(std::move(part));
   }
   state.pieces = std::move(kept);
-  advance_shards(state, world, step_s);
+  for (Piece& piece : state.pieces) report.bad_numbers += elastic::reset_bad_nodes(piece.body);
+  report.bad_numbers += advance_shards(state, world, step_s);
   state.bad_numbers += static_cast<std::uint32_t>(report.bad_numbers);
   return report;
 }

@@ -26,6 +26,13 @@ void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, doub
   shard.angular_velocity_radps *= 0.7;
 }
 
+bool is_finite(const Shard& shard) {
+  const glm::dquat& q = shard.orientation;
+  return std::isfinite(glm::dot(shard.position_m, shard.position_m) + glm::dot(shard.velocity_mps, shard.velocity_mps) +
+                       glm::dot(shard.angular_velocity_radps, shard.angular_velocity_radps) + shard.mass_kg +
+                       shard.size_m + q.w + q.x + q.y + q.z);
+}
+
 }  // namespace
 
 bool is_shard(const Piece& piece) {
@@ -48,7 +55,7 @@ Shard shard_of(const Piece& piece) {
   return shard;
 }
 
-void advance_shards(State& state, const ContactWorld& world, double step_s) {
+int advance_shards(State& state, const ContactWorld& world, double step_s) {
   for (Shard& shard : state.shards) {
     shard.velocity_mps.z -= gravity_mps2 * step_s;
     for (const Box& box : world.boxes) {
@@ -73,6 +80,7 @@ void advance_shards(State& state, const ContactWorld& world, double step_s) {
       shard.angular_velocity_radps = Vec3(0.0);
     }
   }
+  return static_cast<int>(std::erase_if(state.shards, [](const Shard& shard) { return !is_finite(shard); }));
 }
 
 }  // namespace septet::debris

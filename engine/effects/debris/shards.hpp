@@ -11,6 +11,7 @@ bool is_shard(const Piece& piece);
 /// The shard with a piece's mass and motion.
 Shard shard_of(const Piece& piece);
 
-void advance_shards(State& state, const ContactWorld& world, double step_s);
+/// Returns how many had a number that was not finite: they are gone.
+int advance_shards(State& state, const ContactWorld& world, double step_s);
 
 }  // namespace septet::debris

@@ -128,7 +128,22 @@ void hold_fixed_nodes(ElasticBody& body) {
   }
 }
 
-/// Nodes with numbers that are not finite go back to their rest place in the body's mean motion.
+/// The multiplier of eq. 20 as a stress: D (φ + Δt/γ J v⁺), the mean over the step.
+void keep_step_stress(ElasticBody& body, const StepSettings& settings) {
+  const LameConstants lame = lame_constants(body.material);
+  const double lead_s = settings.step_s / gamma_of(settings);
+  body.step_stress_pa.clear();
+  for (const Element& e : body.elements) {
+    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
+    const Eigen::Matrix3d rate = f.transpose() * deformation_gradient(e, body.velocity_mps);
+    const Eigen::Matrix3d strain = green_strain(f) + 0.5 * lead_s * (rate + rate.transpose());
+    body.step_stress_pa.push_back(f * second_piola_stress(strain, lame) * f.transpose() /
+                                  std::max(f.determinant(), least_determinant));
+  }
+}
+
+}  // namespace
+
 int reset_bad_nodes(ElasticBody& body) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), rest_centre = centre, drift = centre;
   double mass = 0.0;
@@ -159,22 +174,6 @@ int reset_bad_nodes(ElasticBody& body) {
   return bad;
 }
 
-/// The multiplier of eq. 20 as a stress: D (φ + Δt/γ J v⁺), the mean over the step.
-void keep_step_stress(ElasticBody& body, const StepSettings& settings) {
-  const LameConstants lame = lame_constants(body.material);
-  const double lead_s = settings.step_s / gamma_of(settings);
-  body.step_stress_pa.clear();
-  for (const Element& e : body.elements) {
-    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
-    const Eigen::Matrix3d rate = f.transpose() * deformation_gradient(e, body.velocity_mps);
-    const Eigen::Matrix3d strain = green_strain(f) + 0.5 * lead_s * (rate + rate.transpose());
-    body.step_stress_pa.push_back(f * second_piola_stress(strain, lame) * f.transpose() /
-                                  std::max(f.determinant(), least_determinant));
-  }
-}
-
-}  // namespace
-
 StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::span<NodeContact> contacts) {
   SEPTET_CHECK(settings.step_s > 0 && settings.damping_ratio >= 0, "step {} s, damping {}", settings.step_s,
                settings.damping_ratio);
@@ -191,12 +190,12 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
   hold_fixed_nodes(body);
 
   StepWorkspace& w = body.workspace;
-  bool solved = false;
   if (direct) {
-    solved = factorise(body.pattern, body.factor_structure, w.matrix, w.factor);
-    if (solved) {
+    if (factorise(body.pattern, body.factor_structure, w.matrix, w.factor)) {
       w.solution = w.right_side;
       solve(body.factor_structure, w.factor, w.solution);
+    } else {
+      w.solution.assign(body.velocity_mps.size(), padded(Eigen::Vector3d::Constant(NAN)));
     }
   } else {
     w.solution.resize(body.velocity_mps.size());
@@ -208,11 +207,10 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
     const SolveReport result = preconditioned_solve(body, settings);
     report.iterations = result.iterations;
     report.converged = result.converged;
-    solved = true;
   }
   for (int i = 0; i < body.node_count(); ++i) {
     const Eigen::Vector3d v = w.solution[i].head<3>().matrix();
-    if (solved && v.allFinite())
+    if (v.allFinite())
       body.velocity_mps[i] = v;
     else
       ++report.bad_numbers;  // The node goes on as it did.

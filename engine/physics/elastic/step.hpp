@@ -66,6 +66,10 @@ struct StepReport {
 /// Advances the body by one step. Contacts have at most one entry per node and surface.
 StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::span<NodeContact> contacts = {});
 
+/// Nodes with numbers that are not finite go back to their rest place in the body's mean motion. Returns how many. A step ends with it;
+/// so does whatever moves nodes after one.
+int reset_bad_nodes(ElasticBody& body);
+
 inline double gamma_of(const StepSettings& s) { return 1.0 / (0.5 + s.damping_ratio); }
 
 }  // namespace septet::elastic

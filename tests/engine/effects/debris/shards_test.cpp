@@ -32,6 +32,24 @@ State with_shard(const Vec3& position_m, const Vec3& velocity_mps) {
 
 }  // namespace
 
+TEST_CASE("a shard and a piece whose numbers go bad are counted, and what is told of the debris stays finite") {
+  State state = with_shard({0, 0, 5}, {0, 0, 0});
+  state.shards.push_back(state.shards.front());
+  state.shards[0].velocity_mps.x = NAN;
+  state.shards[1].angular_velocity_radps.y = INFINITY;
+  state.shards.push_back(with_shard({1, 0, 5}, {0, 0, 0}).shards.front());
+  Random random(1);
+  spawn_part(state, Part::windscreen, RigidTransform{}, Vec3(0.0), Vec3(0.0), random);
+  state.pieces.front().body.velocity_mps.front().z() = NAN;
+  state.pieces.front().asleep = true;  // No step looks at it.
+  ContactWorld road = level_road();
+  advance_debris(state, road, shard_step_s);
+  CHECK(state.shards.size() == 1);
+  CHECK(state.bad_numbers == 3);
+  for (const auto& velocity_mps : state.pieces.front().body.velocity_mps) CHECK(velocity_mps.allFinite());
+  CHECK(effect_keyframes(state).size() == 2);
+}
+
 TEST_CASE("a shard falls freely and a fifth of its speed comes back from the road") {
   State state = with_shard({0, 0, 5}, {2, 0, 0});
   const ContactWorld road = level_road();
