@@ -1,7 +1,9 @@
 #pragma once
-/// What debris touches: the ground, boxes, and other pieces.
+/// Contacts of debris with the ground, with boxes and with other pieces (whose impulses are derived in piece_impulses.cpp).
 
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/effects/debris/piece.hpp"
@@ -19,8 +21,11 @@ struct FoundContact {
 std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world, double step_s,
                                         double ahead_s = 0.0);
 
-/// Whether a box moves close to the piece.
+/// True where a box moves close to the piece.
 bool box_near(const Piece& piece, const ContactWorld& world, double step_s);
+
+/// Around all nodes, world frame.
+Eigen::AlignedBox3d bounds_of(const Piece& piece);
 
 /// Inelastic impulses with friction between nodes of one piece inside elements of another; equal
 /// and opposite, so that momentum stays. Wakes a sleeper that is hit.
