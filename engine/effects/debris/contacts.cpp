@@ -21,13 +21,14 @@ double reach_m(double closing_mps, double step_s) {
   return margin_m + step_s * (closing_mps + gravity_bound_mps2 * step_s);
 }
 
-/// A box that a piece may touch, with what all nodes ask of it.
+/// A box that a piece may touch, with the data that all its nodes need.
 struct NearBox {
   std::size_t index;
   double radius_m, speed_mps;
 };
 
-/// A trunk is twenty metres long and thin: a sphere round it holds half a wood, so the distance to the box itself decides.
+/// A trunk is twenty metres long and thin: a sphere round it holds half a wood, so the distance to the box itself
+/// decides.
 std::vector<NearBox> boxes_within_reach(const Piece& piece, const ContactWorld& world, double step_s, double ahead_s) {
   std::vector<NearBox> result;
   if (world.boxes.empty()) return result;
@@ -46,7 +47,7 @@ std::vector<NearBox> boxes_within_reach(const Piece& piece, const ContactWorld& 
     const double box_mps = glm::length(box.velocity_mps);
     const double surface_mps = box_mps + glm::length(box.angular_velocity_radps) * (glm::length(arm) + radius_m);
     const double reach = radius_m + reach_m(speed_mps + surface_mps, step_s) + rounding_m;
-    // Not "further than": a number gone bad is looked at by every node.
+    // NaN passes this test: every node examines it.
     if (glm::dot(outside, outside) > reach * reach) continue;
     result.push_back({b, glm::length(box.half_size_m), box_mps});
   }
@@ -106,7 +107,7 @@ std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& 
     }
     for (const NearBox& near : boxes) {
       const Box& box = world.boxes[near.index];
-      const Vec3 seen = point - ahead_s * box.velocity_mps;  // As if the box had not moved.
+      const Vec3 seen = point - ahead_s * box.velocity_mps;  // Seen from the box's first position.
       const Vec3 arm = seen - box.world_from_box.position_m;
       const double far = near.radius_m + reach + step_s * near.speed_mps;
       if (glm::dot(arm, arm) > far * far) continue;
