@@ -2,8 +2,8 @@
 /// What ice and blows leave on a windscreen, as a renderer draws it: frost that warmth takes away (frost.hpp), and stars of cracks
 /// that stay.
 ///
-/// Both are surfaces without thickness on the pane, of which what lies behind is seen through (OnGlass of ice_body.hpp). A pane is
-/// told by a grid of points, so that it may be bent as its car's is.
+/// Both are surfaces without thickness on the pane, through which the world behind is seen. A pane is told by a grid of points, so
+/// that it may be bent as its car's is.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/effects/ice/frost.hpp"
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/world/ice_vertex.hpp"
 
 namespace septet::ice {
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/random.hpp"
-#include "engine/effects/ice/optics.hpp"
+#include "engine/instant/ice_optics.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::ice {

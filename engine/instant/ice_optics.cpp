@@ -1,4 +1,4 @@
-#include "engine/effects/ice/optics.hpp"
+#include "engine/instant/ice_optics.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "engine/effects/ice/optics.hpp"
+#include "engine/instant/ice_optics.hpp"
+#include "engine/world/ice_vertex.hpp"
 
 namespace septet::ice {
 
@@ -40,14 +41,6 @@ struct Look {
   float wetness = 0.0f;       ///< 1: a film of water lies over bumps and crystals, and what it mirrors is sharp.
   float share_of_sky = 1.0f;  ///< Of the sun's light that reaches it.
   glm::vec3 absorption_per_m{clear_ice_absorption_per_m};
-};
-
-/// Of a body's surface; `rest_m`: where the point lay in the whole body before anything moved or broke, which is what
-/// unevenness, cracks and air keep to. Of what is inside (cracks.hpp): texture coordinates, and which kind it is.
-struct IceVertex {
-  glm::vec3 position_m{0.0f};
-  glm::vec3 normal{0.0f};
-  glm::vec3 rest_m{0.0f};
 };
 
 struct IceBody {
