@@ -1,6 +1,5 @@
-#include "sim-server/drive/can_seat.hpp"
+#include "sim-server/drive/seat/can_seat.hpp"
 
-#include <memory>
 #include <utility>
 
 #include "car-io/can/can_bus.hpp"
@@ -9,6 +8,25 @@
 #include "car-io/can/rig_can.hpp"
 
 namespace septet::server {
+namespace {
+
+/// A cluster on the bus, by a thread that sends.
+class InstrumentCluster final : public SeatDevice {
+ public:
+  explicit InstrumentCluster(car_io::InstrumentSender sender) : thread_(std::move(sender)) {}
+
+  bool shows() const override { return true; }
+  std::optional<Error> show(const car_io::Instruments& instruments) override {
+    thread_.set(instruments);
+    return thread_.take_error();
+  }
+  bool is_lost() const override { return thread_.is_lost(); }
+
+ private:
+  car_io::InstrumentThread thread_;
+};
+
+}  // namespace
 
 Expected<CanSeat> open_can_seat(const rig::Rig& rig, const std::filesystem::path& rig_file) {
   if (!rig.can) return CanSeat{};
@@ -22,13 +40,7 @@ Expected<CanSeat> open_can_seat(const rig::Rig& rig, const std::filesystem::path
   seat.notice = can->notice;
   if (rig.car.source == rig::CarSource::can)
     seat.controls = car_io::can_controls_opener(open, plan, rig.car.calibration.steering_lock_rad);
-  if (plan.sent.empty()) return seat;
-  const auto sender = std::make_shared<car_io::InstrumentThread>(car_io::InstrumentSender(open, plan));
-  seat.show = [sender](const car_io::Instruments& instruments) {
-    sender->set(instruments);
-    return sender->take_error();
-  };
-  seat.is_lost = [sender] { return sender->is_lost(); };
+  if (!plan.sent.empty()) seat.instruments = std::make_unique<InstrumentCluster>(car_io::InstrumentSender(open, plan));
   return seat;
 }
 
