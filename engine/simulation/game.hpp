@@ -3,7 +3,7 @@
 ///
 /// After M. Lebram, H. Engström and H. Gustavsson, "A Driving Simulator Based on Video Game Technology" (SIGRAD 2006), section 4: the player
 /// drives on a five-lane motorway behind an ambulance, and it becomes harder by the intensity of the traffic and the behaviour of others. What
-/// the paper does not tell is ours: points, levels, how it ends (engine/scenario/game_settings.hpp has the figures).
+/// the paper does not tell is ours: points, levels, how it ends (engine/scenario/model/game_settings.hpp has the figures).
 ///
 /// - The leader changes to another of its lanes, one or two away, every so often, and more often on each level. It waits until the place is free.
 /// - A second within reach behind the leader is worth ten points times the level, and twice as much in the leader's own lane.
@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "engine/scenario/game_settings.hpp"
+#include "engine/scenario/model/game_settings.hpp"
 #include "engine/simulation/state.hpp"
 
 namespace septet::simulation {

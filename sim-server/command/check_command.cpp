@@ -14,7 +14,7 @@
 #include "engine/film_script/film_script.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/opendrive_reader.hpp"
-#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
 #include "logging/experiment/design.hpp"
 #include "logging/lesson/lesson.hpp"
 #include "logging/questionnaire.hpp"

@@ -11,7 +11,7 @@
 
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/regular_file.hpp"
-#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
 #include "logging/experiment/design.hpp"
 #include "logging/lesson/lesson.hpp"
 #include "program/resources.hpp"

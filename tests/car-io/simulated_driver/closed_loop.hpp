@@ -11,7 +11,7 @@
 #include "car-io/simulated_driver/simulated_driver.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
-#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "logging/records.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
