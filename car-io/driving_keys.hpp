@@ -1,5 +1,5 @@
 #pragma once
-/// Which key does what: the one table that the window obeys and that README, `septet drive --help`, the terminal and the
+/// Which key does what: the one table that the window obeys and that docs/driving.md, `septet drive --help`, the terminal and the
 /// screen show.
 
 #include <array>
