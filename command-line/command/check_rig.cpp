@@ -4,8 +4,8 @@
 
 #include "car-io/can/rig_can.hpp"
 #include "car-io/car_layout.hpp"
-#include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/regular_file.hpp"
+#include "engine/driver/driver_parameters.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/rig/rig_doubts.hpp"
@@ -44,7 +44,7 @@ std::vector<Finding> check_rig(const std::string& text, const std::filesystem::p
   if (!rig) return findings;
   must_hold(check_vehicle(rig->car.vehicle));
   must_hold(car_io::find_car_layout(rig->car.layout));
-  must_hold(car_io::find_driver(rig->car.driver));
+  must_hold(driver::find_driver(rig->car.driver));
   if (rig->can) {
     const auto can = car_io::read_rig_can(*rig, file);
     must_hold(can);

@@ -9,8 +9,8 @@
 
 #include <fmt/core.h>
 
-#include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/regular_file.hpp"
+#include "engine/driver/driver_parameters.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "logging/questionnaire.hpp"
 #include "program/resources.hpp"
@@ -81,7 +81,7 @@ Expected<DueQuestionnaire> read_due(const std::string& name, bool is_after_each_
 Expected<std::vector<DueQuestionnaire>> read_inputs(const logging::Experiment& experiment) {
   for (const auto& group : experiment.groups)
     if (!group.driver.empty())
-      if (const auto driver = car_io::find_driver(group.driver); !driver) return tl::unexpected(driver.error());
+      if (const auto driver = driver::find_driver(group.driver); !driver) return tl::unexpected(driver.error());
   std::vector<DueQuestionnaire> due;
   for (const bool after_each : {false, true})
     for (const auto& name : after_each ? experiment.questionnaires_after_each_condition : experiment.questionnaires) {

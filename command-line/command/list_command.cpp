@@ -9,9 +9,9 @@
 
 #include <fmt/core.h>
 
-#include "car-io/simulated_driver/driver_parameters.hpp"
 #include "command-line/command/own_files.hpp"
 #include "engine/core/regular_file.hpp"
+#include "engine/driver/driver_parameters.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "logging/experiment/design.hpp"
 #include "logging/lesson/lesson.hpp"
@@ -89,7 +89,7 @@ const std::vector<std::string>& listed_kinds() {
 Expected<std::vector<ListEntry>> list_of(const std::string& kind, const std::vector<fs::path>& own_folders) {
   std::vector<ListEntry> entries;
   if (kind == "drivers") {
-    for (const auto& driver : car_io::simulated_drivers())
+    for (const auto& driver : driver::simulated_drivers())
       entries.push_back({.name = std::string(driver.name), .description = std::string(driver.description)});
     return entries;
   }

@@ -45,7 +45,7 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
   DriverSeat seat;
   seat.is_real_time = is_real_time;
   if (car.source == rig::CarSource::simulated_driver) {
-    auto parameters = car_io::find_driver(car.driver);
+    auto parameters = driver::find_driver(car.driver);
     if (!parameters) return tl::unexpected(parameters.error());
     const vehicle::PowertrainParameters& powertrain = model->car.powertrain;
     parameters->car.has_clutch = powertrain.transmission == vehicle::Transmission::manual;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "car-io/simulated_driver/simulated_driver.hpp"
+#include "car-io/simulated_driver_car.hpp"
 #include "engine/simulation/model.hpp"
 #include "sim-server/drive/seat/seat_device.hpp"
 
@@ -14,7 +14,7 @@ namespace septet::server {
 class SimulatedPerson final : public SeatDevice {
  public:
   /// The driver keeps the model alive: the road in it is what they see.
-  SimulatedPerson(const car_io::DriverParameters& parameters, std::uint64_t seed,
+  SimulatedPerson(const driver::DriverParameters& parameters, std::uint64_t seed,
                   std::shared_ptr<const simulation::Model> model)
       : model_(std::move(model)), car_(parameters, seed, model_->roads) {}
 

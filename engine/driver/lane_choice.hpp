@@ -1,0 +1,78 @@
+#pragma once
+/// Which lane, and the way there: wish, mirror, indicator, look again, go; and back again, if it turns
+/// out to be unsafe before the line is crossed.
+///
+/// The wish weighs the acceleration that each lane offers (MOBIL's incentive without politeness: A.
+/// Kesting, M. Treiber and D. Helbing, "General lane-changing model MOBIL for car-following
+/// models", 2007) with keeping to the outer lanes, where nobody is passed, and with the lane of an
+/// ambulance that the driver follows.
+/// Nothing behind is known without a glance, so that every change has its glances. A gap is accepted by
+/// time gap and closing speed, ahead and behind, as it will be when the line is crossed.
+
+#include <optional>
+#include <span>
+
+#include "engine/driver/driver_parameters.hpp"
+#include "engine/driver/driver_view.hpp"
+#include "engine/driver/mirrors.hpp"
+#include "engine/driver/pedals.hpp"
+
+namespace septet::driver {
+
+enum class LanePhase : std::uint8_t {
+  keep,
+  look,    ///< The mirror of the wished side.
+  signal,  ///< The indicator is on.
+  look_again,
+  change,   ///< The wheel turns.
+  go_back,  ///< To the lane that the change began in.
+};
+
+/// A way across, from the lane (0) to the target (1): least jerk (Flash and Hogan 1985) from any motion
+/// to rest.
+struct LaneWay {
+  double from = 0.0, from_rate_ps = 0.0, from_rate_change_ps2 = 0.0, to = 1.0, duration_s = 1.0;
+};
+struct WayPoint {
+  double at = 0.0, rate_ps = 0.0, rate_change_ps2 = 0.0;
+};
+WayPoint point_on_way(const LaneWay& way, double time_s);
+
+struct LaneState {
+  LanePhase phase = LanePhase::keep;
+  int lane = 0;          ///< Where the car belongs: the lane that a change begins in.
+  int target = 0;        ///< Where it shall go; equal to `lane` while keeping it.
+  double phase_s = 0.0;  ///< Time in the phase; on the way across it stands still while the car does.
+  LaneWay way;           ///< While changing or going back.
+  double since_change_s = 1e9;
+  double next_thought_s = 0.0;
+};
+
+/// What the choice is made from.
+struct LaneScene {
+  const OwnPlace& own;
+  std::span<const SeenVehicle> vehicles;
+  double desired_speed_mps = 0.0;
+  bool grows_to_the_right = true;
+  bool open_inside = false,
+       open_outside = false;    ///< Lane number one less and one more can be driven on, here and ahead.
+  double lane_ends_in_m = 1e9;  ///< The present lane.
+};
+
+/// Whoever ahead in a lane asks for the most braking, or nothing. An ambulance counts in every lane: it
+/// is followed and never passed; from another lane it is only stayed behind, with comfortable braking.
+std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane, const SpeedParameters& speed);
+/// The same on the way that the car goes: in its lane; while it changes, in the lane to be, and in the one to be left
+/// until the whole body has left it.
+std::optional<Obstacle> obstacle_on_way(const LaneState& state, const LaneScene& scene, const SpeedParameters& speed);
+/// Whether a change into this lane leaves everyone room. Strictness scales what has to be left, and the
+/// time until then, and loosens the braking that may be asked of anybody.
+bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver, double strictness = 1.0);
+/// How far across from `lane` to `target` the driver means to be, some time from now.
+double place_across(const LaneState& state, double own_speed_mps, double ahead_s);
+
+/// Thinks, looks and decides. `looked` is the mirror whose glance just ended.
+void advance_lane_choice(LaneState& state, const DriverParameters& driver, const LaneScene& scene, MirrorState& mirrors,
+                         const std::optional<Mirror>& looked, double dt_s, Random& random);
+
+}  // namespace septet::driver
