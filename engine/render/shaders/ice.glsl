@@ -1,5 +1,5 @@
 // One body of ice: what the passes of ice know of it. The host's twin is IceConstants in passes/ice_pass.hpp; the equations are
-// those of engine/effects/ice/optics.hpp.
+// those of engine/instant/ice_optics.hpp.
 //
 // A body has a rectangle in the images of its layers, seen through a frustum that is fitted to it. That depends on the eye
 // and the body alone, so that two screens see the same.
