@@ -47,14 +47,14 @@ Scattering in_frame(const Surface& surface, const Shares& shares, const glm::vec
   if (has_layer(surface)) {
     const Facets layer = facets(v, l, h, surface.alpha);
     result.value *= (1.0f - schlick(surface.f0, v.z)) * (1.0f - schlick(surface.f0, l.z));
-    result.value += schlick(surface.f0, vh) * layer.value;
+    result.value += schlick(surface.f0, vh) * (layer.value * surface.mirrors);
     result.pdf += shares.layer * layer.pdf;
   }
   if (surface.coat > 0.0f) {
     const Facets coat = facets(v, l, h, surface.coat_alpha);
     const auto passes = [&](float z) { return 1.0f - surface.coat * schlick(glm::vec3(surface.coat_f0), z).x; };
     result.value = result.value * (passes(v.z) * passes(l.z)) +
-                   surface.coat * schlick(glm::vec3(surface.coat_f0), vh).x * coat.value;
+                   surface.coat * schlick(glm::vec3(surface.coat_f0), vh).x * (coat.value * surface.mirrors);
     result.pdf += shares.coat * coat.pdf;
   }
   return result;

@@ -2,6 +2,8 @@
 //
 // Positions are relative to the eye, along the world's axes, metres. Radiance: see engine/instant/atmosphere.hpp.
 
+#include "engine/light/language.hpp"
+
 layout(set = 0, binding = 0, std140) uniform View {
   mat4 clip_from_relative;
   mat4 shadow_from_relative;  // To texture coordinates and depth of the near cascade.
@@ -36,8 +38,6 @@ layout(set = 0, binding = 3) uniform sampler2DArrayShadow shadow_map;
 layout(set = 0, binding = 4) uniform sampler2D noise;
 layout(set = 0, binding = 5) uniform sampler2D image;
 layout(set = 0, binding = 12) uniform sampler2D lamp_field;
-
-const float pi = 3.14159265;
 
 // The texture holds the sky's table and one for each step of roughness: the twin of engine/instant/sky_by_roughness.hpp.
 const float sky_tables = 6.0, roughness_per_step = 0.175;
