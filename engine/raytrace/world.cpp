@@ -9,6 +9,8 @@
 #include "engine/instant/glass_cover.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/instant/wet_road.hpp"
+#include "engine/light/fresnel.hpp"
+#include "engine/light/microfacets.hpp"
 #include "engine/light/ruts.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
@@ -252,12 +254,12 @@ void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMateria
   }
   if (material.clear_coat > 0.0f && !material.wettable) {
     surface.coat = material.clear_coat;
-    surface.coat_f0 = scene::clear_coat_reflectance;
-    surface.coat_alpha = scene::clear_coat_roughness * scene::clear_coat_roughness;
+    surface.coat_f0 = light::coat_reflectance;
+    surface.coat_alpha = light::coat_roughness * light::coat_roughness;
   }
   if (point.opacity < 1.0f)  // The better it mirrors, the less is seen through it.
-    point.opacity =
-        std::clamp(point.opacity + luminance(schlick(surface.f0, std::min(1.0f, glm::dot(normal, seen)))), 0.0f, 1.0f);
+    point.opacity = std::clamp(
+        point.opacity + luminance(light::schlick(surface.f0, std::min(1.0f, glm::dot(normal, seen)))), 0.0f, 1.0f);
 }
 
 /// The light of what shines, `color` times as its material says.

@@ -6,7 +6,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "engine/effects/ice/optics.hpp"
+#include "engine/light/ice_optics.hpp"
+#include "engine/math/rigid_transform.hpp"
 
 namespace septet::ice {
 
@@ -21,13 +22,16 @@ enum class Shown : std::uint8_t { all, front_depth, back_depth };
 /// What lies on glass: a surface without thickness, seen from both sides, of which what lies behind is seen through (glass.hpp).
 enum class OnGlass : std::uint8_t { nothing, frost, cracks };
 
+/// How the back face's normal enters equation 1 (engine/light/ice_optics.hpp): as the paper prints it, or as a lens bends light.
+enum class BackSign : std::int8_t { as_printed = -1, as_a_lens = 1 };
+
 struct Look {
   OnGlass on_glass = OnGlass::nothing;
   Mode mode = Mode::paper;
   Shown shown = Shown::all;
   bool two_sided = true;  ///< Off: the front face alone refracts.
   BackSign back_sign = BackSign::as_printed;
-  float back_share = static_cast<float>(paper_back_share);
+  float back_share = light::paper_back_share;
   bool reflects = true;        ///< Off: what is seen through it alone.
   bool bent_by_cracks = true;  ///< In quality mode: cracks turn the light that leaves through the back face.
   bool seen_beyond =
@@ -39,7 +43,7 @@ struct Look {
   float roughness = 0.0f;     ///< Share of the surface that crystals of frost make white.
   float wetness = 0.0f;       ///< 1: a film of water lies over bumps and crystals, and what it mirrors is sharp.
   float share_of_sky = 1.0f;  ///< Of the sun's light that reaches it.
-  glm::vec3 absorption_per_m{clear_ice_absorption_per_m};
+  glm::vec3 absorption_per_m = light::clear_ice_absorption_per_m;
 };
 
 /// Of a body's surface; `rest_m`: where the point lay in the whole body before anything moved or broke, which is what

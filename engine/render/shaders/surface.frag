@@ -7,6 +7,7 @@
 #include "wet_road.glsl"
 #include "fade.glsl"
 #include "engine/light/beam.hpp"
+#include "engine/light/microfacets.hpp"
 #include "engine/light/ruts.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
@@ -123,10 +124,8 @@ vec3 beacons(vec3 n) {
 // Microfacets' sun (GGX, with Kelemen's visibility 1/(4·vh²)), per unit of irradiance on them.
 vec3 shine(vec3 facet, vec3 to_eye, vec3 f0, float roughness) {
   vec3 h = normalize(view.light_direction.xyz + to_eye);
-  float a2 = roughness * roughness * roughness * roughness;
-  float nh = max(dot(facet, h), 0.0), vh = max(dot(to_eye, h), 1e-3);
-  float d = nh * nh * (a2 - 1.0) + 1.0;
-  return min((f0 + (1.0 - f0) * fifth_power(1.0 - vh)) * (a2 / (pi * d * d) * 0.25 / (vh * vh)), vec3(40.0));
+  float vh = max(dot(to_eye, h), 1e-3), density = ggx_density(max(dot(facet, h), 0.0), roughness * roughness);
+  return min(schlick(f0, vh) * (density * 0.25 / (vh * vh)), vec3(40.0));
 }
 
 // Share of an even sky that a layer mirrors: a fit to GGX with Smith's masking and Schlick's Fresnel, within 0.03 for roughness up to 0.7.

@@ -2,6 +2,7 @@
 //
 // Positions are relative to the eye, along the world's axes, metres. Radiance: see engine/instant/atmosphere.hpp.
 
+#include "engine/light/fresnel.hpp"
 #include "engine/light/language.hpp"
 
 layout(set = 0, binding = 0, std140) uniform View {
@@ -82,5 +83,3 @@ vec3 fog_radiance(vec3 direction, float share_of_sky) {
 
 // Images hold the square root of linear light: a square decodes them.
 vec4 decoded(vec4 texel) { return vec4(texel.rgb * texel.rgb, texel.a); }
-
-float fifth_power(float x) { return x * x * x * x * x; }

@@ -4,7 +4,10 @@
 /// the host. A new function gets its case here, and `function_count` grows by one.
 
 #include "engine/light/beam.hpp"
+#include "engine/light/fresnel.hpp"
+#include "engine/light/ice_optics.hpp"
 #include "engine/light/language.hpp"
+#include "engine/light/microfacets.hpp"
 #include "engine/light/ruts.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
@@ -13,7 +16,7 @@
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 22u;
+LIGHT_CONST uint function_count = 32u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -73,6 +76,26 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
       return vec4(float(soot_index(cell, ivec3(8, 6, 7))));
     case 21u:
       return vec4(soot_weight(vec3(a.x, a.y, a.z), soot_corner(int(8.0f * a.w))));
+    case 22u:
+      return vec4(fifth_power(a.x));
+    case 23u:
+      return vec4(schlick(vec3(a.x, a.y, a.z), b.x), 0.0f);
+    case 24u:
+      return vec4(fresnel(a.x, into_ice), fresnel(a.x, out_of_ice), fresnel(a.x, 0.5f + b.x), 0.0f);
+    case 25u:
+      return vec4(blended_normal(one, other, 1.0f - paper_back_share, -paper_back_share), 0.0f);
+    case 26u:
+      return vec4(refracted(one, dot(one, other) > 0.0f ? -other : other, into_ice), 0.0f);
+    case 27u:
+      return vec4(refracted(one, dot(one, other) > 0.0f ? -other : other, out_of_ice), 0.0f);
+    case 28u:
+      return vec4(mirrored_way(one, other), 0.0f);
+    case 29u:
+      return vec4(paper_fresnel(a.x));
+    case 30u:
+      return vec4(transmittance(clear_ice_absorption_per_m, 30.0f * a.x), 0.0f);
+    case 31u:
+      return vec4(ggx_density(a.x, 0.01f + a.y));
     default:
       return vec4(0.0f);
   }
