@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "engine/instant/ice_optics.hpp"
+#include "engine/light/ice_optics.hpp"
 #include "engine/world/ice_vertex.hpp"
 
 namespace septet::ice {
@@ -24,13 +24,16 @@ enum class Shown : std::uint8_t { all, front_depth, back_depth };
 /// (glass.hpp).
 enum class OnGlass : std::uint8_t { nothing, frost, cracks };
 
+/// How the back face's normal enters equation 1 (engine/light/ice_optics.hpp): as the paper prints it, or as a lens bends light.
+enum class BackSign : std::int8_t { as_printed = -1, as_a_lens = 1 };
+
 struct Look {
   OnGlass on_glass = OnGlass::nothing;
   Mode mode = Mode::paper;
   Shown shown = Shown::all;
   bool two_sided = true;  ///< Off: the front face alone refracts.
   BackSign back_sign = BackSign::as_printed;
-  float back_share = static_cast<float>(paper_back_share);
+  float back_share = light::paper_back_share;
   bool reflects = true;        ///< Off: refraction alone.
   bool bent_by_cracks = true;  ///< In quality mode: cracks turn the light that leaves through the back face.
   bool seen_beyond =
@@ -41,7 +44,7 @@ struct Look {
   float roughness = 0.0f;     ///< Share of the surface whitened by crystals of frost.
   float wetness = 0.0f;       ///< 1: a film of water lies over bumps and crystals, and its reflection is sharp.
   float share_of_sky = 1.0f;  ///< Share of the sun's light that reaches it.
-  glm::vec3 absorption_per_m{clear_ice_absorption_per_m};
+  glm::vec3 absorption_per_m = light::clear_ice_absorption_per_m;
 };
 
 struct IceBody {
