@@ -20,8 +20,8 @@ struct TyreContact {
   double forward_mps = 0.0;      ///< Velocity of the wheel along its heading.
   double inclination_rad = 0.0;  ///< Against the ground's normal, positive leans to the right.
   double length_m = 0.1;         ///< Of the contact patch.
-  double firmness =
-      1.0;  ///< Remaining share of slopes and stiffness: less where air is lost. Not of the published tyre.
+  /// Remaining share of slopes and stiffness: less where air is lost. Not of the published tyre.
+  double firmness = 1.0;
 };
 
 /// Steady force at one slip.

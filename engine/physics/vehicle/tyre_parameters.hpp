@@ -22,8 +22,8 @@ struct LoadSensitiveTyre {
   double trail_over_length = 0.0;  ///< Pneumatic trail over contact length at zero slip and nominal load.
   double trail_zero_slip = 0.2;    ///< Lateral slip at which the trail vanishes.
   double camber_slip = 0.0;        ///< Lateral slip that gives the same force as one radian of inclination.
-  double longitudinal_stiffness_npm =
-      0.0;  ///< Of the standing contact patch against the rim; sets the relaxation length.
+  /// Of the standing contact patch against the rim; sets the relaxation length.
+  double longitudinal_stiffness_npm = 0.0;
   double lateral_stiffness_npm = 0.0;
   double longitudinal_damping_nspm = 0.0;
   double lateral_damping_nspm = 0.0;

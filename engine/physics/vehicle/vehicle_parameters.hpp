@@ -44,8 +44,8 @@ struct SuspensionParameters {
   /// anti-squat (centre: driving).
   Table contact_lateral_slope, contact_longitudinal_slope;
   Table centre_lateral_slope, centre_longitudinal_slope;
-  double toe_out_by_lateral_force_radpn =
-      0.0;  ///< Compliance: steer away from the force, that is, understeer in front.
+  /// Compliance: steer away from the force, that is, understeer in front.
+  double toe_out_by_lateral_force_radpn = 0.0;
   double steer_by_aligning_torque_radpnm = 0.0;
   double camber_by_lateral_force_radpn = 0.0;
   double contact_by_lateral_force_mpn = 0.0;  ///< Shift of the contact sideways under the wheel.
