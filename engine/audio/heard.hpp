@@ -46,8 +46,8 @@ struct OwnCar {
   double rain_mm_per_h = 0.0;  ///< On the roof: 0 in a tunnel, 0 as snow.
   bool indicator_lit = false, horn = false, reversing = false;
   double blow_mps = 0.0;  ///< Change of velocity within this tick, beyond the tyres' limit; 0: no impact.
-  double bump_mps =
-      0.0;  ///< Of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond a road's.
+  /// Of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond a road's.
+  double bump_mps = 0.0;
   int pieces = 0;          ///< Pieces broken off in this tick.
   double tunnel = 0.0;     ///< 0 in the open to 1 inside, over 20 m at its mouth.
   double low_share = 1.0;  ///< Of the low frequencies, which may move a shaker: less while its output is cut.
