@@ -1,10 +1,9 @@
 #pragma once
-/// Fills a store with scenery: meshes, images, materials and placed objects, in the conventions of
-/// CONVENTIONS.md.
+/// Fills a store with scenery: meshes, images, materials and placed objects, in the conventions of CONVENTIONS.md.
 ///
-/// Everything goes through commands, so that what is built can be replicated, changed and logged
-/// like any other content. A call with values that a store would refuse (not finite, index out of
-/// range, over a limit) is a bug of the caller and stops the program.
+/// Everything goes through commands, so that the scenery can be replicated, changed and logged like any other content.
+/// A call with values that a store would refuse (not finite, index out of range, over a limit) is a bug of the caller
+/// and stops the program.
 
 #include <functional>
 #include <span>
@@ -61,8 +60,7 @@ struct ObjectParameters {
 
 class SceneBuilder {
  public:
-  /// `applied` (may be empty) hears every command after the store took it: the replication server's
-  /// ear.
+  /// `applied` (may be empty) is called with every command after the store has accepted it, for the replication server.
   explicit SceneBuilder(Store& store, std::function<void(const Command&)> applied = {});
 
   NodeId add_mesh(std::string_view name, const geometry::PolygonMesh& mesh, const MeshOptions& options = {});
@@ -72,13 +70,13 @@ class SceneBuilder {
                     std::span<const std::uint8_t> rgba, bool srgb = true);
   NodeId add_material(std::string_view name, const MaterialParameters& parameters);
   NodeId add_object(std::string_view name, const ObjectParameters& parameters);
-  /// An object that is not drawn itself: the root of what is drawn for every participant of model
-  /// `model_name`. Give it its parts with add_child.
+  /// An object that is not drawn itself: the root of the drawing of every participant of model `model_name`. Give it
+  /// its parts with add_child.
   NodeId add_prototype(std::string_view model_name);
   /// The child's transform is then relative to the parent's.
   void add_child(NodeId parent, NodeId child);
 
-  /// One command into the store; a refused one stops the program.
+  /// Applies one command to the store; a refused one stops the program.
   void apply(const Command& command);
 
  private:

@@ -12,7 +12,7 @@
 
 namespace septet::scene {
 
-/// Appends to the bytes that it was made with.
+/// Appends to the bytes given at construction.
 struct Writer {
   static constexpr bool writes = true;
   ByteWriter out;
@@ -43,7 +43,7 @@ struct Writer {
   void corners(std::span<const PolygonCorners> polygons) { put_corners(out, polygons); }
 };
 
-/// What is out of range puts `in` into its failed state.
+/// Values out of range put `in` into its failed state.
 struct Reader {
   static constexpr bool writes = false;
   ByteReader& in;
@@ -66,7 +66,7 @@ struct Reader {
     if (byte > static_cast<std::uint8_t>(last)) return in.fail();
     value = static_cast<Enumeration>(byte);
   }
-  /// Allocates for what the sender claims only within the limit of one run.
+  /// Allocates the sender's claimed size only within the limit of one run.
   template <class T>
   std::size_t count(std::vector<T>& values, std::size_t limit) {
     values.resize(in.get_count(limit));

@@ -110,7 +110,7 @@ class SmoothGroups {
   }
 
   void join_sides(const PolygonMesh& mesh, std::uint32_t lower, const Side& a, const Side& b) {
-    if (a.rises == b.rises) return;  // Turned against each other: their normals point to opposite sides.
+    if (a.rises == b.rises) return;  // Opposite orientations: their normals point to opposite sides.
     if (std::max(edge_crease(mesh, a.polygon, a.k), edge_crease(mesh, b.polygon, b.k)) >= split_from) return;
     const auto corner = [&](const Side& side, bool at_lower) {
       const std::uint32_t count = corner_count(mesh.polygons[side.polygon]);
