@@ -1,9 +1,7 @@
 #pragma once
-/// Look-ups in the cross-section of a road: sections, borders, widths, heights, lanes at a t,
-/// marks, limits.
+/// Look-ups in the cross-section of a road: sections, borders, widths, heights, lanes at a t, marks, limits.
 ///
-/// All take a road of the network and a station in metres; a station outside the road is taken to
-/// its nearest end.
+/// All take a road of the network and a station in metres; a station outside the road is clamped to its nearest end.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,14 +45,13 @@ struct RoadExtent {
 };
 RoadExtent road_extent(const Road& road, double s_m);
 
-/// The lanes at (s, t). A lane that has no width there does not count; a border belongs to the
-/// first lane that holds it.
+/// The lanes at (s, t). A lane without width there does not count; a border belongs to the first lane that contains it.
 struct LanesAt {
-  int lane = 0;            ///< The drivable lane that holds the point, else the drivable lane with the
-                           ///< nearest centre; 0: none.
-  int lane_any_type = 0;   ///< The lane of any type that holds the point, else the nearest.
+  int lane = 0;  ///< The drivable lane that contains the point, else the drivable lane with the nearest centre; 0:
+                 ///< there is none.
+  int lane_any_type = 0;   ///< The lane of any type that contains the point, else the nearest.
   double offset_m = 0.0;   ///< t − centre of `lane`.
-  double outside_m = 0.0;  ///< How far the point lies outside the outermost lanes; 0 inside.
+  double outside_m = 0.0;  ///< Distance of the point outside the outermost lanes; 0 inside.
 };
 LanesAt lanes_at(const Road& road, double s_m, double t_m);
 

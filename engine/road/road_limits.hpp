@@ -1,6 +1,6 @@
 #pragma once
-/// What no road of this world exceeds. A number beyond is a slip of whoever wrote the file, and
-/// refused with its line: nothing that is built from a road has to fear it.
+/// Bounds of roads on earth. A number beyond is a mistake in the file, and refused with its line: code that builds from
+/// a road need not check for it.
 
 namespace septet::road {
 
@@ -17,7 +17,7 @@ constexpr double steepest_roll_rad = 1.5;
 constexpr double fastest = 1000.0;              ///< A speed limit, in any unit.
 constexpr double largest_coefficient = 1000.0;  ///< Friction and roughness.
 constexpr int most_lanes_of_a_side = 100;
-/// A dash below this cannot be painted, and one object every so often is a continuous one.
+/// A shorter dash cannot be painted, and closer repetitions are a continuous object.
 constexpr double shortest_dash_m = 0.01, least_spacing_m = 0.1;
 
 }  // namespace septet::road

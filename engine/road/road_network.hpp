@@ -1,10 +1,9 @@
 #pragma once
-/// A road network as plain data: what an OpenDRIVE file says, checked, linked by index and ready to
-/// be evaluated.
+/// A road network as plain data: the content of an OpenDRIVE file, checked, linked by index and ready to be evaluated.
 ///
-/// Made by read_opendrive (opendrive_reader.hpp), immutable afterwards, safe to read from many
-/// threads. World frame: see rigid_transform.hpp; the header's offset is already applied to plan
-/// and elevation. Metres and radians throughout.
+/// Made by read_opendrive (opendrive_reader.hpp), immutable afterwards, safe to read from many threads. World frame:
+/// see rigid_transform.hpp; the header's offset is already applied to plan and elevation. Metres and radians
+/// throughout.
 
 #include <cstdint>
 #include <limits>
@@ -28,11 +27,11 @@ inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::ma
 enum class TrafficRule : std::uint8_t { right_hand, left_hand };
 enum class ContactPoint : std::uint8_t { start, end };
 
-/// What a road's start or end is linked to; at most one index is set.
+/// Link of a road's start or end; at most one index is set.
 struct RoadLink {
   RoadIndex road = no_index;
   JunctionIndex junction = no_index;
-  ContactPoint contact = ContactPoint::start;  ///< Which end of `road` is met.
+  ContactPoint contact = ContactPoint::start;  ///< The end of `road` at the link.
 };
 
 struct RoadTypeRecord {
@@ -72,9 +71,8 @@ struct Road {
   std::vector<LateralShape> shapes;   ///< Sorted by s_m, then t_m.
   CubicProfile lane_offset;           ///< t of the centre lane.
   std::vector<LaneSection> sections;  ///< At least one, the first at 0, sorted.
-  bool flat = false;                  ///< Known to have no lane height, shape or crossfall, so that the surface is
-                                      ///< the road's plane.
-  bool has_materials = false;         ///< Some lane has one.
+  bool flat = false;  ///< True without lane height, shape or crossfall, so that the surface is the road's plane.
+  bool has_materials = false;  ///< Some lane has one.
   std::vector<RoadObject> objects;
   std::vector<SurfacePatch> patches;  ///< Of the objects that are patches; the last one on top.
   std::vector<RoadStructure> structures;
