@@ -137,8 +137,8 @@ void quantise(const Participant& participant, WireParticipant& wire) {
 
   put_fields(bytes + offsetof(Participant, velocity_mps), motion_row, fields + field_velocity_x);
   const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
-  const double steps =
-      std::floor((turns - std::floor(turns)) * spin_steps);  // A hair below a whole turn rounds to one.
+  // A hair below a whole turn rounds to one.
+  const double steps = std::floor((turns - std::floor(turns)) * spin_steps);
   fields[field_wheel_spin] = steps < spin_steps ? static_cast<std::int32_t>(steps) : 0;
 }
 
