@@ -1,8 +1,9 @@
 #pragma once
 /// SpeedProfileAction (OpenSCENARIO XML 1.2) as a curve of speed over time, made when the action starts.
 ///
-/// followingMode "position": straight from speed to speed. "follow": each of them with bounded change of acceleration, which is 0
-/// at every speed of the profile. A change that its time is too short for takes as long as the bounds demand. Pure functions.
+/// followingMode "position": straight from speed to speed. "follow": each of them with bounded change of acceleration,
+/// which is 0 at every speed of the profile. A change that its time is too short for takes as long as the bounds
+/// demand. Pure functions.
 
 #include <vector>
 
