@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 
 #include "engine/road/road_locate.hpp"
-#include "engine/scenario/start_action.hpp"
+#include "engine/scenario/run/start_action.hpp"
 #include "engine/simulation/operator_command.hpp"
 
 namespace septet::simulation {

@@ -1,13 +1,13 @@
 #pragma once
 /// Traffic lights: the road file's signals that the scenario's controllers switch.
 ///
-/// A pure function of simulated time (engine/scenario/signal_plan.hpp), without state.
+/// A function of simulated time (engine/scenario/model/signal_plan.hpp); nothing of it is state.
 
 #include <optional>
 #include <vector>
 
 #include "engine/roadside/road_shape.hpp"
-#include "engine/scenario/signal_plan.hpp"
+#include "engine/scenario/model/signal_plan.hpp"
 #include "engine/simulation/model.hpp"
 #include "engine/world/snapshot.hpp"
 

@@ -10,7 +10,7 @@
 #include "engine/road/road_network.hpp"
 #include "engine/roadside/obstacles.hpp"
 #include "engine/roadside/raised_areas.hpp"
-#include "engine/scenario/scenario.hpp"
+#include "engine/scenario/model/scenario.hpp"
 #include "engine/traffic/yield_line.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/wire_snapshot.hpp"

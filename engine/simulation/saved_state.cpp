@@ -13,7 +13,7 @@
 #include "engine/effects/smoke/save_smoke.hpp"
 #include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/road/position_members.hpp"
-#include "engine/scenario/save_scenario.hpp"
+#include "engine/scenario/run/save_scenario.hpp"
 #include "engine/world/world_members.hpp"
 
 namespace septet::debris {

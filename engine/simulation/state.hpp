@@ -11,7 +11,7 @@
 #include "engine/physics/vehicle/hull.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
 #include "engine/simulation/examiner_state.hpp"

@@ -5,7 +5,7 @@
 
 #include "engine/effects/debris/piece.hpp"
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/resolve_position.hpp"
+#include "engine/scenario/run/resolve_position.hpp"
 
 namespace septet::simulation {
 namespace {

@@ -4,10 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/check.hpp"
 #include "engine/world/participant_quantisation.hpp"
+#include "engine/world/world_members.hpp"
 
 namespace septet {
 namespace {
@@ -17,18 +19,8 @@ enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2, flag_ga
 
 // The doubles of the environment and of the driver's car, in the order of SNAPSHOT.md.
 template <class Env, class Visit>
-void visit_environment(Env& e, Visit visit) {
-  visit(e.sun_azimuth_rad);
-  visit(e.sun_elevation_rad);
-  visit(e.sun_illuminance_lux);
-  visit(e.visibility_m);
-  visit(e.cloud_cover);
-  visit(e.rain_mm_per_h);
-  visit(e.road_wetness);
-  visit(e.snow_cover);
-  visit(e.temperature_k);
-  visit(e.wind_speed_mps);
-  visit(e.wind_direction_rad);
+void visit_environment(Env& environment, Visit visit) {
+  std::apply([&](auto&... values) { (visit(values), ...); }, members(environment));
 }
 template <class Car, class Visit>
 void visit_driver_car(Car& c, Visit visit) {
@@ -139,12 +131,7 @@ void remove_ids(ByteReader& reader, std::vector<Item>& items, std::size_t limit)
   items = std::move(kept);
 }
 
-/// Time by which a receiver moves the baseline on.
-double seconds_since(const WireSnapshot& baseline, double time_s) {
-  return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0);
-}
-
-/// A receiver's expectation of an instant from the baseline alone.
+/// What a receiver expects of an instant from the baseline alone.
 std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline, double time_s) {
   std::vector<WireParticipant> expected;
   if (!baseline) return expected;
@@ -286,6 +273,10 @@ auto refused(std::string what) {
 }
 
 }  // namespace
+
+double seconds_since(const WireSnapshot& baseline, double time_s) {
+  return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0);
+}
 
 WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old) {
   SEPTET_CHECK(snapshot.participants.size() <= max_wire_participants, "{} participants", snapshot.participants.size());

@@ -69,7 +69,10 @@ struct WireSnapshot {
   std::vector<WireParticipant> participants;  ///< Ascending id.
 };
 
-/// `old` is a spare one: its memory is reused.
+/// Seconds by which a receiver moves the baseline's participants on, for an instant at `time_s`; 1 at most, 0 for one before it.
+double seconds_since(const WireSnapshot& baseline, double time_s);
+
+/// `old` is one that nobody needs any more: its memory is used again.
 WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old = {});
 Snapshot from_wire(const WireSnapshot& wire);
 

@@ -266,8 +266,7 @@ StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
 std::optional<double> highest_debris_m(const State& state, double x_m, double y_m, double radius_m) {
   std::optional<double> highest;
   for (const Piece& piece : state.pieces) {
-    Eigen::AlignedBox3d bounds;
-    for (const auto& x : piece.body.position_m) bounds.extend(x);
+    const Eigen::AlignedBox3d bounds = bounds_of(piece);
     if (x_m < bounds.min().x() - radius_m || x_m > bounds.max().x() + radius_m || y_m < bounds.min().y() - radius_m ||
         y_m > bounds.max().y() + radius_m || bounds.diagonal().z() < 0.01)
       continue;

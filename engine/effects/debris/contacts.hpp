@@ -1,7 +1,9 @@
 #pragma once
-/// Contacts of debris: the ground, boxes, and other pieces.
+/// Contacts of debris with the ground, with boxes and with other pieces (whose impulses are derived in piece_impulses.cpp).
 
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/effects/debris/piece.hpp"
@@ -22,8 +24,11 @@ std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& 
 /// True where a box moves close to the piece.
 bool box_near(const Piece& piece, const ContactWorld& world, double step_s);
 
-/// Inelastic impulses with friction between nodes of one piece inside elements of another; equal and opposite, so that
-/// momentum stays. Wakes a sleeping piece that is hit.
+/// Around all nodes, world frame.
+Eigen::AlignedBox3d bounds_of(const Piece& piece);
+
+/// Inelastic impulses with friction between nodes of one piece inside elements of another; equal
+/// and opposite, so that momentum stays. Wakes a sleeper that is hit.
 void exchange_impulses(std::vector<Piece>& pieces, double step_s);
 
 /// A point against a box and its cuts: the gap and the outward normal, world frame. Beyond an edge between a cut and a

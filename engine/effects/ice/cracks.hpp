@@ -11,7 +11,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/world/ice_vertex.hpp"
 
 namespace septet::ice {
 
@@ -43,11 +43,5 @@ void append_crack(std::vector<IceVertex>& inside, const Crack& crack, InsideKind
                   std::uint32_t cells = 6);
 /// `count` planes across the box along its three axes in turn.
 void append_air(std::vector<IceVertex>& inside, const Box& box, std::uint32_t count, std::uint64_t seed);
-
-/// The paper's test (figure 5 d): true for a point at `depth` between the nearest front face and the back face behind
-/// it. All along one axis; a depth of 0 for the front face means that there is none.
-constexpr bool between_faces(double front_depth, double depth, double back_depth) {
-  return front_depth > 0.0 && front_depth <= depth && depth <= back_depth;
-}
 
 }  // namespace septet::ice

@@ -1,8 +1,8 @@
 #pragma once
 /// Ice and impacts on a windscreen, as drawn: frost that warmth melts (frost.hpp), and stars of cracks that stay.
 ///
-/// Both are surfaces without thickness on the pane, through which the background is seen (OnGlass of ice_body.hpp). A
-/// pane is a grid of points, so that it may be curved as its car's is.
+/// Both are surfaces without thickness on the pane, through which the world behind is seen. A pane is told by a grid of points, so
+/// that it may be bent as its car's is.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/effects/ice/frost.hpp"
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/world/ice_vertex.hpp"
 
 namespace septet::ice {
 

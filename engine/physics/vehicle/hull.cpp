@@ -6,7 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::vehicle {
@@ -251,7 +250,5 @@ void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle>
   for (const Obstacle& obstacle : obstacles) step.meet(obstacle);
   step.finish();
 }
-
-void hash_hull(StateHash& hash, const HullState& hull) { hash_members(hash, hull); }
 
 }  // namespace septet::vehicle

@@ -62,6 +62,4 @@ double hull_reach_m(const VehicleParameters& parameters);
 void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s,
                   VehicleState& state, HullState& hull, HullReport& report);
 
-void hash_hull(StateHash& hash, const HullState& hull);
-
 }  // namespace septet::vehicle

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/roadside/obstacle_profile.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/world/vehicle_body.hpp"
@@ -16,6 +17,9 @@ namespace septet::simulation {
 namespace {
 
 using Outline = std::vector<Vec2>;  ///< Convex, counter-clockwise, in plan.
+
+constexpr double narrowest_dent_m = 0.08;         ///< Half its width.
+constexpr double longer_than_a_vehicle_m = 10.0;  ///< Half the length of a wall or rail, as far as a dent goes.
 
 bool can_be_dented(const Participant& participant) {
   switch (vehicle_models()[participant.model].kind) {
@@ -84,13 +88,12 @@ void add_dent(const Participant& vehicle, const Vec2& inwards, double depth_m, c
   const Vec2 middle = face * inwards + 0.5 * (low + high) * along;
   const Vec3 place_m = vehicle_from_world * Vec3(middle, vehicle.world_from_vehicle.position_m.z),
              way = vehicle_from_world.orientation * Vec3(inwards, 0.0);
-  constexpr double narrowest_m = 0.08;
   MadeDent& dent = made.emplace_back();
   dent.vehicle = vehicle.id;
   dent.dent.place_m = Vec2(place_m);
   dent.dent.heading_rad = std::atan2(way.y, way.x);
   dent.dent.depth_m = depth_m;
-  dent.dent.half_width_m = std::max(narrowest_m, 0.5 * (high - low));
+  dent.dent.half_width_m = std::max(narrowest_dent_m, 0.5 * (high - low));
   dent.dent.top_m = std::min(top_m, vehicle_models()[vehicle.model].height_m);
 }
 
@@ -107,36 +110,23 @@ Outline moved_by(Outline outline, const Vec2& way_m) {
   return outline;
 }
 
-/// Half the breadth and the height of an obstacle; empty for a yielding one.
-struct Standing {
+/// Half the breadth and the height of an obstacle as it dents a body; nothing for one that yields.
+struct DentingShape {
   double half_breadth_m = 0.0, high_m = 0.0;
 };
-std::optional<Standing> standing(ObstacleKind kind) {
-  constexpr double long_m = 10.0, high_m = 4.0;
+std::optional<DentingShape> denting_shape(ObstacleKind kind) {
+  const roadside::ObstacleProfile profile = roadside::profile_of(kind);
+  if (profile.yielding_kg > 0.0) return std::nullopt;
   switch (kind) {
-    case ObstacleKind::guard_rail:
-    case ObstacleKind::ground_face:
-      return Standing{long_m, 0.75};
-    case ObstacleKind::concrete_barrier:
-      return Standing{long_m, 0.9};
-    case ObstacleKind::parapet:
-      return Standing{long_m, 1.2};
-    case ObstacleKind::noise_wall:
-    case ObstacleKind::tunnel_wall:
-    case ObstacleKind::portal:
-    case ObstacleKind::house:
-      return Standing{long_m, high_m};
     case ObstacleKind::gantry_leg:
-      return Standing{0.28, high_m};
     case ObstacleKind::tree:
-      return Standing{0.2, high_m};
     case ObstacleKind::post:
-      return Standing{0.08, high_m};
-    case ObstacleKind::marker_post:
-    case ObstacleKind::bush:
-      return std::nullopt;
+      return DentingShape{std::max(profile.radius_m, narrowest_dent_m), profile.height_m};
+    case ObstacleKind::ground_face:  // Its height is not told; a bumper's is chosen, as of a rail.
+      return DentingShape{longer_than_a_vehicle_m, roadside::profile_of(ObstacleKind::guard_rail).height_m};
+    default:
+      return DentingShape{longer_than_a_vehicle_m, profile.height_m};
   }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -158,7 +148,7 @@ std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant
 
 std::vector<MadeDent> dents_of_touch(const Participant& vehicle, const vehicle::HullTouch& touch) {
   std::vector<MadeDent> made;
-  const auto what = standing(touch.kind);
+  const auto what = denting_shape(touch.kind);
   const Vec2 away(touch.normal);
   if (!what || !(glm::length(away) > 0.5)) return made;
   const Vec2 inwards = glm::normalize(away);

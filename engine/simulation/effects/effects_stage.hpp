@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/scenario/scenario.hpp"
-#include "engine/scenario/scenario_state.hpp"
+#include "engine/scenario/model/scenario.hpp"
+#include "engine/scenario/run/scenario_state.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
 
 namespace septet::simulation {

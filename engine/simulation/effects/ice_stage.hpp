@@ -6,8 +6,8 @@
 #include "engine/effects/ice/glass_keyframe.hpp"
 #include "engine/effects/ice/ice_keyframe.hpp"
 #include "engine/road/road_network.hpp"
-#include "engine/scenario/scenario.hpp"
-#include "engine/scenario/scenario_state.hpp"
+#include "engine/scenario/model/scenario.hpp"
+#include "engine/scenario/run/scenario_state.hpp"
 #include "engine/simulation/effects/black_ice.hpp"
 #include "engine/simulation/effects/crashes.hpp"
 
