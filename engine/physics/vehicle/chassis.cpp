@@ -25,7 +25,7 @@ struct WheelLoad {
   Vec3 aligning_nm{0.0};
   Vec3 rolling_n{0.0};             ///< Part of force_n along the wheel's heading.
   double rolling_torque_nm = 0.0;  ///< Torque of that part on the wheel, against its spin.
-  double lean_nm = 0.0;            ///< Of the load, on a contact shifted sideways.
+  double lean_nm = 0.0;            ///< Moment of the load on a contact shifted sideways.
   double shaft_torque_nm = 0.0;    ///< Drive and brake together, about the spin axis.
   double brake_torque_nm = 0.0;    ///< The brake's share.
 };

@@ -20,7 +20,7 @@ namespace septet::vehicle {
 /// One instant, in the axes of ISO 8855.
 struct ManoeuvreSample {
   double time_s = 0.0;
-  double x_m = 0.0, y_m = 0.0;  ///< Of the centre of the sprung mass.
+  double x_m = 0.0, y_m = 0.0;  ///< Place of the centre of the sprung mass.
   double heading_rad = 0.0;
   double steer_rad = 0.0;  ///< Hand wheel over ratio.
   double speed_mps = 0.0;

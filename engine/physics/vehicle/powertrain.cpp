@@ -8,7 +8,7 @@ namespace septet::vehicle {
 namespace {
 
 constexpr double reverse_inhibit_mps = 2.0;
-constexpr double winding_s = 0.02;  // Of the driveline: a jolt of about 7 Hz when the clutch bites.
+constexpr double winding_s = 0.02;  // Time constant of the driveline: a jolt of about 7 Hz when the clutch bites.
 
 /// Shares of the drive torque; they are also the weights of the wheels' speeds in the
 /// differentials.

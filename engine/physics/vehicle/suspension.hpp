@@ -27,7 +27,7 @@ struct WheelPlace {
   /// The contact lies on the ground, as far ahead of the mass centre as the wheel's centre above it.
   double contact_left_m = 0.0;
   Vec2 contact_slope{0.0};  ///< d(forward, left)/d travel of the contact's path.
-  Vec2 centre_slope{0.0};   ///< Of the centre's path.
+  Vec2 centre_slope{0.0};   ///< d(forward, left)/d travel of the centre's path.
   Vec3 spin_axis{0.0, 1.0, 0.0};
 };
 
