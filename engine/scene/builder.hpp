@@ -48,7 +48,7 @@ struct MaterialParameters {
 };
 
 struct ObjectParameters {
-  RigidTransform parent_from_object{};  ///< Of an object without a parent: world_from_object.
+  RigidTransform parent_from_object{};  ///< Pose; of an object without a parent: world_from_object.
   glm::vec3 scale{1.0f};
   NodeId geometry = no_node;        ///< An object without geometry groups its children.
   std::vector<NodeId> materials{};  ///< Entry k is for the polygons of material index k.

@@ -8,7 +8,7 @@
 namespace septet::scene {
 namespace {
 
-constexpr int deepest = 64;  ///< Of a tree; deeper parts are black.
+constexpr int deepest = 64;  ///< Depth limit of a tree; deeper parts are black.
 
 float mean(const glm::vec3& color) { return (color.r + color.g + color.b) / 3.0f; }
 

@@ -94,7 +94,7 @@ enum class BlendKind : std::uint8_t { fade, add, subtract, multiply, divide };
 struct BlenderFragment {
   BlendKind kind = BlendKind::fade;
   FragmentId a = no_fragment, b = no_fragment;
-  FragmentId control = no_fragment;  ///< Of a fade: 0 shows a, 1 shows b.
+  FragmentId control = no_fragment;  ///< Control of a fade: 0 shows a, 1 shows b.
   bool operator==(const BlenderFragment&) const = default;
 };
 
@@ -121,14 +121,14 @@ struct RampPoint {
 struct RampFragment {
   static constexpr std::size_t max_points = 48;
   RampKind kind = RampKind::linear;
-  RampChannel channel = RampChannel::red;  ///< Of `mapping`: the channel that runs along the ramp.
+  RampChannel channel = RampChannel::red;  ///< Channel of `mapping` that runs along the ramp.
   FragmentId mapping = no_fragment;
   std::vector<RampPoint> points;  ///< At least one; positions rise.
   bool operator==(const RampFragment&) const = default;
 };
 
 struct AnimationFragment {
-  std::string label;  ///< Of the object's link to a curve node.
+  std::string label;  ///< Label of the object's link to a curve node.
   bool operator==(const AnimationFragment&) const = default;
 };
 

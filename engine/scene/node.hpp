@@ -29,7 +29,7 @@ using geometry::PolygonCorners;
 enum class NodeType : std::uint8_t { object, geometry, material, bitmap, text, curve, audio };
 inline constexpr int node_type_count = 7;
 
-using PartId = std::uint16_t;  ///< Of a tag group, tag, link, layer within its node.
+using PartId = std::uint16_t;  ///< Id of a tag group, tag, link, layer within its node.
 
 // ---- tags (every node)
 
@@ -133,7 +133,7 @@ struct GeometryData {
                                          ///< absent.
   std::map<PartId, GeometryLayer> layers;
   Crease vertex_crease, edge_crease;
-  std::uint64_t shape_revision = 0;  ///< Of vertices_m and polygons.
+  std::uint64_t shape_revision = 0;  ///< Revision of vertices_m and polygons.
 };
 
 // ---- material

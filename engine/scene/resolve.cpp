@@ -15,7 +15,8 @@ namespace septet::scene {
 namespace {
 
 constexpr int deepest_child = 32;
-constexpr std::size_t most_visits = 1u << 20;  ///< Of objects in one update: children shared again and again multiply.
+/// Limit of objects in one update: children shared again and again multiply.
+constexpr std::size_t most_visits = 1u << 20;
 constexpr std::string_view prototype_prefix = "model/";
 
 /// Content of an object node, read once per change of it.

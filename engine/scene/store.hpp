@@ -16,10 +16,10 @@ namespace septet::scene {
 
 struct StoreLimits {
   std::size_t nodes = 1u << 18;
-  std::uint32_t vertices = 1u << 22;  ///< Of one geometry.
+  std::uint32_t vertices = 1u << 22;  ///< Limit of one geometry.
   std::uint32_t polygons = 1u << 22;
   std::uint32_t bitmap_side = 8192;
-  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< Of all content together.
+  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< Limit of all content together.
 };
 
 class Store {
