@@ -44,7 +44,7 @@ inline double distance_m(const Corridor& corridor, double from_x_m, double to_x_
   return corridor.closed ? d - corridor.length_m * std::round(d / corridor.length_m) : d;
 }
 
-/// From x on to `ahead_m` further by x (negative: back), in metres of lane `lane`'s middle.
+/// Length from x on to `ahead_m` further by x (negative: back), in metres of lane `lane`'s middle.
 double length_along_lane_m(const road::RoadNetwork& network, const Corridor& corridor, int lane, double x_m,
                            double ahead_m, double step_m);
 

@@ -34,7 +34,7 @@ struct LaneTable {
 
   int lowest = 1, highest = 0;                 ///< Lane numbers that are open anywhere along most of the corridor,
                                                ///< and anywhere at all.
-  double lane_width_m = 3.5;                   ///< Of the lowest lane at the corridor's middle.
+  double lane_width_m = 3.5;                   ///< Width of the lowest lane at the corridor's middle.
   std::vector<std::vector<OpenStretch>> open;  ///< [lane number], ascending, apart.
   std::vector<CentreLine> centres;             ///< [lane number]
 };

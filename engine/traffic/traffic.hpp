@@ -90,7 +90,7 @@ struct CorridorTraffic {
   std::vector<ModelIndex> model;
   std::vector<std::uint8_t> paint;
   std::vector<Driver> driver;
-  std::vector<FollowingLaw> law;                          ///< Of the driver.
+  std::vector<FollowingLaw> law;                          ///< Law of the driver.
   std::vector<double> x_m, speed_mps, acceleration_mps2;  ///< Speed and acceleration along the path, not by x.
   std::vector<double> rolled_m;                           ///< Path length rolled; at entry it equals x.
   std::vector<std::int16_t> lane,
