@@ -10,7 +10,7 @@
 namespace septet::road {
 namespace {
 
-/// From the centre outwards: outside a level lane there are only level lanes.
+/// Checks from the centre outwards: outside a level lane there are only level lanes.
 void check_levels(const CheckedFile& file, const LaneSection& section, LaneEnd at, int side, int count) {
   bool level = false;
   for (int i = 1; i <= count; ++i) {

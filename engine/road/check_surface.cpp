@@ -11,7 +11,7 @@
 namespace septet::road {
 namespace {
 
-/// Of one road; places between them are not examined.
+/// Limit for one road; places between them are not examined.
 constexpr std::size_t most_stations = 1000;
 
 /// Stations at which the surface is examined: at both ends of each record of the plan and of each lane section, and

@@ -18,7 +18,7 @@ struct ValueRange {
   }
 };
 
-/// Over [from_s, to_s]; a stretch that ends before it begins is its beginning.
+/// Range over [from_s, to_s]; a stretch that ends before it begins is its beginning.
 inline ValueRange value_range(const CubicRecord& record, double from_s, double to_s) {
   ValueRange range{record.value(from_s), record.value(from_s)};
   range.include(record.value(std::max(from_s, to_s)));

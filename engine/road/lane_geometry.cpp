@@ -66,7 +66,7 @@ double lane_height_m(const Road& road, double s_m, double t_m) {
   return height;
 }
 
-/// Of the profile at this station: the cubics of equal s, in the order of t.
+/// Height of the profile at this station: the cubics of equal s, in the order of t.
 double shape_profile_m(const std::vector<LateralShape>& shapes, double profile_s_m, double t_m) {
   const auto first = std::ranges::lower_bound(shapes, profile_s_m, {}, &LateralShape::s_m);
   const auto end = std::ranges::upper_bound(first, shapes.end(), profile_s_m, {}, &LateralShape::s_m);

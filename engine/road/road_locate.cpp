@@ -22,7 +22,7 @@ struct Offset {
   double ahead_m = 0.0, t_m = 0.0;
 };
 
-/// On a road whose cross-sections are upright.
+/// Offset on a road whose cross-sections are upright.
 Offset offset_from(const PlanPoint& plan, const Vec2& world_m) {
   const Vec2 d = world_m - plan.position_m;
   return {glm::dot(d, plan.direction), plan.direction.x * d.y - plan.direction.y * d.x};

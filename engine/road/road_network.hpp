@@ -74,7 +74,7 @@ struct Road {
   bool flat = false;  ///< True without lane height, shape or crossfall, so that the surface is the road's plane.
   bool has_materials = false;  ///< Some lane has one.
   std::vector<RoadObject> objects;
-  std::vector<SurfacePatch> patches;  ///< Of the objects that are patches; the last one on top.
+  std::vector<SurfacePatch> patches;  ///< Patches among the objects; the last one on top.
   std::vector<RoadStructure> structures;
   std::vector<Signal> signals;
 };

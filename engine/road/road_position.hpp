@@ -13,7 +13,7 @@ namespace septet::road {
 struct RoadPosition {
   RoadIndex road = 0;
   double s_m = 0.0;  ///< Along the reference line.
-  double t_m = 0.0;  ///< To the left of it.
+  double t_m = 0.0;  ///< Offset to the left of it.
 };
 
 struct LanePosition {
@@ -25,10 +25,10 @@ struct LanePosition {
 
 struct RoadPoint {
   Vec3 position_m{0.0, 0.0, 0.0};  ///< On the road's surface.
-  double heading_rad = 0.0;        ///< Of the reference line towards increasing s, in (−π, π].
+  double heading_rad = 0.0;        ///< Heading of the reference line towards increasing s, in (−π, π].
   double pitch_rad = 0.0;          ///< −atan(dz/ds): negative climbs.
   double roll_rad = 0.0;           ///< Positive lifts the left side.
-  double curvature_per_m = 0.0;    ///< Of the line of constant t through the point; positive turns left.
+  double curvature_per_m = 0.0;    ///< Curvature of the line of constant t through the point; positive turns left.
   /// Metres along the line of constant t per metre of s: 1 − κt.
   double stretch = 1.0;
 };

@@ -30,7 +30,7 @@ struct LaneEnd {
   RoadIndex road = 0;
   std::uint32_t section = 0;
   int lane = 0;
-  bool at_end = false;  ///< Of the section; else at its start.
+  bool at_end = false;  ///< True at the section's end; false at its start.
 
   auto operator<=>(const LaneEnd&) const = default;
 };
@@ -60,6 +60,6 @@ void check_connections(const CheckedFile& file);
 void check_linked_lanes(const CheckedFile& file);   ///< Both ways, widths, levels, gaps.
 void check_lane_sections(const CheckedFile& file);  ///< Levels, access, borders.
 void check_redundancy(const CheckedFile& file);
-void check_steps(const CheckedFile& file);  ///< Of the surface and of the lanes within each road.
+void check_steps(const CheckedFile& file);  ///< Steps of the surface and of the lanes within each road.
 
 }  // namespace septet::road
