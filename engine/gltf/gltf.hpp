@@ -58,7 +58,7 @@ struct Look {
 
 /// A part that moves or shines as one, or the rest.
 struct Part {
-  std::string name;            ///< Of the node that begins it; empty: everything that belongs to no part.
+  std::string name;            ///< Name of the node that begins it; empty: everything that belongs to no part.
   glm::vec3 origin_m{0.0};     ///< The node's place in the model; the mesh is relative to it, axes as the model's.
   geometry::PolygonMesh mesh;  ///< Materials are indices of Model::looks.
 };
