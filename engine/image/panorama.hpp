@@ -35,7 +35,7 @@ struct PanoramaView {
 /// One strip of the picture: a range of azimuth and elevation and its place.
 struct PanoramaRow {
   std::vector<std::size_t> screens;  ///< Indices into PanoramaView::screens, from left to right.
-  double left_azimuth_rad = 0.0;     ///< Of the left edge; azimuth falls to the right.
+  double left_azimuth_rad = 0.0;     ///< Azimuth of the left edge; azimuth falls to the right.
   double top_elevation_rad = 0.0;
   double left_px = 0.0, top_px = 0.0, width_px = 0.0, height_px = 0.0;
 };
