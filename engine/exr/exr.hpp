@@ -38,7 +38,7 @@ struct Picture {
   std::vector<Channel> channels;  ///< Colours are linear Rec. 709.
   double frames_per_second = 25.0;
   float white_luminance_cdpm2 = 1.0f;  ///< Luminance of R = G = B = 1.
-  glm::vec2 screen_middle{0.0f};       ///< Of the picture, on a screen at distance 1.
+  glm::vec2 screen_middle{0.0f};       ///< Middle of the picture, on a screen at distance 1.
   float screen_width = 1.0f;
   glm::dmat4 camera_from_world{1.0};  ///< x to the right, y up, z ahead: left-handed, by OpenEXR's convention.
   std::map<std::string, Attribute> attributes;  ///< Further attributes of the header.
