@@ -29,8 +29,8 @@ struct Window {
 /// A mirror of the car: its glass, and whether it is real or shown by a screen.
 struct Mirror {
   std::string name;
-  Window glass;           ///< As the driver sees it from the eye point.
-  double radius_m = 0.0;  ///< Of a convex glass's curvature; 0: flat.
+  Window glass;           ///< Glass as the driver sees it from the eye point.
+  double radius_m = 0.0;  ///< Radius of a convex glass's curvature; 0: flat.
   double from_rad = 0.0,
          to_rad = 0.0;  ///< Headings of the head, to the left, that count as a look at it: from ≤ heading < to.
 };
@@ -48,7 +48,7 @@ struct Screen {
   std::string name;
   std::uint32_t width_px = 640, height_px = 480;
   std::string machine;  ///< Host that drives it; empty: the server's own machine.
-  /// Of its machine, from 0; absent: the window system's choice, full screen the first.
+  /// Number of its machine's monitor, from 0; absent: the window system's choice, full screen the first.
   std::optional<std::uint32_t> monitor;
   bool full_screen = false;       ///< Cover the monitor.
   bool show_interior = false;     ///< Draw the car's bonnet and dashboard (a desktop has no car around it).
@@ -123,7 +123,7 @@ struct JoystickControl {
   bool is_axis = false;
   std::uint16_t code = 0;  ///< Linux' ABS_ or BTN_ number.
   double at_zero = 0.0,
-         at_one = 1.0;     ///< Of an axis: straight and full left; released and floored. Either may be the greater.
+         at_one = 1.0;  ///< Values of an axis: straight and full left; released and floored. Either may be the greater.
   double dead_zone = 0.0;  ///< Share of the travel that reads as 0.
 };
 

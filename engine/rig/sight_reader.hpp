@@ -11,7 +11,7 @@ namespace septet::rig {
 inline constexpr const char* documented_in = "rigs/README.md";
 
 void read_window(document::TableReader& reader, Window& window);
-/// Without a zone of its own a look within 15° of the glass's middle counts.
+/// Reads a mirror. Without a zone of its own a look within 15° of the glass's middle counts.
 Mirror read_mirror(const toml::table& table, const Vec3& eye_point_m, std::string_view file, Error& error);
 HeadTracking read_head(const toml::table& table, std::string_view file, Error& error);
 
