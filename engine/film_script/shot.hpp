@@ -32,16 +32,16 @@ struct Turn {
 
 struct Shot {
   double from_s = 0.0, to_s = 0.0;  ///< Simulated time; a frame at from_s, none at to_s.
-  double speed = 1.0;  ///< Of time: 0.25 is slow motion, in which a frame is a quarter as far from the next.
+  double speed = 1.0;  ///< Rate of time: 0.25 is slow motion, in which a frame is a quarter as far from the next.
   std::string participant = "driver";  ///< "driver", "nearest", a model's name or an id.
   std::optional<Vec3> place_m;         ///< World: the pivot, in the participant's stead.
   double distance_m = 0.0;
   Bearings bearings = Bearings::vehicle;
-  double heading_rad = 0.0, pitch_rad = 0.0;  ///< At the beginning.
+  double heading_rad = 0.0, pitch_rad = 0.0;  ///< Direction at the beginning.
   std::vector<Turn> turns;                    ///< Ascending `until_s`; after the last one the camera holds still.
   double field_of_view_rad = std::numbers::pi / 3.0;  ///< Across the picture's width.
-  /// Of a lens before a film 36 mm wide: its focal length, which follows from the field of view, over its opening. 0: a
-  /// pinhole, all is sharp.
+  /// f-number of a lens before a film 36 mm wide: its focal length, which follows from the field of view, over its
+  /// opening. 0: a pinhole, all is sharp.
   double f_number = 0.0;
   double focus_m = 10.0;  ///< Distance before the camera at which a lens is sharp.
   /// Shutter angle: the exposure, where a whole turn is the time to the next frame. 0: instantaneous.
