@@ -21,7 +21,7 @@ struct SpeedProfile {
   double end_s = 0.0, end_mps = 0.0;
 };
 
-/// From a speed through the entries of the action, all against the reference's speed if it has one.
+/// Profile from a speed through the entries of the action, all against the reference's speed if it has one.
 SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps, const DynamicConstraints& limits);
 double speed_at(const SpeedProfile& profile, double time_s);
 

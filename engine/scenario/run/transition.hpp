@@ -29,7 +29,7 @@ void advance_transition(Transition& transition, double dt_s, double distance_m);
 Transition speed_transition(const TransitionDynamics& dynamics, double from_mps, double to_mps, double strongest_mps2);
 /// An offset's transition, in time, over a distance or at a rate.
 Transition offset_transition(const TransitionDynamics& dynamics, double from_m, double to_m);
-/// With a bound on the lateral acceleration instead.
+/// Transition with a bound on the lateral acceleration instead.
 Transition bounded_offset_transition(DynamicsShape shape, double max_lateral_acceleration_mps2, double from_m,
                                      double to_m);
 
