@@ -8,9 +8,8 @@
 #include "engine/physics/vehicle/tyre.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 
-// Velocities are advanced with forces at the old positions, positions with the new velocities
-// (symplectic Euler); brakes and tyres are implicit in wheel spin and in deflection. Left out:
-// gyroscopic moments of the wheels.
+// Velocities are advanced with forces at the old positions, positions with the new velocities (symplectic Euler);
+// brakes and tyres are implicit in wheel spin and in deflection. Left out: gyroscopic moments of the wheels.
 
 namespace septet::vehicle {
 namespace {

@@ -39,8 +39,7 @@ WheelPlace place_wheel(const VehicleParameters& parameters, const Statics& stati
 /// strike.
 double wheel_steer_rad(const VehicleParameters& parameters, int wheel, const WheelState& state, double mean_steer_rad);
 
-/// Upward force on the body (and downward on the wheel), spring, bump stop, damper and anti-roll
-/// bar, N.
+/// Upward force on the body (and downward on the wheel), spring, bump stop, damper and anti-roll bar, N.
 double suspension_force_n(const VehicleParameters& parameters, const Statics& statics, int wheel,
                           const std::array<WheelState, wheel_count>& wheels);
 

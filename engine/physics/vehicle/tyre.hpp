@@ -1,10 +1,9 @@
 #pragma once
 /// Steady tyre forces over slip, and their relaxation.
 ///
-/// Slip is s = −v_s/v_T with v_s the velocity of the contact patch over the ground and v_T the
-/// transport velocity, so that positive slip makes a positive force (forward, left). At rest v_T
-/// vanishes and slip grows without bound, yet the product v_T · F(s) stays finite; that is all that
-/// the relaxation uses, hence no special case at standstill.
+/// Slip is s = −v_s/v_T with v_s the velocity of the contact patch over the ground and v_T the transport velocity, so
+/// that positive slip makes a positive force (forward, left). At rest v_T vanishes and slip grows without bound, yet
+/// the product v_T · F(s) stays finite; that is all that the relaxation uses, hence no special case at standstill.
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/physics/vehicle/tyre_parameters.hpp"

@@ -29,9 +29,8 @@ struct LoadSensitiveTyre {
   double lateral_damping_nspm = 0.0;
 };
 
-/// Magic Formula as in CommonRoad vehicle models 3.0.2 (M. Althoff and G. Würsching 2020,
-/// appendix): forces proportional to load. Names of the coefficients are those of Pacejka. Without
-/// aligning torque.
+/// Magic Formula as in CommonRoad vehicle models 3.0.2 (M. Althoff and G. Würsching 2020, appendix): forces
+/// proportional to load. Names of the coefficients are those of Pacejka. Without aligning torque.
 struct PublishedTyre {
   double p_cx1 = 0, p_dx1 = 0, p_dx3 = 0, p_ex1 = 0, p_kx1 = 0, p_hx1 = 0, p_vx1 = 0;
   double r_bx1 = 0, r_bx2 = 0, r_cx1 = 0, r_ex1 = 0, r_hx1 = 0;
