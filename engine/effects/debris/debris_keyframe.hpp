@@ -1,6 +1,5 @@
 #pragma once
-/// Debris on the wire: one EffectKeyframe per piece and one for all shards. The format is written
-/// down in DEBRIS.md.
+/// Debris on the wire: one EffectKeyframe per piece and one for all shards. The format is written down in DEBRIS.md.
 
 #include <array>
 #include <cstdint>
