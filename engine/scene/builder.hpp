@@ -18,12 +18,10 @@
 namespace septet::scene {
 
 struct MeshOptions {
-  /// 0 draws the polygons as they are, with smooth normals except at creases; n subdivides n times
-  /// (at most 4).
+  /// 0 draws the polygons as they are, with smooth normals except at creases; n subdivides n times (at most 4).
   std::uint32_t subdivision_level = 0;
-  /// Positions are rounded to this power of two (metres) and uvs to 1/4096, which makes the
-  /// transfer compact. Zero chooses by the mesh's size: about 1/30,000 of its extent, between 2^-14
-  /// m and 2^-10 m (1 mm).
+  /// Positions are rounded to this power of two (metres) and uvs to 1/4096, which makes the transfer compact. Zero
+  /// chooses by the mesh's size: about 1/30,000 of its extent, between 2^-14 m and 2^-10 m (1 mm).
   double position_step_m = 0.0;
 };
 
@@ -64,8 +62,7 @@ class SceneBuilder {
   explicit SceneBuilder(Store& store, std::function<void(const Command&)> applied = {});
 
   NodeId add_mesh(std::string_view name, const geometry::PolygonMesh& mesh, const MeshOptions& options = {});
-  /// `rgba`: width × height × 4 bytes, rows from the top. Alpha is sent only where it is not opaque
-  /// throughout.
+  /// `rgba`: width × height × 4 bytes, rows from the top. Alpha is sent only where it is not opaque throughout.
   NodeId add_bitmap(std::string_view name, std::uint32_t width, std::uint32_t height,
                     std::span<const std::uint8_t> rgba, bool srgb = true);
   NodeId add_material(std::string_view name, const MaterialParameters& parameters);

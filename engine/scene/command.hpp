@@ -139,8 +139,7 @@ struct GeometryLayerDestroy {
   PartId layer = 0;
   bool operator==(const GeometryLayerDestroy&) const = default;
 };
-/// Runs of many values, so that a big mesh is few messages; the range must lie within the
-/// geometry's size.
+/// Runs of many values, so that a big mesh is few messages; the range must lie within the geometry's size.
 struct VerticesSet {
   NodeId node = no_node;
   std::uint32_t first = 0;

@@ -1,7 +1,6 @@
 #pragma once
-/// The fields of commands in bytes (COMMANDS.md). Writer and Reader have the same functions, so
-/// that one description of each command's fields serves both ways: `fields(writer, command)` and
-/// `fields(reader, command)`.
+/// The fields of commands in bytes (COMMANDS.md). Writer and Reader have the same functions, so that one description of
+/// each command's fields serves both ways: `fields(writer, command)` and `fields(reader, command)`.
 
 #include <type_traits>
 #include <vector>

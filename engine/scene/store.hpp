@@ -54,8 +54,7 @@ class Store {
   std::uint64_t content_bytes_ = 0;
 };
 
-/// The commands that build this node, or the whole store, in an empty store, in runs of at most
-/// `run_values` numbers.
+/// The commands that build this node, or the whole store, in an empty store, in runs of at most `run_values` numbers.
 void describe_node(const Node& node, const std::function<void(Command)>& emit, std::size_t run_values = 65536);
 void describe_store(const Store& store, const std::function<void(Command)>& emit, std::size_t run_values = 65536);
 

@@ -42,8 +42,7 @@ std::array<T, 4> four(const std::vector<T>& values, std::size_t polygon) {
   return {values[polygon * 4], values[polygon * 4 + 1], values[polygon * 4 + 2], values[polygon * 4 + 3]};
 }
 
-/// Corners that share one normal: a corner is number polygon · 4 + k, a group is named by one of
-/// its corners.
+/// Corners that share one normal: a corner is number polygon · 4 + k, a group is named by one of its corners.
 class SmoothGroups {
  public:
   explicit SmoothGroups(const PolygonMesh& mesh) : group_(mesh.polygons.size() * 4) {
