@@ -50,8 +50,7 @@ LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
 LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor, const LaneTable& table,
                              double x_m, int lane);
 
-/// The x at which the lane ends for a vehicle at x: infinite if it goes on; less than x where the
-/// lane is not open.
+/// The x at which the lane ends for a vehicle at x: infinite if it goes on; less than x where the lane is not open.
 double lane_end_m(const LaneTable& table, int lane, double x_m);
 
 }  // namespace septet::traffic
