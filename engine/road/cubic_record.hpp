@@ -26,8 +26,7 @@ struct CubicRecord {
 
 using CubicProfile = std::vector<CubicRecord>;
 
-/// Index of the last record with s_m ≤ s, or 0 before the first one; the records are sorted and not
-/// empty.
+/// Index of the last record with s_m ≤ s, or 0 before the first one; the records are sorted and not empty.
 template <class Record>
 std::size_t record_at(const std::vector<Record>& records, double s_m) {
   if (records.size() == 1 || s_m < records[1].s_m) return 0;

@@ -74,8 +74,7 @@ struct RoadMarkLine {
   bool once = false;
 };
 
-/// A mark on the outer border of its lane (of the centre lane: on the centre line), from s_m to
-/// s_end_m.
+/// A mark on the outer border of its lane (of the centre lane: on the centre line), from s_m to s_end_m.
 struct RoadMark {
   double s_m = 0.0;
   double s_end_m = 0.0;
@@ -89,8 +88,7 @@ struct RoadMark {
                                     ///< filled from the type if need be.
 };
 
-/// Height of the lane's surface over the road's plane, constant along s, linear from the inner to
-/// the outer border.
+/// Height of the lane's surface over the road's plane, constant along s, linear from the inner to the outer border.
 struct LaneHeight {
   double s_m = 0.0;
   double inner_m = 0.0;
@@ -131,8 +129,7 @@ struct Lane {
   std::vector<int> successors;    ///< Lane ids in the section (or linked road) after this one.
 };
 
-/// Lanes from s_m to s_end_m, sorted from the leftmost (highest id) to the rightmost; ids run
-/// without a gap through 0.
+/// Lanes from s_m to s_end_m, sorted from the leftmost (highest id) to the rightmost; ids run without a gap through 0.
 struct LaneSection {
   double s_m = 0.0;
   double s_end_m = 0.0;

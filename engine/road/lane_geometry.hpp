@@ -16,8 +16,7 @@ inline const LaneSection& section_at(const Road& road, double s_m) {
   return road.sections[section_index_at(road, s_m)];
 }
 
-/// t of the border on the far side of `lane` from the centre; of lane 0: of the centre line (lane
-/// offset).
+/// t of the border on the far side of `lane` from the centre; of lane 0: of the centre line (lane offset).
 double outer_border_t_m(const Road& road, const LaneSection& section, int lane, double s_m);
 
 /// t and dt/ds of both borders of a lane; `inner` is the border nearer to the centre line.
@@ -55,8 +54,7 @@ struct LanesAt {
 };
 LanesAt lanes_at(const Road& road, double s_m, double t_m);
 
-/// Speed limit of a lane at a station: the lane's own, else that of the road's type; 0 where the
-/// file gives none.
+/// Speed limit of a lane at a station: the lane's own, else that of the road's type; 0 where the file gives none.
 double speed_limit_mps(const RoadNetwork& network, const LanePosition& position);
 
 /// The mark on the outer border of a lane at a station, or nullptr.

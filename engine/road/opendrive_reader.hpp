@@ -25,8 +25,7 @@ struct Finding {
   std::string rule = {};
 };
 
-/// The network, or the first error. `name` is the file's name in messages. Warnings are added to
-/// `warnings` if given.
+/// The network, or the first error. `name` is the file's name in messages. Warnings are added to `warnings` if given.
 Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name,
                                      std::vector<Finding>* warnings = nullptr);
 

@@ -28,8 +28,7 @@ struct PlanStart {
   double length_m = 0.0;
 };
 
-/// u(p), v(p) of a cubic curve in the frame of its start: u along the start's heading, v to the
-/// left.
+/// u(p), v(p) of a cubic curve in the frame of its start: u along the start's heading, v to the left.
 struct CubicCurve {
   std::array<double, 4> u{};
   std::array<double, 4> v{};
@@ -79,8 +78,8 @@ enum class CubicRange : std::uint8_t {
   abscissa,    ///< poly3: p = u, as far as the curve's length reaches the record's.
 };
 
-/// A clothoid from `curvature_start` to `curvature_end`; both 0 is a line, both equal an arc.
-/// Error: a record that turns through more than 1,000 rad.
+/// Appends a clothoid from `curvature_start_per_m` to `curvature_end_per_m`; both 0 is a line, both equal an arc. Error:
+/// a record that turns through more than 1,000 rad.
 Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start, double curvature_start_per_m,
                                double curvature_end_per_m);
 

@@ -11,8 +11,7 @@
 namespace septet::road {
 namespace {
 
-// Where the file gives no lines: a broken line is painted 3 m in 12, double lines lie one width
-// apart.
+// Where the file gives no lines: a broken line is painted 3 m in 12, double lines lie one width apart.
 constexpr double dash_m = 3.0, gap_m = 9.0;
 constexpr double standard_width_m = 0.12, bold_width_m = 0.25;
 

@@ -7,16 +7,14 @@
 
 namespace septet::road {
 
-/// The header's offset: x and y are added, then the plane is turned about (0, 0); z lifts every
-/// elevation record.
+/// The header's offset: x and y are added, then the plane is turned about (0, 0); z lifts every elevation record.
 struct HeaderOffset {
   Vec2 shift_m{0.0, 0.0};
   double z_m = 0.0;
   double heading_rad = 0.0;
 };
 
-/// Records `<element s|sOffset a b c d>` below `parent`, in ascending order; `s_start_m` is added
-/// to each offset.
+/// Records `<element s|sOffset a b c d>` below `parent`, in ascending order; `s_start_m` is added to each offset.
 CubicProfile read_profile(XmlFindings& findings, const pugi::xml_node& parent, const char* element,
                           const char* station_attribute, double s_start_m);
 
@@ -34,8 +32,7 @@ double read_speed(XmlFindings& findings, const pugi::xml_node& node);
 void read_objects(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);
 void read_signals(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);
 
-/// Roads and junctions of the file refer to each other by id; this turns ids into indices, once all
-/// are read.
+/// Roads and junctions of the file refer to each other by id; this turns ids into indices, once all are read.
 void link_network(XmlFindings& findings, const pugi::xml_node& root, RoadNetwork& network);
 /// Checks that need all links: lanes linked to lanes that do not exist, marks' ends, flat roads.
 void check_lane_links(XmlFindings& findings, const pugi::xml_node& root, const RoadNetwork& network);

@@ -28,8 +28,7 @@ struct Outline {
   std::vector<OutlineCorner> corners;
 };
 
-/// A row of equal objects from s_m to s_m + length_m; distance_m 0 is one continuous object, such
-/// as a guard rail.
+/// A row of equal objects from s_m to s_m + length_m; distance_m 0 is one continuous object, such as a guard rail.
 struct ObjectRepeat {
   double s_m = 0.0, length_m = 0.0, distance_m = 0.0;
   double t_start_m = 0.0, t_end_m = 0.0;

@@ -40,16 +40,14 @@ struct RoadTypeRecord {
   double speed_limit_mps = 0.0;  ///< 0 where the file gives none.
 };
 
-/// Height over the road's plane as a cubic of dt from t_m on, at station s_m (OpenDRIVE 1.8,
-/// §10.5.2, lateral shape).
+/// Height over the road's plane as a cubic of dt from t_m on, at station s_m (OpenDRIVE 1.8, §10.5.2, lateral shape).
 struct LateralShape {
   double s_m = 0.0;
   double t_m = 0.0;
   double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
 };
 
-/// A patch of other material on a road: a polygon in road coordinates (x is s, y is t) with its
-/// bounds.
+/// A patch of other material on a road: a polygon in road coordinates (x is s, y is t) with its bounds.
 struct SurfacePatch {
   SurfaceMaterial material;
   std::vector<Vec2> corners_st_m;
@@ -101,8 +99,7 @@ struct Junction {
   std::vector<JunctionConnection> connections;
 };
 
-/// A node of the tree of bounding boxes over stretches of road; in pre-order, `skip` is the next
-/// node outside this one.
+/// A node of the tree of bounding boxes over stretches of road; in pre-order, `skip` is the next node outside this one.
 struct StretchNode {
   Vec2 low_m, high_m;
   std::uint32_t skip = 0;
