@@ -1,6 +1,5 @@
 #pragma once
-/// Images as PNG files (libpng). Any PNG is read; 8-bit RGBA is written. Thread-safe: no shared
-/// state.
+/// Images as PNG files (libpng). Any PNG is read; 8-bit RGBA is written. Thread-safe: no shared state.
 
 #include <filesystem>
 #include <span>
