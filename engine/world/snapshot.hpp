@@ -2,7 +2,7 @@
 /// The snapshot: everything a screen, a log or a film needs to show one instant of the world.
 ///
 /// The server takes one per tick after its last stage; from then on it is const. Poses are in the world frame, double
-/// precision; the codec (snapshot_codec.hpp) quantises them with stated bounds.
+/// precision; the codec (wire_snapshot.hpp) quantises them with stated bounds.
 
 #include <array>
 #include <cstdint>
