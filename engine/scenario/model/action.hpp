@@ -1,6 +1,5 @@
 #pragma once
-/// Actions of the storyboard and of Init (OpenSCENARIO XML 1.3), as plain data. SI units
-/// throughout.
+/// Actions of the storyboard and of Init (OpenSCENARIO XML 1.3), as plain data. SI units throughout.
 
 #include <cstdint>
 #include <limits>

@@ -6,7 +6,7 @@
 namespace septet::scenario {
 namespace {
 
-/// Time of the acceleration's rise to `acceleration` and its fall, per m/s²; 0 where its change is unbounded.
+/// Time of an acceleration's rise to its peak and its fall, per m/s² of the peak; 0 where its change is unbounded.
 double rise_s_per_mps2(double rise_mps3, double fall_mps3) { return 1.0 / rise_mps3 + 1.0 / fall_mps3; }
 
 struct Lay {
