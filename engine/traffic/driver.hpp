@@ -48,7 +48,7 @@ Driver with_worse_manners(const Driver& driver);
 inline constexpr double hardest_braking_mps2 = 9.0;
 inline constexpr double no_leader = std::numeric_limits<double>::infinity();
 
-/// IDM, eqs. 3 and 4: acceleration at `speed_mps` behind a leader `gap_m` ahead; infinite without one.
+/// IDM, eqs. 3 and 4: acceleration at `speed_mps` behind a leader `gap_m` ahead; infinite `gap_m` without one.
 double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m);
 
 /// The speed at which this gap is kept with no acceleration: the root of eq. 3, to 1e-12 m/s.
