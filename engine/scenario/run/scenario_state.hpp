@@ -39,7 +39,7 @@ struct SpeedControl {
   bool active = false;
   ElementIndex action = no_element;
   Transition transition;
-  EntityIndex follow = no_entity;  ///< Continuous: the speed is follow_factor · v + follow_delta of this entity.
+  EntityIndex follow = no_entity;  ///< Continuous: the speed is follow_factor · v + follow_delta_mps of this entity.
   double follow_factor = 1.0, follow_delta_mps = 0.0;
   std::shared_ptr<const SpeedProfile> profile;  ///< Added to the speed of `follow`, if there is one.
   double profile_s = 0.0;
