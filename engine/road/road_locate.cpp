@@ -64,8 +64,8 @@ Foot foot_on_plan(const Road& road, const Vec2& world_m, double s, double last_s
   return foot;
 }
 
-/// Where banking on a changing grade moves the cross-section along the road the secant method continues from the foot
-/// in the plan.
+/// Foot of a point: where banking on a changing grade moves the cross-section along the road, the secant method
+/// continues from the foot in the plan.
 Foot foot_on(const Road& road, const Vec2& world_m, double s) {
   const bool plane = road.flat && road.superelevation.empty();
   Foot foot = foot_on_plan(road, world_m, s, plane ? 1e-6 : 1e-3);
