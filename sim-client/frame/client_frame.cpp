@@ -185,6 +185,9 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         add_instruments(frame, readings_of(shown, participant), participant, scene);
         add_windscreen(frame, shown, participant, scene);
         add_mirrors(frame, views.mirrors, scene);
+        // The cabin's frame throws the shadow of what is above the belt.
+        if (const auto shell = prototype_of(scene, fmt::format("shell/{}", vehicle_models()[participant.model].name)))
+          drawn.prototype = *shell;
       }
     }
     frame.participants.push_back(drawn);

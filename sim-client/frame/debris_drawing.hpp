@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
-#include "engine/effects/ice/ice_body.hpp"
 #include "engine/geometry/temporal_normals.hpp"
 #include "engine/instant/frame_input.hpp"
+#include "engine/instant/ice_body.hpp"
 #include "sim-client/frame/effect_playout.hpp"
 
 namespace septet::frame {

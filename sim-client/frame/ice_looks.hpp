@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/instant/ice_body.hpp"
 
 namespace septet::frame {
 

@@ -19,7 +19,7 @@
 #include "engine/effects/ice/objects.hpp"
 #include "engine/instant/scene_summary.hpp"
 #include "engine/instant/standing_lamps.hpp"
-#include "engine/instant/wet_road.hpp"
+#include "engine/light/wet_road.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
 #include "tests/engine/raytrace/cornell_box.hpp"
 #include "tests/images/motorway_view.hpp"
@@ -53,7 +53,7 @@ inline float wetness(const scene::SurfaceMaterial& material, const Environment& 
 /// As in World.
 inline Gloss gloss_of(const scene::SurfaceMaterial& material, const Environment& weather) {
   if (const float wet = wetness(material, weather); wet > 0.0f)
-    return {instant::film_share * wet, instant::film_roughness * instant::film_roughness, 0.02f, 0.0f};
+    return {light::film_share * wet, light::film_roughness * light::film_roughness, light::water_reflectance, 0.0f};
   if (material.wettable || (material.roughness >= 0.6f && material.metallic <= 0.2f)) return {};
   const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
   return {1.0f, std::max(1e-3f, material.roughness * material.roughness), index * index, material.metallic};
