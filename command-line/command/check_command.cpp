@@ -32,7 +32,7 @@ namespace {
 using road::Finding;
 using road::Severity;
 
-/// What is wrong with one file, and what kind of file it was taken for.
+/// Faults of one file, and its detected kind.
 struct Checked {
   std::string file, kind;
   std::vector<Finding> findings;
@@ -42,7 +42,7 @@ struct Checked {
   }
 };
 
-/// The line in "file:12, <element>"; 0 where there is none.
+/// The line in "file:12, <element>"; 0 if there is none.
 int line_in(const std::string& where, const std::string& file) {
   if (!where.starts_with(file + ":")) return 0;
   return std::atoi(where.c_str() + file.size() + 1);
@@ -54,7 +54,7 @@ void add_error(const Expected<Value>& result, Checked& checked) {
   checked.findings.push_back({Severity::error, line_in(result.error().where, checked.file), result.error()});
 }
 
-/// With the files that its drives are made from, as `septet experiment` finds them.
+/// With the inputs of its drives, as `septet experiment` finds them.
 void check_experiment(const std::string& text, Checked& checked) {
   const auto experiment = logging::read_experiment(text, checked.file);
   add_error(experiment, checked);

@@ -1,5 +1,5 @@
 #pragma once
-/// A rig file with all that it names, before anybody sits in it.
+/// A rig file with all files that it names, checked before anyone drives it.
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace septet::server {
 
-/// `text`: of `file`, beside which its DBC file lies. Reads the rig, its vehicle, DBC file, report layout and simulated driver; opens no device.
+/// `text`: of `file`, beside which its DBC file lies. Reads the rig, its vehicle, DBC file, report layout and simulated
+/// driver; opens no device.
 std::vector<road::Finding> check_rig(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace septet::server

@@ -59,13 +59,13 @@ std::vector<std::string> command_of_experiment(const std::vector<std::string>& d
     }
     const std::string option = word.substr(2);
     const std::string& value = drive[++i];
-    // A rig that somebody has chosen is the one that stands here; of its server the rest goes by other names.
+    // A chosen rig is the local one; the other options have other names in septet-server.
     if (const std::string& rig = choice.rig.empty() ? options.rig : choice.rig; option == "rig" && !rig.empty())
       add("rig", rig);
     else if (has_keys && option == "log" && value == "samples")
       command.emplace_back("--log-samples-only");
     else if (has_keys && option == "log")
-      continue;  // The whole one is what it writes anyway.
+      continue;  // The whole log is its default.
     else if (has_keys && (option == "group" || option == "part" || option == "order" || option == "condition"))
       add("about", fmt::format("{}={}", option, value));
     else

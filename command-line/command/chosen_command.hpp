@@ -1,5 +1,5 @@
 #pragma once
-/// The command that a choice on the operator's page is, as a person would type it.
+/// The command for a choice on the operator's page, as a person would type it.
 
 #include <filesystem>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace septet::server {
 
-/// What a choice is on the command line: the program's name and its arguments.
+/// Command line of a choice: the program's name and its arguments.
 std::vector<std::string> command_of(const page::DriveChoice& choice, const OperateOptions& options,
                                     const std::filesystem::path& folder);
-/// The same of an experiment's next drive, whose arguments `septet drive` takes.
+/// Command line of an experiment's next drive, as arguments of `septet drive`.
 std::vector<std::string> command_of_experiment(const std::vector<std::string>& drive, const page::DriveChoice& choice,
                                                const OperateOptions& options);
-/// The same as a person types it.
+/// The same, quoted for a shell.
 std::string typed(const std::vector<std::string>& command);
 
 }  // namespace septet::server

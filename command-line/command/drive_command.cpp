@@ -48,7 +48,7 @@ bool has_display() {
   return names_one("DISPLAY") || names_one("WAYLAND_DISPLAY");
 }
 
-/// The keys of a drive whose machines are all this one: made for it, gone with it.
+/// Keys of a drive on this machine alone: made for it, removed with it.
 Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
   auto folder = program::TemporaryFolder::make("septet");
   if (!folder) return folder;
@@ -66,8 +66,8 @@ Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& cli
   return folder;
 }
 
-/// A screen's program, which is started again whenever it dies: the others never notice, and it is back within a second. One
-/// that dies again and again before it shows a picture is tried more and more rarely.
+/// A screen's program, restarted whenever it dies: the others never notice, and it is back within a second. One that
+/// dies repeatedly before it shows a picture is retried more and more rarely.
 class RunningScreen {
  public:
   RunningScreen(std::string name, program::ChildOptions options)
@@ -96,7 +96,7 @@ class RunningScreen {
     }
     start();
   }
-  /// It has died three times and never shown a picture.
+  /// True if it has died three times and never shown a picture.
   bool is_hopeless() const { return !has_shown_ && deaths_ >= 3; }
   bool is_running() { return process_ && !process_->poll(); }
   const program::ChildOptions& options() const { return options_; }
@@ -174,13 +174,13 @@ program::ChildOptions screen_options(const DriveOptions& options, const rig::Scr
   return running;
 }
 
-/// The operator's page of a drive: at the same address however often the drive begins again.
+/// The operator's page of a drive: at the same address for every restart of the drive.
 struct PagePlace {
   page::ListeningSocket listening;
   std::string token;
 };
 
-/// None where the drive has no page, or whoever started this program has handed one over.
+/// Empty if the drive has no page, or the parent program has handed one over.
 Expected<std::optional<PagePlace>> page_place(const DriveOptions& options) {
   if (!options.page_port || std::getenv(page::handover_variable)) return std::nullopt;
   auto listening = page::ListeningSocket::open(static_cast<std::uint16_t>(*options.page_port));
@@ -198,7 +198,7 @@ Expected<program::ChildProcess> start_server(program::ChildOptions server, const
   return process;
 }
 
-/// How server and screens have ended.
+/// Ends of server and screens.
 struct Ending {
   bool driven = false;  ///< There is something to look at.
   int status = logging::failed_status;
@@ -207,7 +207,7 @@ struct Ending {
   bool unseen = false;  ///< No screen could be started.
 };
 
-/// What the server's "ended NAME TEXT" says, and what its exit tells without it.
+/// From the server's line "ended NAME TEXT", or from its exit status without that line.
 Ending ending_of(const program::ChildExit& exit, const std::optional<std::string>& last_words, bool was_ready) {
   if (last_words) {
     const auto text = last_words->find(' ', std::string_view("ended ").size());
@@ -243,7 +243,8 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   auto server = start_server(server_options(options, rig_file, keys->path()), page);
   if (!server) return tl::unexpected(server.error());
 
-  // The server says on its standard output which port it got, once it has read and built everything, and why the drive has ended.
+  // The server says on its standard output which port it got, once it has read and built everything, and why the drive
+  // has ended.
   std::vector<RunningScreen> screens;
   const std::string ip = rig.network.interface_address.empty() ? "127.0.0.1" : rig.network.interface_address;
   std::optional<std::string> last_words;
@@ -276,13 +277,14 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   }
   while (!last_words && listen(0ms)) {
   }
-  // The screens have had Finish and their reports are in; whoever still runs writes its last pictures, or hangs.
+  // The screens have had Finish and their reports are in; one that still runs writes its last pictures, or hangs.
   for (int i = 0; i < 1500 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i)
     std::this_thread::sleep_for(20ms);
   return ending_of(*server->poll(), last_words, was_ready);
 }
 
-/// Where the drive or the replay writes. What is there is moved aside, so a replay's own session must not be.
+/// Output folder of the drive or the replay. Existing files there are moved aside, so a replay's own session must not
+/// be among them.
 Expected<fs::path> folder_of(const DriveOptions& options) {
   if (options.replay.empty()) {
     if (!options.out.empty()) return options.out;
@@ -301,7 +303,7 @@ Expected<fs::path> folder_of(const DriveOptions& options) {
   return options.out;
 }
 
-/// What there is to look at after a drive.
+/// Prints the results of a drive.
 Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, int status) {
   const auto tell = [](const fs::path& file, const std::string& what) {
     program::announce(fmt::format("{}: {}", file.string(), what));
@@ -319,7 +321,8 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   const fs::path session = options.out / "session.sqlite";
   std::error_code ignored;
   if (fs::exists(options.out / "panorama.png", ignored) && fs::exists(options.out / "report.html", ignored)) {
-    // Written when the panorama was not yet there; a session that could not be closed keeps what its server knew of its end.
+    // The report was written before the panorama existed; a session that could not be closed keeps the end that its
+    // server reported.
     const auto reader = logging::SessionReader::open(session);
     if (reader && reader->ended_cleanly())
       if (auto renewed = logging::write_report(*reader, options.out / "report.html"); !renewed && done) done = renewed;
@@ -333,7 +336,7 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   return done;
 }
 
-/// Nothing is kept of a drive of no time that no screen could show, but what its programs said.
+/// Of a drive without duration that no screen could show, only the programs' output is kept.
 void remove_undriven(const fs::path& folder) {
   {
     const auto session = logging::SessionReader::open(folder / "session.sqlite");
@@ -345,7 +348,7 @@ void remove_undriven(const fs::path& folder) {
     fs::remove(folder / name, ignored);
 }
 
-/// One drive and what there is to look at after it, in a folder of its own.
+/// One drive and its results, in a folder of its own.
 Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, const rig::Rig& rig,
                             const std::optional<PagePlace>& page) {
   const auto folder = DriveFolder::prepare(options.out);

@@ -13,7 +13,7 @@ namespace septet::server {
 namespace fs = std::filesystem;
 namespace {
 
-/// The folder, open and locked, or −1 where it cannot be locked. An error only where somebody else holds it.
+/// The folder, open and locked, or −1 if it cannot be locked. Error: another process holds it.
 Expected<int> lock(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0 || ::flock(file, LOCK_EX | LOCK_NB) == 0) return file;

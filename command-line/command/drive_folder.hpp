@@ -1,5 +1,5 @@
 #pragma once
-/// Where a drive writes: its log, pictures, summary and report.
+/// Output folder of a drive: its log, pictures, summary and report.
 
 #include <filesystem>
 
@@ -7,8 +7,9 @@
 
 namespace septet::server {
 
-/// An earlier drive in the folder is moved aside, for a log is never overwritten; one that is going on there, and anything that is
-/// no drive, is left alone. The folder belongs to this program (flock) until the object goes or the program ends, however it ends.
+/// An earlier drive in the folder is moved aside, since a log is never overwritten; a running drive, and anything that
+/// is not a drive, is left alone. The folder belongs to this program (flock) until the object goes or the program ends,
+/// in any manner.
 class DriveFolder {
  public:
   static Expected<DriveFolder> prepare(const std::filesystem::path& chosen);
@@ -17,8 +18,8 @@ class DriveFolder {
   ~DriveFolder();
 
   const std::filesystem::path& path() const { return path_; }
-  const std::filesystem::path& aside() const { return aside_; }  ///< Where the earlier drive is now, if there was one.
-  /// Nothing was driven: the earlier drive comes back, unless something has been written here.
+  const std::filesystem::path& aside() const { return aside_; }  ///< New place of the earlier drive, if there was one.
+  /// Nothing was driven: restores the earlier drive, unless files were written here.
   void undo() const;
 
  private:

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using logging::PlannedDrive, logging::PlannedSubject;
 
 std::vector<MissingAnswers> missing_answers(const Study& study, const PlannedSubject& subject, const Stand& stand) {
-  // What has been answered in each session, by the questionnaire's id.
+  // Answered questionnaires of each session, by id.
   std::vector<std::set<std::string>> answered;
   for (const fs::path& session : stand.sessions) {
     auto& ids = answered.emplace_back();
@@ -38,7 +38,7 @@ std::vector<MissingAnswers> missing_answers(const Study& study, const PlannedSub
     }
     for (std::size_t condition = 0; condition < study.experiment.conditions.size(); ++condition) {
       const auto is_of_it = [&](const PlannedDrive& drive) { return drive.condition == condition; };
-      // As long as something of it is still to be driven it is not due.
+      // Not due while any of it is still to be driven.
       const bool is_over =
           stand.is_finished || std::none_of(subject.drives.begin() + static_cast<std::ptrdiff_t>(stand.drive),
                                             subject.drives.end(), is_of_it);

@@ -9,11 +9,11 @@
 
 namespace septet::server {
 
-/// Answers that a subject should have given by now.
+/// Answers that a subject owes.
 struct MissingAnswers {
-  std::string questionnaire;      ///< As the experiment calls it.
-  std::string condition;          ///< After which it is due; empty: after the last drive.
-  std::filesystem::path session;  ///< Where they belong.
+  std::string questionnaire;      ///< Its name in the experiment.
+  std::string condition;          ///< The condition after which it is due; empty: after the last drive.
+  std::filesystem::path session;  ///< The session for them.
 };
 std::vector<MissingAnswers> missing_answers(const Study& study, const logging::PlannedSubject& subject,
                                             const Stand& stand);

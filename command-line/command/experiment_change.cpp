@@ -16,8 +16,8 @@ using logging::PlannedDrive, logging::PlannedSubject;
 
 namespace {
 
-/// What was driven in the experiment's folder by this plan, in the words of each drive's command line; of who is forgotten, all that was
-/// planned.
+/// Drives finished in the experiment's folder under this plan, by their command lines; for a forgotten subject, all
+/// planned ones.
 std::map<fs::path, std::vector<std::string>> driven_words(const Study& study) {
   std::map<fs::path, std::vector<std::string>> drives;
   for (const PlannedSubject& subject : study.plan) {

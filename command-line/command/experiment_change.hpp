@@ -1,5 +1,5 @@
 #pragma once
-/// Whether an experiment's folder goes on after its file was changed.
+/// Compatibility of an experiment's folder with its changed file.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace septet::server {
 
-/// What has come of the folder's earlier experiment is what this one's plan says, too: same drives, in the same words. Error: which drive
-/// would be another one now.
+/// The folder's finished drives must be in this experiment's plan: same drives, in the same words. Error: the drive
+/// that would now differ.
 Expected<void> check_same_drives(const Study& study, const std::string& earlier_text);
 
 }  // namespace septet::server

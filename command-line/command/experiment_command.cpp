@@ -61,10 +61,10 @@ Expected<int> run_here(const ExperimentOptions& options, program::Machines* othe
   return 0;
 }
 
-/// What the first program of mpirun says last, before its exit status: mpirun itself ends with 0 also where that one was killed.
+/// Last line of mpirun's first program, before its exit status: mpirun itself ends with 0 also if that one was killed.
 constexpr std::string_view last_words = "septet experiment has ended with status ";
 
-/// By programs that mpirun starts.
+/// With programs that mpirun starts.
 Expected<int> run_by_ranks(const ExperimentOptions& options) {
   const auto mpirun = program::find_mpirun("--ranks");
   if (!mpirun) return tl::unexpected(mpirun.error());
@@ -81,7 +81,7 @@ Expected<int> run_by_ranks(const ExperimentOptions& options) {
       {.program = mpirun->string(), .arguments = std::move(arguments), .environment = {}, .log = {}});
   if (!child) return tl::unexpected(child.error());
   std::optional<int> status;
-  // mpirun frames its own words by lines of dashes: what it says where it cannot start is a page long.
+  // mpirun frames its own words by lines of dashes: its text on a failed start is a page long.
   std::vector<std::string> page;
   bool is_in_page = false;
   for (bool told_to_stop = false;;) {

@@ -38,12 +38,12 @@ tl::unexpected<Error> met_in(Error error, const logging::ExperimentPart& part,
   return tl::unexpected(std::move(error));
 }
 
-/// Its scenario with road, rig and lesson once, and for each further condition what its parameters make of the scenario.
+/// Checks a scenario with road, rig and lesson once, and for each further condition the scenario under its parameters.
 Expected<void> check_part(const logging::ExperimentPart& part, const logging::Experiment& experiment,
                           const fs::path& rig) {
   const auto file = program::find_resource(part.scenario, "scenarios", ".xosc");
   if (!file) return tl::unexpected(file.error());
-  std::optional<std::string> road;  // Of the conditions before.
+  std::optional<std::string> road;  // Of the earlier conditions.
   std::set<std::vector<std::string>> seen;
   for (const auto& condition : experiment.conditions) {
     const auto parameters = parameters_of(part, condition);

@@ -1,6 +1,6 @@
 #pragma once
-/// What an experiment's drives are made from, read before anybody drives: rig, every part's scenario under every condition with its road
-/// and lesson, drivers, questionnaires. What is wrong there would otherwise be met hours later, and by people.
+/// Inputs of an experiment's drives, read before the first drive: rig, every part's scenario under every condition with
+/// its road and lesson, drivers, questionnaires. Faults would otherwise be met hours later, and by people.
 
 #include <string>
 #include <vector>
@@ -10,17 +10,17 @@
 
 namespace septet::server {
 
-/// A questionnaire that an experiment asks for.
+/// A questionnaire that an experiment requires.
 struct DueQuestionnaire {
-  std::string name;  ///< As the experiment calls it: a file, or one that is installed.
-  std::string id;    ///< Its own: what its answers are called by.
+  std::string name;  ///< Its name in the experiment: a file, or an installed one.
+  std::string id;    ///< Its own id: the prefix of its answers.
   bool is_after_each_condition = false;
 };
 
-/// Error: the first of the files that cannot be used, at its own place.
+/// Error: the first unusable file, at its own place.
 Expected<std::vector<DueQuestionnaire>> read_inputs(const logging::Experiment& experiment);
 
-/// A part's parameters under a condition, NAME=VALUE: what both say is the condition's, for that is what is compared.
+/// A part's parameters under a condition, NAME=VALUE: the condition's value wins, since conditions are compared.
 std::vector<std::string> parameters_of(const logging::ExperimentPart& part,
                                        const logging::ExperimentCondition& condition);
 

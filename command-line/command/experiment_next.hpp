@@ -1,5 +1,5 @@
 #pragma once
-/// The next drive of an experiment, for whoever starts it: what `septet experiment next` says in words.
+/// The next drive of an experiment, as arguments: the counterpart of `septet experiment next`.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace septet::server {
 
-/// The arguments of `septet drive`, "--NAME", "VALUE", and "--parameter=NAME=VALUE". With `only` that participant's. Error: the experiment cannot
-/// be read, or everybody (or the participant) is finished.
+/// The arguments of `septet drive`, "--NAME", "VALUE", and "--parameter=NAME=VALUE". With `only` that participant's.
+/// Error: the experiment cannot be read, or all participants (or this one) are finished.
 Expected<std::vector<std::string>> next_of_experiment(const ExperimentOptions& options);
 
 }  // namespace septet::server

@@ -31,7 +31,7 @@ enum class Word : std::uint8_t {
   drive,        ///< First: number, arguments.
   part,         ///< Driver: number, name of a file of the drive, bytes that follow those before.
   ended,        ///< Driver: number, exit status, signal, its log.
-  still_there,  ///< Both: nothing new. Of the first: its process.
+  still_there,  ///< Both: a sign of life. From the first: its process.
   end,          ///< First: no more is to be done; 1 where some are lost.
 };
 
@@ -44,7 +44,7 @@ Bytes message(Word word) { return {static_cast<std::byte>(word)}; }
 /// While it comes, a drive lies beside the place where it will be whole.
 fs::path coming(const fs::path& folder) { return folder.string() + ".coming"; }
 
-/// A name of a file below a folder, and of nothing beside it.
+/// True for a file name below a folder, and for nothing outside it.
 bool is_below(const fs::path& name) {
   return !name.empty() && name.is_relative() &&
          std::ranges::none_of(name, [](const fs::path& part) { return part == ".." || part == "."; });
@@ -89,7 +89,7 @@ std::optional<std::uint64_t> ExperimentRanks::deal(const std::vector<std::string
   for (const auto& argument : arguments) writer.put_string(argument);
   machines_.send(free->first, std::move(bytes));
   std::error_code ignored;
-  fs::remove_all(coming(folder), ignored);  // What a run that was stopped has left.
+  fs::remove_all(coming(folder), ignored);  // Remains of a stopped run.
   drives_[number] = {free->first, folder};
   return number;
 }
@@ -178,7 +178,7 @@ Expected<std::vector<ExperimentRanks::Ended>> ExperimentRanks::take_ended() {
 
 namespace {
 
-/// One of the programs that are not the first.
+/// One of the programs after the first.
 class ExperimentDriver {
  public:
   ExperimentDriver(Machines& machines, std::size_t jobs) : machines_(machines), jobs_(jobs) {}
@@ -199,7 +199,7 @@ class ExperimentDriver {
       take_ended();
       const double now_s = program::monotonic_s();
       if (now_s - told_s_ > still_there_every_s) {
-        // On this machine its end is seen, elsewhere its silence.
+        // On this machine its end is noticed directly, elsewhere by its silence.
         if (now_s - heard_s_ > longest_silence_s || (first_ && program::is_there(*first_) == std::optional(false))) {
           machines_.note_loss();
           return failure("the experiment's first program is gone", "mpirun",
@@ -313,7 +313,7 @@ int drive_for_experiment(Machines& machines, std::size_t jobs) {
   const std::size_t share = program::share_of_processors();
   const auto done = ExperimentDriver(machines, jobs > 0 ? jobs : share).run();
   if (done) return 0;
-  if (machines.own_number() == 1) program::say("septet: " + describe(done.error()));  // One is enough.
+  if (machines.own_number() == 1) program::say("septet: " + describe(done.error()));  // One message is enough.
   return program::failed_status;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
-/// An experiment's drives on all machines of mpirun: the first program deals them out, first come first served, and keeps what comes back.
+/// An experiment's drives on all machines of mpirun: the first program deals them out, first come first served, and
+/// keeps the results.
 ///
-/// The others drive in folders of their own machine and send whole drives back, so that no disk need be shared; Septet, and whatever files of
-/// your own the experiment names, are there on each. A program that is lost costs what it was driving: that is dealt anew. One word a
-/// message, then what belongs to it; both sides are of one build, which the first message makes sure of.
+/// The others drive in folders of their own machine and send whole drives back, so that no disk need be shared; Septet,
+/// and all own files that the experiment names, must be on each. A lost program costs the drives that it was running:
+/// they are dealt again. A message is one word, then its content; both sides are of one build, which the first message
+/// checks.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,29 +22,29 @@
 
 namespace septet::server {
 
-/// As the first program sees the others. One thread.
+/// The first program's view of the others. One thread.
 class ExperimentRanks {
  public:
   explicit ExperimentRanks(program::Machines& machines) : machines_(machines) {}
-  /// Tells them that no more is to be done.
+  /// Tells them that the work is over.
   ~ExperimentRanks();
   ExperimentRanks(const ExperimentRanks&) = delete;
   ExperimentRanks& operator=(const ExperimentRanks&) = delete;
 
   bool has_room() const;
-  /// Deals a drive to somebody who has room for it; what is in `folder` once it has ended is whole, its log lies beside it. Nothing: nobody
-  /// has. Else the drive's number.
+  /// Deals a drive to a program with room for it; once it has ended the content of `folder` is whole, its log lies
+  /// beside it. Returns the drive's number; empty: no program has room.
   std::optional<std::uint64_t> deal(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
   struct Ended {
     std::uint64_t drive = 0;
     program::ChildExit exit;
-    bool is_lost = false;  ///< Whoever drove it is gone.
+    bool is_lost = false;  ///< Its program is gone.
   };
-  /// Takes what has come meanwhile. Error: the folder cannot be written.
+  /// Returns drives that have ended meanwhile. Error: the folder cannot be written.
   Expected<std::vector<Ended>> take_ended();
   std::vector<std::string> take_messages();
-  /// How many programs have drives in their hands, or could.
+  /// Number of programs that drive, or could.
   std::size_t at_work() const { return ranks_.size(); }
 
  private:
@@ -67,8 +69,8 @@ class ExperimentRanks {
   std::vector<std::string> messages_;
 };
 
-/// The whole of a program that mpirun has started and that is not the first: drives what it is dealt, `jobs` at once (0: its share of the
-/// processors), until it is told that no more is to be done or the first is gone. The exit status.
+/// Whole run of a program that mpirun has started and that is not the first: drives its assignments, `jobs` at once (0:
+/// its share of the processors), until the work is over or the first is gone. Returns the exit status.
 int drive_for_experiment(program::Machines& machines, std::size_t jobs);
 
 }  // namespace septet::server

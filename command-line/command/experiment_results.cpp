@@ -61,7 +61,7 @@ std::string experiment_json(const Study& study) {
   return document::text_of(json);
 }
 
-/// What is said above the figures.
+/// Text above the figures.
 std::string note_of(const std::string& note, std::size_t forgotten, std::size_t subjects) {
   if (forgotten == 0) return note;
   return fmt::format("{}{}{} of {} subjects {} forgotten, and {} in no figure here.", note, note.empty() ? "" : " ",
@@ -104,7 +104,7 @@ Expected<void> write_study(const Study& study) {
   std::vector<fs::path> sessions;
   std::size_t forgotten = 0;
   for (const PlannedSubject& subject : study.plan) {
-    // A run that was killed just then has not noted it; what is noted stays.
+    // A run that was killed at that moment has not noted it; an existing note stays.
     if (auto noted = note_playing_time(study, subject); !noted) return noted;
     const Stand stand = stand_of(study, subject);
     forgotten += stand.is_forgotten;

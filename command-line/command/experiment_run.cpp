@@ -33,7 +33,7 @@ using logging::PlannedDrive, logging::PlannedSubject;
 struct RunningDrive {
   std::size_t subject = 0;
   fs::path folder, log;
-  std::optional<program::ChildProcess> process;  ///< Nothing: another program drives it.
+  std::optional<program::ChildProcess> process;  ///< Empty: another program drives it.
   std::uint64_t elsewhere = 0;                   ///< Its number there.
 };
 
@@ -47,7 +47,7 @@ std::string last_line(const fs::path& file) {
   return printable(last);
 }
 
-/// What a drive is to be, before anybody drives it. What a run that was stopped has left is gone.
+/// Specification of a drive before it starts. Removes the remains of a stopped run.
 struct NextDrive {
   fs::path folder, log;
   std::vector<std::string> arguments;
@@ -91,7 +91,7 @@ ExperimentRun::ExperimentRun(const Study& study, const ExperimentOptions& option
     else
       waiting_.push_back(i);
   }
-  // The longest first: the end is not spent on one of them alone.
+  // The longest first, so that it does not run alone at the end.
   std::ranges::stable_sort(waiting_, std::greater{},
                            [&](std::size_t i) { return planned_s(study.plan[i]) - stands_[i].total_s; });
   const unsigned here = others ? program::share_of_processors() : std::max(1u, std::thread::hardware_concurrency());

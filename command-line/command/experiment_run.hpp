@@ -1,5 +1,5 @@
 #pragma once
-/// Simulated subjects' drives, some at once.
+/// Drives of simulated subjects, several at once.
 
 #include <cstddef>
 #include <map>
@@ -17,7 +17,7 @@ struct RunningDrive;
 
 class ExperimentRun {
  public:
-  /// `others`: programs that mpirun has started drive too; null: nobody.
+  /// `others`: programs that mpirun has started drive too; null: this program alone.
   ExperimentRun(const Study& study, const ExperimentOptions& options, program::Machines* others = nullptr);
   ~ExperimentRun();
 
@@ -26,14 +26,15 @@ class ExperimentRun {
   double driven_now_s() const { return done_s_ - found_s_; }
   double wall_s() const;
 
-  /// Until all are finished, somebody stops it, or a drive fails, which is said once: what stops one stops the others too.
+  /// Runs until all are finished, a person stops it, or a drive fails, which is reported once: one stop stops the
+  /// others too.
   Expected<void> go_on();
 
  private:
   Expected<void> take_ended();
-  /// Starts the next waiting subject's drive, here or elsewhere; false: nobody is free.
+  /// Starts the next waiting subject's drive, here or elsewhere; returns false if no program is free.
   Expected<bool> start_next();
-  /// The drive at this place of those that are going on has ended.
+  /// Takes the running drive that has ended.
   Expected<void> take(RunningDrive drive, const program::ChildExit& exit);
   void show();
 

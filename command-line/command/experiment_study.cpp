@@ -77,7 +77,7 @@ FoundDrive find_drive(const fs::path& folder) {
   if (!found.is_begun || !summary) return found;
   const auto json = document::Json::parse(*summary, nullptr, false);
   if (!json.is_object() || json.value("exit_status", -1) != 0 || !json.contains("distance_m")) return found;
-  // The summary is written after the session is closed. A side file may stay beside it: then somebody reads it.
+  // The summary is written after the session is closed. A side file may stay beside it while a reader has it open.
   const auto reader = logging::SessionReader::open(folder / "session.sqlite");
   if (!reader || !reader->ended_cleanly()) return found;
   found.simulated_s = json.value("simulated_s", 0.0);

@@ -59,7 +59,7 @@ void describe_scenario(ListEntry& entry, const fs::path& file, const std::string
     entry.description += "; its lesson cannot be read: " + describe(lesson->error());
 }
 
-/// What a file of one's own is, or why nothing can be made of it: one bad file does not hide the others.
+/// Description of a user's file, or its fault: one bad file does not hide the others.
 ListEntry described(std::string name, const std::string& kind, const fs::path& file) {
   ListEntry entry{.name = std::move(name)};
   const auto text = read_regular_file(file);

@@ -1,5 +1,5 @@
 #pragma once
-/// `septet list`: what there is to choose from, a line each.
+/// `septet list`: the available names, a line each.
 
 #include <filesystem>
 #include <string>
@@ -14,19 +14,19 @@ namespace septet::server {
 const std::vector<std::string>& listed_kinds();
 
 struct ListEntry {
-  std::string name;  ///< As the command line takes it: a name of those that Septet came with, or a file of one's own.
+  std::string name;  ///< As on the command line: a name of Septet's own, or a file of the user's.
   std::string description;
-  std::string title;                                            ///< Of a lesson or an experiment; else empty.
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< Of a scenario: name and its own value.
-  bool is_lesson = false, is_game = false;                      ///< Of a scenario.
-  bool is_own = false;                                          ///< It lies in a folder of one's own.
+  std::string title;                                            ///< For a lesson or an experiment; else empty.
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< For a scenario: name and default value.
+  bool is_lesson = false, is_game = false;                      ///< For a scenario.
+  bool is_own = false;                                          ///< A file in a user's folder.
 };
-/// What Septet came with, then what lies in these folders (`own_folders`). A file of these that cannot be read says so in its description.
+/// Septet's own, then the files in these folders (`own_folders`). The description of an unreadable file says so.
 Expected<std::vector<ListEntry>> list_of(const std::string& kind,
                                          const std::vector<std::filesystem::path>& own_folders = {});
 
-/// Names with the description that their file begins with, to standard output. `data` are folders of one's own beside the one that one
-/// stands in.
+/// Prints names with the description at the beginning of their file, to standard output. `data` are user folders beside
+/// the working folder.
 Expected<int> run_list(const std::string& kind, const std::vector<std::filesystem::path>& data);
 
 }  // namespace septet::server

@@ -10,7 +10,7 @@ namespace septet::server {
 std::string figures_json(const std::string& vehicle, const vehicle::ManoeuvreReport& report);
 /// One header line with units in the names, one line per sample.
 std::string series_csv(const vehicle::ManoeuvreReport& report);
-/// Four panels that suit the manoeuvre, and the figures beside them.
+/// Four panels chosen for the manoeuvre, and the figures beside them.
 std::string manoeuvre_svg(const std::string& vehicle, const vehicle::ManoeuvreReport& report);
 
 }  // namespace septet::server

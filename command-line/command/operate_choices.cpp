@@ -46,7 +46,7 @@ Expected<page::Choices> find_choices(const OperateOptions& options) {
   if (auto taken = take("rigs", choices.rigs); !taken) return tl::unexpected(taken.error());
   if (auto taken = take("drivers", choices.drivers); !taken) return tl::unexpected(taken.error());
   if (auto taken = take("vehicles", choices.vehicles); !taken) return tl::unexpected(taken.error());
-  // However it is written, a rig that was given is one of those that can be chosen.
+  // A given rig can always be chosen, in any spelling.
   const bool is_listed = std::ranges::any_of(choices.rigs, [&](const page::Choice& rig) {
     std::error_code error;
     return rig.name == choices.first_rig || fs::equivalent(rig.name, choices.first_rig, error);

@@ -1,5 +1,5 @@
 #pragma once
-/// What the operator's page offers, and whether a browser has chosen one of that.
+/// Choices of the operator's page, and the check of a browser's choice against them.
 
 #include <optional>
 #include <string>
@@ -10,11 +10,12 @@
 
 namespace septet::server {
 
-/// What Septet came with, what lies in the folder that one stands in, in those that are given and in that of the rig that is given. Error: a
-/// folder or the rig is not there, or Septet's own data are not.
+/// Septet's own, and the files in the working folder, in the given ones and beside the given rig. Error: a folder or
+/// the rig does not exist, or Septet's own data do not.
 Expected<page::Choices> find_choices(const OperateOptions& options);
 
-/// What is no choice of the lists, which a browser may ask for all the same. Everything else the command line judges.
+/// Reason to refuse a choice that is not in the lists, which a browser may request nevertheless. The command line
+/// checks the rest.
 std::optional<std::string> no_choice(const page::Choices& choices, const page::DriveChoice& choice);
 
 }  // namespace septet::server

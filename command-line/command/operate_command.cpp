@@ -40,12 +40,12 @@ using namespace std::chrono_literals;
 constexpr auto look_every = 20ms, show_found_every = 250ms;
 constexpr std::size_t shown_lines = 8;
 
-/// The newest lines of what a drive has said, made printable.
+/// The newest output lines of a drive, made printable.
 std::vector<std::string> lines_of(const fs::path& log) {
   std::vector<std::string> lines;
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);) {
-    // That is for who types.
+    // Hints for a typing person are skipped.
     if (line.find_first_not_of(" \r\t") == std::string::npos || line.starts_with("Run with --help")) continue;
     lines.push_back(printable(line));
     if (lines.size() > shown_lines) lines.erase(lines.begin());
@@ -60,7 +60,7 @@ struct RunningDrive {
   std::string command, last_line;
   bool is_cancelled = false;
 
-  /// Takes what it has said on its standard output; the last line says how it ended.
+  /// Reads its standard output; the last line holds the reason of its end.
   void listen() {
     while (auto line = process.read_line(0ms))
       if (!line->empty()) last_line = printable(*line);
@@ -74,9 +74,9 @@ struct RunningDrive {
   }
 };
 
-/// A new folder's name below `out`: when, and what.
+/// Name of a new folder below `out`: time and choice.
 fs::path new_folder(const fs::path& out, const std::string& name) {
-  const std::string scenario = fs::path(name).stem().string();  // Of one's own it is a file.
+  const std::string scenario = fs::path(name).stem().string();  // A user's scenario is a file.
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
   ::gmtime_r(&now, &parts);
@@ -89,7 +89,7 @@ fs::path new_folder(const fs::path& out, const std::string& name) {
   return folder;
 }
 
-/// The page with what it needs, and the drive that goes on, if there is one.
+/// The page with its data, and the running drive, if there is one.
 class Operation {
  public:
   Operation(OperateOptions options, page::ListeningSocket listening, page::Choices choices,
@@ -124,10 +124,10 @@ class Operation {
   program::TemporaryFolder logs_;
   std::string token_ = page::random_token();
   PastSessions past_;
-  FoundSessions found_;  ///< As the page shows them.
+  FoundSessions found_;  ///< As shown on the page.
   std::chrono::steady_clock::time_point shown_at_{};
   page::StartView view_;
-  std::unique_ptr<page::StartPage> page_;  ///< None while a drive serves it.
+  std::unique_ptr<page::StartPage> page_;  ///< Null while a drive serves it.
   std::optional<RunningDrive> drive_;
   PastWork work_;
   int drives_ = 0;
@@ -151,7 +151,7 @@ void Operation::show() {
   page_->show(view_, found_.folders);
 }
 
-/// Sessions are shown as they are found, a few times a second.
+/// Sessions appear as they are found, a few times a second.
 void Operation::attend_past() {
   const bool was_making = work_.is_running();
   if (work_.attend()) {

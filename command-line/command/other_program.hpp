@@ -1,5 +1,5 @@
 #pragma once
-/// `septet film` and `septet ice`: what draws is a program of its own, which lies beside this one and takes its place.
+/// `septet film` and `septet ice`: drawing is done by a program of its own, which lies beside this one and replaces it.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace septet::server {
 
-/// Returns only where that program cannot be started.
+/// Returns only if that program cannot be started.
 Expected<int> become(const std::string& name, std::vector<std::string> arguments);
 
 }  // namespace septet::server

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t largest_toml_bytes = std::size_t{1} << 20;
 
-/// What lies in a folder, by name; nothing where it cannot be read.
+/// Entries of a folder, by name; empty if it cannot be read.
 std::vector<fs::path> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code error;
@@ -48,7 +48,7 @@ bool is_of_kind(const fs::path& file, const std::string& kind) {
   return file.extension() == ".toml" && kind_of_toml(file) == kind;
 }
 
-/// A folder within one of these, as scenarios have: the file called as the folder is, else the only one.
+/// A folder within one of these, as scenarios have: the file named like the folder, else the only one.
 fs::path only_scenario_in(const fs::path& folder) {
   fs::path only;
   for (const fs::path& entry : entries_of(folder)) {

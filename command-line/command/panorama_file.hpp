@@ -9,7 +9,8 @@
 
 namespace septet::server {
 
-/// Reads OUT/screens/NAME/TICK.png of every screen and writes OUT/panorama.png. Fails where the screens have no tick in common.
+/// Reads OUT/screens/NAME/TICK.png of every screen and writes OUT/panorama.png. Error: the screens have no tick in
+/// common.
 Expected<void> write_panorama(const std::filesystem::path& out, const rig::Rig& rig, const std::string& title);
 
 }  // namespace septet::server

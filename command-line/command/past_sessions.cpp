@@ -23,13 +23,13 @@ namespace {
 
 constexpr std::size_t most_named_answers = 20, most_tasks = 40;
 
-/// A file's name without folder and ending; "unknown" where the session has none of this role.
+/// A file's name without folder and ending; "unknown" if the session has none of this role.
 std::string name_of(const logging::SessionInfo& info, const std::string& role) {
   const auto file = std::ranges::find(info.files, role, &logging::SourceFile::role);
   return file == info.files.end() ? "unknown" : printable(fs::path(file->name).stem().string(), 100);
 }
 
-/// The number behind ` KEY=` in an event's words; nothing where there is none.
+/// Number behind ` KEY=` in an event's text; empty if there is none.
 std::optional<double> number_in(std::string_view detail, std::string_view key) {
   const auto at = detail.find(key);
   if (at == detail.npos) return std::nullopt;
@@ -37,7 +37,8 @@ std::optional<double> number_in(std::string_view detail, std::string_view key) {
   return document::number_in<double>(rest.substr(0, rest.find(' ')));
 }
 
-/// Marks of a lesson, by the rules that the session has kept, and points of a game. A session whose records cannot be read has neither.
+/// Marks of a lesson, by the rules kept in the session, and points of a game. A session whose records cannot be read
+/// has neither.
 void add_marks(page::PastSession& session, const logging::SessionReader& reader) {
   const auto events = reader.events();
   if (!events) return;
@@ -151,7 +152,8 @@ void PastSessions::look_once() {
     }
   std::ranges::sort(newest, std::greater<>());
   if (newest.size() > most_listed_sessions) newest.resize(most_listed_sessions);
-  // Whoever was listed stays until it has been read anew: a list that loses a row for a moment takes it from under a hand.
+  // A listed session stays until it has been read again: a row that vanishes for a moment would slip from under a
+  // pointer.
   const auto list = [&] {
     std::vector<std::pair<const page::PastSession*, fs::path>> listed;
     for (const auto& [written, file] : newest)
@@ -173,7 +175,7 @@ void PastSessions::look_once() {
     session.has_debrief = fs::is_regular_file(file.parent_path() / "debrief.html", error);
     session.has_film = fs::is_regular_file(file.parent_path() / "film.mp4", error);
   };
-  // What is known already is there at once; what has to be read comes one after the other, the newest first.
+  // Known sessions appear at once; the others are read one after the other, the newest first.
   std::vector<std::pair<fs::file_time_type, fs::path>> unread;
   for (const auto& [written, file] : newest) {
     const auto at = known_.find(file);

@@ -1,8 +1,9 @@
 #pragma once
-/// The drives of the past below a folder, as the operator's page lists them.
+/// Past drives below a folder, as the operator's page lists them.
 ///
-/// Nobody trusts what lies there: a file that is no session is left out, names are any bytes, and only the newest are read. To open a session
-/// and mark its lesson takes a moment, for a long one seconds, so that is done in a thread of its own, and each is listed once it is read.
+/// The folder is untrusted: files that are no session are skipped, names are any bytes, and only the newest are read.
+/// Opening a session and marking its lesson takes a moment, for a long one seconds, so a thread of its own does it, and
+/// each is listed once it is read.
 
 #include <condition_variable>
 #include <cstddef>
@@ -21,22 +22,22 @@ namespace septet::server {
 
 inline constexpr std::size_t most_listed_sessions = 300;
 
-/// What has been found so far, the newest first.
+/// Sessions found so far, the newest first.
 struct FoundSessions {
   std::vector<page::PastSession> sessions;
   std::vector<std::filesystem::path> folders;  ///< Theirs, in the same order.
-  bool is_looking = false;                     ///< More may come.
+  bool is_looking = false;                     ///< More may follow.
 };
 
 class PastSessions {
  public:
   explicit PastSessions(std::filesystem::path folder);
-  /// Waits for the session that is being read, if there is one.
+  /// Waits for the session being read, if there is one.
   ~PastSessions();
 
-  /// Looks again, soon. What has not changed since is not read anew. Never waits.
+  /// Starts a new search soon. Unchanged files are not read again. Never waits.
   void look();
-  /// Whether anything has been found, or the end of looking come, since the last call.
+  /// True if the search has found more, or ended, since the last call.
   bool has_news();
   FoundSessions found() const;
 
@@ -54,13 +55,13 @@ class PastSessions {
   std::map<std::filesystem::path, Known> known_;  ///< By the session's file.
   std::uint64_t next_id_ = 1;
 
-  // Of both.
+  // Guards both.
   mutable std::mutex mutex_;
   std::condition_variable wanted_;
   bool is_wanted_ = false, is_over_ = false, has_news_ = false;
   FoundSessions found_;
 
-  std::thread thread_;  ///< Last: it begins when the rest is there.
+  std::thread thread_;  ///< Last member: it starts after the rest is constructed.
 };
 
 }  // namespace septet::server

@@ -18,7 +18,7 @@ Expected<void> PastWork::start(const page::Make& make, const fs::path& folder, c
   program::ChildOptions child{
       .program = (program::own_folder() / "septet").string(), .arguments = {}, .environment = {}, .log = log};
   if (is_film) {
-    // An earlier one is made anew.
+    // An earlier film is replaced.
     std::error_code ignored;
     fs::remove(folder / "film.mp4", ignored);
     child.arguments = {"film", session, "--fps", "30", "--out", (folder / "film.mp4").string()};

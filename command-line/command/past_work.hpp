@@ -1,6 +1,6 @@
 #pragma once
-/// What is made of a past drive from the page: its film, or a replay on the screens of this machine; one at a time, by a `septet film` or
-/// `septet replay` of its own, which ends with this.
+/// Products of a past drive from the page: its film, or a replay on the screens of this machine; one at a time, by a
+/// `septet film` or `septet replay` of its own, which ends with this.
 
 #include <filesystem>
 #include <optional>
@@ -14,13 +14,13 @@ namespace septet::server {
 
 class PastWork {
  public:
-  /// `log` takes what the program says. Error: something is being made already, or the program cannot be started.
+  /// `log` takes the program's output. Error: one is running already, or the program cannot be started.
   Expected<void> start(const page::Make& make, const std::filesystem::path& folder, const std::filesystem::path& log);
-  /// Looks how far it is. Whether that has changed since the last call.
+  /// Polls its progress. Returns true if it has changed since the last call.
   bool attend();
-  /// Ends it in order. False: nothing is being made.
+  /// Ends it in order. Returns false if none is running.
   bool stop();
-  /// The newest, also when it is over; nothing before the first.
+  /// The newest, also after its end; empty before the first.
   const std::optional<page::PastWorkView>& view() const { return view_; }
   bool is_running() const { return process_.has_value(); }
 

@@ -26,7 +26,7 @@ bool is_plain_word(std::string_view word) {
   });
 }
 
-/// What was said of each item, judged. Error: why not.
+/// Answers to the items, checked. Error: the reason for a refusal.
 tl::expected<logging::Answers, std::string> judge_answers(const logging::Questionnaire& questionnaire,
                                                           const page::Answer& answer) {
   logging::Answers answers;

@@ -1,8 +1,8 @@
 #pragma once
-/// Questionnaires that are answered on the operator's page after a drive: the same rows as those of `septet session answer`.
+/// Questionnaires answered on the operator's page after a drive: the same rows as those of `septet session answer`.
 ///
-/// The page says what a browser has said; it is judged here. The scale of each minute (MISC) is not among them: its answers are given
-/// during the drive, and would be replaced.
+/// The browser's input arrives unchecked; it is checked here. The scale of each minute (MISC) is excluded: its answers
+/// are given during the drive, and would be replaced.
 
 #include <filesystem>
 #include <optional>
@@ -15,13 +15,14 @@
 
 namespace septet::server {
 
-/// Those that are installed, by name.
+/// Installed questionnaires, by name.
 Expected<std::vector<logging::Questionnaire>> find_questionnaires();
-/// How the page shows them.
+/// In the page's form.
 std::vector<page::QuestionnaireChoice> choices_of(const std::vector<logging::Questionnaire>& questionnaires);
 
-/// Writes the answers into the session's file, in place of earlier ones of that name, and renews summary and report beside it. Nothing where it was done, else why not: another
-/// questionnaire, item or value, a name that is no plain word, a drive that goes on.
+/// Writes the answers into the session's file, in place of earlier ones of that name, and renews summary and report
+/// beside it. Empty on success, else the reason: another questionnaire, item or value, a name that is no plain word, a
+/// running drive.
 std::optional<std::string> keep_answers(const std::vector<logging::Questionnaire>& questionnaires,
                                         const page::Answer& answer, const std::filesystem::path& session);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What was told of a session beside it, told again when the session has changed.
+/// Results beside a session, renewed when the session has changed.
 
 #include <filesystem>
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace septet::server {
 
-/// Summary and report in `folder`, where they are there, tell again what `session` tells now, which may lie elsewhere; `change`: what else the
-/// summary is to lose. Errors: files that cannot be read or written, or are none of ours.
+/// Renews summary and report in `folder`, if they exist, from `session`, which may lie elsewhere; `change`: further
+/// removals from the summary. Errors: files that cannot be read or written, or are not Septet's.
 Expected<void> renew_results(const std::filesystem::path& folder, const std::filesystem::path& session,
                              const std::function<void(document::Json&)>& change = {});
 

@@ -25,14 +25,14 @@ tl::unexpected<Error> refused(const std::filesystem::path& file, const std::stri
   return failure(what, file.string(), remedy);
 }
 
-/// What the log says of the controls at the tick that its inputs were made into, beside what its inputs say now.
+/// True if the log's controls at the tick of its inputs differ from the inputs' present content.
 bool is_altered(const DriverInput& input, const DriverCar& car) {
   const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6; };
   return differ(input.steering_wheel_rad, car.steering_wheel_rad) || differ(input.accelerator, car.accelerator) ||
          differ(input.brake, car.brake) || differ(input.clutch, car.clutch);
 }
 
-/// Whether the inputs are those that were driven with, by the hash that the log ends with; nothing where it was not closed.
+/// True if the inputs are the driven ones, by the hash at the log's end; empty if the log was not closed.
 Expected<std::optional<bool>> are_original(const std::filesystem::path& file, const logging::SessionInfo& info,
                                            const std::vector<logging::InputRecord>& inputs) {
   const auto row = info.other.find("outcome");
@@ -44,7 +44,7 @@ Expected<std::optional<bool>> are_original(const std::filesystem::path& file, co
   return std::optional(hash.value() == outcome->inputs_hash);
 }
 
-/// Why a tick does not give the recorded hash, as far as the log tells.
+/// Cause of a tick's wrong hash, as far as the log tells.
 std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
   if (input_is_altered) return "the session's driver inputs are not those that were driven with: use an unaltered copy";
   const auto compiler = info.other.find("compiler");
@@ -79,7 +79,7 @@ struct LoggedCommand {
   simulation::OperatorCommand command;
 };
 
-/// What an operator changed while it was driven, in order.
+/// An operator's changes during the drive, in order.
 Expected<std::vector<LoggedCommand>> commands_of(const std::filesystem::path& file,
                                                  const logging::SessionReader& session) {
   const auto events = session.events();
@@ -99,13 +99,13 @@ Expected<std::vector<LoggedCommand>> commands_of(const std::filesystem::path& fi
 }
 
 struct Verified {
-  Tick first = 0;             ///< Where it began.
+  Tick first = 0;             ///< First tick verified.
   std::uint64_t ticks = 0;    ///< Run again.
   bool goes_on = false;       ///< The drive is still being written.
-  bool scene_agrees = false;  ///< Else it is not known: the session does not tell.
+  bool scene_agrees = false;  ///< False: unknown, the session has no digest.
 };
 
-/// Whether the session has grown since it was read up to this tick.
+/// True if the session has grown since it was read up to this tick.
 Expected<bool> has_grown(const std::filesystem::path& file, Tick last_input) {
   const auto now = logging::SessionReader::open(file);
   if (!now) return tl::unexpected(now.error());
@@ -114,8 +114,8 @@ Expected<bool> has_grown(const std::filesystem::path& file, Tick last_input) {
   return !later->empty();
 }
 
-/// How many ticks were run again and agree. Ticks that are not both an input and a snapshot prove nothing and are not counted;
-/// where one is missing in between, that is the verdict.
+/// Number of ticks run again that agree. Ticks without both input and snapshot prove nothing and are not counted; a
+/// missing one in between is the verdict.
 Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   const auto session = logging::SessionReader::open(file);
   if (!session) return tl::unexpected(session.error());
@@ -148,7 +148,7 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
                    "only what lies before a gap can be run again");
   };
   DriverInput input = state->input;
-  /// Whether there is a snapshot of the state's tick, with this hash.
+  /// True if there is a snapshot of the state's tick, with this hash.
   const auto compare = [&](std::uint64_t hash) -> Expected<bool> {
     const auto snapshot = recorded->next();
     if (!snapshot) return tl::unexpected(snapshot.error());

@@ -1,6 +1,6 @@
 #pragma once
-/// `septet replay --verify SESSION [--from SECONDS]`: the recorded input, run again, must give the recorded state hash at every tick,
-/// from the last state at or before `from_s` that the log has kept; from the start where there is none.
+/// `septet replay --verify SESSION [--from SECONDS]`: re-simulates the recorded input, which must give the recorded
+/// state hash at every tick, from the last logged state at or before `from_s`; from the start if there is none.
 
 #include <filesystem>
 

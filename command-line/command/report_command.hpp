@@ -11,8 +11,8 @@ namespace septet::server {
 
 struct ReportOptions {
   std::vector<std::filesystem::path> places;  ///< Sessions, and folders with sessions anywhere below.
-  std::filesystem::path out;  ///< Of one session a file, of many a folder. Empty: beside the session; group-report.
-  std::string title, brake_event;  ///< KIND or KIND:TEXT of the events to be braked for.
+  std::filesystem::path out;  ///< For one session a file, for many a folder. Empty: beside the session; group-report.
+  std::string title, brake_event;  ///< KIND or KIND:TEXT of the events to brake for.
 };
 
 Expected<int> run_report(const ReportOptions& options);

@@ -1,5 +1,5 @@
 #pragma once
-/// `septet rig`: what a rig of several machines needs.
+/// `septet rig`: preparation of a rig of several machines.
 
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace septet::server {
 
-/// Writes the keys of a rig's machines below `out` (sim-server/host/rig_keys.hpp) and says what is new.
+/// Writes the keys of a rig's machines below `out` (sim-server/host/rig_keys.hpp) and prints the new ones.
 Expected<int> run_rig_keys(const std::string& rig, const std::filesystem::path& out);
 
 }  // namespace septet::server

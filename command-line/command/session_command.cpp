@@ -66,7 +66,7 @@ void leave_person_out(document::Json& summary) {
   for (const auto& key : own) summary["subject"].erase(key);
 }
 
-/// A folder that is called by the participant, as those of an experiment are, gets a name that tells nothing.
+/// Renames folders named after the participant, as an experiment's are, to a neutral name.
 void rename_folders(const std::vector<fs::path>& sessions, const std::string& participant) {
   std::error_code ignored;
   for (const fs::path& session : sessions)
@@ -80,13 +80,13 @@ void rename_folders(const std::vector<fs::path>& sessions, const std::string& pa
     }
 }
 
-/// Sessions with which nothing could be done, and why.
+/// Sessions that could not be processed, and the reasons.
 struct LeftOver {
   std::vector<fs::path> done;
   std::vector<Error> why;
 };
 
-/// First all out of sight, then away: killed in between, what was seen by then is whole or gone.
+/// First all are moved out of sight, then deleted: after a kill in between, a visible session is whole.
 LeftOver delete_drives(const std::vector<fs::path>& sessions) {
   const auto hidden = [](const fs::path& session) { return fs::path(session.string() + ".forgotten"); };
   LeftOver result;
@@ -104,12 +104,12 @@ LeftOver delete_drives(const std::vector<fs::path>& sessions) {
     for (const char* beside : {"summary.json", "report.html", "debrief.html", "panorama.png"})
       fs::remove(session.parent_path() / beside, error);
     fs::remove_all(session.parent_path() / "screens", error);
-    fs::remove(session.parent_path(), error);  // Only where nothing else is in it.
+    fs::remove(session.parent_path(), error);  // Only if it is empty.
   }
   return result;
 }
 
-/// The session comes last: as long as it tells who drove, the whole can be done again.
+/// The session comes last: as long as it names the driver, the whole can be repeated.
 Expected<void> make_anonymous(const fs::path& session) {
   const auto draft = logging::write_anonymous_copy(session);
   if (!draft) return tl::unexpected(draft.error());
@@ -213,7 +213,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   const auto found = find_sessions(options.places);
   if (!found) return tl::unexpected(found.error());
   std::vector<fs::path> theirs;
-  std::vector<Error> unread;  // They may be theirs, and are nobody else's reason to be kept.
+  std::vector<Error> unread;  // They may be the participant's, and must not keep others.
   for (const fs::path& session : *found) {
     auto reader = logging::SessionReader::open(session);
     if (!reader)
@@ -230,7 +230,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
                                unread.empty() ? "" : "that can be read ", printable(options.participant, 60)),
                    options.places.front().string(), "check the code and the folders");
   }
-  // First of all: killed from here on, the experiment still does not drive them anew.
+  // First of all: after a kill from here on, the experiment still does not drive them again.
   std::set<fs::path> experiments;
   for (const fs::path& session : theirs)
     if (auto experiment = experiment_of(session, options.participant)) experiments.insert(std::move(*experiment));

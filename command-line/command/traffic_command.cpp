@@ -35,7 +35,7 @@ const FlowPoint& most_flow(const std::vector<FlowPoint>& points) {
   return *std::ranges::max_element(points, {}, &FlowPoint::flow_per_h);
 }
 
-/// From where to where equal plain drivers are string-unstable; nothing where they never are.
+/// Range in which equal plain drivers are string-unstable; empty if they never are.
 struct Unstable {
   double from_per_km = 0.0, to_per_km = 0.0;
 };

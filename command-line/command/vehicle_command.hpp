@@ -14,12 +14,13 @@ struct VehicleTestOptions {
   std::string manoeuvre;              ///< One of vehicle::manoeuvre_names(), or "all".
   std::filesystem::path out;          ///< Folder for NAME.json, NAME.csv and NAME.svg; empty writes nothing.
   std::filesystem::path inputs;       ///< Instead of a manoeuvre: a table of inputs (input_table.hpp).
-  double amplitude_deg = 0.0;  ///< Of the hand wheel, for step steer and sine with dwell; 0: found by the manoeuvre.
+  /// Of the hand wheel, for step steer and sine with dwell; 0: determined by the manoeuvre.
+  double amplitude_deg = 0.0;
   vehicle::ManoeuvreOptions conditions;
 };
 
-/// Prints the figures of each manoeuvre and writes the files, named VEHICLE-MANOEUVRE. The exit
-/// status is 2 where a result says nothing about the car, as its output tells.
+/// Prints the figures of each manoeuvre and writes the files, named VEHICLE-MANOEUVRE. Returns 2 if a result is not
+/// meaningful for the car, as its output explains.
 Expected<int> run_vehicle_test(const VehicleTestOptions& options);
 
 }  // namespace septet::server

@@ -13,7 +13,7 @@ namespace {
 
 using program::number_between, program::seed_number;
 
-/// Options that `drive` and `replay` share, and what they are by default.
+/// Options that `drive` and `replay` share, and their defaults.
 void add_drive_options(CLI::App& command, DriveOptions& drive, const std::string& out, const std::string& seconds) {
   command.add_option("--rig", drive.rig, "Rig: a file or a name of septet list rigs")
       ->default_str("desktop with a display, else seven-screens");
@@ -182,7 +182,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->default_str("none");
   report_command->callback([&] {
     options.work = [&] {
-      auto places = options.report.places;  // Without --out it writes beside what it reads.
+      auto places = options.report.places;  // Without --out it writes beside its input.
       places.emplace_back(".");
       program::write_only_below(options.report.out.empty() ? places : std::vector{options.report.out});
       return run_report(options.report);

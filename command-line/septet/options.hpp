@@ -22,17 +22,17 @@ class App;
 
 namespace septet::server {
 
-/// What the command line says. The parser writes it, so it must stay where it is.
+/// Parsed command line. The parser holds pointers into it, so it must not move.
 struct Options {
   DriveOptions drive, replay;
   bool verify = false;
-  std::vector<std::string> passed_on;  ///< What septet-film, septet-sound or septet-ice is told.
+  std::vector<std::string> passed_on;  ///< Arguments for septet-film, septet-sound or septet-ice.
   ReportOptions report;
   VehicleTestOptions track;
   double track_speed_kmh = 0.0;
   TrafficDiagramOptions diagram;
   std::string road_file, rig_name, kind;
-  std::vector<std::filesystem::path> list_data;  ///< Folders of one's own, of list.
+  std::vector<std::filesystem::path> list_data;  ///< User folders, of list.
   std::filesystem::path keys_out = "keys";
   CheckOptions check;
   AnswerOptions answer;
@@ -40,7 +40,7 @@ struct Options {
   ForgetOptions forget;
   ExperimentOptions experiment;
   OperateOptions operate;
-  std::function<Expected<int>()> work;  ///< Of the command that was chosen.
+  std::function<Expected<int>()> work;  ///< Of the chosen command.
 };
 
 /// --data, of the commands that choose among rigs, scenarios and experiments.

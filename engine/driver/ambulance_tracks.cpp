@@ -7,9 +7,9 @@ namespace septet::driver {
 namespace {
 
 constexpr double point_every_m = 1.0, kept_behind_m = 20.0;
-constexpr double lost_at = 1.5;  ///< Of the way within which an ambulance is followed.
+constexpr double lost_at = 1.5;  ///< Multiple of the distance within which an ambulance is followed.
 constexpr double room_beside_m = 0.25;
-/// Whoever is so near, bumper to bumper, is beside: the way over is closed.
+/// A vehicle this near, bumper to bumper, is beside: the path over is closed.
 constexpr double beside_behind_m = 15.0, beside_ahead_m = 8.0;
 
 const SeenVehicle* nearest_ambulance(std::span<const SeenVehicle> vehicles) {
@@ -19,7 +19,7 @@ const SeenVehicle* nearest_ambulance(std::span<const SeenVehicle> vehicles) {
   return nearest;
 }
 
-/// Whether somebody's body, now or soon, lies over a part of the road's width.
+/// True if a vehicle's body, now or soon, lies over a part of the road's width.
 bool lies_over(const SeenVehicle& vehicle, double right_m, double left_m) {
   const double reach_m = vehicle.half_width_m + room_beside_m;
   return std::max(vehicle.across_m, vehicle.across_soon_m) + reach_m > right_m &&
@@ -52,7 +52,7 @@ void look_at_tracks(TracksState& state, const traffic::Corridor& corridor, const
   if (follow == state.follows) return;
   if (!follow) return begin_way(state, 0.0, duration_s);
   const double there_m = across_at(state, own.x_m);
-  // What the body sweeps and does not cover yet: the own leader and follower are not beside.
+  // Width that the body will sweep and does not cover yet: the own leader and follower are not beside.
   const bool to_the_left = there_m > own.across_m;
   const double right_m = to_the_left ? own.across_m + own.half_width_m : there_m - own.half_width_m;
   const double left_m = to_the_left ? there_m + own.half_width_m : own.across_m - own.half_width_m;

@@ -19,22 +19,22 @@ using LineKind = traffic::YieldLine::Kind;
 
 constexpr double preview_step_m = 5.0;
 constexpr double line_sight_m = 90.0;
-constexpr double edge_of_crossing_m = 9.0;  ///< From the middle of the lane on it.
-/// Braking from which on a line is passed: at amber nobody brakes hard.
+constexpr double edge_of_crossing_m = 9.0;  ///< From the middle of the lane.
+/// Required braking beyond which a line is passed: at amber drivers avoid hard braking.
 constexpr double hardest_for_amber_mps2 = 3.0, hardest_mps2 = 7.0;
 constexpr double slowest_mps = 3.0, standing_mps = 1.0;
 constexpr double start_s = 1.2;  ///< To drive off.
 constexpr double doubt_s = 0.5;
-/// A driver indicates when the way out before his has been passed, or he comes to the fork.
+/// A driver indicates after the previous exit has been passed, or at the fork.
 constexpr double farthest_signal_m = 40.0, turn_before_m = 16.0;
 constexpr double stands_before_m = 1.2, overrun_m = 1.0;
 
-/// What the speed squared may be here beyond what it shall be so far ahead.
+/// Permitted excess of the squared speed here over the squared target so far ahead.
 double slower_m2ps2(const CourseParameters& course, const OwnPlace& own, double ahead_m) {
   return 2.0 * course.ease_off_mps2 * std::max(0.0, ahead_m - course.lead_s * std::max(own.speed_mps, 0.0));
 }
 
-/// What bends and limits within the preview allow here.
+/// Speed here, allowed by bends and limits within the preview.
 double allowed_speed_mps(const DriverParameters& driver, const road::RoadNetwork& network,
                          const traffic::Corridor& corridor, const OwnPlace& own) {
   double allowed = std::numeric_limits<double>::infinity();
@@ -60,7 +60,7 @@ Lamps light_at(const Snapshot& snapshot, const traffic::YieldLine& line) {
   return {};
 }
 
-/// The lane's way beyond a line.
+/// The lane's path beyond a line.
 std::vector<Vec2> way_at(const CourseLine& ahead, const road::RoadNetwork& network, const OwnPlace& own) {
   const int lane = ahead.line.along_s ? -own.lane : own.lane;
   const bool right_hand = network.roads[ahead.line.road].rule == road::TrafficRule::right_hand;
@@ -68,7 +68,7 @@ std::vector<Vec2> way_at(const CourseLine& ahead, const road::RoadNetwork& netwo
                              {ahead.line.road, right_hand ? lane : -lane, ahead.line.s_m, 0.0});
 }
 
-/// Whether somebody is at a crossing, on it or at its edge.
+/// True if a person is at a crossing, on it or at its edge.
 bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, const Snapshot& snapshot,
                     const OwnPlace& own) {
   const std::vector<Vec2> way = way_at(ahead, network, own);
@@ -80,7 +80,7 @@ bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, c
   });
 }
 
-/// Whether this line has to be kept, as the driver sees it.
+/// True if the driver sees that this line requires a stop.
 bool waits(const CourseLine& ahead, const CourseState& state, const DriverParameters& driver,
            const road::RoadNetwork& network, const Snapshot& snapshot, const OwnPlace& own, double left_m) {
   const double v = std::max(own.speed_mps, 0.0);
@@ -97,7 +97,7 @@ bool waits(const CourseLine& ahead, const CourseState& state, const DriverParame
       traffic::first_conflict(ahead.line.kind, way_at(ahead, network, own), snapshot.participants, *self);
   if (!conflict) return false;
   const double own_s = left_m / std::max(v, slowest_mps) + (v < standing_mps ? start_s : 0.0);
-  // Who has made up his mind does not change it for a trifle.
+  // A driver who has decided does not change for a trifle.
   const double certain_s = state.waits_at_m ? doubt_s : -doubt_s;
   return conflict->in_s * std::max(0.0, 1.0 + state.judgement.value) < own_s + driver.course.gap_s + certain_s;
 }
@@ -127,7 +127,7 @@ void look_at_course(CourseState& state, const DriverParameters& driver, const ro
   std::optional<double> seen;
   for (const CourseLine& ahead : state.lines) {
     const double left_m = traffic::distance_m(corridor, own.x_m, ahead.x_m) - own.front_m;
-    // Who came to stand a little beyond it waits there.
+    // A driver who stopped a little beyond it waits there.
     if (left_m < (own.speed_mps < standing_mps ? -overrun_m : 0.0) || left_m > line_sight_m) continue;
     if (ahead.line.kind == LineKind::crossing && state.speed_mps > driver.course.crossing_mps &&
         is_somebody_at(ahead, network, snapshot, own))
@@ -144,7 +144,7 @@ std::optional<Obstacle> line_ahead(const CourseState& state, const OwnPlace& own
   if (!state.waits_at_m) return std::nullopt;
   const double left_m = *state.waits_at_m - own.x_m - own.front_m;
   if (left_m < -overrun_m) return std::nullopt;
-  // One stops at the line, not as far from it as from somebody.
+  // Stops at the line, nearer than behind a vehicle.
   return Obstacle{.gap_m = left_m + speed.standstill_gap_m - stands_before_m, .speed_mps = 0.0};
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-/// What the road ahead asks of the driver besides its lane: slower in bends and for limits, waiting where others have right of way, indicating where
-/// one turns.
+/// Demands of the road ahead beside the lane: slower in bends and for limits, yielding where others have right of way,
+/// indicating before turns.
 ///
-/// Lights are seen as the snapshot tells them, who comes as anybody sees it: going on as he does (engine/traffic/yield_line.hpp). When
-/// he will be there is judged with an error; who would come sooner than the driver's own time to the line and a gap beyond is waited for.
-/// A line that could only be kept by stamping on the pedal is passed.
+/// Lights come from the snapshot, approaching vehicles are seen to continue as they do (engine/traffic/yield_line.hpp).
+/// Their arrival is judged with an error; the driver waits for any that would arrive sooner than his own time to the
+/// line plus a gap. A line that would need full braking is passed.
 
 #include <limits>
 #include <optional>
@@ -33,23 +33,23 @@ struct CourseTurn {
 struct CourseState {
   std::vector<CourseLine> lines;  ///< Ascending.
   std::vector<CourseTurn> turns;  ///< Ascending.
-  WanderingError judgement;       ///< Relative, of when others will be there.
+  WanderingError judgement;       ///< Relative, of others' arrival.
   ReactionDelay<std::optional<double>> eyes;
-  double speed_mps = std::numeric_limits<double>::infinity();  ///< What bends and limits ahead allow.
-  std::optional<double> waits_at_m;                            ///< The line that is kept, as seen a reaction time ago.
+  double speed_mps = std::numeric_limits<double>::infinity();  ///< Allowed by bends and limits ahead.
+  std::optional<double> waits_at_m;                            ///< The line to stop at, as seen a reaction time ago.
 
   bool stands_at_line(const OwnPlace& own) const { return waits_at_m && own.speed_mps < 0.3; }
 };
 
-/// What lies along a corridor that the driver has just found.
+/// Features along a corridor that the driver has just found.
 CourseState read_course(const road::RoadNetwork& network, const traffic::Corridor& corridor);
 
-/// A look ahead, `dt_s` after the last one. `wished_mps` is what the driver would drive here.
+/// A look ahead, `dt_s` after the last one. `wished_mps` is the driver's desired speed here.
 void look_at_course(CourseState& state, const DriverParameters& driver, const road::RoadNetwork& network,
                     const traffic::Corridor& corridor, const Snapshot& snapshot, const OwnPlace& own, double now_s,
                     double dt_s, Random& random);
 
-/// The line to be kept, as something that stands there.
+/// The line to stop at, as a standing obstacle.
 std::optional<Obstacle> line_ahead(const CourseState& state, const OwnPlace& own, const SpeedParameters& speed);
 
 IndicatorStalk turn_indicator(const CourseState& state, const CourseParameters& course, const OwnPlace& own);

@@ -8,7 +8,7 @@
 namespace septet::driver {
 namespace {
 
-/// Parameters that tell kinds of drivers apart, each by where it stands.
+/// Parameters that differ between kinds of drivers, each by its place in the structure.
 constexpr auto limit_factor = [](DriverParameters& d) -> double& { return d.speed.limit_factor; };
 constexpr auto time_gap = [](DriverParameters& d) -> double& { return d.speed.time_gap_s; };
 constexpr auto reaction = [](DriverParameters& d) -> double& { return d.speed.reaction_time_s; };

@@ -13,7 +13,7 @@ namespace {
 constexpr double sight_m = 250.0;
 constexpr double acceleration_seen_in_s = 0.5;
 constexpr double gap_step_m = 60.0;  ///< Gaps are those along the lane, as well as eyes measure them.
-constexpr double foresight_s = 1.0;  ///< Who comes over a line is seen to do so this much earlier.
+constexpr double foresight_s = 1.0;  ///< A vehicle that crosses a line is noticed this much earlier.
 
 Vec2 ground_position(const Participant& participant) { return Vec2(participant.world_from_vehicle.position_m); }
 
@@ -24,7 +24,7 @@ double x_on(const traffic::Corridor& corridor, const road::RoadPosition& place) 
   return piece->x_m + (piece->along_s ? place.s_m : piece->length_m - place.s_m);
 }
 
-/// The place on the corridor, where other roads of a junction lie on it: the one that is nearest along it to where somebody was expected.
+/// Place on the corridor, where other roads of a junction overlap: the one nearest along it to the expected place.
 std::optional<road::Location> on_corridor(const road::RoadNetwork& network, const traffic::Corridor& corridor,
                                           const std::optional<road::Location>& found, const Vec2& place,
                                           double expected_x_m) {

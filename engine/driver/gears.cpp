@@ -15,7 +15,7 @@ void enter(GearState& state, GearPhase phase) {
 
 double between(double light, double full, double accelerator) { return light + accelerator * (full - light); }
 
-/// The gear that the engine asks for, one step away at most.
+/// Gear that the engine's speed asks for, one step away at most.
 int wished_gear(const GearState& state, const GearParameters& gears, const CarKnowledge& car,
                 const GearSenses& senses) {
   const double up = between(gears.up_light_radps, gears.up_full_radps, senses.accelerator);
@@ -25,7 +25,7 @@ int wished_gear(const GearState& state, const GearParameters& gears, const CarKn
   return state.lever;
 }
 
-/// What the engine would turn at in a gear with the clutch up.
+/// Engine speed in a gear with the clutch up.
 double coupled_radps(const CarKnowledge& car, int gear, const GearSenses& senses) {
   return senses.speed_mps * car.engine_radps_per_mps[static_cast<std::size_t>(gear - 1)];
 }
@@ -95,7 +95,7 @@ double advance_gears(GearState& state, const GearParameters& gears, const CarKno
         enter(state, GearPhase::holding);
         return 0.0;
       }
-      // Braking is done in the gear that is in; the next one is chosen with the clutch down.
+      // Braking keeps the engaged gear; the next one is chosen with the clutch down.
       state.target = senses.braking ? state.lever : wished_gear(state, gears, car, senses);
       if (state.target != state.lever && state.driving_s > gears.pause_s) enter(state, GearPhase::pressing);
       return senses.accelerator;

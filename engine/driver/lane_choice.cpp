@@ -7,7 +7,7 @@ namespace septet::driver {
 namespace {
 
 constexpr double thought_interval_s = 0.5;
-/// Below this speed a way across is a matter of distance: nobody slides sideways while standing.
+/// Below this speed the path across is a function of distance: a standing car does not slide sideways.
 constexpr double slow_mps = 8.0;
 
 constexpr double slowest_preview_mps = 5.0;
@@ -20,7 +20,7 @@ bool is_in(const SeenVehicle& vehicle, int lane) {
 
 bool lies_left(const LaneScene& scene, int lane) { return (lane < scene.own.lane) == scene.grows_to_the_right; }
 
-/// What a lane offers by the plain intelligent driver model, which minds a slower vehicle long before
+/// Acceleration that a lane offers by the plain intelligent driver model, which reacts to a slower vehicle long before
 /// the foot has to.
 double offer_mps2(const LaneScene& scene, int lane, const DriverParameters& driver) {
   const double a = driver.speed.acceleration_mps2, v = std::max(scene.own.speed_mps, 0.0);
@@ -31,10 +31,10 @@ double offer_mps2(const LaneScene& scene, int lane, const DriverParameters& driv
   return a * (1.0 - std::pow(v / std::max(scene.desired_speed_mps, 0.1), 4) - tightest * tightest);
 }
 
-/// What a lane offers, m/s²: its acceleration and the driver's likings.
+/// Value of a lane, m/s²: its acceleration and the driver's preferences.
 double value_of(const LaneScene& scene, int lane, const DriverParameters& driver) {
   double value = offer_mps2(scene, lane, driver);
-  // Nobody is passed on the outer side.
+  // No overtaking on the outer side.
   if (lane > scene.own.lane) value = std::min(value, offer_mps2(scene, scene.own.lane, driver));
   // A lane that ends is a wall at its end.
   if (lane == scene.own.lane && scene.lane_ends_in_m < 500.0)
@@ -48,7 +48,7 @@ double value_of(const LaneScene& scene, int lane, const DriverParameters& driver
   return value;
 }
 
-/// The lane beside the present one that is worth a change, or the present one.
+/// The adjacent lane that is worth a change, or the present one.
 int wished_lane(const LaneScene& scene, const DriverParameters& driver) {
   int best = scene.own.lane;
   double best_value = value_of(scene, scene.own.lane, driver) + driver.lanes.threshold_mps2;
@@ -73,7 +73,7 @@ void give_up(LaneState& state) {
   enter(state, LanePhase::keep);
 }
 
-/// From where the car is on its way, as it moves.
+/// From the car's place and motion on its path.
 void turn_back(LaneState& state, const LaneChoiceParameters& lanes) {
   const WayPoint now = point_on_way(state.way, state.phase_s);
   state.way = {now.at, now.rate_ps, now.rate_change_ps2, 0.0, lanes.duration_s};
@@ -87,7 +87,7 @@ std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane, const
   double least_mps2 = 0.0;
   for (const SeenVehicle& vehicle : scene.vehicles) {
     if (!vehicle.is_ahead || !(is_in(vehicle, lane) || vehicle.is_ambulance)) continue;
-    // A beacon is seen from afar by everybody.
+    // A beacon is visible from afar.
     if (!vehicle.is_ambulance && vehicle.gap_m > speed.preview_s * std::max(scene.own.speed_mps, slowest_preview_mps))
       continue;
     Obstacle obstacle{vehicle.gap_m, vehicle.speed_mps, vehicle.acceleration_mps2};
@@ -128,7 +128,7 @@ bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver, d
         strictness * (driver.speed.standstill_gap_m + driver.lanes.accepted_gap * driver.speed.time_gap_s * behind_mps);
     const double left_m = vehicle.gap_m - closing_mps * until_crossed_s - needed_m;
     if (left_m < 0.0) return false;
-    // Braking that takes the closing speed out of what is left.
+    // Braking that removes the closing speed within the remaining distance.
     if (closing_mps * closing_mps > 2.0 * left_m * driver.lanes.safe_braking_mps2 / strictness) return false;
   }
   return true;
@@ -138,7 +138,7 @@ WayPoint point_on_way(const LaneWay& way, double time_s) {
   if (time_s >= way.duration_s) return {way.to, 0.0, 0.0};
   const double t = std::max(time_s, 0.0), T = way.duration_s;
   const double p = way.from, v = way.from_rate_ps, a = way.from_rate_change_ps2;
-  // What the motion at the beginning leaves to be done by the higher powers.
+  // Rest for the higher powers, after the motion at the beginning.
   const double place = way.to - (p + v * T + a * T * T / 2.0), rate = -(v + a * T), change = -a;
   const double c3 = (10.0 * place - 4.0 * rate * T + change * T * T / 2.0) / (T * T * T);
   const double c4 = (-15.0 * place + 7.0 * rate * T - change * T * T) / (T * T * T * T);

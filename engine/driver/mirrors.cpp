@@ -7,7 +7,7 @@
 namespace septet::driver {
 namespace {
 
-/// Smooth way from 0 to 1 with the least jerk (Flash and Hogan 1985).
+/// Smooth step from 0 to 1 with the least jerk (Flash and Hogan 1985).
 double smooth_step(double u) {
   u = std::clamp(u, 0.0, 1.0);
   return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);

@@ -10,12 +10,12 @@ constexpr double foot_move_s = 0.25;
 constexpr double accelerator_rate_ps = 1.5, brake_rate_ps = 4.0, release_rate_ps = 4.0;
 constexpr double seat_gain_s2pm_ps = 0.10;  ///< Accelerator per second and m/s² that the car lacks.
 constexpr double coasting_mps2 = 0.35;      ///< Engine's drag with the foot off, beside air and rolling.
-constexpr double emergency_mps2 =
-    -3.5;  ///< Needed not to touch the one ahead: from here on the foot moves as fast as it can.
+/// Required to avoid the leader: from here on the foot moves as fast as it can.
+constexpr double emergency_mps2 = -3.5;
 constexpr double emergency_jerk_mps3 = 20.0;
 constexpr double hardest_braking_mps2 = -9.0;
 constexpr double least_gap_m = 0.5;
-constexpr double braking_lasts_s = 1.0;  ///< For so long braking ahead is expected to go on.
+constexpr double braking_lasts_s = 1.0;  ///< Expected duration of a leader's braking.
 
 double approached(double value, double target, double step) { return value + std::clamp(target - value, -step, step); }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How a person's seeing differs from the state of the world: it wanders, and it is late.
+/// Differences of a person's perception from the state of the world: it wanders, and it is late.
 
 #include <cmath>
 #include <deque>
@@ -9,7 +9,7 @@
 
 namespace septet::driver {
 
-/// An error that wanders: an Ornstein–Uhlenbeck process, sampled exactly for any step.
+/// A wandering error: an Ornstein–Uhlenbeck process, sampled exactly for any step.
 struct WanderingError {
   double value = 0.0;
 
@@ -20,11 +20,11 @@ struct WanderingError {
   }
 };
 
-/// What was seen comes to act `delay_s` later.
+/// Delay of a perception by `delay_s`.
 template <class Seen>
 class ReactionDelay {
  public:
-  /// Takes what is seen now and returns what was seen `delay_s` ago, or the first ever.
+  /// Takes the present view and returns the one of `delay_s` ago, or the first ever.
   const Seen& through(double now_s, Seen seen, double delay_s) {
     past_.emplace_back(now_s, std::move(seen));
     while (past_.size() > 1 && past_[1].first <= now_s - delay_s) past_.pop_front();

@@ -11,10 +11,10 @@ namespace septet::driver {
 namespace {
 
 constexpr double look_around_interval_s = 0.05;
-constexpr double all_snow_cover = 0.3;    ///< From here on a road counts as snowy altogether.
+constexpr double all_snow_cover = 0.3;    ///< Cover from which a road counts as completely snowy.
 constexpr double lane_preview_m = 300.0;  ///< A lane counts as open if it is so for this far.
 
-/// A point of the lane's centre, or of the way between two while changing.
+/// A point of the lane's centre, or of the path between two while changing.
 Vec3 lane_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m, double ahead_m,
                 double speed_mps) {
   const LaneState& lanes = driver.lanes;
@@ -30,7 +30,7 @@ Vec3 lane_point(const SimulatedDriver& driver, const road::RoadNetwork& network,
   return here + across * (centre(lanes.target) - here);
 }
 
-/// A point of the intended path: in the lane, or in an ambulance's tracks, or on the way between.
+/// A point of the intended path: in the lane, in an ambulance's tracks, or between.
 Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m, double ahead_m,
                 double speed_mps) {
   const Vec3 in_lane = lane_point(driver, network, x_m, ahead_m, speed_mps);
@@ -58,7 +58,7 @@ PathAngles see_path(const SimulatedDriver& driver, const road::RoadNetwork& netw
           bearing_rad(body.world_from_vehicle, path_point(driver, network, own.x_m, far_m, own.speed_mps))};
 }
 
-/// Who takes the wheel under way holds it as the bend asks for.
+/// A driver who takes over in motion holds the wheel as the bend requires.
 void take_the_wheel(SimulatedDriver& driver, const road::RoadNetwork& network, const OwnPlace& own) {
   const road::LanePoint lane = road::evaluate_lane(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
   const double ahead = traffic::piece_at(*driver.corridor, own.x_m).along_s ? 1.0 : -1.0;
@@ -66,7 +66,7 @@ void take_the_wheel(SimulatedDriver& driver, const road::RoadNetwork& network, c
       driver.parameters.car, own.speed_mps, ahead * lane.road.curvature_per_m, ahead * lane.road.roll_rad);
 }
 
-/// How far the lane stays open, up to the preview.
+/// Distance over which the lane stays open, up to the preview.
 double open_for_m(const road::RoadNetwork& network, const traffic::Corridor& corridor, double x_m, int lane) {
   if (lane < 1) return 0.0;
   for (double ahead_m = 0.0; ahead_m <= lane_preview_m; ahead_m += 50.0) {
@@ -85,8 +85,8 @@ double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork&
   return std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)), driver.course.speed_mps);
 }
 
-/// What the foot minds: whoever was seen in the way a reaction time ago, or the end of the lane. Which way the car goes the
-/// driver knows at once.
+/// Obstacle for the foot: the vehicle seen on the path a reaction time ago, or the end of the lane. The car's own path
+/// is known at once.
 std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, LaneScene scene) {
   scene.vehicles = driver.minded;
   if (driver.tracks.follows) return obstacle_in_tracks(driver.tracks, scene, driver.parameters.speed);
@@ -169,7 +169,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
   const auto looked = advance_mirrors(driver.mirrors, parameters.mirrors, at_ease, dt_s, driver.head_random);
   advance_tracks(driver.tracks, dt_s);
   if (driver.tracks.follows)
-    driver.lanes = {.lane = own->lane, .target = own->lane};  // The one to go back to.
+    driver.lanes = {.lane = own->lane, .target = own->lane};  // The lane to return to.
   else
     advance_lane_choice(driver.lanes, parameters, scene, driver.mirrors, looked, dt_s, driver.head_random);
   advance_pedals(driver.pedals, parameters.speed, parameters.car, *own, scene.desired_speed_mps,

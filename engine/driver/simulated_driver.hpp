@@ -4,8 +4,8 @@
 ///     SimulatedDriver driver(parameters, seed);
 ///     each tick: DriverInput input = advance(driver, network, snapshot, dt_s);
 ///
-/// Same parameters, seed and snapshots: same controls. Eyes, hands and feet are in the files beside
-/// this one; README.md says where each part comes from. Threads: one at a time.
+/// Same parameters, seed and snapshots: same controls. Eyes, hands and feet are in the files beside this one; README.md
+/// gives each part's source. Threads: one at a time.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,7 @@
 
 namespace septet::driver {
 
-/// What the driver remembers from tick to tick.
+/// The driver's memory between ticks.
 struct SimulatedDriver {
   SimulatedDriver(DriverParameters parameters_in, std::uint64_t seed)
       : parameters(std::move(parameters_in)),
@@ -42,7 +42,7 @@ struct SimulatedDriver {
   std::optional<road::RoadPosition> place;  ///< Hint for the next look.
   std::vector<SeenVehicle> vehicles;
   ReactionDelay<std::vector<SeenVehicle>> foot_eyes;
-  std::vector<SeenVehicle> minded;  ///< Those who the foot acts upon: as seen a reaction time ago.
+  std::vector<SeenVehicle> minded;  ///< Vehicles that the foot acts upon: as seen a reaction time ago.
   double now_s = 0.0;
   double next_look_around_s = 0.0;
   SteeringState steering;
@@ -53,7 +53,7 @@ struct SimulatedDriver {
   TracksState tracks;
   CourseState course;
   WarningState warning;
-  bool plays = false;  ///< Has seen that this is a game.
+  bool plays = false;  ///< Has noticed that this is a game.
   std::uint8_t sequence = 0;
 };
 

@@ -31,7 +31,7 @@ double advance_steering(SteeringState& state, const SteeringParameters& steering
       state.position_error_m.advance(steering.position_noise_m, steering.position_noise_s, dt_s, random);
   const double heading_error_rad =
       state.heading_error_rad.advance(steering.heading_noise_rad, steering.heading_noise_s, dt_s, random);
-  // An error in the place moves the near point sideways, one in the heading turns both.
+  // A position error shifts the near point sideways, a heading error turns both.
   const double far_m = std::max(steering.near_distance_m, steering.far_time_s * speed_mps);
   const PathAngles seen{path.near_rad + heading_error_rad + position_error_m / steering.near_distance_m,
                         path.far_rad + heading_error_rad + position_error_m / far_m};

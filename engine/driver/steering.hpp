@@ -6,11 +6,10 @@
 ///
 ///     dφ = k_far dθ_far + k_near dθ_near + k_i min(θ_near, θ_max) dt
 ///
-/// φ is the hand-wheel angle, θ the visual directions of a near and a far point of the path. Their
-/// gains belong to their simulator's wheel; here they follow from the car: with yaw rate G·φ a
-/// small excursion y obeys y'' + G(k_far + k_near) y' + (vG k_near / d_near) y = 0, so that the
-/// natural frequency and damping of returning to the path give k_near = ω² d_near / (vG) and k_far
-/// = 2ζω/G − k_near.
+/// φ is the hand-wheel angle, θ the visual directions of a near and a far point of the path. Their gains belong to
+/// their simulator's wheel; here they follow from the car: with yaw rate G·φ a small excursion y obeys y'' + G(k_far +
+/// k_near) y' + (vG k_near / d_near) y = 0, from which the natural frequency and damping of returning to the path give
+/// k_near = ω² d_near / (vG) and k_far = 2ζω/G − k_near.
 
 #include "engine/driver/driver_parameters.hpp"
 #include "engine/driver/driver_view.hpp"
@@ -24,9 +23,8 @@ struct SteeringGains {
 /// Gains for a speed; below 5 m/s those for 5 m/s.
 SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowledge& car, double speed_mps);
 
-/// The hand wheel that holds a bend in a steady state: the bend's geometry, and understeer with the
-/// lateral acceleration that banking does not give. Curvature positive to the left; roll positive lifts
-/// the left side.
+/// Hand-wheel angle of a bend in a steady state: the bend's geometry, and understeer for the lateral acceleration that
+/// banking does not balance. Curvature positive to the left; roll positive lifts the left side.
 double steady_wheel_rad(const CarKnowledge& car, double speed_mps, double curvature_per_m, double roll_rad);
 
 struct SteeringState {
@@ -34,13 +32,13 @@ struct SteeringState {
   WanderingError position_error_m, heading_error_rad;
   bool has_seen = false;
   PathAngles last;            ///< As of the tick before.
-  PathAngles unanswered;      ///< Changes that passed by while the eyes were off the road.
+  PathAngles unanswered;      ///< Changes that occurred while the eyes were off the road.
   double intended_rad = 0.0;  ///< φ.
-  double hands_rad = 0.0;     ///< φ behind the muscles.
+  double hands_rad = 0.0;     ///< φ after the muscles' lag.
 };
 
-/// The hand wheel after `dt_s` more. With the eyes off the road only a share of what changes is
-/// answered, out of the corner of the eye; the rest follows when they are back.
+/// The hand wheel after `dt_s` more. With the eyes off the road only a share of the changes is acted upon, by
+/// peripheral vision; the rest follows when they are back.
 double advance_steering(SteeringState& state, const SteeringParameters& steering, const CarKnowledge& car,
                         const PathAngles& path, bool sees_road, double speed_mps, double now_s, double dt_s,
                         Random& random);

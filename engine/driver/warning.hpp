@@ -1,8 +1,8 @@
 #pragma once
-/// Own hazard lights, behind somebody who stands and warns with his.
+/// Own hazard lights, behind a standing vehicle with hazard lights.
 ///
-/// A driver who has come to stand last in a queue passes the warning on, after a time that is drawn anew for each halt from a
-/// log-normal distribution. No published time was found: its medians are assumptions.
+/// A driver who stops last in a queue passes the warning on, after a time drawn for each halt from a log-normal
+/// distribution. No published time was found: its medians are assumptions.
 
 #include <optional>
 #include <span>
@@ -14,12 +14,12 @@
 namespace septet::driver {
 
 struct WarningState {
-  double stands_s = 0.0;          ///< Behind somebody who warns.
+  double stands_s = 0.0;          ///< Behind a vehicle with hazard lights.
   std::optional<double> after_s;  ///< Drawn for this halt.
   bool on = false;
 };
 
-/// Whether the hazard lights are on, `dt_s` later. They go off when the car drives again.
+/// True while the hazard lights are on, `dt_s` later. They go off when the car drives again.
 bool advance_warning(WarningState& state, const SpeedParameters& speed, const OwnPlace& own,
                      std::span<const SeenVehicle> vehicles, double dt_s, Random& random);
 

@@ -62,7 +62,7 @@ void put_head(ByteWriter& writer, const Head& head) {
   for (const double value : {head.from_rest_m.x, head.from_rest_m.y, head.from_rest_m.z, head.turn_rad})
     writer.put(value);
 }
-/// Nearer than what no head does is not a matter of form: a picture from there would be one of nothing.
+/// A head beyond the limit fails the reader: its picture would show nothing.
 Head get_head(ByteReader& reader) {
   Head head;
   for (double* value : {&head.from_rest_m.x, &head.from_rest_m.y, &head.from_rest_m.z, &head.turn_rad})
@@ -141,7 +141,7 @@ std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline,
   return expected;
 }
 
-/// Bit f: field f differs.
+/// Bit f is set where field f differs.
 std::uint32_t changed_fields(const WireParticipant& now, const WireParticipant& reference) {
   std::uint32_t mask = 0;
   for (std::size_t f = 0; f < participant_field_count; ++f)
@@ -343,7 +343,7 @@ void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants
   if (participants == Participants::told)
     put_participants(writer, baseline, wire);
   else
-    writer.put_bytes(std::array<std::byte, 2>{});  // None has gone, none has changed.
+    writer.put_bytes(std::array<std::byte, 2>{});  // No participant removed, none changed.
   static const std::vector<EffectKeyframe> no_effects;
   put_effects(writer, baseline ? baseline->rest.effects : no_effects, rest.effects, rest.tick);
 }

@@ -25,7 +25,7 @@ enum class CoordinateSystem : std::uint8_t { entity, lane, road, world };
 enum class DistanceType : std::uint8_t { longitudinal, lateral, euclidean };
 enum class Direction : std::uint8_t { total, longitudinal, lateral, vertical };
 
-/// How a distance between two things is measured.
+/// Measure of a distance between two objects.
 struct DistanceMeasure {
   CoordinateSystem system = CoordinateSystem::entity;
   DistanceType type = DistanceType::euclidean;
@@ -47,16 +47,16 @@ struct ValueCondition {
   Rule rule = Rule::equal;
   std::string compared;  ///< As numbers where both are, else as texts (parameter_value.hpp).
 };
-/// What a signal's controller says of it: the state as the file writes it.
+/// State of a signal by its controller, as the file writes it.
 struct TrafficSignalCondition {
   std::string signal, state;
 };
-/// Which phase a controller is in.
+/// Phase of a controller.
 struct TrafficSignalControllerCondition {
   std::size_t controller = 0;  ///< Index in Scenario::signals.
   std::string phase;
 };
-/// What a storyboard element is in, or passed through in this step.
+/// State of a storyboard element, or its transition in this step.
 enum class ElementPhase : std::uint8_t {
   standby_state,
   running_state,
@@ -75,7 +75,7 @@ struct StoryboardElementStateCondition {
 struct EndOfRoadCondition {
   double duration_s = 0.0;
 };
-/// Its box meets that of an entity, or of any of a kind.
+/// True while its box meets that of an entity, or of any of a kind.
 struct CollisionCondition {
   EntityIndex entity = no_entity;
   std::optional<EntityKind> kind;
@@ -128,16 +128,16 @@ struct TimeToCollisionCondition {
 struct RelativeLaneRange {
   int from = 0, to = 0;
 };
-/// No other entity within these distances in these lanes (none: in all).
+/// True without another entity within these distances in these lanes (empty: in all).
 struct RelativeClearanceCondition {
   std::vector<RelativeLaneRange> lanes;
-  std::vector<EntityIndex> entities;  ///< None: all others.
+  std::vector<EntityIndex> entities;  ///< Empty: all others.
   double forward_m = 0.0, backward_m = 0.0;
   bool freespace = true;
   bool opposite_lanes = false;
 };
 
-/// None: not supported yet, reported when the file was read; never true.
+/// Empty: not supported yet, reported when the file was read; never true.
 using ConditionVariant =
     std::variant<std::monostate, SimulationTimeCondition, ValueCondition, StoryboardElementStateCondition,
                  EndOfRoadCondition, CollisionCondition, StandStillCondition, TraveledDistanceCondition,

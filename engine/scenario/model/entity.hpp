@@ -1,8 +1,8 @@
 #pragma once
-/// Who and what takes part in a scenario (OpenSCENARIO XML 1.3, "Entities"), as plain data.
+/// Participants of a scenario (OpenSCENARIO XML 1.3, "Entities"), as plain data.
 ///
-/// Metres, seconds, radians. Bounding boxes and axles stand in the entity's frame, which is the
-/// vehicle frame of rigid_transform.hpp.
+/// Metres, seconds, radians. Bounding boxes and axles stand in the entity's frame, which is the vehicle frame of
+/// rigid_transform.hpp.
 
 #include <cstdint>
 #include <limits>
@@ -35,7 +35,7 @@ struct Axle {
   double x_m = 0.0, z_m = 0.0;
 };
 
-/// What speed and acceleration actions may ask for; without limits where the file gives none.
+/// Bounds of speed and acceleration actions; infinite where the file gives none.
 struct Performance {
   double max_speed_mps = std::numeric_limits<double>::infinity();
   double max_acceleration_mps2 = std::numeric_limits<double>::infinity();
@@ -53,14 +53,15 @@ struct Entity {
   Performance performance;
   double mass_kg = 0.0;
   std::map<std::string, std::string> properties;
-  ModelIndex model = 0;  ///< What it is drawn as; chosen by match_vehicle_model.
+  ModelIndex model = 0;  ///< Drawn model; chosen by match_vehicle_model.
 };
 
-/// What a vehicle of this category (OpenSCENARIO's word) is drawn and driven as; a car for the rest.
+/// Kind of a vehicle of this category (OpenSCENARIO's word); a car for the rest.
 ParticipantKind kind_of_category(std::string_view category);
 
-/// The model of the same name as the entity's type; else the one that its role, category and name tell
-/// ("car_police"); else, among those of its kind (category and role), the one nearest in length, width and height; else the nearest of any kind.
+/// The model of the same name as the entity's type; else the one that its role, category and name suggest
+/// ("car_police"); else, among those of its kind (category and role), the one nearest in length, width and height; else
+/// the nearest of any kind.
 ModelIndex match_vehicle_model(const Entity& entity);
 
 }  // namespace septet::scenario

@@ -14,7 +14,7 @@ bool is_whole(std::string_view value, double low, double high) {
   return number && *number == std::floor(*number) && *number >= low && *number <= high;
 }
 
-/// "2026-01-31T12:00:00", with whatever stands behind it of fractions and time zone.
+/// "2026-01-31T12:00:00", with any fractions and time zone behind it.
 bool is_date_time(std::string_view value) {
   constexpr std::string_view form = "0000-00-00T00:00:00";
   if (value.size() < form.size()) return false;

@@ -1,6 +1,6 @@
 #pragma once
-/// Values of parameters and variables: texts that are of a type of the standard, and how they compare
-/// (OpenSCENARIO XML 1.3, "ParameterType", "Rule").
+/// Values of parameters and variables: texts with a type of the standard, and their comparison (OpenSCENARIO XML 1.3,
+/// "ParameterType", "Rule").
 
 #include <string_view>
 
@@ -8,12 +8,11 @@
 
 namespace septet::scenario {
 
-/// Whether the text is a value of this type: "integer", "int", "unsignedInt", "unsignedShort", "double",
-/// "boolean", "dateTime", "string". Of an unknown type everything is.
+/// True where the text is a value of this type: "integer", "int", "unsignedInt", "unsignedShort", "double", "boolean",
+/// "dateTime", "string". An unknown type accepts every text.
 bool is_of_type(std::string_view value, std::string_view type);
 
-/// As numbers where both are numbers, else as texts, of which dates and times are the reason for an
-/// order.
+/// Compares as numbers where both are numbers, else as texts, whose order serves dates and times.
 bool compare_values(Rule rule, std::string_view left, std::string_view right);
 
 }  // namespace septet::scenario

@@ -15,7 +15,7 @@ namespace septet::scenario {
 
 /// Relative: to the lane's direction of travel or to the reference entity; absolute: to the world.
 struct Orientation {
-  bool given = false;  ///< The file has one.
+  bool given = false;  ///< True where the file has one.
   bool relative = true;
   double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
 };
@@ -23,7 +23,7 @@ struct Orientation {
 struct WorldPosition {
   Vec3 position_m{0.0};
   std::optional<double> height_m;  ///< z where the file gives one, else the surface of the road.
-  bool heading_given = false;      ///< Else it is 0.
+  bool heading_given = false;      ///< Else the heading is 0.
   double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
 };
 
@@ -71,7 +71,7 @@ struct RelativeLanePosition {
 
 struct Route;
 
-/// A place along a route: so far from its first waypoint, in a lane, at a t of the road there, or where an entity is.
+/// A place along a route: a distance from its first waypoint, in a lane, at a t of the road there, or at an entity.
 struct RoutePosition {
   std::shared_ptr<const Route> route;
   double path_s_m = 0.0;
@@ -82,13 +82,12 @@ struct RoutePosition {
   Orientation orientation;
 };
 
-/// No position: the file used a kind that is not supported yet, which was reported when it was
-/// read.
+/// Empty: the file used a kind that is not supported yet, which was reported when it was read.
 using Position =
     std::variant<std::monostate, WorldPosition, RelativeWorldPosition, RelativeObjectPosition, RoadCoordinates,
                  RelativeRoadPosition, LaneCoordinates, RelativeLanePosition, RoutePosition>;
 
-/// Waypoints in the order in which they are passed, by the shortest way.
+/// Waypoints in driving order, joined by the shortest path.
 struct Route {
   std::vector<Position> waypoints;
   std::size_t index = 0;  ///< In Scenario::routes and ScenarioState::routes.

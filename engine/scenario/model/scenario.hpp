@@ -1,9 +1,7 @@
 #pragma once
-/// A scenario as plain data: what an OpenSCENARIO XML 1.3 file says, checked, with names turned
-/// into indices.
+/// A scenario as plain data: the content of an OpenSCENARIO XML 1.3 file, checked, with names turned into indices.
 ///
-/// Made by read_scenario (scenario_reader.hpp), immutable afterwards. It is run by
-/// storyboard_runtime.hpp.
+/// Made by read_scenario (scenario_reader.hpp), immutable afterwards. It is run by storyboard_runtime.hpp.
 
 #include <memory>
 #include <optional>
@@ -69,14 +67,14 @@ struct Story {
   std::vector<Act> acts;
 };
 
-/// One action of Init; `entity` is none for a global one.
+/// One action of Init; `entity` is no_entity for a global one.
 struct InitAction {
   EntityIndex entity = no_entity;
   ActionVariant what;
   std::string where;  ///< "file:line, <element>", for messages.
 };
 
-/// Their numbers among the participants end where traffic's begin, and one tick must hold them all.
+/// Limit: their numbers among the participants end where traffic's begin, and one tick must hold them all.
 inline constexpr std::size_t most_entities = 990;
 inline constexpr std::uint32_t most_swarm_vehicles = 3000;
 
@@ -85,13 +83,14 @@ struct Scenario {
   std::string road_file;  ///< As the file gives it: relative to the scenario's folder.
   std::vector<SignalController> signals;
   std::vector<Entity> entities;
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< Name and value of what can be given from outside.
+  /// Name and value of the parameters that can be given from outside.
+  std::vector<std::pair<std::string, std::string>> parameters;
   std::vector<std::string> values;  ///< Of parameters and variables when the scenario begins.
   std::vector<std::shared_ptr<const Route>> routes;
   std::vector<InitAction> init;
   std::vector<Story> stories;
   Trigger stop;
-  std::optional<GameSettings> game;  ///< It is played as one.
+  std::optional<GameSettings> game;  ///< Set where the scenario is played as a game.
   ElementIndex storyboard_element = 0;
   std::uint32_t element_count = 1;
   std::uint32_t condition_count = 0;

@@ -8,7 +8,7 @@
 namespace septet::scenario {
 namespace {
 
-/// Time is a sum of steps: a phase begins in the step that comes to it.
+/// Time is a sum of steps: a phase begins in the step that reaches it.
 constexpr double slack_s = 1e-6;
 
 constexpr std::array lamps_from_top{Lamp::signal_red, Lamp::signal_amber, Lamp::signal_green};

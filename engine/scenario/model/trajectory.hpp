@@ -1,5 +1,6 @@
 #pragma once
-/// Trajectories as OpenSCENARIO XML 1.3 writes them ("Trajectory", "Shape"), not yet laid on a road (see path.hpp). SI units.
+/// Trajectories as OpenSCENARIO XML 1.3 writes them ("Trajectory", "Shape"), not yet laid on a road (see path.hpp). SI
+/// units.
 
 #include <optional>
 #include <string>
@@ -22,7 +23,7 @@ struct PolylineShape {
 /// Curves whose curvature grows evenly along their length; a single clothoid is a spline of one.
 struct ClothoidSplineShape {
   struct Segment {
-    std::optional<Position> start;  ///< None: the end of the segment before, or the entity's place.
+    std::optional<Position> start;  ///< Absent: the end of the segment before, or the entity's place.
     double start_curvature_per_m = 0.0, end_curvature_per_m = 0.0;
     double length_m = 0.0;
     double heading_offset_rad = 0.0;  ///< Added at its start.
@@ -53,9 +54,9 @@ struct Trajectory {
 /// FollowTrajectoryAction.
 struct FollowTrajectoryAction {
   Trajectory trajectory;
-  double initial_distance_m = 0.0;  ///< Where on it one begins.
-  /// With a time reference the trajectory's times say where one is when, scaled and then shifted; without, one goes along it at
-  /// one's own speed.
+  double initial_distance_m = 0.0;  ///< Station at which the entity begins.
+  /// With a time reference the trajectory's times give the place at each time, scaled and then shifted; without, the
+  /// entity keeps its own speed.
   bool timed = false;
   bool from_simulation_start = false;  ///< Its times count from time 0, else from the action's start.
   double time_scale = 1.0, time_offset_s = 0.0;

@@ -18,7 +18,7 @@ ParticipantKind kind_of(const Entity& entity) {
   return kind_of_category(entity.category);
 }
 
-/// What a name that is not in the catalogue says: the words of it that make one model of the category the likely one. The first counts.
+/// Words of a name outside the catalogue that suggest one model of the category. The first match counts.
 struct Word {
   std::string_view category, word, model;
 };
@@ -35,7 +35,7 @@ constexpr std::array<Word, 19> words{{
     {"trailer", "car_", "caravan"},
 }};
 
-/// The model that role, category and name tell, before any measures are compared.
+/// The model that role, category and name suggest, before any measures are compared.
 std::string_view told_model(const Entity& entity) {
   if (entity.role == "police") return entity.category == "van" ? "police-van" : "police-car";
   if (entity.role == "fire") return "fire-engine";
@@ -48,7 +48,7 @@ std::string_view told_model(const Entity& entity) {
   return {};
 }
 
-/// What nobody is drawn as by its measures alone.
+/// True for models that are never chosen by their measures alone.
 bool is_told_by_name_alone(std::string_view model) {
   for (const std::string_view name :
        {"taxi", "police-car", "police-van", "fire-engine", "farm-tractor", "caravan", "semitrailer", "tractor-unit"})
@@ -82,7 +82,7 @@ ModelIndex match_vehicle_model(const Entity& entity) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < models.size(); ++i) {
     if (is_told_by_name_alone(models[i].name)) continue;
-    // Another kind is only taken where there is none of the right one.
+    // Another kind is chosen only where there is none of the right one.
     const double difference = difference_m(models[i], entity.box) + (models[i].kind == kind ? 0.0 : 1e6);
     if (difference < least) {
       least = difference;

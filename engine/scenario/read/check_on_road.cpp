@@ -9,7 +9,7 @@
 namespace septet::scenario {
 namespace {
 
-/// Places that the file names outright: anywhere in the storyboard.
+/// Checks the places that the file names directly, anywhere in the storyboard.
 void check_named_places(const Reading& reading, const road::RoadNetwork& network) {
   const ScenarioState nobody_anywhere;
   for (const auto& [element, position] : reading.positions) {
@@ -22,7 +22,7 @@ void check_named_places(const Reading& reading, const road::RoadNetwork& network
   }
 }
 
-/// Where everybody stands after Init.
+/// Checks the places of all entities after Init.
 void check_start(const Reading& reading, const road::RoadNetwork& network) {
   const Scenario& scenario = reading.scenario;
   StepResult result;
@@ -63,7 +63,7 @@ void check_on_road(Reading& reading, const Element& logic_file) {
     return;
   }
   check_named_places(reading, *network);
-  // Init runs only where everything that it says could be read.
+  // Init runs only where all of it could be read.
   if (!findings_of(*reading.xml_files.front()).has_error()) check_start(reading, *network);
 }
 

@@ -114,7 +114,7 @@ TransitionDynamics read_dynamics(const Element& element) {
       DynamicsDimension::time);
   // Older files write a braking rate with its sign; the direction follows from the target.
   dynamics.value = std::abs(element.number("value"));
-  constexpr double least = 1e-6;  // Of a second, a metre or either's rate: nobody means less.
+  constexpr double least = 1e-6;  // Of a second, a metre or either's rate: smaller values are meant as 0.
   if (dynamics.value > 0.0 && dynamics.value < least) {
     element.warning(fmt::format("value=\"{}\" is as good as 0", dynamics.value),
                     "write 0, or a value that can be told from it");
@@ -142,7 +142,7 @@ ActionVariant read_private_action(Reading& reading, const Element& action) {
   }
   if (const Element found = action.child("TeleportAction")) return TeleportAction{read_position(reading, found)};
   if (const Element found = action.child("SynchronizeAction")) return read_synchronize(reading, found);
-  // Seen, so that what is in them is named, not they.
+  // Marked as read, so that its parts are reported, not itself.
   if (const Element routing = action.child("RoutingAction")) {
     if (const Element found = routing.child("FollowTrajectoryAction")) return read_follow_trajectory(reading, found);
     if (const Element found = routing.child("AssignRouteAction"))

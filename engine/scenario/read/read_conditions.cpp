@@ -22,7 +22,7 @@ Direction read_direction(const Element& element) {
 DistanceMeasure read_measure(const Element& element) {
   DistanceMeasure measure;
   measure.freespace = element.required_boolean("freespace", false);
-  // alongRoute is what 1.0 had instead of coordinateSystem and relativeDistanceType.
+  // Version 1.0 had alongRoute in place of coordinateSystem and relativeDistanceType.
   const bool along_route = element.boolean_or("alongRoute", false);
   measure.system = element.word<CoordinateSystem>("coordinateSystem",
                                                   {{"entity", CoordinateSystem::entity},

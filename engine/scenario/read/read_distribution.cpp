@@ -61,7 +61,7 @@ void check_stochastic(const Element& distribution, Names& varied) {
   }
 }
 
-/// What is varied must be a parameter of the scenario, if that can be read.
+/// Checks that the varied names are parameters of the scenario, if that can be read.
 void check_names(Reading& reading, const Element& scenario_file, const Names& varied) {
   const std::string path = scenario_file.text("filepath");
   if (path.empty()) return;

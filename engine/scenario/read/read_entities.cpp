@@ -87,7 +87,7 @@ void read_entities(Reading& reading, const Element& entities) {
   bool too_many = false;
   for (const Element& object : entities.children("ScenarioObject")) {
     if (reading.scenario.entities.size() == most_entities) {
-      // That is one fault, not one for each of the others, nor for each that is named below.
+      // One fault, not one for each further entity, nor for each reference below.
       if (!too_many)
         object.error(fmt::format("there are more than {} entities", most_entities),
                      "leave the others to a traffic swarm");

@@ -34,7 +34,7 @@ void read_weather(const Element& weather, EnvironmentAction& action) {
     action.sun_azimuth_rad = sun.number("azimuth");
     action.sun_elevation_rad = sun.number("elevation");
     action.sun_illuminance_lux = sun.optional_number("illuminance", 0.0, 1e9);
-    // 1.0 and 1.1 said intensity and meant lux.
+    // Versions 1.0 and 1.1 wrote intensity and meant lux.
     if (!action.sun_illuminance_lux) action.sun_illuminance_lux = sun.optional_number("intensity", 0.0, 1e9);
   }
   if (const Element fog = weather.child("Fog")) action.visibility_m = fog.number("visualRange", 0.0);
@@ -69,7 +69,7 @@ EnvironmentAction read_environment_action(Reading& reading, const Element& eleme
 EnvironmentAction read_environment(const Element& environment) {
   EnvironmentAction action;
   action.name = environment.label("name");
-  // The sun is given by its angles; a time of day that stands still says nothing more that is drawn.
+  // The sun is given by its angles; a fixed time of day adds nothing to the picture.
   if (const Element time = environment.child("TimeOfDay")) {
     time.ignore();
     if (time.boolean_or("animation", false) || !environment.child("Weather").child("Sun")) {
@@ -80,7 +80,7 @@ EnvironmentAction read_environment(const Element& environment) {
   if (const Element weather = environment.child("Weather")) read_weather(weather, action);
   if (const Element road = environment.child("RoadCondition")) {
     action.friction_scale = road.number("frictionScaleFactor", 0.0, 100.0);
-    // The standard's precipitation says what falls, and nothing says what lies, there or on a windscreen.
+    // The standard has falling precipitation, but no lying snow or frost, on the road or on a windscreen.
     for (const Element& property : road.child("Properties").children("Property"))
       if (const std::string name = property.text("name"); name == "septet:snowCover")
         action.snow_cover = std::clamp(property.number("value", 0.0), 0.0, 1.0);
@@ -103,7 +103,7 @@ TrafficSwarmAction read_traffic_swarm(Reading& reading, const Element& element) 
   action.offset_m = element.number("offset");
   action.vehicle_count =
       static_cast<std::uint32_t>(element.integer("numberOfVehicles", 0, static_cast<int>(most_swarm_vehicles)));
-  // 1.0 names the entity in an attribute `entityRef` of <CentralObject> as well.
+  // Version 1.0 names the entity in an attribute `entityRef` of <CentralObject> as well.
   if (const Element central = element.required("CentralObject"))
     action.central = read_entity_reference(reading, central);
   if (const Element speeds = element.child("InitialSpeedRange")) {

@@ -8,7 +8,7 @@
 namespace septet::scenario {
 namespace {
 
-/// All of the text is a number within these bounds.
+/// The number in a text that holds nothing else, within these bounds.
 template <class Number>
 bool read_bounded(std::string_view text, Number least, Number most, Number& number) {
   Number value{};
@@ -25,7 +25,7 @@ bool read_lanes(std::string_view text, GameSettings& game) {
          game.first_lane * game.last_lane > 0;
 }
 
-/// "leader=ambulance": whether it is known and its value makes sense.
+/// "leader=ambulance": true where the name is known and its value is valid.
 bool take_setting(const Scenario& scenario, std::string_view name, std::string_view value, GameSettings& game) {
   if (name == "leader") {
     const auto found = find_entity(scenario, value);

@@ -14,7 +14,7 @@ std::optional<DynamicConstraints> read_constraints(const Element& parent) {
                             bound("maxAccelerationRate"), bound("maxDecelerationRate")};
 }
 
-/// What both distances have in common; sides by the standard's words.
+/// Common parts of both distances; sides by the standard's words.
 KeepDistanceAction read_keep_distance(Reading& reading, const Element& element,
                                       std::initializer_list<std::pair<std::string_view, std::optional<double>>> sides,
                                       std::optional<double> missing_side) {

@@ -8,7 +8,7 @@
 namespace septet::scenario {
 namespace {
 
-/// The constraints that the value breaks, in words; empty where it keeps all of a group, of any group.
+/// The constraints that the value breaks, as text; empty where it fulfils all of a group, of any group.
 std::string broken_constraints(const Element& declaration, std::string_view value) {
   bool any = false;
   std::string groups;
@@ -30,7 +30,7 @@ std::string broken_constraints(const Element& declaration, std::string_view valu
 
 Element with_declared_parameters(const Element& element, const Parameters& assigned) {
   if (!element) return element;
-  // One table for all declarations, which grows from one to the next: a value may hang on parameters that were declared before it.
+  // One table for all declarations, which grows from one to the next: a value may use parameters declared before it.
   const auto parameters = std::make_shared<Parameters>(element.parameters());
   for (const auto& [name, value] : assigned) (*parameters)[name] = value;
   for (const Element& found : element.child("ParameterDeclarations").children("ParameterDeclaration")) {

@@ -25,7 +25,7 @@ ClothoidSplineShape read_clothoid(Reading& reading, const Element& element) {
   segment.start = read_position(reading, element);
   segment.length_m = element.number("length", 0.0, longest_m);
   segment.start_curvature_per_m = element.number("curvature", -sharpest_per_m, sharpest_per_m);
-  // 1.0 called the curvature's derivative curvatureDot.
+  // Version 1.0 called the curvature's derivative curvatureDot.
   const char* growth = element.has("curvatureDot") ? "curvatureDot" : "curvaturePrime";
   segment.end_curvature_per_m = segment.start_curvature_per_m + segment.length_m * element.number(growth, -1.0, 1.0);
   segment.start_time_s = element.number_or("startTime", 0.0, 0.0, latest_s);
@@ -74,7 +74,7 @@ NurbsShape read_nurbs(Reading& reading, const Element& element) {
   return {2, {{}, {}}, {0.0, 0.0, 1.0, 1.0}};
 }
 
-/// Whether a point of the trajectory is to be reached before the one before it.
+/// True where a point of the trajectory is to be reached before the one before it.
 bool times_fall(const Trajectory& trajectory) {
   const auto fall = [](const auto& points) {
     return !std::is_sorted(points.begin(), points.end(),
@@ -122,7 +122,7 @@ Trajectory read_trajectory(Reading& reading, const Element& element) {
 
 ActionVariant read_follow_trajectory(Reading& reading, const Element& element) {
   FollowTrajectoryAction action;
-  // 1.0 had the trajectory without a <TrajectoryRef> around it.
+  // Version 1.0 had the trajectory without a <TrajectoryRef> around it.
   const Element reference = element.child("TrajectoryRef");
   const Element& parent = reference ? reference : element;
   Element trajectory = parent.child("Trajectory");

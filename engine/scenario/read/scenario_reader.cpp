@@ -33,7 +33,7 @@ void read_catalog_locations(Reading& reading, const Element& locations) {
   }
 }
 
-/// Files of the standard that are no scenarios. Answers whether it was one.
+/// Reads the standard's files that are no scenarios; returns true where it was one.
 bool read_other_definition(Reading& reading, const Element& root) {
   if (const Element catalog = root.child("Catalog")) {
     if (reading.checking)

@@ -1,9 +1,8 @@
 #pragma once
 /// Reads ASAM OpenSCENARIO XML 1.0 to 1.3 into a Scenario.
 ///
-/// Whatever the text holds, the answer is a scenario or an error. What is wrong stops the file from
-/// being used; what the reader does not support yet, element or attribute, is a warning with its
-/// name and line and has no effect.
+/// For any text the result is a scenario or an error. A fault makes the file unusable; an element or attribute that the
+/// reader does not support yet is a warning with its name and line and has no effect.
 
 #include <functional>
 #include <string>
@@ -19,8 +18,7 @@ namespace septet::scenario {
 using road::Finding;
 using road::Severity;
 
-/// How the reader reaches the catalogs beside a scenario; paths are relative to the scenario's
-/// folder.
+/// Access to the catalogs beside a scenario; paths are relative to the scenario's folder.
 struct ScenarioFiles {
   std::function<Expected<std::string>(const std::string& path)> read;
   /// The .xosc files of a folder, sorted.
@@ -34,18 +32,18 @@ ScenarioFiles files_in(const std::string& folder);
 struct ParameterValue {
   std::string name, value;
 };
-/// "NAME=VALUE", as people write it.
+/// Parses "NAME=VALUE".
 Expected<ParameterValue> parse_parameter(std::string_view text);
 
-/// The scenario, or the first error. `name` is the file's name in messages. Warnings are added to
-/// `warnings` if given. A parameter that the file does not declare, or a value that is not of its
-/// type or breaks its constraints, is an error that names what there is.
+/// The scenario, or the first error. `name` is the file's name in messages. Warnings are added to `warnings` if given.
+/// A parameter that the file does not declare, or a value of another type or against its constraints, is an error that
+/// names the known ones.
 Expected<Scenario> read_scenario(std::string_view xml, std::string_view name, const ScenarioFiles& files,
                                  std::vector<Finding>* warnings = nullptr,
                                  const std::vector<ParameterValue>& parameters = {});
 
-/// Everything wrong with the text and all that is not supported, in the order of its lines; empty
-/// for a clean file. Besides scenarios it knows catalogs and ParameterValueDistributions.
+/// All faults of the text and all unsupported parts, in the order of its lines; empty for a clean file. Besides
+/// scenarios it knows catalogs and ParameterValueDistributions.
 std::vector<Finding> check_scenario(std::string_view xml, std::string_view name, const ScenarioFiles& files);
 
 }  // namespace septet::scenario

@@ -1,5 +1,6 @@
 #pragma once
-/// Readers of the elements of a scenario, and what they share while one scenario is read. Used by the scenario reader only.
+/// Readers of the elements of a scenario, and their shared data while one scenario is read. Used by the scenario reader
+/// only.
 
 #include <map>
 #include <memory>
@@ -13,7 +14,7 @@
 
 namespace septet::scenario {
 
-/// Bounds of what a scenario may ask for.
+/// Bounds on a scenario's sizes.
 constexpr int most_lanes = 1000;
 constexpr double most_mps = 1000.0;
 
@@ -29,11 +30,11 @@ struct Reading {
   bool catalogs_loaded = false;
   /// The file is checked, not driven: it may be a catalog or a distribution, or name no road.
   bool checking = false;
-  /// A catalog is checked: what its entries name is elsewhere.
+  /// A catalog is checked: its entries' names are declared elsewhere.
   bool names_are_elsewhere = false;
   std::vector<Element> used_entries;   ///< Entries of catalogs that were referred to.
   std::vector<Element> init_elements;  ///< Of each action in Scenario::init.
-  /// Every position of the file, for what can be said of it once the road is known.
+  /// Every position of the file, for checks once the road is known.
   std::vector<std::pair<Element, Position>> positions;
   ElementIndex next_element = 1;           ///< Of the storyboard element to be read next.
   std::vector<std::string> element_types;  ///< Of each storyboard element, in the words of the standard.
@@ -45,9 +46,9 @@ Element with_declared_parameters(const Element& element, const Parameters& assig
 /// The same for the root, with values from outside the file, each of which must be declared.
 Element with_outside_parameters(const Element& root, const std::vector<ParameterValue>& values);
 
-/// Reads every entry of a catalog, for what is wrong with it.
+/// Checks every entry of a catalog.
 void check_catalog(Reading& reading, const Element& catalog);
-/// A ParameterValueDistribution, for what is wrong with it.
+/// Checks a ParameterValueDistribution.
 void check_distribution(Reading& reading, const Element& distribution);
 
 /// <CatalogReference> inside `parent` resolved to the catalog's entry of one of these kinds of
@@ -75,12 +76,12 @@ std::shared_ptr<const Route> read_route_in(Reading& reading, const Element& pare
 /// The position that stands in the element itself.
 Position read_position_in(Reading& reading, const Element& position);
 
-/// Opens the scenario's road and finds what of the scenario is not on it.
+/// Opens the scenario's road and reports places that are not on it.
 void check_on_road(Reading& reading, const Element& logic_file);
 
 /// Numbers the root's parameters and reads its <VariableDeclarations>.
 void read_values(Reading& reading, const Element& root);
-/// The parameter (`parameterRef`) or variable (`variableRef`) that is named; an unknown one is an error and 0.
+/// The named parameter (`parameterRef`) or variable (`variableRef`); an unknown one is an error and 0.
 ValueIndex read_value_reference(Reading& reading, const Element& element, const char* attribute);
 
 /// The attribute `rule`.
@@ -103,10 +104,10 @@ TrafficSwarmAction read_traffic_swarm(Reading& reading, const Element& action);
 
 Trigger read_trigger(Reading& reading, const Element& trigger);
 void read_storyboard(Reading& reading, const Element& storyboard);
-/// A maneuver of a catalog, for what is wrong with it.
+/// Checks a maneuver of a catalog.
 void check_maneuver(Reading& reading, const Element& maneuver);
 
-/// The storyboard element of this name, or "path::name"; none or several are an error or a warning.
+/// The storyboard element of this name, or "path::name"; zero or several matches are an error or a warning.
 ElementIndex read_element_reference(Reading& reading, const Element& condition);
 
 }  // namespace septet::scenario

@@ -21,14 +21,14 @@ struct XmlFile {
 
 namespace {
 
-/// What a person is shown of a text from the file.
+/// A text from the file, made fit for a message.
 std::string shown(std::string_view text) {
   std::string result;
   for (const char c : text.substr(0, 60)) result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   return text.size() > 60 ? result + "…" : result;
 }
 
-/// Where the text stops being UTF-8.
+/// Place at which the text stops being UTF-8.
 std::optional<std::size_t> find_broken_utf8(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const auto lead = static_cast<unsigned char>(text[at]);
@@ -50,7 +50,7 @@ std::optional<std::size_t> find_broken_utf8(std::string_view text) {
 
 std::shared_ptr<XmlFile> parse_xml(std::string_view text, std::string name) {
   auto file = std::make_shared<XmlFile>(text, std::move(name));
-  // As a fragment, so that what stands beside the root is seen.
+  // As a fragment, so that parts beside the root are seen.
   const auto result = file->document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
   const pugi::xml_node root = file->document.document_element();
   if (!result) {

@@ -1,10 +1,9 @@
 #pragma once
-/// XML elements as the scenario reader sees them: attributes with parameters filled in, and a
-/// record of what was looked at.
+/// XML elements for the scenario reader: attributes with parameters filled in, and a record of the parts that were
+/// read.
 ///
-/// Whatever the reader never asked for is not supported, and report_unread names it. Every answer
-/// is usable: after an error the value is a harmless one, so that the reader goes on and finds the
-/// rest. Used by the reader only.
+/// Parts that the reader never read are not supported, and report_unread names them. Every returned value is usable:
+/// after an error it is a harmless one, so that the reader continues and finds the rest. Used by the reader only.
 
 #include <initializer_list>
 #include <limits>
@@ -24,7 +23,7 @@ struct xml_node_struct;
 
 namespace septet::scenario {
 
-/// One file: its text, its tree, what is wrong with it and what of it was read.
+/// One file: its text, its tree, its faults and the parts read.
 struct XmlFile;
 
 /// Parses; errors are in the file's findings.
@@ -43,36 +42,35 @@ class Element {
   explicit operator bool() const { return node_ != nullptr; }
   std::string name() const;
   const Parameters& parameters() const { return *parameters_; }
-  /// The same element with other parameters.
+  /// This element with other parameters.
   Element with(std::shared_ptr<const Parameters> parameters) const;
 
   /// The first child of this name, marked as read; empty if there is none.
   Element child(const char* name) const;
-  /// The same; an error if there is none.
+  /// The first child of this name; an error if there is none.
   Element required(const char* name) const;
   std::vector<Element> children(const char* name) const;
   /// All child elements, not yet marked.
   std::vector<Element> all_children() const;
-  /// Marks this element as read, or with all that is in it as needing no report.
+  /// Marks this element as read, or all of its content as needing no report.
   const Element& mark() const;
   void ignore() const;
 
   bool has(const char* attribute) const;
-  std::string text(const char* attribute) const;  ///< Must be there and not empty.
+  std::string text(const char* attribute) const;  ///< An absent or empty attribute is an error.
   std::string text_or(const char* attribute, std::string fallback) const;
-  /// A name: an expression that is none of the standard's is taken as text.
+  /// A name: an expression outside the standard's syntax is taken as text.
   std::string label(const char* attribute) const;
-  /// The name of a parameter, with or without its `$`; never replaced by a value. Must be there.
+  /// The name of a parameter, with or without its `$`; never replaced by a value. An absent one is an error.
   std::string parameter_name(const char* attribute) const;
   double number(const char* attribute, double low = -unbounded, double high = unbounded) const;
   double number_or(const char* attribute, double fallback, double low = -unbounded, double high = unbounded) const;
   std::optional<double> optional_number(const char* attribute, double low = -unbounded, double high = unbounded) const;
   int integer(const char* attribute, int low, int high) const;
   bool boolean_or(const char* attribute, bool fallback) const;
-  /// The same where the standard demands the attribute: without it, a warning names the fallback.
+  /// For an attribute that the standard demands: without it, a warning names the fallback.
   bool required_boolean(const char* attribute, bool fallback) const;
-  /// The value that stands beside the attribute's word; an unknown word is an error and the
-  /// fallback.
+  /// The value paired with the attribute's word; an unknown word is an error and the fallback.
   template <class Value>
   Value word(const char* attribute, std::initializer_list<std::pair<std::string_view, Value>> words,
              Value fallback) const {
@@ -86,7 +84,7 @@ class Element {
     unknown_word(attribute, text_value, known);
     return fallback;
   }
-  /// The same where the standard demands the attribute: without it, a warning names the fallback.
+  /// For an attribute that the standard demands: without it, a warning names the fallback.
   template <class Value>
   Value required_word(const char* attribute, std::initializer_list<std::pair<std::string_view, Value>> words,
                       Value fallback) const {
@@ -101,12 +99,11 @@ class Element {
   /// The text between the tags.
   std::string content() const;
 
-  /// Warns about every element and attribute in here that was never read; not about the insides of
-  /// such an element.
+  /// Warns about every element and attribute in here that was never read; not about the content of unread elements.
   void report_unread() const;
   bool operator==(const Element& other) const { return node_ == other.node_; }
 
-  /// "name:line, <element>", as errors say it.
+  /// "name:line, <element>", as in errors.
   std::string where() const;
   void error(std::string what, std::string remedy) const;
   void warning(std::string what, std::string remedy) const;
@@ -121,7 +118,7 @@ class Element {
   std::shared_ptr<const Parameters> parameters_;
 };
 
-/// The root element; empty if the text was no XML.
+/// The root element; empty if the text is not XML.
 Element root_of(XmlFile& file, Parameters parameters = {});
 
 }  // namespace septet::scenario

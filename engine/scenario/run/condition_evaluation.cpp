@@ -62,7 +62,7 @@ bool in_phase(const ElementState& element, ElementPhase phase, std::uint64_t sin
   return false;
 }
 
-/// Tests one condition for one triggering entity (none for conditions by value).
+/// Tests one condition for one triggering entity (without one for conditions by value).
 struct Test {
   const Scenario& scenario;
   const road::RoadNetwork& network;
@@ -86,7 +86,7 @@ struct Test {
     return distance_m(network, *entity, *at, to, measure);
   }
 
-  /// Whether the entity's road has this lane where the entity is, running its way.
+  /// True where the entity's road has this lane at the entity, in its direction of travel.
   bool is_free_to_use(int lane, bool opposite_too) const {
     const auto& on = network.roads[at->lane.road];
     const auto& section = road::section_at(on, at->lane.s_m);
@@ -123,7 +123,7 @@ struct Test {
     }
     return false;
   }
-  /// Whether none of the two is wholly above the other, as on a bridge.
+  /// True where neither of the two is wholly above the other, as on a bridge.
   bool reach_as_high(const BoundingBox& box, const Target& to) const {
     const double apart =
         to.placement.pose.position_m.z + box.centre_m.z - at->world_from_entity.position_m.z - entity->box.centre_m.z;
@@ -131,8 +131,7 @@ struct Test {
   }
   bool operator()(const StoryboardElementStateCondition& test) const {
     if (test.element >= state.elements.size()) return false;
-    // A first look sees what happened earlier in the same step; later looks what happened since the
-    // last one.
+    // A first evaluation sees events earlier in the same step; later ones those since the last one.
     const std::uint64_t since = condition.evaluated ? condition.sequence : state.step_sequence;
     return in_phase(state.elements[test.element], test.phase, since);
   }
@@ -169,7 +168,7 @@ struct Test {
   }
   bool operator()(const TimeHeadwayCondition& test) const {
     const auto to = target(test.entity);
-    // Who stands needs for ever.
+    // A standing entity needs an infinite time.
     const double speed = std::max(at->speed_mps, 1e-9);
     return to && compare(test.comparison, measured(*to, test.measure) / speed);
   }
@@ -182,7 +181,7 @@ struct Test {
       }
       return false;
     };
-    // Where there is no such lane there is no room in it.
+    // Where a lane does not exist there is no room in it.
     if (!std::all_of(test.lanes.begin(), test.lanes.end(), exists)) return false;
     for (EntityIndex other = 0; other < state.entities.size(); ++other) {
       const bool counts =
@@ -212,7 +211,7 @@ struct Test {
     if (!to) return false;
     const Vec3 other = test.entity != no_entity ? state.entities[test.entity].velocity_mps : Vec3(0.0);
     const double closing = closing_speed_mps(*at, to->placement, other, test.measure);
-    // What does not come nearer never collides.
+    // An object that does not come nearer never collides.
     return closing > 1e-6 && compare(test.comparison, measured(*to, test.measure) / closing);
   }
 };
@@ -239,14 +238,14 @@ bool holds_now(const Scenario& scenario, const road::RoadNetwork& network, const
   return condition.all_entities ? all : any;
 }
 
-/// The first look at a condition knows no edge.
+/// The first evaluation of a condition has no edge.
 bool edge_of(Edge edge, const ConditionState& before, bool value) {
   if (edge == Edge::none) return value;
   if (!before.evaluated || before.last_value == value) return false;
   return edge == Edge::rising_or_falling || value == (edge == Edge::rising);
 }
 
-/// The value that was found `delay` ago; a pulse of one step is never lost between two steps.
+/// The value of `delay` ago; a pulse of one step is never lost between two steps.
 bool delayed_value(const Condition& condition, double time_s, bool value, ConditionState& state) {
   if (condition.delay_s <= 0.0) return value;
   const bool newest = state.delayed.empty() ? state.delayed_value : state.delayed.back().value;

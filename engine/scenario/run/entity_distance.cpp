@@ -31,7 +31,7 @@ double point_to_segment_m(const Vec2& point, const Vec2& a, const Vec2& b) {
   return glm::length(point - a - part * along);
 }
 
-/// Whether the point lies inside; a box without an inside, such as a point, holds nothing.
+/// True where the point lies inside; a box without an interior, such as a point, contains nothing.
 bool contains(const std::array<Vec2, 4>& box, const Vec2& point) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2 edge = box[(i + 1) % 4] - box[i], to = point - box[i];
@@ -40,7 +40,7 @@ bool contains(const std::array<Vec2, 4>& box, const Vec2& point) {
   return true;
 }
 
-/// Whether two sides cross, each at a point within the other.
+/// True where two sides cross, each at a point within the other.
 bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto side = [](const Vec2& from, const Vec2& to, const Vec2& point) {
     const Vec2 along = to - from, at = point - from;
@@ -49,7 +49,8 @@ bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
 }
 
-/// Convex boxes that do not meet are nearest at a corner of one of them; those that do hold a corner, or their sides cross.
+/// Convex boxes that do not meet are nearest at a corner of one of them; those that do hold a corner, or their sides
+/// cross.
 double box_distance_m(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
   double least = infinite;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -68,7 +69,7 @@ double interval_gap_m(double low_a, double high_a, double low_b, double high_b) 
   return std::max({low_b - high_a, low_a - high_b, 0.0});
 }
 
-/// What something takes of an axis through `origin`; a thing without a box is a point.
+/// Extent of an object along an axis through `origin`; an object without a box is a point.
 std::pair<double, double> extent_m(const RigidTransform& pose, const BoundingBox* box, const Vec3& origin,
                                    const Vec3& axis) {
   if (box == nullptr) {
@@ -137,12 +138,12 @@ void add_linked(const road::RoadNetwork& network, road::RoadIndex index, road::C
   }
 }
 
-/// Between two stations of a road, never negative.
+/// Distance between two stations of a road, never negative.
 double part_m(const road::RoadNetwork& network, const road::LanePosition& from, double to_s_m, bool along_lanes) {
   return std::abs(along_lanes ? road::length_along_lane_m(network, from, to_s_m) : to_s_m - from.s_m);
 }
 
-/// Way from one end of a road to a position on another.
+/// Path length from one end of a road to a position on another.
 double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index, road::ContactPoint leaving,
                       double to_end_m, const road::LanePosition& to, bool along_lanes) {
   std::vector<Reached> reached;
@@ -172,7 +173,7 @@ double road_distance_m(const road::RoadNetwork& network, const road::LanePositio
     const double ds = along_s ? to.s_m - from.s_m : from.s_m - to.s_m;
     (ds >= 0.0 ? ahead : behind) = part_m(network, from, to.s_m, along_lanes);
   }
-  // On the same road the way round a ring may be the shorter one.
+  // On the same road the path round a ring may be the shorter one.
   if (from.road != to.road || network.roads[from.road].successor.road == from.road) {
     const double to_end = way_from_end_m(network, from.road, road::ContactPoint::end,
                                          part_m(network, from, length, along_lanes), to, along_lanes);

@@ -7,7 +7,7 @@
 
 namespace septet::scenario {
 
-/// Something that a distance is measured to. A position has no box.
+/// Target of a distance measurement. A position has no box.
 struct Target {
   Placement placement;
   const BoundingBox* box = nullptr;
@@ -18,13 +18,14 @@ struct Target {
 double distance_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from, const Target& target,
                   const DistanceMeasure& measure);
 
-/// Along the roads' reference lines from one position to another, over any links; positive towards
-/// the end that `along_s` faces; infinite where there is no way within 100 roads. `along_lanes`: on the first and the last road in
-/// metres of the lanes of `from` and `to`, which a bend makes longer or shorter; on roads between along the reference line.
+/// Along the roads' reference lines from one position to another, over any links; positive towards the end that
+/// `along_s` faces; infinite where there is no path within 100 roads. `along_lanes`: on the first and the last road in
+/// metres of the lanes of `from` and `to`, which a bend makes longer or shorter; on roads between along the reference
+/// line.
 double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from, bool along_s,
                        const road::LanePosition& to, bool along_lanes = false);
 
-/// How fast the two come nearer by that measure, from their velocities.
+/// Closing speed by that measure, from their velocities.
 double closing_speed_mps(const EntityState& from, const Placement& target, const Vec3& target_velocity_mps,
                          const DistanceMeasure& measure);
 

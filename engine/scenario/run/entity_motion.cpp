@@ -25,7 +25,7 @@ double centre_t_m(const road::RoadNetwork& network, const road::LanePosition& la
   return road::lane_borders(on, road::section_at(on, lane.s_m), of, lane.s_m).centre_t_m();
 }
 
-/// How far an entity that minds a distance to another goes to its left.
+/// Metres to the left in this step of an entity that keeps a distance to another.
 double distance_step_m(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
                        double dt_s, EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   LateralControl& control = entity.lateral_control;
@@ -39,7 +39,7 @@ double distance_step_m(const road::RoadNetwork& network, const Scenario& scenari
     const double goal_mps = control.left_way_m ? (*way_m - *control.left_way_m) / dt_s + before : 0.0;
     control.left_mps = next_approach_mps(*way_m, before, goal_mps, control.left_mps2, *what.limits, true, dt_s);
     control.left_mps2 = (control.left_mps - before) / dt_s;
-    // Where it is at the end of the step, so that the next one finds what this one left.
+    // Its place at the end of the step, so that the next step starts from this one's result.
     step_m = control.left_mps * dt_s;
     there = is_at_distance(*way_m, control.left_mps - goal_mps, dt_s);
   }
@@ -70,8 +70,7 @@ double lateral_step_m(const road::RoadNetwork& network, const Scenario& scenario
   return entity.along_s ? entity.lane.offset_m - before : before - entity.lane.offset_m;
 }
 
-/// Where the target lane ends but the road goes on, the entity keeps its t in the lane that is
-/// there.
+/// Where the target lane ends but the road continues, the entity keeps its t in the lane at that place.
 bool step_into_lane_beside(const road::RoadNetwork& network, EntityState& entity, Progress& progress) {
   const auto& on = network.roads[progress.lane.road];
   const double t = lateral_t_m(network, progress.lane);
@@ -129,7 +128,7 @@ bool finite(const EntityState& entity) {
          finite(entity.acceleration_vector_mps2) && finite(entity.angular_velocity_radps);
 }
 
-/// What remains of an entity whose numbers went bad: its place, if that is one, and nothing moving.
+/// State of an entity whose numbers went bad: its place, if that is finite, and no motion.
 EntityState halted(const EntityState& before) {
   EntityState result;
   result.active = finite(before.world_from_entity.position_m);
@@ -215,7 +214,7 @@ bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& st
 bool move_entity(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state, double dt_s,
                  EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   const EntityState at_start = entity;
-  // Nothing below may see a number that is none: the road is not looked up there.
+  // No road look-up below may see NaN.
   const auto reset = [&] {
     for (const ElementIndex action :
          {at_start.speed_control.action, at_start.lateral_control.action, at_start.path_control.action})
@@ -250,7 +249,7 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario, con
   const double sign = turn.w < 0.0 ? -1.0 : 1.0;
   // For the small turn of one step, twice the vector part is the rotation vector.
   entity.angular_velocity_radps = sign * 2.0 / dt_s * Vec3(turn.x, turn.y, turn.z);
-  // Who stands askew in its lane goes along it all the same.
+  // An entity askew in its lane goes along it all the same.
   const bool askew = entity.on_road && !on_path && entity.heading_offset_rad != 0.0;
   const Quat travel =
       askew ? orientation * glm::angleAxis(-entity.heading_offset_rad, Vec3(0.0, 0.0, 1.0)) : orientation;

@@ -10,7 +10,7 @@ namespace septet::scenario {
 namespace {
 
 constexpr double natural_radps = 0.63, natural_lateral_radps = 2.0;
-constexpr double reserve = 0.8;  ///< Of the bound on slowing down, what the approach counts on.
+constexpr double reserve = 0.8;  ///< Share of the deceleration bound that the approach relies on.
 
 Vec3 driving_axis(const road::RoadNetwork& network, const EntityState& actor, bool lateral) {
   const Vec3 axis = lateral ? Vec3(0.0, 1.0, 0.0) : Vec3(1.0, 0.0, 0.0);
@@ -19,7 +19,7 @@ Vec3 driving_axis(const road::RoadNetwork& network, const EntityState& actor, bo
   return facing * axis;
 }
 
-/// How far ahead, or to the left, the reference is.
+/// Distance of the reference ahead, or to the left.
 double reference_m(const road::RoadNetwork& network, const KeepDistanceAction& what, const EntityState& actor,
                    const EntityState& reference) {
   const bool by_road = what.system == CoordinateSystem::road || what.system == CoordinateSystem::lane;
@@ -51,7 +51,7 @@ std::optional<double> way_to_distance_m(const road::RoadNetwork& network, const 
   if (!own.active || !reference.active) return std::nullopt;
   const double there = reference_m(network, what, own, reference);
   if (!std::isfinite(there)) return std::nullopt;
-  const bool behind = side > 0.0;  // The actor is, or to the right.
+  const bool behind = side > 0.0;  // True if the actor is behind, or to the right.
   double distance = what.distance_m;
   if (what.time_gap_s) distance = *what.time_gap_s * std::abs((behind ? own : reference).speed_mps);
   if (what.freespace) {
@@ -73,13 +73,13 @@ double side_of_reference(const road::RoadNetwork& network, const Scenario& scena
 
 double next_approach_mps(double way_m, double speed_mps, double goal_mps, double acceleration_mps2,
                          const DynamicConstraints& limits, bool lateral, double dt_s) {
-  // Sideways "deceleration" is what ends the movement, to whichever side it goes.
+  // Sideways "deceleration" ends the movement, to either side.
   const bool mirrored = lateral && way_m < 0.0;
   const double up = mirrored ? limits.max_deceleration_mps2 : limits.max_acceleration_mps2;
   const double down = mirrored ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2;
   const double jerk_up = mirrored ? limits.max_deceleration_rate_mps3 : limits.max_acceleration_rate_mps3;
   const double jerk_down = mirrored ? limits.max_acceleration_rate_mps3 : limits.max_deceleration_rate_mps3;
-  // Who is faster than allowed slows down as it may, forwards never below a standstill.
+  // An actor faster than allowed slows down within its bounds, forwards never below a standstill.
   const double highest = std::max(limits.max_speed_mps, speed_mps - down * dt_s);
   const double lowest = lateral ? std::min(-limits.max_speed_mps, speed_mps + up * dt_s) : std::min(0.0, speed_mps);
   const double settling = way_m >= 0.0 ? down : up;
@@ -89,7 +89,7 @@ double next_approach_mps(double way_m, double speed_mps, double goal_mps, double
     const double wanted = std::clamp(goal_mps + way_m / dt_s, lowest, highest);
     acceleration = (wanted - speed_mps) / dt_s;
   } else {
-    // A bound on the change of acceleration leaves less to count on, and less haste.
+    // A bound on the change of acceleration leaves a smaller reserve, and a slower approach.
     const double jerk = std::min(jerk_up, jerk_down);
     const double bound = reserve * settling * (std::isfinite(jerk) ? 0.5 : 1.0);
     const double natural = lateral ? natural_lateral_radps : natural_radps;

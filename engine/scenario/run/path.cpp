@@ -10,11 +10,11 @@ namespace septet::scenario {
 namespace {
 
 constexpr double corner_m = 2.0;  ///< Within this distance of a vertex the heading turns.
-constexpr double finest_m = 0.1;  ///< Between two points of a curve, if that makes no more than
+constexpr double finest_m = 0.1;  ///< Spacing of a curve's points, where that makes no more than most_points.
 constexpr double most_points = 20'000.0;
 constexpr double same_place_m = 1e-6;
 
-/// Whether the file itself says how something stands there.
+/// True where the file itself gives an orientation there.
 bool has_own_heading(const Position& position) {
   return std::visit(
       [](const auto& at) {
@@ -36,8 +36,8 @@ struct Corner {
 
 double length_m(const Corner& a, const Corner& b) { return glm::length(b.position_m - a.position_m); }
 
-/// The heading of each line from a corner to the next; where two corners are one place (somebody waits there), that of the line
-/// before, or else of the next one that leads anywhere.
+/// The heading of each line from a corner to the next; where two corners coincide (a wait), that of the line before, or
+/// else of the next line of non-zero length.
 std::vector<double> line_headings(const std::vector<Corner>& corners) {
   std::vector<double> headings;
   std::size_t unknown = 0;
@@ -81,7 +81,7 @@ Path join_corners(const std::vector<Corner>& corners) {
   return path;
 }
 
-/// Corners of which none lies on the one before at the same time.
+/// Removes corners that equal the one before in place and time.
 void drop_doubles(std::vector<Corner>& corners) {
   const auto same = [](const Corner& a, const Corner& b) {
     return length_m(a, b) < same_place_m && b.time_s <= a.time_s && !b.heading_rad;
@@ -89,7 +89,7 @@ void drop_doubles(std::vector<Corner>& corners) {
   corners.erase(std::unique(corners.begin(), corners.end(), same), corners.end());
 }
 
-/// The first corner again at the end; the way to it is driven as fast as the others were on the whole.
+/// Appends the first corner; the path to it is driven at the mean speed of the others.
 void close_ring(std::vector<Corner>& corners) {
   double way = 0.0;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) way += length_m(corners[i], corners[i + 1]);
@@ -115,7 +115,7 @@ struct Lay {
     return result;
   }
 
-  /// Vertices or control points where they lie; no time is before the one that precedes it.
+  /// Vertices or control points in sequence; none precedes the one before in time.
   template <class Points>
   std::optional<std::vector<Corner>> corners_of(const Points& points) const {
     std::vector<Corner> corners;
@@ -180,8 +180,8 @@ struct Lay {
   }
 
  private:
-  /// A segment from (at, heading) on, which it moves to its end; evenly in time. Each step is an arc of the segment's curvature
-  /// at its middle: its chord points where the clothoid does there.
+  /// A segment from (at, heading) on, which it moves to its end; evenly in time. Each step is an arc of the segment's
+  /// curvature at its middle, whose chord has the clothoid's direction there.
   static void add_clothoid(const ClothoidSplineShape::Segment& segment, double end_s, double most_m, double& s,
                            Vec3& at, double& heading, Path& path) {
     const double length = segment.length_m;

@@ -11,7 +11,7 @@ namespace septet::scenario {
 namespace {
 
 constexpr double fastest_mps = 200.0;
-constexpr double beside_lane_m = 0.5;  ///< Who is further beside the road is in no lane of it.
+constexpr double beside_lane_m = 0.5;  ///< An entity further beside the road is in no lane of it.
 
 /// Upright on the surface below, else level.
 RigidTransform pose_on_ground(const road::RoadNetwork& network, const PathPoint& point,
@@ -41,7 +41,7 @@ bool start_path(const road::RoadNetwork& network, const ScenarioState& state, co
   control.clock_s = what.from_simulation_start ? state.time_s : 0.0;
   control.station_m = what.initial_distance_m;
   if (what.timed) {
-    // What lies before the initial distance is cut off, and the time that it takes.
+    // The path before the initial distance is cut off, and so is its time.
     if (what.initial_distance_m > 0.0) control.clock_s += path_at_station(*path, what.initial_distance_m).time_s;
     control.station_m = path_at_time(*path, control.clock_s).s_m;
   }
@@ -58,7 +58,7 @@ double follow_path(const road::RoadNetwork& network, double way_m, double dt_s, 
   const PathPoint point =
       control.timed ? path_at_time(path, control.clock_s) : path_at_station(path, control.station_m + way_m);
   const double gone_m = control.timed ? point.s_m - control.station_m : way_m;
-  // A trajectory that asks for more jumps there.
+  // A trajectory that demands a higher speed jumps there.
   if (control.timed && std::abs(gone_m) <= fastest_mps * dt_s) entity.speed_mps = gone_m / dt_s;
   control.station_m = std::max(0.0, control.station_m + gone_m);
   entity.travelled_m += std::abs(gone_m);

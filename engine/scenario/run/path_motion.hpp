@@ -1,5 +1,5 @@
 #pragma once
-/// The motion of an entity along the path of a trajectory, wherever that leads: upright on whatever surface is below it.
+/// The motion of an entity along the path of a trajectory, anywhere: upright on the surface below it.
 
 #include <vector>
 
@@ -8,13 +8,13 @@
 
 namespace septet::scenario {
 
-/// Lays the trajectory out from where everybody is now. False where it leads nowhere.
+/// Lays the trajectory out from the entities' present places. False where it has no path.
 bool start_path(const road::RoadNetwork& network, const ScenarioState& state, const FollowTrajectoryAction& what,
                 ElementIndex action, EntityState& entity);
 
-/// One step: `way_m` along the path, or what its times ask for, which becomes the speed. At its end the entity goes on along the lane
-/// in which it stands, if it does, as it stands in it. Answers the metres that it went; a control that came to its end is added
-/// to `ended`.
+/// Advances by one step: `way_m` along the path, or to the place of its times, which gives the speed. At its end the
+/// entity continues along the lane in which it stands, if any, keeping its place across it. Returns the metres
+/// travelled; a control that came to its end is added to `ended`.
 double follow_path(const road::RoadNetwork& network, double way_m, double dt_s, EntityState& entity,
                    std::vector<ElementIndex>& ended);
 

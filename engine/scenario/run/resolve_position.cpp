@@ -258,7 +258,7 @@ RigidTransform lane_pose(const road::RoadNetwork& network, const road::LanePosit
 Progress go_along(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s, double distance_m,
                   std::span<const road::RoadIndex> route) {
   if (distance_m == 0.0) return {lane, along_s, 0.0};
-  distance_m = std::clamp(distance_m, -1e5, 1e5);  // Far enough for any road; never for ever round a ring.
+  distance_m = std::clamp(distance_m, -1e5, 1e5);  // Far enough for any road; never without end round a ring.
   const bool natural = along_s == road::runs_along_s(network, lane);
   const road::Advanced advanced =
       road::advance(network, lane, natural ? distance_m : -distance_m, choose_way(network, route));

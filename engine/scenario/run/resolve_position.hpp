@@ -1,5 +1,5 @@
 #pragma once
-/// From a position as the file gives it to a place on the road and in the world.
+/// Places on the road and in the world of the file's positions.
 
 #include <memory>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace septet::scenario {
 
-/// Where something stands. Off every road only the pose counts.
+/// A place with its pose. Off every road only the pose counts.
 struct Placement {
   bool on_road = false;
   road::LanePosition lane;
@@ -21,8 +21,8 @@ struct Placement {
   RigidTransform pose;
 };
 
-/// Nothing where the position is not supported, names no road or lane of the network, or hangs on
-/// an entity that has no position. Stations beyond a road's end go on along its lanes.
+/// Empty where the position is not supported, names no road or lane of the network, or is relative to an entity without
+/// a position. Stations beyond a road's end continue along its lanes.
 std::optional<Placement> resolve_position(const road::RoadNetwork& network, const ScenarioState& state,
                                           const Position& position);
 
@@ -31,15 +31,15 @@ inline constexpr double beside_road_m = 20.0;
 Placement place_at(const RigidTransform& pose, const road::RoadNetwork& network,
                    const road::RoadPosition* hint = nullptr, double most_beside_m = beside_road_m);
 
-/// Why resolve_position finds no place for a position, for messages: "road 7 has no lane -5 at s = 12".
+/// Reason why resolve_position finds no place for a position, for messages: "road 7 has no lane -5 at s = 12".
 std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& network, const ScenarioState& state,
                         const Position& position);
 
 /// t of an entity on its road.
 double lateral_t_m(const road::RoadNetwork& network, const road::LanePosition& lane);
-/// The lane that holds the entity, which during a lane change is not the one it is going to.
+/// The lane that holds the entity, which during a lane change is not the target lane.
 int lane_of(const road::RoadNetwork& network, const EntityState& entity);
-/// The lane `count` lanes to the left as one drives; lane 0 does not count.
+/// The lane `count` lanes to the left in the direction of travel; lane 0 does not count.
 int lane_beside(int lane, bool along_s, int count);
 
 /// The pose on a lane, facing along or against s, its path leaving the lane's centre line by
@@ -47,9 +47,8 @@ int lane_beside(int lane, bool along_s, int count);
 RigidTransform lane_pose(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s, double slope,
                          double heading_offset_rad);
 
-/// Goes on along the lane in the way one faces (backwards if negative), at junctions along the route,
-/// without one straight on.
-/// `left_over_m` is what could not be driven because the road ends.
+/// Advances along the lane in the entity's direction (backwards if negative), at junctions along the route, without one
+/// straight on. `left_over_m` is the distance not driven because the road ends.
 struct Progress {
   road::LanePosition lane;
   bool along_s = true;
@@ -58,11 +57,11 @@ struct Progress {
 Progress go_along(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s, double distance_m,
                   std::span<const road::RoadIndex> route = {});
 
-/// The routes of a scenario whose waypoints do not hang on where anybody is; none for the others.
+/// The routes of a scenario with waypoints independent of entities; null for the others.
 std::vector<std::shared_ptr<const PlannedRoute>> plan_routes(const road::RoadNetwork& network,
                                                              const Scenario& scenario);
 
-/// The roads over which a route leads from where the entity is, or on which it is already.
+/// The roads of a route from the entity's place, or of the route that it is on.
 std::vector<road::RoadIndex> plan_from(const road::RoadNetwork& network, const ScenarioState& state,
                                        const EntityState& entity, const std::vector<Position>& waypoints);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int most_lanes_beside = 20;
 constexpr double longer_than_any_m = 1e9;
 
-/// A lane of a section and the way one drives in it.
+/// A lane of a section and its direction of travel.
 struct Node {
   road::RoadIndex road = 0;
   std::uint32_t section = 0;
@@ -37,8 +37,8 @@ bool is_at(const Node& node, const Waypoint& waypoint) {
   return node.road == waypoint.lane.road && node.along_s == waypoint.along_s;
 }
 
-/// The lanes of the shortest way behind `from` that ends on the waypoint's road, from a lane beside it that runs the same way only
-/// where none leads there from `from`; empty: there is none.
+/// The lanes of the shortest path behind `from` that ends on the waypoint's road, from a lane beside it of the same
+/// direction only where none leads there from `from`; empty: there is none.
 std::vector<Node> find_way(const road::RoadNetwork& network, const Node& from, const Waypoint& to,
                            std::size_t& lanes_left) {
   struct Reached {

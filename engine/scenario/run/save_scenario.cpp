@@ -28,7 +28,7 @@ SEPTET_MEMBERS(LateralControl, active, action, transition, lane_change, to_the_l
 SEPTET_MEMBERS(InTheWay, gap_m, speed_mps)
 SEPTET_MEMBERS(PathPoint, s_m, position_m, heading_rad, time_s)
 SEPTET_MEMBERS(Path, points)
-// What was worked out of the scenario once, and its values, is kept.
+// Data derived once from the scenario, and its values, is kept.
 SEPTET_MEMBER_GROUPS(PathControl, hashed(active, action), kept(path), hashed(timed, clock_s, station_m))
 SEPTET_MEMBER_GROUPS(RouteState, kept(roads), hashed(at))
 SEPTET_MEMBERS(Waypoint, lane, along_s)
@@ -43,7 +43,7 @@ SEPTET_MEMBERS(ConditionState, evaluated, last_value, sequence, delayed_value, d
 SEPTET_MEMBER_GROUPS(ScenarioState,
                      hashed(time_s, sequence, step_sequence, finished, environment, friction_scale, entities, values),
                      kept(routes), hashed(elements, conditions))
-// The positions that a meeting's placements were found from are asked by nobody again.
+// The positions behind a meeting's placements are not needed any more.
 SEPTET_MEMBER_GROUPS(SynchronizeAction, hashed(master), left_out(target, master_target),
                      hashed(tolerance_m, master_tolerance_m, final_speed, final_value, steady_m, steady_s))
 

@@ -8,8 +8,8 @@ namespace septet::scenario {
 
 void save_scenario(const ScenarioState& state, StateWriter& writer);
 
-/// `state` comes as start_scenario leaves it: it says how much of everything there is. `reader` fails where it is no state of that
-/// scenario: then `state` is not to be used.
+/// `state` must be that of start_scenario: it gives the sizes of all lists. `reader` fails on data of another scenario:
+/// then `state` is not to be used.
 void restore_scenario(const Scenario& scenario, const road::RoadNetwork& network, StateReader& reader,
                       ScenarioState& state);
 

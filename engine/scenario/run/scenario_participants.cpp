@@ -32,14 +32,14 @@ void append_participants(const Scenario& scenario, const ScenarioState& state, P
   for (EntityIndex i = 0; i < state.entities.size(); ++i) {
     const EntityState& from = state.entities[i];
     const Entity& entity = scenario.entities[i];
-    // Objects are no participants: whoever runs the effects makes of them what can be hit and broken.
+    // Objects are no participants: the effects stage makes breakable things of them.
     if (!from.active || from.external || entity.kind == EntityKind::misc_object) continue;
     if (from.at_road_end_s > 0.0) continue;
     Participant participant;
     participant.id = first_id + i;
     participant.model = entity.model;
     const VehicleModel& model = vehicle_models()[entity.model];
-    // The standard's vehicles have no colour: those of private people take turns.
+    // The standard's vehicles have no colour: private vehicles take the colours in turn.
     if (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van)
       participant.paint = static_cast<std::uint8_t>(i % body_colors.size());
     participant.lamps = lamps_now(from, participant.id, state.time_s);

@@ -1,6 +1,5 @@
 #pragma once
-/// The state of a running scenario: where its entities are and how far its storyboard has come.
-/// Plain data.
+/// The state of a running scenario: its entities' places and its storyboard's progress. Plain data.
 
 #include <cstdint>
 #include <memory>
@@ -28,14 +27,14 @@ struct Transition {
 struct SpeedProfile;
 struct Meeting;
 
-/// Where an entity is to be as seen from another.
+/// Target place of an entity relative to another.
 struct DistanceControl {
   KeepDistanceAction what;
-  double side = 1.0;  ///< Where the other one is to be: ahead or to the left (1), or not (−1).
+  double side = 1.0;  ///< Target side of the other one: ahead or to the left (1), or not (−1).
 };
 
-/// What changes an entity's speed: a profile, a distance, a meeting or else the transition; `action` is the storyboard element that asked for it (none:
-/// Init).
+/// Control of an entity's speed: a profile, a distance, a meeting or else the transition; `action` is the requesting
+/// storyboard element (no_element: Init).
 struct SpeedControl {
   bool active = false;
   ElementIndex action = no_element;
@@ -48,7 +47,7 @@ struct SpeedControl {
   std::shared_ptr<const Meeting> meeting;
 };
 
-/// What moves an entity sideways: its offset from the lane's centre as a transition.
+/// Control of an entity's lateral motion: its offset from the lane's centre as a transition.
 struct LateralControl {
   bool active = false;
   ElementIndex action = no_element;
@@ -56,11 +55,11 @@ struct LateralControl {
   bool lane_change = false;  ///< Indicates while it runs.
   bool to_the_left = false;
   std::shared_ptr<const DistanceControl> distance;  ///< Instead of the transition.
-  double left_mps = 0.0, left_mps2 = 0.0;           ///< Of the entity on its way to that.
-  std::optional<double> left_way_m;                 ///< What of it was left in the step before.
+  double left_mps = 0.0, left_mps2 = 0.0;           ///< Speed and acceleration of the entity in that.
+  std::optional<double> left_way_m;                 ///< Distance left in the step before.
 };
 
-/// What an entity would drive into.
+/// An obstacle in an entity's path.
 struct InTheWay {
   double gap_m = 0.0;  ///< From bumper to bumper.
   double speed_mps = 0.0;
@@ -68,14 +67,14 @@ struct InTheWay {
 
 struct Path;
 
-/// What moves an entity along a path instead of its lane.
+/// Control of an entity's motion along a path instead of its lane.
 struct PathControl {
   bool active = false;
   ElementIndex action = no_element;
   std::shared_ptr<const Path> path;
-  bool timed = false;      ///< The path's times say where it is, else its speed does.
+  bool timed = false;      ///< The path's times give its place, else its speed does.
   double clock_s = 0.0;    ///< Now, on the path's clock.
-  double station_m = 0.0;  ///< How far along the path it is.
+  double station_m = 0.0;  ///< Its station on the path.
 };
 
 struct PlannedRoute;
@@ -83,25 +82,26 @@ struct PlannedRoute;
 /// The roads of an entity's route (route.hpp).
 struct RouteState {
   std::shared_ptr<const std::vector<road::RoadIndex>> roads;
-  std::size_t at = 0;  ///< Index of the one that it is on, or was on last.
+  std::size_t at = 0;  ///< Index of its present or last road.
 };
 
 struct EntityState {
-  bool active = false;    ///< It has a position.
-  bool external = false;  ///< Somebody else moves it (the driver's car): see place_external.
-  bool on_road = false;   ///< `lane` holds; else the entity stands where it was put.
+  bool active = false;    ///< True with a position.
+  bool external = false;  ///< Moved from outside (the driver's car): see place_external.
+  bool on_road = false;   ///< `lane` holds; else the entity stands at its given pose.
   road::LanePosition lane;
   bool along_s = true;              ///< It drives towards increasing s.
-  double heading_offset_rad = 0.0;  ///< Of the entity against its lane's direction, from the orientation it was given.
+  double heading_offset_rad = 0.0;  ///< Of the entity against its lane's direction, from its given orientation.
   RigidTransform world_from_entity;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
   Vec3 velocity_mps{0.0}, acceleration_vector_mps2{0.0}, angular_velocity_radps{0.0};  ///< World.
-  std::optional<InTheWay> in_the_way;  ///< What it brakes for, whatever its script says (mind_the_way).
-  bool beside_is_taken = false;        ///< A lateral action that has not begun waits for that, likewise.
-  double held_back_mps = 0.0;          ///< How much slower than its script it drives for that, or after it.
+  std::optional<InTheWay> in_the_way;  ///< Obstacle for which it brakes, whatever its script says (mind_the_way).
+  /// A lateral action that has not begun waits while the place beside is taken, likewise.
+  bool beside_is_taken = false;
+  double held_back_mps = 0.0;  ///< Deficit to its script's speed because of the obstacle, or after it.
   double travelled_m = 0.0;
-  double at_road_end_s = 0.0;  ///< How long ago it came to the end of its road: it has left.
+  double at_road_end_s = 0.0;  ///< Time since it came to the end of its road: it has left.
   double standing_s = 0.0;
   double wheel_angle_rad = 0.0;  ///< Of the wheels' rolling, [0, 2π).
   Lamps lamps;
@@ -143,7 +143,7 @@ struct ScenarioState {
   double friction_scale = 1.0;        ///< RoadCondition's frictionScaleFactor: of every surface.
   std::vector<EntityState> entities;  ///< As Scenario::entities.
   std::vector<std::string> values;    ///< As Scenario::values.
-  /// As Scenario::routes, which way they lead; none where a waypoint hangs on where an entity is.
+  /// Planned routes, indexed as Scenario::routes; null where a waypoint depends on an entity's place.
   std::vector<std::shared_ptr<const PlannedRoute>> routes;
   std::vector<ElementState> elements;  ///< By ElementIndex.
   std::vector<ConditionState> conditions;

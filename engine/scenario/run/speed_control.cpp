@@ -24,7 +24,7 @@ SpeedControl begun(ElementIndex action) {
   return control;
 }
 
-/// From here on the entity's speed is what this says, and not what was held back from an earlier one.
+/// From here on the control sets the entity's speed, without a deficit of an earlier one.
 void take_over(SpeedControl control, EntityState& entity) {
   entity.speed_control = std::move(control);
   entity.held_back_mps = 0.0;
@@ -62,7 +62,7 @@ SpeedStep distance_step(const road::RoadNetwork& network, const Scenario& scenar
   const bool same_way =
       glm::dot(reference.world_from_entity.orientation * ahead, entity.world_from_entity.orientation * ahead) >= 0.0;
   const double goal_mps = same_way ? reference.speed_mps : -reference.speed_mps;
-  // Those before it in the list are at the end of this step already.
+  // Entities before it in the list are at the end of this step already.
   if (what.reference < who && !reference.external) *way_m -= goal_mps * dt_s;
   if (!what.limits) {
     const double speed = std::max(0.0, goal_mps);
@@ -79,7 +79,7 @@ SpeedStep meeting_step(const road::RoadNetwork& network, const ScenarioState& st
                        double dt_s, EntityState& entity, std::vector<ElementIndex>& ended) {
   SpeedControl& control = entity.speed_control;
   const auto left = left_of(network, state, *control.meeting, entity, dt_s);
-  // Who is there has its final speed, so that a condition can ask whether they are equal.
+  // An entity that has arrived has its final speed, so that a condition can test for equality.
   const double wanted = left ? next_meeting_mps(*left, entity.speed_mps, dt_s)
                              : final_mps(*control.meeting, state).value_or(entity.speed_mps);
   if (!left) end(control, ended);
@@ -111,7 +111,7 @@ double transition_step(const ScenarioState& state, const Performance& limits, do
   return std::clamp(speed, -limits.max_speed_mps, limits.max_speed_mps);
 }
 
-/// So fast, it can still stop behind what is in the way, or go on behind it.
+/// Highest speed at which it can still stop behind the obstacle, or follow it.
 double fastest_behind_mps(const InTheWay& other) {
   constexpr double standing_gap_m = 3.0, braking_mps2 = 4.0;
   const double other_mps = std::max(0.0, other.speed_mps), spare_m = other.gap_m - standing_gap_m;
@@ -119,7 +119,7 @@ double fastest_behind_mps(const InTheWay& other) {
   return std::sqrt(other_mps * other_mps + 2.0 * braking_mps2 * spare_m);
 }
 
-/// As the script says.
+/// One step of the script.
 SpeedStep scripted_step(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
                         double dt_s, EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   const SpeedControl& control = entity.speed_control;

@@ -1,5 +1,5 @@
 #pragma once
-/// What changes the speed of an entity that a scenario drives: transitions, profiles, distances from others, meetings.
+/// Controls of the speed of a scripted entity: transitions, profiles, distances from others, meetings.
 
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace septet::scenario {
 
-/// Starts a control in place of the one that runs. `action` is the storyboard element that asks for it.
+/// Starts a control in place of the running one. `action` is the requesting storyboard element.
 void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what, ElementIndex action,
                  EntityIndex who, EntityState& entity);
-/// False where it is over at once.
+/// False where it ends at once.
 bool start_speed_profile(const Scenario& scenario, const ScenarioState& state, const SpeedProfileAction& what,
                          ElementIndex action, EntityIndex who, EntityState& entity);
 void start_distance(const DistanceControl& control, ElementIndex action, EntityState& entity);
@@ -19,11 +19,12 @@ void start_distance(const DistanceControl& control, ElementIndex action, EntityS
 bool start_synchronization(const road::RoadNetwork& network, const ScenarioState& state, const SynchronizeAction& what,
                            ElementIndex action, EntityState& entity);
 
-/// The speed at the end of a step, and metres that are gone besides, all at once.
+/// The speed at the end of a step, and additional metres covered at once.
 struct SpeedStep {
   double speed_mps = 0.0, jump_m = 0.0;
 };
-/// One step of the entity's control, but for what is in its way. One that came to its end is added to `ended`.
+/// One step of the entity's control, except for obstacles in its path. A control that came to its end is added to
+/// `ended`.
 SpeedStep next_speed(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
                      double dt_s, EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended);
 

@@ -76,7 +76,7 @@ struct StartPrivate {
   bool operator()(const SpeedAction& speed) const {
     take_over_speed();
     start_speed(scenario, state, speed, action, actor, entity());
-    // A step is there at once, unless it follows another entity for ever.
+    // A step is reached at once, unless it follows another entity without end.
     SpeedControl& control = entity().speed_control;
     control.active = control.follow != no_entity || control.transition.shape != DynamicsShape::step;
     return control.active;
@@ -127,7 +127,7 @@ struct StartPrivate {
     take_over(entity().path_control);
     return start_lane_offset(network, state, offset, action, entity()) && keep_lateral();
   }
-  /// What concerns no single entity.
+  /// Starts an action of no single entity.
   template <class Other>
   bool operator()(const Other&) const {
     return false;

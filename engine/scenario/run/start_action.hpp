@@ -1,5 +1,5 @@
 #pragma once
-/// What the start of an action does at once, and what it leaves running (OpenSCENARIO XML 1.3,
+/// The start of an action: its immediate effects, and the controls that it leaves running (OpenSCENARIO XML 1.3,
 /// "Actions").
 
 #include <vector>
@@ -10,12 +10,11 @@
 namespace septet::scenario {
 
 struct StartedAction {
-  bool goes_on = false;                ///< The motion of an entity will end it; else it is done.
-  std::vector<ElementIndex> replaced;  ///< Actions whose control of an entity it took over.
+  bool goes_on = false;                ///< True: the motion of an entity will end it; false: it has ended.
+  std::vector<ElementIndex> replaced;  ///< Actions whose control of an entity it has replaced.
 };
 
-/// `action` is the action's storyboard element (no_element: Init). What it asks of others is added
-/// to `result`.
+/// `action` is the action's storyboard element (no_element: Init). Its requests to other stages are added to `result`.
 StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& network, const ActionVariant& what,
                            ElementIndex action, const std::vector<EntityIndex>& actors, ScenarioState& state,
                            StepResult& result);

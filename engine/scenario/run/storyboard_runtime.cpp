@@ -14,7 +14,7 @@
 namespace septet::scenario {
 namespace {
 
-/// Does something with everything that may move an entity.
+/// Applies `use` to each control that may move an entity.
 template <class Use>
 void each_control(EntityState& entity, const Use& use) {
   use(entity.speed_control);
@@ -22,7 +22,7 @@ void each_control(EntityState& entity, const Use& use) {
   use(entity.path_control);
 }
 
-/// One step of a scenario: everything it reads and writes.
+/// One step of a scenario: all data that it reads and writes.
 class Step {
  public:
   Step(const Scenario& scenario, const road::RoadNetwork& network, ScenarioState& state, StepResult& result)
@@ -49,7 +49,7 @@ class Step {
     settle();
   }
 
-  /// Nothing where it has been started, else why not.
+  /// Empty where it has been started, else the reason why not.
   std::optional<std::string> trigger(ElementIndex wanted) {
     if (state_.finished) return "the storyboard is over";
     for (const Story& story : scenario_.stories)
@@ -297,7 +297,7 @@ class Step {
     return std::all_of(children.begin(), children.end(), [&](const auto& child) { return complete(child.element); });
   }
 
-  /// Ends what has nothing left to do, from the inside out.
+  /// Ends elements without anything left to do, from the inside out.
   void settle() {
     for (const Story& story : scenario_.stories) {
       for (const Act& act : story.acts) {
@@ -335,7 +335,7 @@ class Step {
   std::vector<PendingAction> pending_;
 };
 
-/// Init's teleports. Where one entity's position hangs on another's, theirs may stand in any order.
+/// Init's teleports. Where one entity's position depends on another's, theirs may stand in any order.
 Expected<void> place_at_start(const Scenario& scenario, const road::RoadNetwork& network, ScenarioState& state,
                               StepResult& result) {
   std::vector<const InitAction*> waiting;
@@ -371,7 +371,7 @@ Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::Roa
   state.elements.resize(scenario.element_count);
   state.conditions.resize(scenario.condition_count);
   if (external != no_entity) state.entities[external].external = true;
-  // Positions first: a speed or a lane may hang on where another entity is.
+  // Positions first: a speed or a lane may depend on another entity's place.
   if (auto placed = place_at_start(scenario, network, state, result); !placed) return tl::unexpected(placed.error());
   for (const InitAction& action : scenario.init) {
     if (std::holds_alternative<TeleportAction>(action.what)) continue;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double standing_mps = 1e-3;
 
-/// The way ahead to a target along the roads, else as the crow flies; negative behind it.
+/// Distance ahead to a target along the roads, else in a straight line; negative behind it.
 double way_m(const road::RoadNetwork& network, const EntityState& entity, const Placement& target) {
   if (entity.on_road && target.on_road) {
     const double along = road_distance_m(network, entity.lane, entity.along_s, target.lane);
@@ -41,11 +41,13 @@ double next_meeting_mps(const Rendezvous& left, double v, double dt_s) {
   if (t <= dt_s) return left.final_mps.value_or(std::max(0.0, v));
   if (!left.final_mps) return std::max(0.0, v + 2.0 * (s / t - v) / t * dt_s);
   const double end = *left.final_mps;
-  // Both changes with the acceleration ±a: 2 t w² − 4 s w + 2 s (v + end) − t (v² + end²) = 0 for the speed w between them.
+  // Both changes with the acceleration ±a: 2 t w² − 4 s w + 2 s (v + end) − t (v² + end²) = 0 for the speed w between
+  // them.
   const double root = std::sqrt(std::max(0.0, s * s - 0.5 * t * (2.0 * s * (v + end) - t * (v * v + end * end))));
   const double sign = s >= 0.5 * t * (v + end) ? 1.0 : -1.0;
   const double w = (s + sign * root) / t;
-  // Who would have to go back stops and waits instead: one braking and one acceleration of the same strength fill the way.
+  // An entity that would have to go back stops and waits instead: one braking and one acceleration of the same strength
+  // fill the distance.
   if (w < 0.0) return s > 0.0 ? std::max(0.0, v - (v * v + end * end) / (2.0 * s) * dt_s) : end;
   const double a = (2.0 * w - v - end) / t;
   const double first_s = a != 0.0 ? (w - v) / a : 0.0;
@@ -67,13 +69,13 @@ std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const Scenar
   const EntityState& master = state.entities[what.master];
   double master_way = way_m(network, master, meeting.master_target);
   Rendezvous left{way_m(network, actor, meeting.target), 0.0, final_mps(what, master.speed_mps)};
-  // Who is within the tolerance is there.
+  // An entity within the tolerance has arrived.
   left.way_m -= what.tolerance_m;
   master_way -= what.master_tolerance_m;
   if (left.way_m <= 0.5 * actor.speed_mps * dt_s || master_way <= 0.5 * master.speed_mps * dt_s) return std::nullopt;
   left.time_s = master_way / std::max(master.speed_mps, standing_mps);
   if (!left.final_mps) return left;
-  // What is driven at the final speed already.
+  // Distance already driven at the final speed.
   const double v = std::max(*left.final_mps, standing_mps);
   const double steady_s = std::max(what.steady_s, what.steady_m / v);
   left.way_m -= steady_s * v;

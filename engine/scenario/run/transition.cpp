@@ -33,8 +33,7 @@ double shape_peak_acceleration(DynamicsShape shape) {
 
 namespace {
 
-/// Seconds for a change at this greatest rate; none where there is nothing to change, for ever at a
-/// rate of 0.
+/// Seconds for a change at this greatest rate; 0 without a change, infinite at a rate of 0.
 double change_time_s(DynamicsShape shape, double change, double rate) {
   return change > 0.0 ? change * shape_peak_rate(shape) / rate : 0.0;
 }

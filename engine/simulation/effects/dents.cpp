@@ -46,7 +46,7 @@ Outline outline_of(const Participant& vehicle) {
   return rectangle(Vec2(box.world_from_box.position_m), glm::normalize(Vec2(x)), box.half_size_m.x, box.half_size_m.y);
 }
 
-/// What both cover (Sutherland and Hodgman 1974).
+/// Intersection of both outlines (Sutherland and Hodgman 1974).
 Outline common(Outline outline, const Outline& with) {
   for (std::size_t i = 0; i < with.size() && !outline.empty(); ++i) {
     const Vec2 from = with[i], edge = with[(i + 1) % with.size()] - from;
@@ -73,7 +73,8 @@ std::pair<double, double> extent(const Outline& outline, const Vec2& axis) {
   return extent;
 }
 
-/// Of `vehicle`, pushed along `inwards` as deep as `depth_m` by what has the outline `other` and has come in as far as it will.
+/// Adds a dent to `vehicle`, pushed along `inwards` by an obstacle of outline `other`, which has come in to its final
+/// depth of `depth_m`.
 void add_dent(const Participant& vehicle, const Vec2& inwards, double depth_m, const Outline& other, double top_m,
               std::vector<MadeDent>& made) {
   if (!(depth_m > 0.0) || !can_be_dented(vehicle)) return;
@@ -96,7 +97,7 @@ void add_dent(const Participant& vehicle, const Vec2& inwards, double depth_m, c
   dent.dent.top_m = std::min(top_m, vehicle_models()[vehicle.model].height_m);
 }
 
-/// How high a vehicle reaches that is met from the way `outwards` of it: as its bonnet before its slope, else as all of it.
+/// Height of a vehicle at its side that faces `outwards`: of its bonnet before its slope, else of the whole body.
 double struck_height_m(const Participant& vehicle, const Vec2& outwards) {
   const VehicleModel& model = vehicle_models()[vehicle.model];
   const Vec3 local = inverse(vehicle.world_from_vehicle).orientation * Vec3(outwards, 0.0);
@@ -153,7 +154,7 @@ std::vector<MadeDent> dents_of_touch(const Participant& vehicle, const vehicle::
   const Vec2 inwards = glm::normalize(away);
   const double depth_m = debris::residual_crush_m(touch.closing_speed_mps);
   constexpr double thick_m = 1.0;
-  // Its face is where the vehicle has been met; from there the vehicle comes on.
+  // Its face is at the place of contact; the vehicle comes on from there.
   const Vec2 middle_m = Vec2(touch.point_m) + (depth_m + 0.02 - thick_m) * inwards;
   add_dent(vehicle, inwards, depth_m, rectangle(middle_m, inwards, thick_m, what->half_breadth_m), what->high_m, made);
   return made;

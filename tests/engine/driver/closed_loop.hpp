@@ -1,5 +1,6 @@
 #pragma once
-/// The driver, the S80 and the motorway in a loop: the product's own step and log samples, without files, screens or a swarm.
+/// The driver, the S80 and the motorway in a loop: the product's own step and log samples, without files, screens or a
+/// swarm.
 
 #include <functional>
 #include <string>
@@ -28,7 +29,7 @@ inline const vehicle::VehicleParameters& volvo() {
   return car;
 }
 
-/// A scenario of one car at rest on the motorway, and nothing more.
+/// A scenario of one car at rest on the motorway.
 inline const scenario::Scenario& one_car() {
   static const scenario::Scenario scenario = [] {
     const auto read = scenario::read_scenario(
@@ -49,7 +50,7 @@ inline const scenario::Scenario& one_car() {
   return scenario;
 }
 
-/// The others on the road: whoever a test puts there.
+/// Other traffic: the vehicles that a test places.
 class StagedTraffic final : public traffic::TrafficEngine {
  public:
   using Stage = std::function<void(double time_s, std::vector<Participant>& vehicles)>;
@@ -93,7 +94,7 @@ class ClosedLoop {
     state_.car = vehicle::standstill(car, road::world_from_lane(place), speed_mps);
     snapshot = simulation::capture_snapshot(model_, state_);
   }
-  ClosedLoop(const ClosedLoop&) = delete;  // The traffic looks at `others`.
+  ClosedLoop(const ClosedLoop&) = delete;  // The traffic refers to `others`.
 
   /// Other vehicles of the next snapshots.
   StagedTraffic::Stage others;
