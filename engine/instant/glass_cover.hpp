@@ -1,5 +1,5 @@
 #pragma once
-/// What lies on glass at a point of it (OnGlass of engine/effects/ice/ice_body.hpp): engine/light/frost.hpp and crack.hpp with the noise.
+/// Cover of glass at a point of it (OnGlass of ice_body.hpp): engine/light/frost.hpp and crack.hpp, with the noise.
 
 #include <cstdint>
 #include <span>

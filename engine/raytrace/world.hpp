@@ -8,8 +8,8 @@
 
 #include <optional>
 
-#include "engine/effects/ice/ice_body.hpp"
 #include "engine/instant/clouds.hpp"
+#include "engine/instant/ice_body.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/geometry.hpp"
 #include "engine/raytrace/headlights.hpp"

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/instant/ice_body.hpp"
 #include "engine/light/instance_record.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
