@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/light/ice_optics.hpp"
+#include "engine/math/rigid_transform.hpp"
 #include "engine/world/ice_vertex.hpp"
 
 namespace septet::ice {
