@@ -77,6 +77,23 @@ function(septet_embedded_texts target)
   endforeach()
 endfunction()
 
+# Each of these shaders becomes build/…/generated/FOLDER/FILE.inc, comma-separated words of SPIR-V. Shaders include what lies beside them, and
+# engine/light by its path from the root; a change of either makes them anew.
+find_program(SEPTET_GLSLC glslc REQUIRED)
+function(septet_shaders target)
+  foreach(shader IN LISTS ARGN)
+    cmake_path(RELATIVE_PATH shader BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE path)
+    set(words ${CMAKE_BINARY_DIR}/generated/${path}.inc)
+    cmake_path(GET words PARENT_PATH folder)
+    file(MAKE_DIRECTORY ${folder})
+    add_custom_command(OUTPUT ${words}
+      COMMAND ${SEPTET_GLSLC} --target-env=vulkan1.3 -O -mfmt=num -I ${CMAKE_SOURCE_DIR} -MD -MF ${words}.d -o ${words} ${shader}
+      DEPENDS ${shader} DEPFILE ${words}.d COMMENT "Shader ${path}" VERBATIM)
+    target_sources(${target} PRIVATE ${words})
+  endforeach()
+  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endfunction()
+
 # Each header includes what it needs: a file of the same name includes it first (tests/architecture), and those that have no such file become
 # files of their own, which .ci/alone reads.
 function(septet_lone_headers library headers)

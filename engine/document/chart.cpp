@@ -85,7 +85,7 @@ std::string path_of(const std::vector<Point>& line, const Axis& x, const Axis& y
   return path;
 }
 
-/// What a series is called in the style: "line", and for those after the first "line s1", "line s2", …
+/// CSS class of a series: "line", and for those after the first "line s1", "line s2", …
 std::string css_class(const Series& series, std::size_t number) {
   std::string name = series.stroke == Stroke::dots ? "dots" : "line";
   if (series.stroke == Stroke::dashed) name += " dashed";
@@ -104,7 +104,7 @@ std::string drawn(const Series& series, std::size_t number, const Axis& x, const
   return svg;
 }
 
-/// Series without a name are in no legend.
+/// Rows of the legend; series without a name have none.
 std::size_t legend_rows(const LineChart& chart) {
   const auto named = std::ranges::count_if(chart.series, [](const Series& series) { return !series.name.empty(); });
   return chart.series.size() > 1 ? (static_cast<std::size_t>(named) + 1) / 2 : 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// The shapes that scenery is put together from. All are closed and face outwards unless said
-/// otherwise; texture coordinates are in metres times nothing (1 m = 1) unless said otherwise.
+/// Basic shapes of scenery. All are closed and face outwards unless said otherwise; texture coordinates are in metres
+/// (1 m = 1) unless said otherwise.
 
 #include <span>
 #include <vector>
@@ -28,8 +28,7 @@ PolygonMesh lathe(std::span<const LathePoint> profile, std::uint32_t sides);
 /// A cylinder along z with both ends closed.
 PolygonMesh cylinder(float radius_m, float low_m, float high_m, std::uint32_t sides);
 
-/// One cross-section on the way of an extrusion: the profile's (x, y) are placed along right and
-/// up.
+/// One cross-section along the path of an extrusion: the profile's (x, y) are placed along right and up.
 struct PathFrame {
   glm::vec3 position_m;
   glm::vec3 right, up;

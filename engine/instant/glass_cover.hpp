@@ -1,6 +1,6 @@
 #pragma once
-/// What lies on glass at a point of it (OnGlass of engine/effects/ice/ice_body.hpp): the twin of shaders/ice_glass.frag, which also fades what
-/// is finer than a pixel.
+/// What lies on glass at a point of it (OnGlass of ice_body.hpp): the twin of shaders/ice_glass.frag, which also fades what is finer
+/// than a pixel.
 ///
 /// Frost hides by Beer and Lambert what lies behind it, with the area that its grains have by their mass; its feathers, each a stem with barbs at
 /// 60° to it, are where that mass lies. A crack is a face that stands steep in the glass and mirrors; crushed glass is grains.

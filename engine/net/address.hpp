@@ -1,5 +1,5 @@
 #pragma once
-/// Where a datagram goes to or comes from: an IPv4 address and a UDP port.
+/// Address of a datagram's sender or receiver: an IPv4 address and a UDP port.
 
 #include <compare>
 #include <cstdint>

@@ -8,7 +8,7 @@
 namespace septet::net {
 namespace {
 
-/// A packet's last bytes are left empty rather than filled with a sliver of a message.
+/// Smallest fragment worth cutting: a packet's last bytes stay empty rather than carry a sliver of a message.
 constexpr std::size_t smallest_piece = 64;
 constexpr double longest_backoff_s = 0.25;
 
@@ -30,7 +30,7 @@ SendResult ReliableSender::enqueue(SharedBytes bytes, AddressKey key) {
   return SendResult::queued;
 }
 
-/// True: the bytes have taken the place of a message of which nothing has been sent.
+/// True: the bytes have replaced a message of which no fragment has been sent.
 bool ReliableSender::overwrite(AddressKey key, const SharedBytes& bytes) {
   const auto entry = newest_with_key_.find(key);
   if (entry == newest_with_key_.end() || message(entry->second).started) return false;

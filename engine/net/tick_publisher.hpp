@@ -13,7 +13,7 @@
 
 namespace septet::net {
 
-/// Of what a tick may carry, and of its datagrams (UDP payload).
+/// Bounds on the payload of a tick, and on its datagrams (UDP payload).
 inline constexpr std::size_t max_tick_bytes = 256 * 1024;
 inline constexpr std::size_t default_max_datagram_bytes = 1200;
 inline constexpr std::size_t smallest_max_datagram_bytes = 576;
@@ -28,7 +28,7 @@ struct TickPublisherCounters {
   std::uint64_t ticks = 0;
   std::uint64_t datagrams = 0;  ///< Handed to the socket, counting each destination.
   std::uint64_t bytes = 0;      ///< Of those datagrams.
-  std::uint64_t refused = 0;    ///< The socket took no more.
+  std::uint64_t refused = 0;    ///< Datagrams that the socket did not accept.
 };
 
 class TickPublisher {
@@ -37,7 +37,7 @@ class TickPublisher {
   TickPublisher(DatagramSocket& socket, const Identity& server, const SessionId& session,
                 const TickPublisherOptions& options = {});
 
-  /// A group, or a client's unicast address. Adding one twice is adding it once.
+  /// Adds a group, or a client's unicast address; a repeated one changes nothing.
   void add_destination(const Address& destination);
   void remove_destination(const Address& destination);
   const std::vector<Address>& destinations() const { return destinations_; }
@@ -45,8 +45,7 @@ class TickPublisher {
   /// Signs and sends. `tick` must grow from call to call, by any step; `payload` holds at most
   /// max_tick_bytes.
   void publish(std::uint64_t tick, std::span<const std::byte> payload);
-  /// Sends the newest tick's datagrams again, as repetitions: for a server in lockstep that lacks
-  /// acknowledgements.
+  /// Sends the newest tick's datagrams again, as repetitions: for a server in lockstep that lacks acknowledgements.
   void repeat_newest();
 
   const TickPublisherCounters& counters() const { return counters_; }

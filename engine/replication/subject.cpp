@@ -26,7 +26,7 @@ auto find_part(const Parts& parts, typename Parts::key_type id) -> const typenam
   return found == parts.end() ? nullptr : &found->second;
 }
 
-/// Values of one element of a layer, or 1 where the layer is not there.
+/// Values of one element of a layer, or 1 where the layer does not exist.
 std::uint32_t width_of(const Store& store, NodeId node, PartId layer) {
   const auto* geometry = data_of<GeometryData>(store, node);
   const auto* found = geometry ? find_part(geometry->layers, layer) : nullptr;
@@ -99,7 +99,7 @@ struct ChangeOf {
   }
 };
 
-/// The type of node that has such subjects; nothing where every type has.
+/// The type of node that has such subjects; empty where every type has.
 std::optional<NodeType> type_of(Kind kind) {
   switch (kind) {
     case Kind::existence:

@@ -10,6 +10,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/mentions.hpp"
+#include "engine/roadside/obstacle_profile.hpp"
 #include "engine/roadside/town.hpp"
 
 namespace septet::roadside {
@@ -82,11 +83,11 @@ std::vector<double> stations(const RoadTile& tile, const BesideLine& line, doubl
 double usual_height_m(BarrierForm form) {
   switch (form) {
     case BarrierForm::rail:
-      return 0.75;
+      return profile_of(ObstacleKind::guard_rail).height_m;
     case BarrierForm::jersey:
-      return 0.90;
+      return profile_of(ObstacleKind::concrete_barrier).height_m;
     case BarrierForm::railing:
-      return 1.22;
+      return profile_of(ObstacleKind::parapet).height_m + handrail_over_posts_m;
     case BarrierForm::wall:
       return 2.0;
     case BarrierForm::fence:

@@ -25,6 +25,8 @@ std::vector<double> stations(const RoadTile& tile, const BesideLine& line, doubl
 enum class BarrierForm : std::uint8_t { rail, jersey, railing, wall, fence, hedge };
 inline constexpr std::array barrier_forms{BarrierForm::rail, BarrierForm::jersey, BarrierForm::railing,
                                           BarrierForm::wall, BarrierForm::fence,  BarrierForm::hedge};
+/// A parapet's handrail lies on its posts and reaches so far over them.
+inline constexpr double handrail_over_posts_m = 0.02;
 /// How high one of this form is where the file gives no height.
 double usual_height_m(BarrierForm form);
 struct Barrier {

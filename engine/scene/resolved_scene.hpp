@@ -45,9 +45,6 @@ struct TextureImage {
   std::vector<std::uint8_t> rgba;
 };
 
-/// Of a clear coat, lacquer of index 1.5. What it mirrors does not reach the base below it.
-inline constexpr float clear_coat_reflectance = 0.04f, clear_coat_roughness = 0.1f;
-
 /// Colours are linear Rec. 709.
 struct SurfaceMaterial {
   std::uint64_t revision = 0;

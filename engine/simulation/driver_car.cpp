@@ -17,13 +17,13 @@
 namespace septet::simulation {
 namespace {
 
-constexpr double road_reach_m = 60.0;  ///< Farther off no road is looked for.
-constexpr int car_steps = 8;           // About 1 kHz: what the wheels' spin and hop want.
+constexpr double road_reach_m = 60.0;  ///< Roads farther off are not searched for.
+constexpr int car_steps = 8;           // About 1 kHz, as the wheels' spin and hop require.
 
 constexpr std::array<const char*, vehicle::wheel_count> wheel_names{"front_left", "front_right", "rear_left",
                                                                     "rear_right"};
 
-/// A wheel that begins to touch a kerb's edge, for the log: on the way up or down.
+/// Logs a wheel that begins to touch a kerb's edge, on the way up or down.
 void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const Model& model,
                State& state, std::vector<Event>& events) {
   std::optional<KerbTouch>& kerb = state.kerbs[wheel];
@@ -38,7 +38,7 @@ void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGrou
                    kerb->height_m, glm::length(state.car.velocity_mps), kerb->closing_speed_mps)});
 }
 
-/// A wheel whose damage has grown in this tick is being struck; one whose damage grows no longer has been.
+/// Tracks strikes: a wheel whose damage grows in this tick is being struck; the strike ends once it grows no longer.
 void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double squeeze_m, State& state,
                  std::vector<Event>& events) {
   const vehicle::WheelDamage& damage = state.car.wheels[wheel].damage;
@@ -58,7 +58,7 @@ void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double s
   }
 }
 
-/// What each wheel stands on, road or land, and how slippery it is there.
+/// Ground under each wheel, road or land, and its friction.
 vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event>& events) {
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
   const Environment& sky = state.scenario.environment;
@@ -92,7 +92,7 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
                   wheel, way_m);
       note_kerb(i, centres[i], wheel, model, state, events);
     } else {
-      // A world without land: it is level, as high as the road that the car was last on.
+      // A world without land is level, as high as the road that the car was last on.
       wheel.point_m = Vec3(Vec2(centres[i]), 0.0);
       if (state.car_road) wheel.point_m.z = road::evaluate(model.roads, *state.car_road).position_m.z;
       wheel.friction = surface_friction(nullptr, weather);
@@ -104,8 +104,7 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   return ground;
 }
 
-/// Once the car has been off the roads for some seconds, and each minute from then on, the log says so; and when it is
-/// back.
+/// Logs that the car has been off the roads for some seconds, each minute from then on, and its return.
 void note_off_road(const std::optional<road::Location>& place, State& state, std::vector<Event>& events) {
   constexpr double beside_m = 2.0;  // Two wheels on the verge are not off the road.
   constexpr auto first = static_cast<std::uint32_t>(5.0 * tick_rate_hz),
@@ -126,9 +125,9 @@ void note_off_road(const std::optional<road::Location>& place, State& state, std
                    glm::length(state.car.velocity_mps))});
 }
 
-/// What the hull met, for the log and for the debris.
+/// Reports the hull's contacts to the log and the debris.
 void note_hull(const vehicle::HullReport& report, State& state, std::vector<Event>& events) {
-  constexpr double least_mps = 0.5;  // Less is leaning on it.
+  constexpr double least_mps = 0.5;  // Slower contacts are leaning.
   state.effects.crashes.struck_standing.insert(state.effects.crashes.struck_standing.end(), report.begun.begin(),
                                                report.begun.end());
   for (const vehicle::HullTouch& touch : report.over) {
@@ -141,7 +140,7 @@ void note_hull(const vehicle::HullReport& report, State& state, std::vector<Even
   }
 }
 
-/// `out`: whose bulbs have gone.
+/// `out`: lamps with failed bulbs.
 Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s, Lamps out) {
   Lamps lamps;
   const bool blink = indicator_is_lit(time_s);

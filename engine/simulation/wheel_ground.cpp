@@ -14,7 +14,7 @@
 namespace septet::simulation {
 namespace {
 
-constexpr double near_m = 60.0;  ///< How far from a road its surface goes on.
+constexpr double near_m = 60.0;  ///< Distance from a road to which its surface extends.
 
 vehicle::SurfaceKind kind_of(const road::SurfaceMaterial& material) {
   if (material.surface == "ice") return vehicle::SurfaceKind::ice;
@@ -80,7 +80,7 @@ void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* rais
     if (!surface) return std::nullopt;
     return near ? ground_height_m(raised, at, surface->height_m) : surface->height_m;
   };
-  // How far the ground there lies over the plane under the wheel.
+  // Height of the ground there over the plane under the wheel.
   const auto rise_m = [&](double ahead_m) {
     const Vec2 at = Vec2(centre_m) + ahead_m * ahead;
     const auto height = height_m(at);

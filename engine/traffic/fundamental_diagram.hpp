@@ -31,8 +31,7 @@ struct RingOptions {
 /// One ring for each density, per km and lane, with the motorway's mix of vehicles and drivers.
 std::vector<FlowPoint> fundamental_diagram(const RingOptions& options, std::span<const double> densities_per_km);
 
-/// Equal drivers of vehicles this long in equilibrium: what the model says without differences and
-/// waves.
+/// Equal drivers of vehicles this long in equilibrium: the model without differences and waves.
 FlowPoint equilibrium_flow(const FollowingParameters& driver, double vehicle_length_m, double density_per_km);
 
 }  // namespace septet::traffic

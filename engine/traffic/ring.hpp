@@ -1,6 +1,5 @@
 #pragma once
-/// A ring full of traffic: the track on which models of traffic are measured, for it has neither
-/// ends nor ramps and keeps its density.
+/// A ring full of traffic: the test track of traffic models, for it has neither ends nor ramps and keeps its density.
 
 #include <cstdint>
 

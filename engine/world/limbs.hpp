@@ -1,9 +1,10 @@
 #pragma once
-/// How people's limbs stand: a walking cycle, and legs on pedals. Angles about the left axis (y); positive swings what hangs forward.
+/// Poses of people's limbs: a walking cycle, and legs on pedals. Angles about the left axis (y); positive swings a
+/// hanging limb forward.
 ///
-/// The phase is that of the distance gone (Participant::wheel_spin_rad), so that whoever shows an instant shows the same step, and who stands
-/// still stands. The cycle's swing of hip and knee is a fit by eye to gait tables (hip +30° to −10°, knee to 60° in the swing: J. Perry,
-/// Gait Analysis, 1992): two sines are all of it.
+/// The phase is that of the distance gone (Participant::wheel_spin_rad), so that every picture of an instant shows the
+/// same step, and a standing person stands still. The cycle's swing of hip and knee is a fit by eye to gait tables (hip
+/// +30° to −10°, knee to 60° in the swing: J. Perry, Gait Analysis, 1992), with two sines alone.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ struct LegAngles {
   double knee_rad = 0.0;   ///< Of the shin against the thigh, backwards.
 };
 
-/// Of the gait's swing at this speed: none in who stands.
+/// Share of the gait's swing at this speed: 0 for a standing person.
 inline double gait_share(double speed_mps) { return std::clamp(speed_mps / 0.8, 0.0, 1.0); }
 
 /// The right leg and the left arm are half a cycle behind.

@@ -1,13 +1,12 @@
 #pragma once
-/// Lane changes out of samples of lane and lateral position.
+/// Lane changes from samples of lane and lateral position.
 ///
-/// A lane change begins where the car's reference point crosses the line between two lanes. It
-/// counts once the point is `hysteresis_m` beyond the line, so that driving on the line is no lane
-/// change, and it is dated at the crossing. A line is recognised by the jump of the lateral
-/// position from one edge of a lane to the other (more than half a lane width: a car moves less
-/// than that from sample to sample); where the lane's
-/// number changes without the jump, the road renumbered its lanes and nothing is counted. Samples
-/// off every lane (lane 0) break the sequence, and so does a gap of more than a second: a return to the road is not a lane change.
+/// A lane change begins where the car's reference point crosses the line between two lanes. It counts once the point is
+/// `hysteresis_m` beyond the line, so that driving on the line is no lane change, and it is dated at the crossing. A
+/// line is recognised by the jump of the lateral position from one edge of a lane to the other (more than half a lane
+/// width: a car moves less than that from sample to sample); where the lane's number changes without the jump, the road
+/// renumbered its lanes and nothing is counted. Samples off every lane (lane 0) break the sequence, and so does a gap
+/// of more than a second: a return to the road is not a lane change.
 
 #include <cstdint>
 #include <optional>
@@ -30,7 +29,7 @@ struct LaneChange {
   bool operator==(const LaneChange&) const = default;
 };
 
-/// What the detection remembers from sample to sample.
+/// State of the detection between samples.
 struct LaneChangeDetector {
   LaneChangeSettings settings;
   std::optional<Sample> previous;
@@ -39,14 +38,13 @@ struct LaneChangeDetector {
   LaneChange pending;             ///< Dated at the crossing that left the counted lane.
 };
 
-/// Takes the next sample; returns the lane change that counts as of this sample.
+/// Takes the next sample; returns the lane change confirmed by this sample.
 std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sample);
 
 std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings = {});
 
-/// Simulated time from the first to the last sample over the number of lane changes: the paper's
-/// "on average every 15 seconds" (Lebram, Engström and Gustavsson 2006, §4). Nothing without a lane
-/// change.
+/// Simulated time from the first to the last sample over the number of lane changes: the paper's "on average every 15
+/// seconds" (Lebram, Engström and Gustavsson 2006, §4). Empty without a lane change.
 std::optional<double> mean_time_between_lane_changes_s(std::span<const Sample> samples,
                                                        std::span<const LaneChange> changes);
 

@@ -19,10 +19,10 @@ import pandas
 import septet_session
 from septet_session import SessionError
 
-# What the end of a column's name says, longest first; UCUM's symbols.
+# Unit by the end of a column's name, longest first; UCUM's symbols.
 _UNITS = (("mm_per_h", "mm/h"), ("radps", "rad/s"), ("mps2", "m/s2"), ("mps", "m/s"), ("lux", "lx"), ("rad", "rad"), ("deg", "deg"),
           ("nm", "N.m"), ("m", "m"), ("s", "s"), ("k", "K"), ("percent", "%"))
-# Numbers that count or say a share have the unit one; what is text, a name or a number that is only an identity has none.
+# Counts and shares have the unit one; texts, names and numeric identities have none.
 _IDENTITIES = {"tick", "participant", "model", "paint", "lamps", "road", "lane", "leader", "gear", "selector", "indicator", "id", "sequence",
                "order", "end", "level"}
 
@@ -113,7 +113,8 @@ def write_tables(session, folder, form="csv", every=12):
     return written
 
 
-# --- ASAM OSI ---------------------------------------------------------------------------------------------------------------------------
+# --- ASAM OSI
+# ---------------------------------------------------------------------------------------------------------------------------
 
 _VEHICLE_TYPES = {"car": "TYPE_MEDIUM_CAR", "van": "TYPE_DELIVERY_VAN", "ambulance": "TYPE_DELIVERY_VAN", "lorry": "TYPE_HEAVY_TRUCK",
                   "bus": "TYPE_BUS", "motorcycle": "TYPE_MOTORBIKE", "bicycle": "TYPE_BICYCLE"}
@@ -199,7 +200,7 @@ class _GroundTruths:
         base.orientation.roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
         base.orientation.pitch = math.asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x))))
         base.orientation.yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-        # Rates of roll, pitch and yaw from the angular velocity (intrinsic z, y, x); at 90 degrees of pitch there are none.
+        # Rates of roll, pitch and yaw from the angular velocity (intrinsic z, y, x); undefined at 90 degrees of pitch.
         pitch, yaw = base.orientation.pitch, base.orientation.yaw
         along = spin[0] * math.cos(yaw) + spin[1] * math.sin(yaw)
         across = -spin[0] * math.sin(yaw) + spin[1] * math.cos(yaw)

@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 import pandas
 
-from septet_snapshot import DIAGNOSTICS, DRIVER_CAR, ENVIRONMENT, FIELDS, LAMPS, SessionError, motion_of, unpack  # noqa: F401
+# noqa: F401
+from septet_snapshot import DIAGNOSTICS, DRIVER_CAR, ENVIRONMENT, FIELDS, LAMPS, SessionError, motion_of, unpack
 from septet_untrusted import DAMAGE, UntrustedDatabase
 
 APPLICATION_ID = 0x53535444

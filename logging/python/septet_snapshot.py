@@ -20,7 +20,7 @@ DRIVER_CAR = ("speed_mps", "engine_radps", "steering_wheel_rad", "steering_torqu
               "yaw_rate_radps", "gaze_heading_rad", "road_s_m", "lateral_position_m", "lane_width_m")
 DIAGNOSTICS = ("bad_numbers", "collisions", "input_stale_ticks")
 
-# A participant's integers in the order of SNAPSHOT.md; what one step of each is worth.
+# A participant's integers in the order of SNAPSHOT.md, and the value of one step of each.
 _SPIN_STEPS = 1 << 16
 _UNIT_OF_FIELD = [
     ("model", 1), ("paint", 1), ("lamps", 1), ("x_m", 1 / 4096), ("y_m", 1 / 4096), ("z_m", 1 / 4096),
@@ -160,7 +160,8 @@ def _decode(data, baseline):
     return snapshot
 
 
-# Position, and which component of the orientation is the largest, and the others: they go on going wrong as they did (FORMAT.md).
+# Position, and which component of the orientation is the largest, and the others: they go on going wrong as they did
+# (FORMAT.md).
 _LASTING = slice(3, 10)
 _LASTING_HIGH = np.array([_POSITION_LIMIT] * 3 + [3] + [int(_ORIENTATION_STEPS)] * 3)
 _LASTING_LOW = np.array([-_POSITION_LIMIT] * 3 + [0] + [-int(_ORIENTATION_STEPS)] * 3)

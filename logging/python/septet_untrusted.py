@@ -18,7 +18,7 @@ _JOURNAL_MAGIC = bytes.fromhex("d9d505f920a163d7")
 _LARGEST_VALUE_BYTES = 512 << 20
 _STEPS_BETWEEN_LOOKS = 100_000
 _ALLOWED_PRAGMAS = ("application_id", "user_version")
-# What the file's bytes can make Python, NumPy, pandas and zlib raise.
+# Exceptions that a file's bytes can make Python, NumPy, pandas and zlib raise.
 DAMAGE = (sqlite3.Error, sqlite3.Warning, ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, TypeError, ValueError, struct.error,
           zlib.error, EOFError)
 
@@ -111,7 +111,7 @@ class UntrustedDatabase:
         self.path = path
         if not path.is_file():
             raise SessionError(f"{path}: there is no such file; a drive writes session.sqlite into its --out folder")
-        # SQLite deletes what lies beside an empty file.
+        # SQLite deletes the files beside an empty file.
         if path.stat().st_size == 0:
             raise SessionError(f"{path}: not a session file (it is empty)")
         try:

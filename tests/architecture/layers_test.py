@@ -89,7 +89,7 @@ def violations(root):
     for folder in level_of:
         if not (root / folder).is_dir():
             yield f"layers.txt: {folder} is no folder of the tree"
-    for top in ("engine", "program", "sim-server", "sim-client", "car-io", "logging"):
+    for top in ("engine", "program", "sim-server", "sim-client", "car-io", "logging", "command-line"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in (".hpp", ".cpp"):
                 continue

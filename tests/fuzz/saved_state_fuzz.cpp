@@ -14,8 +14,8 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/version.hpp"
 #include "engine/road/opendrive_reader.hpp"
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/simulation/saved_state.hpp"
 
 namespace septet {

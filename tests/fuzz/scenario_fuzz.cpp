@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "engine/road/opendrive_reader.hpp"
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 
 namespace {
 

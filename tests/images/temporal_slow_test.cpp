@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/image/png.hpp"
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/images/motorway_view.hpp"
 
@@ -50,7 +50,7 @@ class AntialiasedScreen {
     for (std::uint32_t y = 0; y < screen_height_px * times_; ++y)
       for (std::uint32_t x = 0; x < screen_width_px * times_; ++x)
         codes[std::size_t{y / times_} * screen_width_px + x / times_] +=
-            255.0f * instant::display_code(light.at(x, y) * exposure) / static_cast<float>(times_ * times_);
+            255.0f * light::display_code(light.at(x, y) * exposure) / static_cast<float>(times_ * times_);
     return codes;
   }
   image::Image picture(const std::string& name) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "sim-server/host/serve.hpp"
-#include "tests/pipeline/simulated_rig.hpp"
+#include "tests/pipeline/rig_service.hpp"
 
 namespace septet {
 namespace {
@@ -34,21 +33,16 @@ class LockstepRig {
 
   server::ServeResult serve(double seconds, const std::function<void()>& each_ms) {
     Circles circles;
-    const server::ServeEnvironment environment{[this] { return rig.server_clock_s(); },
-                                               [&](double) {
-                                                 rig.advance_1ms();
-                                                 each_ms();
-                                                 for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
-                                               },
-                                               [] { return std::optional<logging::DriveEnd>(); },
-                                               [](const server::Progress&) {},
-                                               [this](const std::string& text) { messages.push_back(text); }};
+    RigClock clock(rig, [&] {
+      each_ms();
+      for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
+    });
     const auto served = server::serve(circles, rig.host(),
                                       {.lockstep = true,
                                        .draw_every_ticks = draw_every_ticks,
                                        .ticks = static_cast<std::uint64_t>(120.0 * seconds),
                                        .longest_silence_s = silence_s},
-                                      environment);
+                                      one_attendant(std::make_unique<Listener>(messages)), clock);
     REQUIRE_FALSE(served.error.has_value());
     CHECK(served.end == logging::DriveEnd::time_over);
     return served;

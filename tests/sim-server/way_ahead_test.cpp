@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/effects/debris/piece.hpp"
-#include "engine/scenario/resolve_position.hpp"
+#include "engine/scenario/run/resolve_position.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"

@@ -1,6 +1,7 @@
 #pragma once
-/// The body itself touching the ground: a roll-over, a kerb, a ditch. A penalty at the eight
-/// corners of its box; crude, but no car falls through the road. The force is bounded, and who is found deep in the ground is lifted out slowly.
+/// Contact of the body itself with the ground: a roll-over, a kerb, a ditch. A penalty at the eight corners of its box;
+/// crude, but no car falls through the road. The force is bounded, and a car found deep in the ground is lifted out
+/// slowly.
 
 #include "engine/physics/vehicle/vehicle_parameters.hpp"
 #include "engine/physics/vehicle/vehicle_state.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 /// Sine and cosine from additions and multiplications alone.
 ///
-/// The C library picks its sin by the processor's instruction set, and two of them may differ in
-/// the last bit. What feeds the car's state uses these and square roots (correctly rounded
-/// everywhere), so that equal inputs give equal bits on every machine.
+/// The C library picks its sin by the processor's instruction set, and two of them may differ in the last bit. All code
+/// that feeds the car's state uses these and square roots (correctly rounded everywhere), so that equal inputs give
+/// equal bits on every machine.
 
 #include <utility>
 

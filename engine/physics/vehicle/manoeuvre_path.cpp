@@ -27,7 +27,7 @@ double lane_change_path_m(double x_m, double width_m) {
 
 ManoeuvreReport double_lane_change(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
   constexpr double preview_s = 0.6, lag_s = 0.05, most_rate_radps = 0.4;
-  constexpr double driver_understeer = 0.0025;  // What the driver expects, rad per m/s².
+  constexpr double driver_understeer = 0.0025;  // Understeer expected by the driver, rad per m/s².
   constexpr double run_up_m = 60.0, length_m = 140.0;
   const double speed_mps = options.speed_mps > 0.0 ? options.speed_mps : 80.0 / 3.6;
   ManoeuvreCar car(parameters, options, speed_mps);

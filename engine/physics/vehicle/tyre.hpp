@@ -11,7 +11,7 @@
 
 namespace septet::vehicle {
 
-/// What a contact demands of its tyre.
+/// State of a contact, the input of its tyre.
 struct TyreContact {
   double load_n = 0.0;
   double friction = 0.9;         ///< Of the surface.
@@ -21,7 +21,7 @@ struct TyreContact {
   double inclination_rad = 0.0;  ///< Against the ground's normal, positive leans to the right.
   double length_m = 0.1;         ///< Of the contact patch.
   double firmness =
-      1.0;  ///< Share that is left of slopes and stiffness: less where air is lost. Not of the published tyre.
+      1.0;  ///< Remaining share of slopes and stiffness: less where air is lost. Not of the published tyre.
 };
 
 /// Steady force at one slip.
@@ -48,9 +48,9 @@ inline TyreForce steady_force(const TyreParameters& tyre, const TyreContact& con
   return tyre.published ? published_force(tyre, contact) : load_sensitive_force(tyre, contact);
 }
 
-/// Moves the patch's deflection on by `dt_s` and returns the force that it carries (Rill 2006,
-/// "First order tire dynamics", eq. 15): (d v_T + f) dy/dt = v_T (F(s) − c y), force c y + d dy/dt;
-/// implicit in y, so stable at every speed. The force never exceeds what the surface can hold.
+/// Advances the patch's deflection by `dt_s` and returns the force that it carries (Rill 2006, "First order tire
+/// dynamics", eq. 15): (d v_T + f) dy/dt = v_T (F(s) − c y), force c y + d dy/dt; implicit in y, so stable at every
+/// speed. The force never exceeds the surface's limit.
 Vec2 relax(const TyreForce& steady, double most_force_n, double dt_s, Vec2& deflection_m);
 
 }  // namespace septet::vehicle

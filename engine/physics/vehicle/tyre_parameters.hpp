@@ -1,6 +1,5 @@
 #pragma once
-/// Parameters of the two tyres: the one that cars drive on, and the published one that verifies the
-/// chassis.
+/// Parameters of the two tyres: the one that cars drive on, and the published one that verifies the chassis.
 
 namespace septet::vehicle {
 
@@ -43,7 +42,7 @@ struct PublishedTyre {
 };
 
 struct TyreParameters {
-  bool published = false;  ///< Which of the two below counts.
+  bool published = false;  ///< Selects one of the two below.
   LoadSensitiveTyre load_sensitive;
   PublishedTyre magic_formula;
   double reference_friction = 0.9;  ///< Friction of the surface on which the forces above hold.

@@ -1,10 +1,9 @@
 #pragma once
-/// Everything that tells one car from another. Plain data; read from TOML by read_vehicle.hpp.
+/// Parameters of a car. Plain data; read from TOML by read_vehicle.hpp.
 ///
-/// Vehicle frame: x forward, y left, z up, origin on the ground below the middle of the rear axle.
-/// Travel of a wheel is positive in bump (wheel up against the body) and zero at rest on level
-/// ground. Camber is positive with the wheel's top outward, toe positive with its front inward;
-/// tables are given for one wheel and mirrored for the other.
+/// Vehicle frame: x forward, y left, z up, origin on the ground below the middle of the rear axle. Travel of a wheel is
+/// positive in bump (wheel up against the body) and zero at rest on level ground. Camber is positive with the wheel's
+/// top outward, toe positive with its front inward; tables are given for one wheel and mirrored for the other.
 
 #include <array>
 #include <cstdint>
@@ -34,22 +33,22 @@ struct SuspensionParameters {
   double track_m = 0.0;
   bool rigid_axle = false;          ///< The wheels lean together, joined to the body in one point.
   double unsprung_mass_kg = 0.0;    ///< Per wheel.
-  double wheel_inertia_kgm2 = 0.0;  ///< About the spin axis, with what turns with it.
+  double wheel_inertia_kgm2 = 0.0;  ///< About the spin axis, of all parts that turn with the wheel.
   Table spring_force_n;             ///< At the wheel, above the static load, over travel; includes the bump
                                     ///< stops.
   Table damper_force_n;             ///< At the wheel, over the rate of travel.
   double anti_roll_npm = 0.0;       ///< Force at each wheel per metre of difference of travel, left against right.
   Table camber_rad, toe_rad;        ///< Over travel.
-  /// Slopes of the paths that contact and wheel centre take over travel, outward and forward. The
-  /// contact's lateral slope is the height of the roll centre over half the track; the longitudinal
-  /// slopes are anti-dive (contact: braking) and anti-squat (centre: driving).
+  /// Slopes of the paths of contact and wheel centre over travel, outward and forward. The contact's lateral slope is
+  /// the height of the roll centre over half the track; the longitudinal slopes are anti-dive (contact: braking) and
+  /// anti-squat (centre: driving).
   Table contact_lateral_slope, contact_longitudinal_slope;
   Table centre_lateral_slope, centre_longitudinal_slope;
   double toe_out_by_lateral_force_radpn =
       0.0;  ///< Compliance: steer away from the force, that is, understeer in front.
   double steer_by_aligning_torque_radpnm = 0.0;
   double camber_by_lateral_force_radpn = 0.0;
-  double contact_by_lateral_force_mpn = 0.0;  ///< The contact gives way sideways under the wheel.
+  double contact_by_lateral_force_mpn = 0.0;  ///< Shift of the contact sideways under the wheel.
 };
 
 struct SteeringParameters {
@@ -119,8 +118,8 @@ struct VehicleParameters {
   SteeringParameters steering;
   PowertrainParameters powertrain;
   BrakeParameters brakes;
-  /// Verification only: what the published equations simplify, as published_chassis.hpp says and
-  /// vehicles/README.md measures.
+  /// Verification only: the published equations' simplifications, described in published_chassis.hpp and measured in
+  /// vehicles/README.md.
   bool as_published = false;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The state of one car: what must be kept from one step to the next, and nothing that can be
-/// computed from it, except the forces of the last step, which the outputs report.
+/// The state of one car from one step to the next: nothing that can be computed from it, except the forces of the last
+/// step, which the outputs report.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +18,7 @@ struct WheelState {
   Vec2 deflection_m{0.0};  ///< Of the contact patch against the rim: forward, left. Carries the relaxation.
   WheelDamage damage;
   // Of the last step.
-  double squeeze_m = 0.0;    ///< Of the tyre against the rim, towards what the wheel stands on.
+  double squeeze_m = 0.0;    ///< Deflection of the tyre against the rim, towards the ground.
   Vec3 force_n{0.0};         ///< On the wheel, in the contact's frame: forward, left, along the normal.
   double aligning_nm = 0.0;  ///< On the wheel, about the normal, positive turns it to the left.
   double steer_rad = 0.0;    ///< Against the body, with toe and compliance, positive to the left.
@@ -28,7 +28,7 @@ struct WheelState {
 
 struct SteeringState {
   double column_rad = 0.0;  ///< Rack, counted at the hand wheel: hand wheel less twist of the column.
-  double torque_nm = 0.0;   ///< Torque that the driver feels, positive turns the hand wheel to the left.
+  double torque_nm = 0.0;   ///< Steering torque at the driver's hands, positive turns the hand wheel to the left.
 };
 
 struct PowertrainState {
@@ -37,7 +37,7 @@ struct PowertrainState {
   bool engine_running = true;
   double clutch_nm = 0.0;     ///< Wound up in the driveline behind a closed clutch.
   std::int8_t gear = 0;       ///< Engaged: −1 reverse, 0 neutral, 1…
-  std::int8_t next_gear = 0;  ///< Equal to `gear` unless a shift is going on.
+  std::int8_t next_gear = 0;  ///< Equal to `gear` except during a shift.
   double shift_s = 0.0;       ///< Time into the shift.
   double since_shift_s = 0.0;
 };
@@ -62,7 +62,7 @@ struct VehicleState {
   Vec3 acceleration_mps2{0.0};            ///< Of the centre of the sprung mass, world frame.
   Vec3 whole_acceleration_mps2{0.0};      ///< Of the whole car's centre of mass, world frame.
   Vec3 angular_acceleration_radps2{0.0};  ///< Body frame.
-  std::uint32_t bad_numbers = 0;          ///< Steps that were thrown away because a number was not finite.
+  std::uint32_t bad_numbers = 0;          ///< Steps that were undone because a number was not finite.
 };
 
 void hash_state(StateHash& hash, const VehicleState& state);

@@ -1,8 +1,11 @@
 // One body of ice: what the passes of ice know of it. The host's twin is IceConstants in passes/ice_pass.hpp; the equations are
-// those of engine/effects/ice/optics.hpp.
+// those of engine/light/ice_optics.hpp.
 //
 // A body has a rectangle in the images of its layers, seen through a frustum that is fitted to it. That depends on the eye
 // and the body alone, so that two screens see the same.
+
+#include "engine/light/fresnel.hpp"
+#include "engine/light/ice_optics.hpp"
 
 layout(push_constant) uniform Ice {
   vec4 u, v;        // xyz: place in the layers, times the distance along forward. u.w: slope of the bumps. v.w: waves per metre.
@@ -21,13 +24,5 @@ layout(set = 0, binding = 9) uniform samplerCube surroundings;
 layout(set = 0, binding = 10) uniform sampler2D ice_beyond;       // As ice_front, of what begins behind that back face.
 layout(set = 0, binding = 11) uniform sampler2D ice_beyond_back;  // Of the back face behind that.
 
-const float into_ice = 1.0003 / 1.3091, out_of_ice = 1.3091 / 1.0003;
-
 // Cube maps are left-handed: two axes are exchanged.
 vec3 around(vec3 direction) { return textureLod(surroundings, direction.xzy, 0.0).rgb; }
-
-// Equation 2; length 0 where all light is reflected.
-vec3 refracted(vec3 eye, vec3 n, float eta) {
-  float cosine = dot(n, eye), square = 1.0 - eta * eta * (1.0 - cosine * cosine);
-  return square < 0.0 ? vec3(0.0) : eta * eye - (eta * cosine + sqrt(square)) * n;
-}

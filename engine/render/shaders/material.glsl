@@ -7,6 +7,3 @@ layout(push_constant) uniform Material {
   vec4 light;       // Share of the sky that the surface sees, retroreflection cd/(lx m²), columns and rows of pictures.
   vec4 more;        // Share of light from around, lit by night.
 } material;
-
-// Of a clear coat: the twins of those in engine/scene/resolved_scene.hpp.
-const float coat_reflectance = 0.04, coat_roughness = 0.1;

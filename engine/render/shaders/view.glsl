@@ -2,6 +2,9 @@
 //
 // Positions are relative to the eye, along the world's axes, metres. Radiance: see engine/instant/atmosphere.hpp.
 
+#include "engine/light/fresnel.hpp"
+#include "engine/light/language.hpp"
+
 layout(set = 0, binding = 0, std140) uniform View {
   mat4 clip_from_relative;
   mat4 shadow_from_relative;  // To texture coordinates and depth of the near cascade.
@@ -36,8 +39,6 @@ layout(set = 0, binding = 3) uniform sampler2DArrayShadow shadow_map;
 layout(set = 0, binding = 4) uniform sampler2D noise;
 layout(set = 0, binding = 5) uniform sampler2D image;
 layout(set = 0, binding = 12) uniform sampler2D lamp_field;
-
-const float pi = 3.14159265;
 
 // The texture holds the sky's table and one for each step of roughness: the twin of engine/instant/sky_by_roughness.hpp.
 const float sky_tables = 6.0, roughness_per_step = 0.175;
@@ -82,5 +83,3 @@ vec3 fog_radiance(vec3 direction, float share_of_sky) {
 
 // Images hold the square root of linear light: a square decodes them.
 vec4 decoded(vec4 texel) { return vec4(texel.rgb * texel.rgb, texel.a); }
-
-float fifth_power(float x) { return x * x * x * x * x; }

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/instant/ice_body.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::render::vulkan {

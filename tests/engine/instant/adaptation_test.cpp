@@ -9,7 +9,7 @@
 #include "engine/instant/atmosphere.hpp"
 #include "engine/instant/headlight_beam.hpp"
 #include "engine/instant/standing_lamps.hpp"
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 
 namespace septet::instant {
 namespace {
@@ -38,7 +38,7 @@ float shown_sky(const SkyLight& light) {
   return light.exposure * luminance_of(light.sky_irradiance) / glm::pi<float>();
 }
 
-float code(float exposed) { return 255.0f * display_code(glm::vec3(exposed)).g; }
+float code(float exposed) { return 255.0f * light::display_code(glm::vec3(exposed)).g; }
 
 }  // namespace
 

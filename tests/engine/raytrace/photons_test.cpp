@@ -11,6 +11,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/light/fresnel.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 #include "tests/relative.hpp"
 
@@ -90,7 +91,8 @@ double let_through(float index, double absorption_per_m, double radius_m) {
   double sum = 0.0;
   for (int n = 0; n < rings; ++n) {
     const double square = (n + 0.5) / rings;  // Rings of one area.
-    const double reflected = fresnel(static_cast<float>(std::sqrt(1.0 - square)), index);
+    const double reflected =
+        light::fresnel(static_cast<float>(std::sqrt(1.0 - square)), static_cast<float>(1.0 / index));
     const double clear = std::exp(-absorption_per_m * radius_m * 2.0 * std::sqrt(1.0 - square / (index * index)));
     sum += reflected + (1.0 - reflected) * (1.0 - reflected) * clear / (1.0 - reflected * clear);
   }

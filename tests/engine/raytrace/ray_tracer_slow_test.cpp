@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/light/fresnel.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 #include "tests/relative.hpp"
 
@@ -144,7 +145,8 @@ TEST_CASE("through a ball of ice under an even sky goes what Fresnel and Beer an
         const double square = across * across + down * down;
         double light = 1.0;
         if (square < 1.0) {
-          const double reflected = fresnel(static_cast<float>(std::sqrt(1.0 - square)), index);
+          const double reflected =
+              light::fresnel(static_cast<float>(std::sqrt(1.0 - square)), static_cast<float>(1.0 / index));
           const double clear = std::exp(-absorption_per_m * 2.0 * std::sqrt(1.0 - square / (index * index)));
           light = reflected + (1.0 - reflected) * (1.0 - reflected) * clear / (1.0 - reflected * clear);
         }

@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 #include "tests/relative.hpp"
 
@@ -289,8 +289,8 @@ TEST_CASE("a dipped beam lights a wall as its table says in every direction") {
     const glm::vec3 ray(glm::dvec3(std::cos(down_rad) * std::cos(aside_rad), std::cos(down_rad) * std::sin(aside_rad),
                                    -std::sin(down_rad)));
     const double square = 400.0 / (ray.x * ray.x);
-    return 0.5 / std::numbers::pi * intensity * instant::beam::share({1.0f, 0.0f, 0.0f}, ray) *
-           instant::beam::facing(ray.x) / (square + 1.0);
+    return 0.5 / std::numbers::pi * intensity * light::dipped_share({1.0f, 0.0f, 0.0f}, ray, 1.0f) *
+           light::beam_facing(ray.x) / (square + 1.0);
   };
   const double degree = std::numbers::pi / 180.0;
   for (const auto& way : {std::pair{1.7, 0.0}, {4.0, 0.0}, {-4.0, 0.0}, {1.7, 9.0}, {1.7, 20.0}}) {

@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
@@ -100,7 +100,7 @@ TEST_CASE(
     by_square.push_back(more(lit, dark).r * ahead_m * ahead_m);
     float brightest = 0.0f;
     for (const glm::vec3& pixel : lit.radiance) brightest = std::max(brightest, pixel.r);
-    CHECK(instant::display_code(glm::vec3(brightest * instant.exposure.scale())).r > 0.78f);
+    CHECK(light::display_code(glm::vec3(brightest * instant.exposure.scale())).r > 0.78f);
   }
   for (const double each : by_square) {
     CAPTURE(each);

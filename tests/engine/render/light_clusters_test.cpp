@@ -54,7 +54,7 @@ TEST_CASE("whatever lights a place as much as can be seen is on its square's lis
       const glm::vec3 way = place_m - glm::vec3(light.position_m - eye_m);
       const float square = glm::dot(way, way);
       const float arriving = light.intensity *
-                             instant::beam::share(light.direction, way / std::sqrt(square), light.main_beam) /
+                             light::beam_share(light.direction, way / std::sqrt(square), light.main_beam, 1.0f) /
                              (square + 1.0f);
       if (arriving < LightClusters::least_irradiance) continue;
       ++seen;

@@ -16,6 +16,7 @@
 #include "engine/image/png.hpp"
 #include "engine/instant/clouds.hpp"
 #include "engine/instant/wet_road.hpp"
+#include "engine/light/wet_road.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
@@ -138,7 +139,7 @@ Vec3 most_puddles() {
   const std::vector<std::uint8_t> noise = instant::cloud_noise();
   double most = -1.0;
   Vec3 place_m(0.0);
-  for (double from_m = 0.0; from_m < instant::puddle_tile_m; from_m += 1.0) {
+  for (double from_m = 0.0; from_m < light::puddle_tile_m; from_m += 1.0) {
     double sum = 0.0;
     for (double x_m = 3.0; x_m < 8.0; x_m += 0.5)
       for (double y_m = -1.5; y_m < 1.5; y_m += 0.5) sum += instant::puddle(noise, from_m + x_m, y_m - 1.5, 0.0f, 1.0f);

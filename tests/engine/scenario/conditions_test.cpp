@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/entity_distance.hpp"
+#include "engine/scenario/run/entity_distance.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 

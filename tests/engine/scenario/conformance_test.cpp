@@ -17,8 +17,8 @@
 #include <fmt/core.h>
 
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "tests/conformance/conformance_data.hpp"
 
 namespace septet::scenario {

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/keep_distance.hpp"
-#include "engine/scenario/speed_profile.hpp"
-#include "engine/scenario/synchronize.hpp"
+#include "engine/scenario/run/keep_distance.hpp"
+#include "engine/scenario/run/speed_profile.hpp"
+#include "engine/scenario/run/synchronize.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/path.hpp"
+#include "engine/scenario/run/path.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 

@@ -10,8 +10,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/traffic/traffic.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/traffic/bodies.hpp"

@@ -19,7 +19,7 @@
 
 #include "engine/image/image.hpp"
 #include "engine/image/png.hpp"
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "sim-client/film/film.hpp"
 #include "sim-client/film/film_file.hpp"
 #include "sim-client/soundtrack/wav_file.hpp"
@@ -205,7 +205,7 @@ TEST_CASE("OpenEXR pictures hold the light of the pictures and stay those of a f
   REQUIRE(picture.has_value());
   bool light_is_that = true, sky_is_nothing = true;
   for (std::size_t n = 0; n < red.size(); ++n) {
-    const float code = 255.0f * std::clamp(instant::display_code(glm::vec3(red[n])).x, 0.0f, 1.0f);
+    const float code = 255.0f * std::clamp(light::display_code(glm::vec3(red[n])).x, 0.0f, 1.0f);
     light_is_that = light_is_that && std::abs(code - static_cast<float>(picture->rgba[4 * n])) <= 0.51f;
     sky_is_nothing = sky_is_nothing && (what[n] == 0) == std::isinf(depth[n]);
   }

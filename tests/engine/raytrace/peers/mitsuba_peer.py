@@ -44,7 +44,7 @@ def read_pfm(path):
 
 
 def display_code(exposed):
-    """engine/instant/tone_curve.hpp"""
+    """engine/light/tone_curve.hpp"""
     x = numpy.maximum(0, exposed - 0.004)
     return numpy.clip(x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06), 0, 1)
 

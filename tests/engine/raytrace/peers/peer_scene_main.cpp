@@ -127,7 +127,7 @@ std::string told(const Group& group, const scene::ResolvedScene& scene) {
     return fmt::format(
         "{{\"color\": [0, 0, 0], \"emission\": [0, 0, 0], \"image\": -1, \"srgb\": true, \"inside_index\": {}, "
         "\"outside_index\": {}, \"absorption_per_m\": {}}}",
-        ice::ice_index, ice::air_index, numbers(group.ice->absorption_per_m));
+        light::ice_index, light::air_index, numbers(group.ice->absorption_per_m));
   const bool srgb = group.image < 0 || scene.images[static_cast<std::size_t>(group.image)].srgb;
   std::string gloss = "null";
   if (group.gloss.share > 0.0f)
