@@ -1,4 +1,4 @@
-/// What tells the driver one thing from another, measured on the motorway.
+/// Distinguishability of things for the driver, measured on the motorway.
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,8 @@
 ///     scenery_preview OUT vehicles [MODEL…]              turntables
 ///     scenery_preview OUT road ROAD.xodr [ROAD@]S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…
 ///
-/// S and T place the eye on the road of that id, else on the first one; the view is 44° × 30°, that of one screen of the rig.
+/// S and T place the eye on the road of that id, else on the first one; the view is 44° × 30°, that of one screen of
+/// the rig.
 ///
 /// Prints what each picture costs to submit, and the size of the scene on the wire.
 

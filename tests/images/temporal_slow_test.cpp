@@ -1,4 +1,5 @@
-/// What frames before lend to a picture is what stands still, and nothing of what a driver acts on: passes/temporal_pass.hpp, on the software device.
+/// Earlier frames lend a picture standing surfaces alone, and no cue that a driver acts on: passes/temporal_pass.hpp,
+/// on the software device.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Snapshots in the session file: what is packed comes back, takes less than on the wire, and no bytes do harm.
+// Snapshots in the session file: lossless, smaller than on the wire, and safe on any bytes.
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,8 @@ bool are_equal(const WireSnapshot& a, const WireSnapshot& b) {
   return left == right;
 }
 
-/// Vehicles in a bend, who come and go; one of them spins, so that every component of its orientation is the largest in its turn.
+/// Vehicles in a bend, entering and leaving; one of them spins, so that every component of its orientation is the
+/// largest in turn.
 WireSnapshot bend(Tick tick) {
   Snapshot snapshot = drive_snapshot(tick, 40);
   std::erase_if(snapshot.participants,

@@ -12,7 +12,7 @@
 namespace septet::logging {
 namespace {
 
-/// How far a writer has come, seen by its process and by the one that kills it.
+/// Progress of a writer, seen by its process and by its killer.
 struct Progress {
   std::atomic<std::int64_t> recorded{0};   ///< Ticks handed to the writer.
   std::atomic<std::int64_t> committed{0};  ///< Those of them that the writer calls safe.
@@ -32,7 +32,7 @@ struct Progress {
   }
 }
 
-/// What a session holds whose writer was killed once `is_time` held.
+/// Content of a session whose writer was killed once `is_time` held.
 struct Killed {
   std::int64_t committed = 0;  ///< Ticks that were safe before.
   std::int64_t recorded = 0;

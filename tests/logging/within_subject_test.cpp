@@ -1,4 +1,4 @@
-// What one person says after different drives stays apart, and what was not measured is missing.
+// One person's answers after different drives stay apart, and missing measures are missing.
 
 #include <algorithm>
 #include <sstream>
@@ -170,7 +170,7 @@ TEST_CASE("without a head tracker glances are missing and not none, without a la
   CHECK(glances["value"].is_null());
   CHECK(glances["samples"] == 0);
   CHECK(glances["missing"] == 101);
-  // The page's row beside the paper divides by the time of those alone whose head was known: 2 × 10 s over 2.
+  // The page's row beside the paper divides by the time of drives with a known head alone: 2 × 10 s over 2.
   CHECK(to_html(report).find("<td class=\"value\">10.0 s</td>") != std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-/// The car on a machine of its own: septet-server and septet-car as two programs. Only the USB device is not there.
+/// The car on a machine of its own: septet-server and septet-car as two programs. Only the USB device is missing.
 
 #include <csignal>
 

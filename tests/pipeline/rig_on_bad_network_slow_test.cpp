@@ -16,8 +16,8 @@ struct Presented {
   int frames = 0, skewed = 0, held = 0, wrong = 0;
 };
 
-/// Every live screen presents each frame when its own clock asks for it; the frames of one number are compared with each
-/// other and with the truth.
+/// Every live screen presents each frame when its own clock asks for it; the frames of one number are compared with
+/// each other and with the truth.
 Presented present(SimulatedRig& rig, double seconds, const std::set<std::size_t>& without = {}) {
   Presented result;
   std::vector<std::optional<std::int64_t>> last(rig.size());

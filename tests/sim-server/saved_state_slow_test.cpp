@@ -1,4 +1,4 @@
-/// Each shipped scenario, saved in the middle and restored into a freshly loaded drive, goes on as if nothing had been.
+/// Each shipped scenario, saved in the middle and restored into a freshly loaded drive, goes on unchanged.
 
 #include <cstring>
 #include <filesystem>
@@ -104,7 +104,7 @@ void check_that_it_goes_on(const std::string& scenario, std::uint64_t seed, cons
   CHECK(*save_state(*fresh.model, *state) == saved.end);
 }
 
-/// With its last word made the hash of the rest again, as whoever means harm would.
+/// With its last word made the hash of the rest again, as by an attacker.
 void sign(Bytes& bytes) {
   StateHash hash;
   hash.add_bytes(std::span(bytes).first(bytes.size() - 8));

@@ -1,4 +1,4 @@
-/// What a wet road shows, in pictures that are measured.
+/// Pictures of a wet road, measured.
 
 #include <algorithm>
 #include <cmath>

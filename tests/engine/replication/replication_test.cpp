@@ -172,7 +172,7 @@ TEST_CASE("a client that does not acknowledge is sent a window and no more") {
   for (int i = 0; i < 100; ++i)
     sent += wire.server->pump(end.connection, 1u << 20, [](std::span<const std::byte>) { return true; }).bytes;
   CHECK(sent < 64 * 1024);
-  // Of what one that acknowledges is sent.
+  // Traffic to another one that acknowledges.
   auto& other = wire.add("other");
   for (int i = 0; i < 300; ++i) wire.pump(other);
   CHECK(sent < other.bytes_to_client / 4);

@@ -1,4 +1,4 @@
-// Whom a crash dents, where, and how deep; and that everybody is told.
+// Vehicles dented by a crash, places and depths; and their announcement to all screens.
 
 #include "engine/simulation/effects/dents.hpp"
 

@@ -194,7 +194,7 @@ TEST_CASE("a script is read with its turns and its places") {
   CHECK(first.interior);
   CHECK(first.field_of_view_rad == doctest::Approx(40.0 * radians));
   REQUIRE(first.turns.size() == 2);
-  // What a turn does not name stays as it is, and the last one takes the rest of the shot.
+  // Members that a turn does not name stay unchanged, and the last one takes the rest of the shot.
   CHECK(first.turns[0].heading_rad == doctest::Approx(90.0 * radians));
   CHECK(first.turns[1].pitch_rad == doctest::Approx(-10.0 * radians));
   CHECK(first.turns[1].until_s == 5.5);
@@ -367,7 +367,7 @@ TEST_CASE("a picture's layers are its pixels' and its header says where the came
   CHECK(std::isinf(value("Z", 1)));
   CHECK(std::get<std::string>(picture.attributes.at("septet.seed")) == "9");
   CHECK(std::get<double>(picture.attributes.at("septet.tick")) == 300.0);
-  // What the camera sees in its middle lies ahead of it, and what lies to its right is to its right.
+  // The middle of the camera's view lies ahead of it, and its right to its right.
   const Vec3 eye_m = instant::world_eye(facts.view);
   const Vec3 ahead_m = eye_m + 5.0 * (facts.view.world_from_car.orientation * -facts.view.projection.back),
              right_m = ahead_m + facts.view.world_from_car.orientation * facts.view.projection.right;

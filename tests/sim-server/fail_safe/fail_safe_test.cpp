@@ -16,7 +16,7 @@
 namespace septet::server {
 namespace {
 
-/// A person's car in a drive on simulated time, and what its actuators are told.
+/// A person's car in a drive on simulated time, and the commands to its actuators.
 struct SeatedDrive {
   explicit SeatedDrive(const rig::CarActuators& limits, bool has_actuators = true) {
     port.plug();

@@ -19,7 +19,7 @@ import threading
 from chromium import LIMIT_S, PageTrial
 
 READY = "typeof hello !== 'undefined' && hello && hello.choices && state && state.sessions && !state.looking && mine"
-# A key whose text is missing is shown as it is.
+# A key whose text is missing is shown verbatim.
 KEYS_SHOWN = "document.body.innerText.match(/\\b(shell|start|past|record|asking|taking|ending|severity|end|said|scenario|about)\\.[a-z_]+/g)"
 
 
@@ -112,7 +112,7 @@ def find_past(browser):
     assert all(session["simulated_s"] > 20.0 for session in marked), marked
     text = json.dumps(browser.value(rows))
     assert f"{marked[0]['mark']:.1f} of 10" in text and "4520 points, level 3" in text, text
-    # In the time of who reads it: half past eleven in the evening in Greenwich is the next day in Stockholm.
+    # In the reader's time zone: half past eleven in the evening in Greenwich is the next day in Stockholm.
     assert "Jan 2, 2026, 12:30" in text, text
 
     def found(words, which="all"):

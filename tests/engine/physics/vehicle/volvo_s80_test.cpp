@@ -1,4 +1,4 @@
-// The S80's figures: what is printed about the car, and what makes a car a car.
+// The S80's figures: published data, and general properties of a car.
 
 #include <algorithm>
 #include <array>

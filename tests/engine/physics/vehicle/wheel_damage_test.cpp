@@ -15,7 +15,8 @@ using namespace septet::vehicle;
 
 namespace {
 
-/// Ground that lies higher by `height_m` (lower where negative) between two places of the x axis, under the wheels of both sides or of one.
+/// Ground that lies higher by `height_m` (lower where negative) between two places of the x axis, under the wheels of
+/// both sides or of one.
 struct Step {
   double height_m = 0.0;
   double from_m = 6.0, to_m = 1e6;

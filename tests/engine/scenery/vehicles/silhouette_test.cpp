@@ -1,4 +1,4 @@
-/// What tells vehicles apart from afar: their outlines, drawn here in a few thousand pixels.
+/// Features of vehicles from afar: their outlines, drawn here in a few thousand pixels.
 
 #include <algorithm>
 #include <bitset>
