@@ -6,6 +6,7 @@
 /// number and a record that crosses to the device stand once. GLM has GLSL's names, so that the text of a function is plain GLSL, within these rules:
 ///
 /// - LIGHT_BEGIN and LIGHT_END enclose the text (namespace septet::light of C++), LIGHT_FN begins a function, LIGHT_CONST a constant.
+/// - LIGHT_RECORD(type, last member, number of vectors) follows a record that crosses to the device: it has no gaps.
 /// - Literals have their `f`, numbers are converted by name (float(n)), vectors are built by constructors: vec3(x, y, z).
 /// - Components are x, y, z and w; several at once (xyz) neither language has in common: vec3(v) is the first three of a vec4.
 /// - Arguments are values. What has several results returns a struct, whose members are set one by one.
@@ -17,6 +18,7 @@
 
 #ifdef __cplusplus
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/common.hpp>
@@ -42,6 +44,8 @@ using glm::exp, glm::exp2, glm::sqrt, glm::inversesqrt, glm::pow, glm::cos, glm:
 #define LIGHT_END }
 #define LIGHT_FN inline
 #define LIGHT_CONST inline constexpr
+#define LIGHT_RECORD(type, last, vectors) \
+  static_assert(sizeof(type) == 16 * (vectors) && offsetof(type, last) + sizeof(type::last) == sizeof(type));
 
 #else
 
@@ -49,6 +53,7 @@ using glm::exp, glm::exp2, glm::sqrt, glm::inversesqrt, glm::pow, glm::cos, glm:
 #define LIGHT_END
 #define LIGHT_FN
 #define LIGHT_CONST const
+#define LIGHT_RECORD(type, last, vectors)
 
 #endif
 

@@ -9,7 +9,10 @@
 #include "engine/instant/glass_cover.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/instant/wet_road.hpp"
+#include "engine/light/crack.hpp"
 #include "engine/light/fresnel.hpp"
+#include "engine/light/frost.hpp"
+#include "engine/light/lamplight.hpp"
 #include "engine/light/microfacets.hpp"
 #include "engine/light/ruts.hpp"
 #include "engine/light/snow.hpp"
@@ -296,7 +299,7 @@ void World::lie_on_glass(const PlacedSurface& placed, const Ray& ray, const Hit&
   if (placed.on_glass->look.on_glass == ice::OnGlass::frost) {
     point.opacity = instant::frost_hides(cloud_noise_, rest_m);
     point.translucent = true;
-    point.surface.diffuse = glm::vec3(instant::frost_albedo);
+    point.surface.diffuse = glm::vec3(light::frost_albedo);
     return;
   }
   const instant::CrackSeen crack =
@@ -310,7 +313,7 @@ void World::lie_on_glass(const PlacedSurface& placed, const Ray& ray, const Hit&
   }
   point.surface.normal = glm::dot(crack.normal, ray.direction) > 0.0f ? -crack.normal : crack.normal;
   point.surface.f0 = glm::vec3(1.0f);
-  point.surface.alpha = instant::crack_roughness * instant::crack_roughness;
+  point.surface.alpha = light::crack_roughness * light::crack_roughness;
 }
 
 glm::vec2 World::ripple(const glm::vec3& position_m) const {
@@ -323,8 +326,8 @@ glm::vec2 World::ripple(const glm::vec3& position_m) const {
 }
 
 glm::vec3 World::fog_radiance(const glm::vec3& direction, float from_share_of_sky, float to_share_of_sky) const {
-  const float roofed = instant::roofed_between(from_share_of_sky, to_share_of_sky);
-  return glm::mix(open_fog_radiance(direction), instant::roofed_haze, roofed);
+  const float roofed = light::roofed_between(from_share_of_sky, to_share_of_sky);
+  return glm::mix(open_fog_radiance(direction), light::roofed_haze, roofed);
 }
 
 glm::vec3 World::open_fog_radiance(const glm::vec3& direction) const {

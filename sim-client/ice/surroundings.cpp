@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/instant/instant.hpp"
+#include "engine/light/lamplight.hpp"
 
 namespace septet::ice_viewer {
 namespace {
@@ -93,7 +94,7 @@ void add_room(scene::ResolvedScene& scene) {
     material.roughness = 1.0f;
     // Under a roof: the light of its lamps is subtracted, so that the walls have one brightness.
     material.share_of_sky = 0.0f;
-    material.emission = glm::vec3(room_radiance) - instant::irradiance_between_pools / std::numbers::pi_v<float>;
+    material.emission = glm::vec3(room_radiance) - light::irradiance_between_pools / light::pi;
     scene.images.push_back(wall_picture(wall));
     materials.push_back(material);
   }

@@ -187,14 +187,14 @@ void main() {
   // Roads lie level, in the open.
   vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : irradiance_on(n) * (share_of_sky * material.more.x);
   // The lamps of a roofed place: their light from all sides, and near the eye their pools in it.
-  float between_pools = 0.24 * (1.0 - share_of_sky);
+  float between_pools = 1.0 - share_of_sky;
   if ((lamps & 2) != 0) {
     vec4 thrown = standing_lamps(relative, n, share_of_sky);
     // Lamps below a ceiling leave it to what the road sends back.
     between_pools *= (1.0 - 0.7 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
     ambient += thrown.rgb * material.more.x;
   }
-  ambient += vec3(1.5, 1.3, 1.0) * between_pools;
+  ambient += irradiance_between_pools * between_pools;
   if ((lamps & 8) != 0) ambient += beacons(n);
   vec3 irradiance = sunlight * diffuse + ambient;
   vec3 radiance = albedo * (1.0 - material.surface.x) / pi;

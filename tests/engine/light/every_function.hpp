@@ -4,11 +4,16 @@
 /// the host. A new function gets its case here, and `function_count` grows by one.
 
 #include "engine/light/beam.hpp"
+#include "engine/light/clouds.hpp"
+#include "engine/light/crack.hpp"
 #include "engine/light/fresnel.hpp"
+#include "engine/light/frost.hpp"
 #include "engine/light/ice_optics.hpp"
+#include "engine/light/lamplight.hpp"
 #include "engine/light/language.hpp"
 #include "engine/light/microfacets.hpp"
 #include "engine/light/ruts.hpp"
+#include "engine/light/sky_tables.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
 #include "engine/light/tone_curve.hpp"
@@ -16,7 +21,7 @@
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 32u;
+LIGHT_CONST uint function_count = 48u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -31,6 +36,7 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
   const vec3 level = normalize(vec3(1.0f, 0.1f * a.x - 0.05f, 0.1f * a.y - 0.05f));
   const vec3 way = normalize(vec3(1.0f, 1.6f * a.z - 0.8f, 0.4f * a.w - 0.3f));
   const ivec3 cell = ivec3(int(8.0f * a.x), int(8.0f * a.y), int(8.0f * a.z));
+  const FeatherPlace feather = feather_at(vec2(a.x, a.y));
   switch (function) {
     case 0u:
       return vec4(dipped_share(level, way, 1.0f + b.x));
@@ -96,6 +102,38 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
       return vec4(transmittance(clear_ice_absorption_per_m, 30.0f * a.x), 0.0f);
     case 31u:
       return vec4(ggx_density(a.x, 0.01f + a.y));
+    case 32u:
+      return vec4(cloud_place(vec3(one.x, one.y, abs(one.z)), 9000.0f * vec2(b.x, b.y)), 0.0f, 0.0f);
+    case 33u:
+      return vec4(cloud_sunward(vec2(a.x, a.y), one), 0.0f, 0.0f);
+    case 34u:
+      return vec4(cloud_density(a.x, a.y));
+    case 35u:
+      return vec4(cloud_radiance(a.x, a.y, 2.0f * a.z - 1.0f, vec3(b.x, b.y, b.z), vec3(b.y, b.z, b.w)), 0.0f);
+    case 36u:
+      return vec4(cloud_hides(a.x, a.y, a.z));
+    case 37u:
+      return vec4(random_place(floor(1000.0f * vec2(a.x - 0.5f, a.y - 0.5f))), 0.0f, 0.0f);
+    case 38u:
+      return vec4(feather.along, feather.aside, feather.seam, 0.0f);
+    case 39u:
+      return vec4(feather_mass(feather, b.x, b.y, b.z));
+    case 40u:
+      return vec4(frost_hides(a.x, 0.2f * a.y), frost_hides_on_average(a.x, 0.1f + a.y, 0.2f * a.z), 0.0f, 0.0f);
+    case 41u:
+      return vec4(crushed_grain(vec2(a.x, a.y)), crushed_hides(vec2(a.x, a.y), 1.0f + a.z), crack_hides(a.w));
+    case 42u:
+      return vec4(uneven_crack(one, b.x), 0.0f);
+    case 43u:
+      return vec4(crack_noise_place(one, b.x), 0.0f, 0.0f);
+    case 44u:
+      return vec4(from_all_sides(vec4(0.5f * one, 4.0f * a.w - 2.0f)));
+    case 45u:
+      return vec4(lamplight(one, b.x, other));
+    case 46u:
+      return vec4(roofed_between(a.x, a.y));
+    case 47u:
+      return vec4(sky_table_of(a.x));
     default:
       return vec4(0.0f);
   }

@@ -43,9 +43,7 @@ TEST_CASE("each function of light has the same values on the device as on the ho
       const vec4 there = device[function * point_count + i];
       if (i == 0) first = host;
       bool same = true;
-      for (int k = 0; k < 4; ++k)
-        same = same &&
-               std::abs(host[k] - there[k]) <= tolerance * std::max({1e-4f, std::abs(host[k]), std::abs(there[k])});
+      for (int k = 0; k < 4; ++k) same = same && alike(host[k], there[k]);
       apart += same ? 0 : 1;
       varied += host == first ? 0 : 1;
     }

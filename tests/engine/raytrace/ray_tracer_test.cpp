@@ -188,6 +188,27 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   CHECK(further == relative(share + 3.0 * (1.0 - share), 0.02));
 }
 
+TEST_CASE("soot takes the same share of the light of a matt surface, a mirror, lacquer and a lamp") {
+  scene::SurfaceMaterial matt, mirror, lacquer, lamp;
+  matt.base_color = glm::vec3(0.8f);
+  mirror.metallic = 1.0f, mirror.roughness = 0.3f;
+  lacquer.base_color = glm::vec3(0.0f), lacquer.clear_coat = 1.0f;
+  lamp.base_color = glm::vec3(0.0f), lamp.emission = glm::vec3(2.0f);
+  for (const scene::SurfaceMaterial& material : {matt, mirror, lacquer, lamp}) {
+    const scene::ResolvedScene scene = ball_scene(material, 2);
+    instant::Instant instant = instant_from({-4.0, 0.0, 0.0}, 0.2, 16, even_sky(0.25f));
+    const double clean = mean_of(traced(scene, instant, {.samples = 32})).radiance.g;
+    instant.soot.world_from_field.position_m = Vec3(-2.0);
+    instant.soot.nx = instant.soot.ny = instant.soot.nz = 4;
+    instant.soot.cover.assign(64, 102);
+    const double sooty = mean_of(traced(scene, instant, {.samples = 32})).radiance.g;
+    CAPTURE(material.metallic);
+    CAPTURE(material.clear_coat);
+    CHECK(clean > 1e-3);
+    CHECK(sooty / clean == relative(0.6, 0.02));
+  }
+}
+
 TEST_CASE("a part is seen where the mesh is that stands in for its own, and is what it was") {
   scene::ResolvedScene scene = ball_scene({}, 1);
   scene.instances.clear();

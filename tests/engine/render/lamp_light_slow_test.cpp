@@ -145,7 +145,7 @@ TEST_CASE("haze in a tunnel is lit by its lamps and not by the sky, and beyond i
     return drawn(renderer, instant).at(side_px / 2, side_px / 2) / (1.0f - std::exp(-1.0f));
   };
   const glm::vec3 within = haze(0.0f), before = haze(1.0f);
-  CHECK(glm::distance(within, instant::roofed_haze) < 0.01f * glm::length(instant::roofed_haze));
+  CHECK(glm::distance(within, light::roofed_haze) < 0.01f * glm::length(light::roofed_haze));
   CHECK(within.r > 1.3f * within.b);
   CHECK(glm::distance(before, instant::sky_radiance(*instant.light, {0.9998f, 0.0f, 0.02f})) < 0.02f);
 }
