@@ -1,4 +1,5 @@
-/// The driver's car from his eyes, drawn by both renderers from one description of the instant: how alike its inside is lit.
+/// The driver's car from his eyes, drawn by both renderers from one description of the instant: how alike its inside is
+/// lit.
 
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,7 @@ class Circles final : public server::TickSource {
   Tick tick_ = 0;
 };
 
-/// Screens on a simulated clock that answer as those of the product do: each new tick, once they hold the scene.
+/// Screens on a simulated clock that acknowledge like the product's: each new tick, once they hold the scene.
 class LockstepRig {
  public:
   explicit LockstepRig(std::size_t screens)

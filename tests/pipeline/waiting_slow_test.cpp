@@ -79,7 +79,7 @@ TEST_CASE("the world stands still and says so until the driver takes the control
         REQUIRE(rig.shown(0));
         CHECK(rig.shown(0)->tick == 0);
       }
-      // Who comes while the world waits sees it too.
+      // A screen that joins while the world waits sees it too.
       if (joined_s == 0.0 && rig.now_s() > 2.0) {
         rig.stop_screen(1);
         rig.start_screen(1);
@@ -131,7 +131,7 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
       server::serve(circles, rig.host(),
                     {.ticks = 120, .wait_for_driver = "Press any key to start", .about = "A first lesson"}, {}, clock);
   CHECK(served.end == logging::DriveEnd::time_over);
-  CHECK_FALSE(rig.screen(0).link->notice().keys);  // Which keys drive is known to who has pressed one.
+  CHECK_FALSE(rig.screen(0).link->notice().keys);  // A pressed key shows that its holder knows the keys.
   CHECK(ready_s > 0.0);
   CHECK(rig.shown(0)->tick >= 116);
 }

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A school's folder: a rig, a scenario of a folder with its lesson, one that lies alone, an experiment, and what is none of these.
+/// A school's folder: a rig, a scenario of a folder with its lesson, one that lies alone, an experiment, and other
+/// files.
 struct SchoolFolder {
   program::TemporaryFolder folder = program::TemporaryFolder::make("septet-own").value();
   fs::path data = program::data_folder().value();
@@ -63,7 +64,7 @@ TEST_CASE("rigs, scenarios, lessons and experiments of one's own are listed by t
   CHECK(alone->is_game);
   CHECK_FALSE(alone->is_lesson);
   const auto* half = find_own(scenarios, school.path() / "half.xosc");
-  REQUIRE(half != nullptr);  // It is there, and says what is wrong with it.
+  REQUIRE(half != nullptr);  // It is listed, with its fault.
   CHECK(half->description.starts_with("cannot be read: "));
   const auto experiments = list_of("experiments", {school.path()}).value();
   CHECK(find_own(experiments, school.path() / "study.toml") != nullptr);

@@ -1,4 +1,4 @@
-// Gaps, the way across and the way back.
+// Gaps, the path across and the path back.
 
 #include <cmath>
 
