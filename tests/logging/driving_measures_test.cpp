@@ -237,7 +237,7 @@ TEST_CASE("25 s at 30 Hz with 5, 8, 27 and 55 reversals are the published 12.0, 
   const auto recording = [](double slow_swings, double ripple_swings) {
     std::vector<double> radians;
     for (int i = 0; i < 751; ++i) {
-      // By the published rule the first value is a stationary point, the last none.
+      // By the published rule the first value is a stationary point, the last is not.
       const double half_wave = std::numbers::pi * i / 750.0;
       const double slow_deg = 4.0 * std::sin(slow_swings * half_wave);
       const double ripple_deg = 0.35 * std::sin(ripple_swings * half_wave);
@@ -253,7 +253,7 @@ TEST_CASE("25 s at 30 Hz with 5, 8, 27 and 55 reversals are the published 12.0, 
   CHECK(visual(recording(8.0, 0.0)) == exactly(19.2));
   CHECK(cognitive(recording(0.0, 27.0)) == exactly(64.8));
   CHECK(cognitive(recording(0.0, 55.0)) == exactly(132.0));
-  // Swings of less than 3 degrees are none for visual load, whatever lies on top of them.
+  // Swings of less than 3 degrees do not count for visual load, with any noise on top.
   CHECK(visual(recording(0.0, 27.0)) == 0.0);
   CHECK(visual(recording(5.0, 55.0)) == exactly(12.0));
 }

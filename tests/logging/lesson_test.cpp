@@ -166,7 +166,7 @@ TEST_CASE("speed counts over the limit that is posted where one drives") {
   };
   CHECK_FALSE(mark_of("limit", 3.0, 15.0, samples).mark.has_value());
   CHECK(*mark_of("limit", 3.0, 15.0, samples, {limit(0, "80")}).mark == doctest::Approx(10.0));
-  // The log tells some events later than they were.
+  // The log dates some events later than they were.
   const TaskMark village =
       mark_of("limit", 3.0, 15.0, samples,
               {limit(0, "80"), {0, 31.0, "debris", std::nullopt, ""}, limit(30, "60"), limit(40, "0")});

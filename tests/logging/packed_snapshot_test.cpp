@@ -49,7 +49,7 @@ std::vector<Bytes> pack_all(const std::vector<WireSnapshot>& wires, std::size_t 
 TEST_CASE("packed snapshots come back to the last bit, keyframes and differences, whoever comes and goes") {
   std::vector<WireSnapshot> wires;
   for (Tick tick = 0; tick < 60; ++tick) wires.push_back(bend(tick));
-  wires.push_back(to_wire(Snapshot{.tick = 60, .simulated_time_s = 0.5}));  // Nobody is left…
+  wires.push_back(to_wire(Snapshot{.tick = 60, .simulated_time_s = 0.5}));  // All have left…
   wires.push_back(bend(61));                                                // …and everybody is new.
   const auto rows = pack_all(wires, 25);
   SnapshotUnpacker unpacker;

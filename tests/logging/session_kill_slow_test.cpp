@@ -69,7 +69,7 @@ Killed kill_writer(std::int64_t ticks, const std::function<bool(const Progress&)
 
 TEST_CASE("kill -9 at any moment loses nothing that was committed and the file opens") {
   for (const std::int64_t moment : {1, 2, 7, 15, 26, 49, 100, 233, 377}) {
-    // Commits follow by the clock, in the midst of whatever the drive does.
+    // Commits follow by the clock, at any moment of the drive.
     const auto killed = kill_writer(1'000'000, [&](const Progress& progress) {
       return progress.recorded >= moment && (moment < 100 || progress.committed > 0);
     });

@@ -89,7 +89,7 @@ TEST_CASE("a session that somebody reads at its end ends well and is whole") {
         CHECK_FALSE(writer.take_error().has_value());
         CHECK(writer.lost_records() == 0);
         check_whole(file, 100);
-        // What comes after the drive is not refused either.
+        // Later additions are accepted too.
         CHECK(add_answers(file, {{"paper.fun", "", "4", 4.0, 1.0, false, ""}}, "paper.").has_value());
         // A forgotten person's data may stay nowhere.
         CHECK_FALSE(write_anonymous_copy(file).has_value());

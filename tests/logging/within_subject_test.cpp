@@ -150,7 +150,8 @@ TEST_CASE("a code that a spreadsheet takes for something else is in the table wh
   for (const char* code : {"'07", "007", "=1+1", "NA", "null"})
     sessions.push_back(write_part(folder.path(), {.participant = code}));
   const std::string csv = to_csv(report_of(sessions));
-  const char* cells[] = {"''07", "007", "'=1+1", "NA", "null"};  // Less the first apostrophe, each is what was given.
+  // Without the first apostrophe, each is the given text.
+  const char* cells[] = {"''07", "007", "'=1+1", "NA", "null"};
   for (std::size_t row = 0; row < 5; ++row) CHECK(cell_in(csv, row, "participant") == cells[row]);
 }
 

@@ -98,7 +98,7 @@ TEST_CASE("a server that still reads its files is ended at once by a signal") {
   const TemporaryFolder folder;
   const fs::path keys = make_keys(folder / "keys", "");
   fs::remove(keys / "allowed-clients");
-  REQUIRE(::mkfifo((keys / "allowed-clients").c_str(), 0600) == 0);  // Nobody ever writes into it.
+  REQUIRE(::mkfifo((keys / "allowed-clients").c_str(), 0600) == 0);  // It never has a writer.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     CAPTURE(signal);
     auto server = start("septet-server", {"--keys", keys.string(), "--any-port", "--out", (folder / "out").string()},

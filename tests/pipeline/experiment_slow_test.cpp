@@ -68,7 +68,7 @@ TEST_CASE("an experiment run twice has identical numbers and one that was killed
   auto next = start("septet", {"experiment", "next", file, "--out", (folder / "whole").string()}, folder / "n.log");
   CHECK(next.read_line(patience).value_or("") == "4 of 4 subjects are finished, 1 of them forgotten");
 
-  // Another file in the same folder is another experiment where it changes what was driven, or who is forgotten…
+  // Another file in the same folder is another experiment if it changes finished drives, or forgotten subjects…
   const auto changed = [&](const std::string& text) {
     write_text(folder / "e.toml", text);
     return run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "4.log");

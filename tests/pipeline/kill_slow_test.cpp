@@ -95,7 +95,7 @@ TEST_CASE("a killed screen costs the others no frame and is back by itself") {
   }
   const auto screen = screen_in(out / "summary.json", "b");
   CHECK(screen["frames"] > 0);
-  // It may miss none: in lockstep the others wait for as long as it is not known to be gone.
+  // It may miss no frame: in lockstep the others wait until it is known to be gone.
   CHECK(screen["frames"] <= 120);
   CHECK(screen["connected_s"].size() == 2);
   CHECK(screen["left_s"].size() == 1);

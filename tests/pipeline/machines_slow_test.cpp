@@ -124,7 +124,7 @@ TEST_CASE("a rig of several machines is started in any order and each part says 
   a.send_signal(SIGKILL);
   rig.says("twin", "connected to the server");
   next.send_signal(SIGTERM);
-  CHECK(exit_code(next) == 3);  // Stopped by somebody.
+  CHECK(exit_code(next) == 3);  // Stopped by a person.
   CHECK(exit_code(twin) == 0);
   CHECK(exit_code(b) == 0);
 }

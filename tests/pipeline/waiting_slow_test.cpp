@@ -31,7 +31,7 @@ class DrivenCircles final : public server::TickSource {
   logging::DriveEnd end() const override { return logging::DriveEnd::failed; }
 
   Tick tick = 0;
-  int rests = 0;  ///< How often whatever moves in the driver's seat was told to rest.
+  int rests = 0;  ///< Number of commands to rest to the driver's seat.
 };
 
 /// An operator who pauses, and may end the drive.
@@ -115,7 +115,7 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
   double ready_s = 0.0;
   RigClock clock(rig, [&] {
     auto& screen = rig.screen(0);
-    // It compiles its shaders for longer than the server waits for an answer.
+    // It compiles its shaders for longer than the server waits for a reply.
     screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
     if (screen.link->finished()) screen.link->report({});
     if (rig.now_s() < 12.0 || ready_s > 0.0) return;

@@ -258,7 +258,7 @@ TEST_CASE("a full queue drops instruments and says so and a removed interface is
   };
   run(0.2);
   CHECK(sender.counts().dropped == 0);
-  // Four frames fit, and each stays for a second: a bus on which nobody acknowledges.
+  // Four frames fit, and each stays for a second: a bus without acknowledgement.
   command("/tools/tc qdisc add dev vcan0 root netem delay 1s limit 4");
   run(0.5);
   CHECK(sender.counts().dropped > 20);

@@ -120,7 +120,7 @@ class UserSpaceCar {
 
   int file_;
   std::atomic<bool> is_ending_ = false;
-  std::mutex mutex_;  ///< Of what follows.
+  std::mutex mutex_;  ///< Guards the members below.
   DeviceStatus status_{.firmware = 1, .watchdog_ms = 1000};
   double fan_ = -1.0;
   std::thread thread_;

@@ -124,7 +124,7 @@ class MotorWheel {
 
   int file_;
   std::atomic<bool> is_ending_ = false;
-  std::mutex mutex_;  ///< Of what follows.
+  std::mutex mutex_;  ///< Guards the members below.
   std::map<int, ff_effect> effects_;
   std::map<int, double> playing_since_s_;
   std::thread thread_;

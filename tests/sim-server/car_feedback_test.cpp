@@ -13,7 +13,7 @@
 namespace septet::server {
 namespace {
 
-/// Keeps what the last tick has set, so that it can be set again.
+/// Keeps the last tick's command, so that it can be repeated.
 class Repeated final : public SeatDevice {
  public:
   Repeated(std::unique_ptr<SeatDevice> device, std::function<void()>& again) : device_(std::move(device)) {

@@ -79,7 +79,7 @@ class MockedCar {
     return poll(&waiting, 1, 0) > 0;
   }
   Bytes receive() {
-    // The mocked node is a stream: what is read at once may be several reports, so as much as one is read.
+    // The mocked node is a stream: one read may return several reports, so the length of one is read.
     Bytes bytes(actuators_report_bytes);
     const ssize_t count = read(fd_, bytes.data(), bytes.size());
     bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));

@@ -52,8 +52,7 @@ TEST_CASE("rigs, scenarios, lessons and experiments of one's own are listed by t
   const auto rigs = list_of("rigs", {school.path()}).value();
   REQUIRE(find_own(rigs, school.path() / "lab.toml") != nullptr);
   CHECK(find_own(rigs, school.path() / "lab.toml")->is_own);
-  CHECK(rigs.size() ==
-        list_of("rigs").value().size() + 1);  // Neither the notes, nor the experiment, nor what is broken.
+  CHECK(rigs.size() == list_of("rigs").value().size() + 1);  // Without the notes, the experiment and the broken file.
   const auto lessons = list_of("lessons", {school.path()}).value();
   const auto* town = find_own(lessons, school.path() / "scenarios/town/town.xosc");
   REQUIRE(town != nullptr);

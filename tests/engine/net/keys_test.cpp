@@ -117,7 +117,7 @@ TEST_CASE("a list that changes is read anew when it is whole and the known one h
   replace(a + b);
   AllowedClientsWatch watch(file);
   double now_s = 10.0;
-  // How many looks it takes, and what they bring.
+  // Number of looks, and their result.
   const auto looks = [&](int count) {
     std::optional<Expected<std::vector<AllowedClient>>> result;
     for (int i = 0; i < count && !result; ++i) result = watch.changed(now_s += 0.25);

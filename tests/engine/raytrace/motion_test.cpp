@@ -190,7 +190,7 @@ TEST_CASE("debris that turns over while the shutter is open has the normals of i
       to{{{1, 3, -2}, {-2, -3, -1}, {2.5, 0, 4}}};
   instant.loose = {loose(from)};
   later.loose = {loose(to)};
-  // It is also carried along; told from there.
+  // It is also carried along; measured from there.
   later.loose.front().mesh.origin_m = {0.0, 0.0, 1.0};
   for (scene::SurfaceVertex& vertex : later.loose.front().mesh.vertices) vertex.position_m.z -= 1.0f;
   const TracedPicture picture = traced_until(scene, instant, later, {.samples = 512});

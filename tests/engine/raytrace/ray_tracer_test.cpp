@@ -172,7 +172,7 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   for (scene::MeshPart& part : scene.meshes[1].parts) part.material = 1;
   scene.instances.push_back(scene.instances[0]);
   scene.instances[1].mesh = 1;
-  // Where one is seen three quarters of the way through the band.
+  // At three quarters of the band.
   const double eye_m = 8.0;
   scene.instances[0].visible_to_m = scene.instances[1].visible_from_m =
       static_cast<float>(eye_m) / (1.0f + 0.5f * instant::fade_half_band);

@@ -35,8 +35,8 @@ scene::ResolvedScene bare_ground() {
   return lone_mesh(material, mesh, {Vec3(0.0), {1, 0, 0, 0}});
 }
 
-/// So many cars side by side, ten metres apart, their beams along x, seen at night from 60 m above the middle of what
-/// they light.
+/// This many cars side by side, ten metres apart, their beams along x, seen at night from 60 m above the middle of the
+/// lit area.
 RadianceImage light_of(Headlights headlights, int cars) {
   Renderer renderer = *Renderer::create({.width = lit_side_px,
                                          .height = lit_side_px,
@@ -96,7 +96,7 @@ TEST_CASE(
     "dark") {
   const RadianceImage nearest = light_of(Headlights::nearest, 12), clustered = light_of(Headlights::clustered, 12);
   const RadianceImage dark = light_of(Headlights::nearest, 0);
-  // Row by row downwards x falls, from left to right y does: what the beams throw 25 m ahead of their cars.
+  // Row by row downwards x falls, from left to right y does: the beams' light 25 m ahead of their cars.
   const auto at = [&dark](const RadianceImage& image, double x_m, double y_m) {
     const auto pixel = [](double metres) {
       return static_cast<std::uint32_t>(std::lround(0.5 * lit_side_px * (1.0 - metres / (60.0 * std::tan(1.0)))));

@@ -160,7 +160,7 @@ TEST_CASE("a near headlamp dazzles with its lens and not with a disc a metre wid
     CAPTURE(distance_m);
     CAPTURE(white_m2);
     CHECK(brightest > 150.0);
-    if (distance_m < 10.0) CHECK(white_m2 < 0.35);  // Two lenses and what is white around them.
+    if (distance_m < 10.0) CHECK(white_m2 < 0.35);  // Two lenses and the white around them.
   }
 }
 

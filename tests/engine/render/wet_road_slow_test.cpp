@@ -200,7 +200,7 @@ TEST_CASE("a gantry is mirrored by the wet road before it") {
   Drawing drawing = Drawing::make();
   FrameInput input = ahead(drawing, overcast(1.0));
   const RadianceImage with = drawing.draw(input, "wet_gantry");
-  input.participants.clear();  // Nobody stands on the road: where it lies is not known.
+  input.participants.clear();  // Without participants on the road its place is unknown.
   const RadianceImage without = drawing.draw(input);
   // Its sign hangs 5.2 to 7.6 m over the road, 45 m ahead.
   const auto at = pixel_of(input, {44.7, -2.0, -6.4});

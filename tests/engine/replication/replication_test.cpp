@@ -96,7 +96,7 @@ TEST_CASE("nothing is sent that was not subscribed to") {
   const auto& original = std::get<GeometryData>(wire.store.find(2)->data);
   CHECK(geometry.vertices_m == original.vertices_m);
   CHECK(geometry.polygons[0][0] == geometry::no_vertex);
-  CHECK(geometry.layers.size() == original.layers.size());  // told of, with their defaults
+  CHECK(geometry.layers.size() == original.layers.size());  // announced, with their defaults
   CHECK(geometry.layers.at(2).integers != original.layers.at(2).integers);
 
   const std::size_t before = end.bytes_to_client;

@@ -131,7 +131,7 @@ TEST_CASE("black ice takes the wheels' grip where it lies and until it has thawe
   CHECK(friction_at(state, 1200.0, -7, 268.15) == iced);
   for (int i = 0; i < 300; ++i) advance_ice({ice::freezing_k + 6.0, 0.0}, 1.0, 2, state);
   CHECK(friction_at(state, 1200.0, -7, 268.15) == dry);
-  // What freezes then is there in full.
+  // Later ice is there in full.
   freeze(motorway(), black_ice("1", -7), state);
   CHECK(friction_at(state, 1200.0, -7, 268.15) == iced);
 }
@@ -185,7 +185,7 @@ TEST_CASE(
     const auto told = ice::decode_glass(state.glass_keyframe.data);
     REQUIRE(told);
     REQUIRE(told->size() == 1);
-    CHECK(std::abs((*told)[0].frost.thickness_kgpm2 - 0.15 * share) < 0.00051);  // Told in g/m².
+    CHECK(std::abs((*told)[0].frost.thickness_kgpm2 - 0.15 * share) < 0.00051);  // Encoded in g/m².
   }
   // Init may set the environment more than once: the last one counts, and one without frost leaves it.
   scenario::Scenario twice = frosty(1.0);

@@ -159,8 +159,7 @@ TEST_CASE("a full disk ends a film with one message and it goes on where there i
   if (is_mounted) CHECK(::umount2(disk.c_str(), MNT_DETACH) == 0);
 }
 
-/// The environment in which what is found as mpirun counts its starts in a file; the first of them crash before
-/// anything is there.
+/// Environment whose mpirun counts its starts in a file; the first of them crash before any result.
 std::map<std::string, std::string> mpirun_that_crashes(const fs::path& folder, int times) {
   fs::create_directories(folder);
   const fs::path mpirun = folder / "mpirun";

@@ -160,7 +160,7 @@ TEST_CASE("a traced film of a thousand frames takes no more memory at its end th
   CHECK(made->frames >= 1000);
   MESSAGE("after 100 frames ", early_mib, " MiB, after 990 ", late_mib);
   REQUIRE(early_mib > 0.0);
-#if !defined(__SANITIZE_ADDRESS__) && !SEPTET_WITH_ASAN  // Which keeps what was freed, and finds leaks itself.
+#if !defined(__SANITIZE_ADDRESS__) && !SEPTET_WITH_ASAN  // The sanitizer keeps freed memory, and finds leaks itself.
   CHECK(late_mib < early_mib + 4.0);                     // 4.6 KiB a frame.
 #endif
 }

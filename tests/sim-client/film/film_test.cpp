@@ -209,7 +209,7 @@ TEST_CASE("a film says how far it is and how long the rest will take") {
         "1 of 4 frames and 50 % of the next, 10 min left");
   CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2}, 1.0) == "2 of 4 frames");
   CHECK(progress_text({.frames = 3, .planned = 4, .kept = 2}, 20.0) == "3 of 4 frames, 20 s left");
-  // Half of the next was kept too: what is done since is a quarter of a frame in 20 s.
+  // Half of the next was kept too: progress since is a quarter of a frame in 20 s.
   CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2, .share_of_next = 0.75, .kept_of_next = 0.5}, 16.0) ==
         "2 of 4 frames and 75 % of the next, 80 s left");
   CHECK(progress_text({.frames = 0, .planned = 4, .bad_samples = 3}, 1.0) ==
@@ -225,7 +225,7 @@ TEST_CASE("a lens opens as photographers reckon and is sharp where it is told or
       "focus_m = 3.5\n[[shot]]\nfrom_s = 1\nto_s = 5\n",
       "shots.toml");
   REQUIRE(script.has_value());
-  // 39.6 degrees is what 50 mm see across 36 mm; at f/2 it opens 25 mm.
+  // 39.6 degrees is the view of 50 mm across 36 mm; at f/2 it opens 25 mm.
   CHECK(lens_radius_m(script->shots[0]) == relative(0.0125, 1e-4));
   CHECK(script->shots[0].focus_m == 9.0);
   CHECK(script->shots[0].shutter_rad == doctest::Approx(std::numbers::pi));

@@ -122,7 +122,7 @@ TEST_CASE("a crack stays in its place through the break of its slab, within a pi
     return static_cast<double>(std::ranges::upper_bound(distances, px) - distances.begin()) /
            static_cast<double>(distances.size());
   };
-  // The same pixel or one that touches it; what had been hidden by other ice and is bared is left over.
+  // The same pixel or one that touches it; newly uncovered ice is left over.
   constexpr double touching_px = 1.5;
   const double mean_px = std::accumulate(there.begin(), there.end(), 0.0) / static_cast<double>(there.size());
   MESSAGE(there.size() << " pixels of cracks after the break, " << mean_px << " px from one before, "

@@ -68,7 +68,7 @@ instant::DynamicMesh beacon(const RigidTransform& world_from_car, const Vec3& pl
 }
 
 struct Seen {
-  glm::dvec2 pixel{0.0};  ///< The middle of what has changed.
+  glm::dvec2 pixel{0.0};  ///< Middle of the changed pixels.
   double changed = 0.0;   ///< Sum of that.
   float most = 0.0f;      ///< Radiance.
 };

@@ -202,7 +202,7 @@ TEST_CASE("a page without browsers costs the drive no memory and ends at once") 
   Desk desk;
   const auto snapshot = std::make_shared<const TakenSnapshot>(Snapshot{});
   for (int i = 0; i < 10000; ++i) desk.page->show({.newest = snapshot, .phase = "driving"});
-  CHECK(snapshot.use_count() <= 3);  // Here, in the slot, and as what is shown.
+  CHECK(snapshot.use_count() <= 3);  // Here, in the slot, and in the shown state.
 }
 
 }  // namespace septet::page

@@ -52,7 +52,8 @@ TEST_CASE("a blow loses what restitution does not return and its stress is that 
   const double mass_kg = elastic::total_mass_kg(slab.body);
   std::vector<elastic::NodeContact> contacts(2);
   contacts[0].impulse_ns = {3.0, 0.0,
-                            0.25 * (1.0 + e) * mass_kg * closing_mps};  // A quarter of it; friction is not of the blow.
+                            // A quarter of it; friction is not part of the impact.
+                            0.25 * (1.0 + e) * mass_kg * closing_mps};
   contacts[1].impulse_ns = {0.0, 0.0, 0.75 * (1.0 + e) * mass_kg * closing_mps};
   contacts[1].node = 1;
   const std::vector<double> closing{closing_mps, closing_mps};

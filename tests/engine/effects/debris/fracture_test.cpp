@@ -58,7 +58,7 @@ TEST_CASE("a slab pulled to just below its strength holds and just beyond it bre
   CHECK(fracture(slab_pulled_to(0.99)).opened_faces == 0);
   CHECK(fracture(slab_pulled_to(1.01)).opened_faces > 0);
   CHECK(fracture(slab_pulled_to(-1.5)).opened_faces == 0);  // Pressed.
-  // What a step has carried counts as what the shape does.
+  // A step's transmitted load counts like the shape's.
   CHECK(fracture(slab_of_two(0.99)).opened_faces == 0);
   CHECK(fracture(slab_of_two(1.01)).opened_faces == 10);
 }

@@ -63,7 +63,7 @@ TEST_CASE("a shard falls freely and a fifth of its speed comes back from the roa
     advance_shards(state, road, shard_step_s);
   }
   CHECK(state.shards[0].velocity_mps.z == relative(0.2 * closing_mps, 0.02));
-  CHECK(state.shards[0].velocity_mps.x == 0.0);  // Friction of 0.4 times 1.2 times the blow takes more than it had.
+  CHECK(state.shards[0].velocity_mps.x == 0.0);  // Friction of 0.4 times 1.2 times the impulse exceeds its momentum.
 }
 
 TEST_CASE("a shard that grazes the road loses Coulomb's share and comes to rest on it") {

@@ -149,7 +149,7 @@ TEST_CASE("cars have the lamps and wheels that move and light") {
   using enum scene::PartRole;
   for (const VehicleModel& model : vehicle_models()) {
     if (model.kind == ParticipantKind::pedestrian || model.kind == ParticipantKind::bicycle) continue;
-    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Whoever tows it has lamps ahead.
+    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Its tractor has the lamps ahead.
     CAPTURE(model.name);
     const VehicleParts parts = vehicle_parts(model);
     for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left, lamp_indicator_right,
