@@ -45,7 +45,7 @@ struct LessonTask {
 
 struct Lesson {
   std::string title, aim;
-  double pass_mark = 6.0;   ///< Least weighted mean to pass, in a drive without danger.
+  double pass_mark = 6.0;   ///< Least weighted mean to pass, without a dangerous fault.
   double shortest_s = 0.0;  ///< A shorter drive does not count as taken, and gets no mark.
   std::vector<LessonTask> tasks;
 };
