@@ -39,7 +39,7 @@ def _found(path):
 
 
 def _has_hot_journal(path):
-    """Whether something that was cut off has to be rolled back. A journal may name a second file, which SQLite deletes."""
+    """True if an interrupted change has to be rolled back. A journal may name a second file, which SQLite deletes."""
     journal = _beside(path, "-journal")
     found = _found(journal)
     if found is None or found.st_size == 0:
@@ -59,7 +59,7 @@ def _connect(path, options):
 
 
 def _of_copy(path):
-    """A copy in a private folder, in which what was cut off is rolled back and a killed drive's newest commits are folded in."""
+    """A copy in a private folder, in which interrupted changes are rolled back and a killed drive's newest commits are folded in."""
     with tempfile.TemporaryDirectory(prefix="septet-read-") as folder:
         copy = Path(folder) / "copy.sqlite"
         for ending in ("-journal", "-wal", ""):
@@ -105,7 +105,7 @@ def _may(action, first, second, _database, view):
 
 
 class UntrustedDatabase:
-    """A connection that only reads, and whose questions end."""
+    """A read-only connection with bounded queries."""
 
     def __init__(self, path):
         self.path = path
@@ -138,6 +138,6 @@ class UntrustedDatabase:
         self._database.close()
 
     def ask(self, sql, *values):
-        """A cursor; the limit counts anew from here."""
+        """A cursor; the limit restarts here."""
         self._steps_left = self._steps
         return self._database.execute(sql, values)

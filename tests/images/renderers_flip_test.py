@@ -1,8 +1,8 @@
-"""How near the rasteriser is to the ray tracer, which draws the same description of an instant: mean FLIP a weather.
+"""Distance of the rasteriser from the ray tracer, which draws the same description of an instant: mean FLIP a weather.
 
     renderers_flip_test.py BOTH_RENDERERS [--samples N] [--keep FOLDER]
 
-The bounds are what was measured with 32 samples a pixel, rounded up; whoever brings the two nearer lowers them. Noise is a part of
+The bounds are what was measured with 32 samples a pixel, rounded up; a change that brings the two nearer lowers them. Noise is a part of
 each figure, most in the tunnel; so are the glare around lamps and the stars that only the rasteriser draws.
 FLIP is of pictures as they are shown: dusk has grown by a tenth since the eye adapts to it wholly and the same difference of light is more codes.
 """

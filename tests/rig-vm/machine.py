@@ -35,7 +35,7 @@ LIMIT_S = 900
 
 
 class Missing(Exception):
-    """This machine has not what it takes."""
+    """This machine lacks the requirements."""
 
 
 def output_of(*command):

@@ -133,7 +133,7 @@ def small_rig(trial):
 
 
 def with_a_screen(trial, folder):
-    """What the screen shows, off-screen and in lockstep."""
+    """The screen's picture, off-screen and in lockstep."""
     drive, url = trial.serve(trial.septet, "drive", "--rig", small_rig(trial), "--scenario", "first-lesson", "--driver", "plain", "--virtual",
                              "--seconds", "0", "--out", trial.folder / "seen", "--page", "0")
     desk = trial.browser("seen")

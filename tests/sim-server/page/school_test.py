@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page before and after drives, as a school uses it: what it has made itself is chosen, past drives are found and marked, a student's record is
+"""The page before and after drives, as a school uses it: its own files are chosen, past drives are found and marked, a student's record is
 read, in three languages, on a telephone, by keys alone, below a path of a proxy and by [::1].
 
     school_test.py SEPTET ROOT [FOLDER]
@@ -38,7 +38,7 @@ def make_own(own, root):
 
 
 def make_past(trial, drives, lesson):
-    """Two drives of a student, a game of another, and what is no session."""
+    """Two drives of a student, a game of another, and a file that is no session."""
     for name, driver, seconds in (("one", "novice", "24"), ("two", "experienced", "21")):
         trial.run("drive", "--scenario", lesson, "--rig", "desktop", "--driver", driver, "--participant", "P07", "--no-screens", "--seconds", seconds,
                   "--log", "samples", "--out", drives / name)

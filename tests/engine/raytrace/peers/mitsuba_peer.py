@@ -1,4 +1,4 @@
-"""How near the ray tracer is to Mitsuba 3.9.1 (PyPI) on Septet's scenes: means within 1 %, mean FLIP at most .05, of ice at most .12.
+"""Distance of the ray tracer from Mitsuba 3.9.1 (PyPI) on Septet's scenes: means within 1 %, mean FLIP at most .05, of ice at most .12.
 
     tests/engine/raytrace/peers/compare [--scenes noon night tunnel smoke gloss ice] [--samples N] [--keep FOLDER]
 
@@ -102,7 +102,7 @@ def surface(image, group, holes):
 
 
 def lamp(image, group):
-    """What shines behind an image, such as a sign, is coloured by it."""
+    """Light from behind an image, such as a sign, is coloured by it."""
     if image:
         return {"type": "area", "radiance": texture(image[0] * numpy.array(group["emission"], numpy.float32), "bilinear")}
     return {"type": "area", "radiance": {"type": "rgb", "value": group["emission"]}}
