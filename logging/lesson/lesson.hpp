@@ -69,7 +69,7 @@ struct TaskMark {
 };
 
 struct LessonMarks {
-  std::vector<TaskMark> tasks;  ///< As Lesson::tasks.
+  std::vector<TaskMark> tasks;  ///< In the order of Lesson::tasks.
   std::optional<double> mark;   ///< Weighted mean of the tasks with a mark; empty for a lesson that was not taken.
   bool taken = false;           ///< The drive was long enough.
   bool passed = false;
