@@ -12,7 +12,7 @@
 namespace septet::audio {
 
 struct EngineOrders {
-  Harmonics front{}, rear{};  ///< Of half the crank's frequency: harmonic h (from 1) is order h/2.
+  Harmonics front{}, rear{};  ///< Harmonics of half the crank's frequency: harmonic h (from 1) is order h/2.
 };
 
 /// `gain`: 0 for a standing engine to 1.

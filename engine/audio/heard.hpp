@@ -32,25 +32,25 @@ struct EchoBox {
 
 /// The driver's car in one tick.
 struct OwnCar {
-  bool running = false;                      ///< There is such a car and its engine turns.
+  bool running = false;                      ///< True for an existing car with a running engine.
   double engine_hz = 0.0;                    ///< Turns a second.
   double load = 0.0;                         ///< Share of the full torque, 0 to 1.
   bool fuel_cut = false;                     ///< On the overrun there is no combustion.
   double speed_mps = 0.0;                    ///< Along the car, either sign.
   double air_mps = 0.0;                      ///< Against the air.
   double wheel_hz = 0.0;                     ///< Turns a second.
-  double front_slip = 0.0, rear_slip = 0.0;  ///< Of the contact over the ground as a share of the speed.
+  double front_slip = 0.0, rear_slip = 0.0;  ///< Slip of the contact over the ground, as a share of the speed.
   double looseness = 0.0;                    ///< 0 on a paved road, 1 on gravel or grass.
-  GroundFeel ground;                         ///< Without roads: a good one, without lines.
+  GroundFeel ground;                         ///< Default without roads: a good one, without lines.
   double wetness = 0.0, snow = 0.0;
   double rain_mm_per_h = 0.0;  ///< On the roof: 0 in a tunnel, 0 as snow.
   bool indicator_lit = false, horn = false, reversing = false;
   double blow_mps = 0.0;  ///< Change of velocity within this tick, beyond the tyres' limit; 0: no impact.
-  double bump_mps =
-      0.0;  ///< Of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond a road's.
+  /// Jolt of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond a road's.
+  double bump_mps = 0.0;
   int pieces = 0;          ///< Pieces broken off in this tick.
   double tunnel = 0.0;     ///< 0 in the open to 1 inside, over 20 m at its mouth.
-  double low_share = 1.0;  ///< Of the low frequencies, which may move a shaker: less while its output is cut.
+  double low_share = 1.0;  ///< Share of the low frequencies, which may move a shaker: less while its output is cut.
 };
 
 /// Another participant in one tick.

@@ -23,7 +23,7 @@ inline double rolling_inside_db(double speed_mps) {
 inline double wind_inside_db(double air_mps) {
   return 61.5 + 53.15 * std::log10(std::max(air_mps, 1.0) / reference_speed_mps);
 }
-/// Of the engine's firing order (unweighted): on the overrun without fuel 12 dB less.
+/// Level of the engine's firing order (unweighted): on the overrun without fuel 12 dB less.
 inline double firing_order_db(double engine_hz, double load, bool fuel_cut) {
   return 69.0 + 3.0 * std::log2(std::max(engine_hz, 3.0) / 30.0) + 9.0 * load - (fuel_cut ? 12.0 : 0.0);
 }
@@ -46,8 +46,8 @@ inline constexpr double piece_db = 74.0;
 // Outside, dB(A) at 1 m.
 inline constexpr double siren_db = 110.0 + 10.9;  ///< 110 at 3.5 m (DIN 14610).
 inline constexpr double horn_db = 93.0 + 16.9;    ///< 93 at 7 m (UN R28).
-/// Of a car's wheels (CNOSSOS-EU 2020: 102.6 dB(A) of power at 70 km/h) and of its engine and exhaust (93.0). Lorries 8
-/// dB more.
+/// Excess over a car, whose wheels have 102.6 dB(A) of power at 70 km/h and whose engine and exhaust have 93.0
+/// (CNOSSOS-EU 2020): lorries 8 dB more.
 inline double heavy_db(ParticipantKind kind) {
   switch (kind) {
     case ParticipantKind::lorry:

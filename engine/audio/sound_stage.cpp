@@ -141,7 +141,7 @@ struct SoundStage::State {
     alFilteri(share, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
     alFilterf(share, AL_LOWPASS_GAIN, static_cast<float>(wanted));
     alSource3i(source.name, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(tunnel_slot), 0, static_cast<ALint>(share));
-    alDeleteFilters(1, &share);  // A source keeps what the filter said.
+    alDeleteFilters(1, &share);  // A source keeps the filter's setting.
   }
 
   void end(Source& source) {

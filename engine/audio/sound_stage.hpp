@@ -54,7 +54,7 @@ class SoundStage {
   bool is_connected();
   /// Number of times that a queue has run dry.
   std::uint64_t starved() const;
-  const std::string& name() const;  ///< Of the device, with its speakers.
+  const std::string& name() const;  ///< Name of the device, with its speakers.
 
  private:
   struct State;

@@ -22,7 +22,7 @@ namespace septet::audio {
 struct Voice {
   std::uint64_t key = 0;  ///< Constant from block to block.
   Vec3 position_m{0.0};   ///< Ear frame.
-  bool is_near = true;    ///< Of the driver's car: its level is that at the ear. Otherwise that at 1 m from it.
+  bool is_near = true;    ///< Sound of the driver's car: its level is that at the ear. Otherwise that at 1 m from it.
   bool is_low = false;    ///< For the channel of low frequencies and the shaker alone.
   float echo = 0.0f;      ///< Share of it that a tunnel reflects.
   Block samples{};

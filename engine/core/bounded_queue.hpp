@@ -63,7 +63,7 @@ class BoundedQueue {
   std::mutex mutex_;
   std::condition_variable has_enough_, has_room_;
   std::vector<T> values_;
-  std::size_t size_ = 0;    ///< Of `values_`, in the writer's unit.
+  std::size_t size_ = 0;    ///< Sum over `values_`, in the writer's unit.
   std::size_t enough_ = 1;  ///< Number that the taker waits for.
   bool closed_ = false;
 };

@@ -51,7 +51,8 @@ std::string x_line(const Frame& frame, std::string_view x_label) {
          text("x-label", (frame.left + frame.right) / 2, frame.bottom + 36, x_label);
 }
 
-/// At most two points for each column of the picture that a line enters: the lowest and the highest, in their order.
+/// Thins a line to two points for each column of the picture that it enters: the lowest and the highest, in their
+/// order.
 std::vector<Point> thinned(const std::vector<Point>& line, const Axis& x) {
   if (line.size() < 2000) return line;
   std::vector<Point> result;
@@ -129,7 +130,7 @@ std::string legend(const LineChart& chart, const Frame& frame) {
   return svg;
 }
 
-/// Over all points that can be drawn, by one of their coordinates.
+/// Range over all points that can be drawn, by one of their coordinates.
 Range range_of(const LineChart& chart, double Point::*coordinate) {
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const Series& series : chart.series)

@@ -56,7 +56,7 @@ bool begins_with_key(std::string_view text, std::size_t at) {
 /// count as keys of two parts. Text after the first mistake does not matter: parsing stops there.
 Unreadable find_unreadable(std::string_view text) {
   int parts = 1;
-  int open_brackets = 0;  // Of the arrays and tables within a value: a bracket there begins no header.
+  int open_brackets = 0;  // Open arrays and tables within a value: a bracket there begins no header.
   bool line_begins = true;
   std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // A byte order mark.
   while (at < text.size()) {

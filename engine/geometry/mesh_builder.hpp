@@ -53,8 +53,7 @@ PolygonMesh transformed(const PolygonMesh& mesh, const glm::mat4& transform);
 /// A copy for the other side: y becomes −y.
 PolygonMesh mirrored_y(const PolygonMesh& mesh);
 
-/// Replaces texture coordinates by the projection along the main axis of each polygon, in metres
-/// times `per_metre`.
+/// Replaces texture coordinates by the projection along the main axis of each polygon, in metres times `per_metre`.
 void project_box_uvs(PolygonMesh& mesh, float per_metre);
 
 }  // namespace septet::geometry

@@ -35,10 +35,9 @@ struct PathFrame {
   float length_m = 0.0f;  ///< Along the path so far: the texture's v.
 };
 
-/// `profile` carried along `path`. Seen along the path, its front is to the right of the profile's
-/// direction: a counter-clockwise tube (`closed` joins the last point to the first) faces outwards,
-/// a sheet from right to left faces up. `cap` closes a convex tube's ends. u is the length along
-/// the profile, v the length along the path.
+/// `profile` carried along `path`. Seen along the path, its front is to the right of the profile's direction: a
+/// counter-clockwise tube (`closed` joins the last point to the first) faces outwards, a sheet from right to left faces
+/// up. `cap` closes a convex tube's ends. u is the length along the profile, v the length along the path.
 PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFrame> path, bool closed, bool cap = false);
 
 /// An icosahedron whose triangles are split `splits` times; radius 1, 20·4^splits triangles.

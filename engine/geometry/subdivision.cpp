@@ -61,7 +61,7 @@ std::uint32_t vertex_crease(const PolygonMesh& mesh, std::size_t vertex) {
   return mesh.vertex_creases.empty() ? mesh.default_vertex_crease : mesh.vertex_creases[vertex];
 }
 
-/// For one level: a weight below one blends, OpenSubdiv's infinity is sharp.
+/// Sharpness for one level: a weight below one blends, OpenSubdiv's infinity is sharp.
 float one_level_sharpness(std::uint32_t crease) {
   return crease == crease_sharp ? Sdc::Crease::SHARPNESS_INFINITE
                                 : std::min(static_cast<float>(sharp_weight(crease)), 0.999999f);

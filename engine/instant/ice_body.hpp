@@ -37,8 +37,8 @@ struct Look {
   float back_share = light::paper_back_share;
   bool reflects = true;        ///< Off: refraction alone.
   bool bent_by_cracks = true;  ///< In quality mode: cracks turn the light that leaves through the back face.
-  bool seen_beyond =
-      false;          ///< In quality mode: light that has left continues through further ice of equal absorption.
+  /// In quality mode: light that has left continues through further ice of equal absorption.
+  bool seen_beyond = false;
   bool thin = false;  ///< Light goes straight through: the background is seen in its place, under the reflection alone.
   float bump = 0.12f;         ///< Slope of the unevenness; 0: as smooth as its mesh.
   float bump_size_m = 0.05f;  ///< Length of its longest waves.

@@ -51,7 +51,7 @@ class Channel {
     broken,   ///< Authentic but against the protocol: disconnect.
     goodbye,
   };
-  /// Opens a datagram that carries this connection's number, and appends what it completes.
+  /// Opens a datagram that carries this connection's number, and appends the messages that it completes.
   Verdict accept(const ReceivedDatagram& datagram, double now_s, std::vector<ChannelMessage>& messages);
 
   SendResult send(SharedBytes message, Reliability reliability, AddressKey key);
@@ -79,7 +79,7 @@ class Channel {
   bool seal_and_send(DatagramSocket& socket);
 
   Options options_;
-  std::size_t max_text_bytes_;  ///< Of the frames of one datagram.
+  std::size_t max_text_bytes_;  ///< Bound on the frames of one datagram.
   ReliableSender sender_;
   ReliableReceiver receiver_;
   ReceivedPackets received_;
@@ -92,7 +92,7 @@ class Channel {
   ClockEstimate clock_;
   ChannelCounters counters_;
   std::string goodbye_;
-  Bytes text_, datagram_;  ///< Of the current datagram; kept to spare allocations.
+  Bytes text_, datagram_;  ///< Buffers of the current datagram; kept to spare allocations.
   std::vector<Bytes> completed_;
 };
 

@@ -41,8 +41,7 @@ bool ReliableSender::overwrite(AddressKey key, const SharedBytes& bytes) {
   return true;
 }
 
-/// A lost fragment whose message has a newer one with its key is resent as a void, which stands for
-/// the whole message.
+/// A lost fragment whose message has a newer one with its key is resent as a void, which stands for the whole message.
 void ReliableSender::void_if_outdated(std::uint64_t fragment_id) {
   Fragment& lost = fragment(fragment_id);
   Message& source = message(lost.message);
@@ -205,8 +204,7 @@ void ReliableSender::advance_to(double now_s) {
   trim();
 }
 
-/// Once per round trip: double the window that was used, or cut it when too much was lost to be
-/// mere noise.
+/// Once per round trip: double the window that was used, or cut it when too much was lost to be mere noise.
 void ReliableSender::end_round(std::uint64_t next_number) {
   round_end_ = next_number;
   if (round_lost_ * 10 > round_acknowledged_ + round_lost_)

@@ -31,8 +31,8 @@ struct Frame {
   double answered_s = 0.0;             ///< pong
 };
 
-/// The next frame; false at the end or when the reader has failed. Checks what needs no state, so
-/// offset + length never exceeds message_bytes and ranges descend.
+/// The next frame; false at the end or when the reader has failed. Makes the checks that need no state, so offset +
+/// length never exceeds message_bytes and ranges descend.
 bool read_frame(ByteReader& reader, Frame& out);
 void write_frame(const Frame& frame, ByteWriter& writer);
 
@@ -40,7 +40,7 @@ void write_frame(const Frame& frame, ByteWriter& writer);
 inline constexpr std::size_t fragment_weight = 32;
 
 std::size_t varint_bytes(std::uint64_t value);
-/// Of a fragment frame without its bytes.
+/// Length of a fragment frame without its bytes.
 std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes, std::uint64_t offset,
                               std::size_t length);
 inline constexpr std::size_t max_goodbye_bytes = 200;

@@ -38,7 +38,7 @@ enum class SendResult : std::uint8_t {
 struct ChannelLimits {
   /// UDP payload; the smaller of the two ends' values counts. 0: 1,200, and 16,384 over loopback.
   std::size_t max_datagram_bytes = 0;
-  std::size_t max_message_bytes = 64u << 20;  ///< Of one reliable message, both ways.
+  std::size_t max_message_bytes = 64u << 20;  ///< Bound on one reliable message, both ways.
   std::size_t max_queue_bytes = 256u << 20;   ///< Waiting to be sent or acknowledged, per connection.
   std::size_t window_bytes = 8u << 20;        ///< Bytes that an end accepts out of order.
   std::size_t max_bytes_per_pump = 1u << 20;  ///< Sent in one pump over all connections, so that a tick is not delayed.

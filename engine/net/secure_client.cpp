@@ -67,7 +67,7 @@ struct SecureClient::State {
 
   double next_ping_s = 0.0;
   double pinged_s = 0.0;  ///< Time of the first ping since the server was last heard.
-  ChannelCounters past;   ///< Of earlier connections, and of datagrams that belong to none.
+  ChannelCounters past;   ///< Counters of earlier connections, and of datagrams that belong to no connection.
   mutable ChannelCounters asked;
   ClockEstimate no_clock;
 };

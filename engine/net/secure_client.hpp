@@ -26,8 +26,8 @@ struct ClientEvent {
   enum class Kind : std::uint8_t { connected, message, lost };
   Kind kind = Kind::message;
   Reliability reliability = Reliability::reliable;
-  Bytes bytes{};         ///< Of a message.
-  std::string reason{};  ///< Of a loss, for the log.
+  Bytes bytes{};         ///< Content of a message.
+  std::string reason{};  ///< Reason of a loss, for the log.
 };
 
 enum class ClientState : std::uint8_t {

@@ -86,7 +86,7 @@ struct SecureServer::State {
   double refusal_reported_s = -refusal_report_s;
   PublicKey refusal_reported{};
   std::uint32_t next_turn = 0;  ///< Connection that sends first in the next pump.
-  ChannelCounters strangers;    ///< Of datagrams without a connection, and of past connections.
+  ChannelCounters strangers;    ///< Counters of datagrams without a connection, and of past connections.
   mutable ClientInfo asked;
 };
 

@@ -43,10 +43,10 @@ struct ServerEvent {
   Kind kind = Kind::message;
   ClientId client = 0;
   Reliability reliability = Reliability::reliable;
-  Bytes bytes{};         ///< Of a message.
+  Bytes bytes{};         ///< Content of a message.
   std::string name{};    ///< Name of the connected client in the list. It may be gone when the event is read, so `info`
                          ///< may not know it.
-  std::string reason{};  ///< Of a disconnection or refusal, for the log.
+  std::string reason{};  ///< Reason of a disconnection or refusal, for the log.
 };
 
 struct ClientInfo {

@@ -38,7 +38,7 @@ struct TickDatagram {
   std::uint16_t index = 0;
   std::array<Hash16, 10> path{};
   std::size_t path_length = 0;
-  std::span<const std::byte> fragment;  ///< Of the datagram that was read.
+  std::span<const std::byte> fragment;  ///< Part of the datagram that was read.
 };
 
 enum class TickDatagramFault : std::uint8_t { none, malformed, oversized };

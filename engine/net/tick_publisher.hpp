@@ -1,7 +1,6 @@
 #pragma once
-/// The sending end of the tick lane (PROTOCOL.md, "Tick lane"): a tick's bytes become signed
-/// datagrams, each sent once to the group and once to every unicast destination, followed by those
-/// of the tick before.
+/// The sending end of the tick lane (PROTOCOL.md, "Tick lane"): a tick's bytes become signed datagrams, each sent once
+/// to the group and once to every unicast destination, followed by those of the tick before.
 
 #include <cstdint>
 #include <span>
@@ -27,7 +26,7 @@ struct TickPublisherOptions {
 struct TickPublisherCounters {
   std::uint64_t ticks = 0;
   std::uint64_t datagrams = 0;  ///< Handed to the socket, counting each destination.
-  std::uint64_t bytes = 0;      ///< Of those datagrams.
+  std::uint64_t bytes = 0;      ///< Bytes of those datagrams.
   std::uint64_t refused = 0;    ///< Datagrams that the socket did not accept.
 };
 
@@ -42,8 +41,7 @@ class TickPublisher {
   void remove_destination(const Address& destination);
   const std::vector<Address>& destinations() const { return destinations_; }
 
-  /// Signs and sends. `tick` must grow from call to call, by any step; `payload` holds at most
-  /// max_tick_bytes.
+  /// Signs and sends. `tick` must grow from call to call, by any step; `payload` holds at most max_tick_bytes.
   void publish(std::uint64_t tick, std::span<const std::byte> payload);
   /// Sends the newest tick's datagrams again, as repetitions: for a server in lockstep that lacks acknowledgements.
   void repeat_newest();

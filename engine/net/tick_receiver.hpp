@@ -27,10 +27,10 @@ struct ReceivedTick {
 struct TickReceiverCounters {
   std::uint64_t datagrams = 0;      ///< All datagrams received.
   std::uint64_t ticks = 0;          ///< Complete and delivered.
-  std::uint64_t repaired = 0;       ///< Of those, completed by a repetition.
+  std::uint64_t repaired = 0;       ///< Ticks among those that a repetition completed.
   std::uint64_t lost = 0;           ///< Left the window incomplete, or never seen between two complete ones.
   std::uint64_t forged = 0;         ///< Signature or fragment hash does not hold.
-  std::uint64_t other_session = 0;  ///< Of an earlier or unknown run of the server.
+  std::uint64_t other_session = 0;  ///< Datagrams of an earlier or unknown run of the server.
   std::uint64_t malformed = 0;      ///< Not a tick datagram, truncated, or fields that contradict each other.
   std::uint64_t oversized = 0;      ///< Claims more than max_tick_bytes.
   std::uint64_t replayed = 0;       ///< Older than the window.

@@ -7,7 +7,7 @@
 namespace septet::replication {
 namespace {
 
-constexpr std::size_t chunk_bytes = 24 * 1024;  ///< Of a range, before it is packed.
+constexpr std::size_t chunk_bytes = 24 * 1024;  ///< Size of a range's part, before it is packed.
 constexpr std::size_t most_ranges = 64;         ///< More are merged, with the elements between them.
 
 using Ranges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;

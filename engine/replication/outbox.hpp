@@ -26,7 +26,7 @@ class Outbox {
 
  private:
   struct Waiting {
-    Change change;                                                ///< Of a range subject only the subject counts.
+    Change change;                                                ///< For a range subject only the subject counts.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  ///< [first, end), rising, apart.
   };
 

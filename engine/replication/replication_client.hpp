@@ -1,5 +1,5 @@
 #pragma once
-/// A client's side of replication: a mirror of what it subscribed to (REPLICATION.md).
+/// A client's side of replication: a mirror of its subscriptions (REPLICATION.md).
 ///
 ///     on a connection:  client.connected();
 ///     on a message:     client.receive(bytes);   // an error: log it

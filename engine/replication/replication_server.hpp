@@ -26,11 +26,11 @@ namespace septet::replication {
 /// Hands a message to the reliable, ordered lane; false where it does not accept it now (it is offered again).
 using Send = std::function<bool(std::span<const std::byte> message)>;
 
-/// Of a connection, given by the lane; a client that reconnects has a new one.
+/// Id of a connection, given by the lane; a client that reconnects has a new one.
 using ConnectionId = std::uint32_t;
 
 struct ReplicationOptions {
-  std::size_t batch_bytes = 32 * 1024;         ///< Of commands in one message, before packing.
+  std::size_t batch_bytes = 32 * 1024;         ///< Size of the commands in one message, before packing.
   std::size_t window_bytes = 4 * 1024 * 1024;  ///< Sent and not yet acknowledged, before packing.
   std::size_t lost_sessions = 32;              ///< Kept for clients that come back.
   std::size_t waiting_requests = 1u << 20;     ///< Limit of one client's; more end its connection.

@@ -190,8 +190,7 @@ void describe_change(const Store& store, const Change& change, const std::functi
   const auto* geometry = std::get_if<GeometryData>(&node->data);
   const auto* material = std::get_if<MaterialData>(&node->data);
   const auto* bitmap = std::get_if<BitmapData>(&node->data);
-  // A change that waited for a resumed client may be of a node whose id has been given to another
-  // type since.
+  // A change that waited for a resumed client may be of a node whose id has been given to another type since.
   if (const auto type = type_of(kind); type && *type != node->type()) return;
   Change cut = change;
   if (is_range(kind)) {

@@ -14,7 +14,7 @@ namespace septet::replication {
 using scene::NodeId;
 using scene::PartId;
 
-/// In the order in which a node's subjects depend on each other.
+/// Listed in the order in which a node's subjects depend on each other.
 enum class SubjectKind : std::uint8_t {
   existence,
   name,
@@ -52,7 +52,7 @@ constexpr bool is_range(SubjectKind kind) {
 /// A change of a subject. Changes of one subject are merged while they wait.
 struct Change {
   Subject subject;
-  std::uint32_t first = 0, end = 0;  ///< Of a range: vertices, polygons or tiles.
+  std::uint32_t first = 0, end = 0;  ///< Range of vertices, polygons or tiles.
   bool renew = false;                ///< Was destroyed (and perhaps made again) since it was last sent.
   /// Smallest sizes of a geometry since it was last sent; elements beyond them are forgotten.
   std::uint32_t smallest_vertices = ~0u, smallest_polygons = ~0u;

@@ -4,7 +4,7 @@
 /// "right_of_way", as the car's front passes a line: `kind` lights, give_way or crossing; `margin_s`, the time that was
 /// left until a participant with right of way would have been in the car's path, 0 at a red light; lines that no
 /// participant approaches are not logged, lights always. "turn", as it leaves a junction at which the road forks:
-/// `side`, `began_s`. "speed_limit", where another one begins: `kmh`, 0 where none is posted. Logged in FORMAT.md. On
+/// `side`, `began_s`. "speed_limit", where another one begins: `kmh`, 0 where none is posted. Log format: FORMAT.md. On
 /// roads without such lines there is no examiner.
 
 #include <span>

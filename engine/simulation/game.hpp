@@ -1,9 +1,10 @@
 #pragma once
 /// A scenario as a game: follow the leader through its lanes, for as long as you can.
 ///
-/// After M. Lebram, H. Engström and H. Gustavsson, "A Driving Simulator Based on Video Game Technology" (SIGRAD 2006), section 4: the player
-/// drives on a five-lane motorway behind an ambulance, and it becomes harder by the intensity of the traffic and the behaviour of others. What
-/// the paper does not tell is ours: points, levels, how it ends (engine/scenario/model/game_settings.hpp has the figures).
+/// After M. Lebram, H. Engström and H. Gustavsson, "A Driving Simulator Based on Video Game Technology" (SIGRAD 2006),
+/// section 4: the player drives on a five-lane motorway behind an ambulance, and it becomes harder by the intensity of
+/// the traffic and the behaviour of others. The paper leaves open points, levels and the end, which are ours
+/// (engine/scenario/model/game_settings.hpp has the figures).
 ///
 /// - The leader changes to another of its lanes, one or two away, every so often, and more often on each level. It
 ///   waits until the place is free.

@@ -136,8 +136,8 @@ bool stays_before_face(const Model& model, const Vec3& centre_m, const road::Roa
   constexpr double least_over_m = 0.05;  // As chassis.cpp tells edges from walls.
   if (centre_m.z - ground.point_m.z > least_over_m) return false;
   const Vec2 foot_m(road::evaluate(model.roads, stood).position_m);
-  constexpr double farthest_m =
-      3.0;  // A plane that continues farther is no ground; the chassis is lifted out of this one.
+  // A plane that continues farther is no ground; the chassis is lifted out of this one.
+  constexpr double farthest_m = 3.0;
   if (glm::distance(foot_m, Vec2(centre_m)) > farthest_m) return false;
   vehicle::WheelGround before = plane_at(model, stood, Vec2(centre_m));
   const double risen_m = ground.point_m.z - before.point_m.z;

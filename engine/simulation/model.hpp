@@ -43,8 +43,8 @@ struct Model {
   std::vector<SwitchedLight> lights;                     ///< In the order of the road file.
   std::vector<traffic::YieldLine> yield_lines;           ///< Empty: no examiner (examiner.hpp).
   std::uint64_t seed = 1;
-  std::uint64_t sources_hash =
-      0;  ///< Hash of the texts that it was read from: models with equal ones are equal. 0: it was not read from texts.
+  /// Hash of the texts that it was read from: models with equal ones are equal. 0: it was not read from texts.
+  std::uint64_t sources_hash = 0;
 };
 
 }  // namespace septet::simulation

@@ -60,7 +60,7 @@ struct PlacePart {
 };
 /// Takes away a standing or lying thing on the road, of any origin, or a piece of one.
 struct RemovePiece {
-  std::uint32_t id = 0;  ///< Of lying_pieces() (effects/effects_stage.hpp).
+  std::uint32_t id = 0;  ///< Id of a piece in lying_pieces() (effects/effects_stage.hpp).
   bool operator==(const RemovePiece&) const = default;
 };
 /// Hides an entity of the scenario, which is then neither seen nor met, or shows it again where it was.

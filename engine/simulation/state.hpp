@@ -26,7 +26,7 @@ namespace septet::simulation {
 /// A wheel's touch of a kerb's edge, as it began.
 struct KerbTouch {
   double height_m = 0.0;
-  double closing_speed_mps = 0.0;  ///< Of the wheel's centre towards the edge.
+  double closing_speed_mps = 0.0;  ///< Speed of the wheel's centre towards the edge.
 };
 
 /// A wheel being damaged: logged once the strike is over.
@@ -49,9 +49,9 @@ struct State {
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
-  std::optional<GameState> game;          ///< Where the scenario is played as one.
-  std::optional<ExaminerState> examiner;  ///< Where the roads have lines at which others may have right of way.
-  DriverInput input;                      ///< Of the last step.
+  std::optional<GameState> game;          ///< Present where the scenario is played as a game.
+  std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.
+  DriverInput input;                      ///< Input of the last step.
   Diagnostics diagnostics;
   /// Participants that overlapped the car last tick, ascending: one collision counts once.
   std::vector<ParticipantId> touching;

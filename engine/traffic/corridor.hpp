@@ -37,14 +37,13 @@ std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network
 inline double wrap_x(const Corridor& corridor, double x_m) {
   return corridor.closed ? x_m - corridor.length_m * std::floor(x_m / corridor.length_m) : x_m;
 }
-/// from → to along the direction of travel, the shorter way on a ring; negative if `to` lies
-/// behind.
+/// Distance from → to along the direction of travel, the shorter one on a ring; negative if `to_x_m` lies behind.
 inline double distance_m(const Corridor& corridor, double from_x_m, double to_x_m) {
   const double d = to_x_m - from_x_m;
   return corridor.closed ? d - corridor.length_m * std::round(d / corridor.length_m) : d;
 }
 
-/// From x on to `ahead_m` further by x (negative: back), in metres of lane `lane`'s middle.
+/// Length from x on to `ahead_m` further by x (negative: back), in metres of lane `lane`'s middle.
 double length_along_lane_m(const road::RoadNetwork& network, const Corridor& corridor, int lane, double x_m,
                            double ahead_m, double step_m);
 

@@ -35,10 +35,9 @@ struct Driver {
   double reaction_s = 1.0;  ///< From hearing an emergency vehicle to making way.
 };
 
-/// Between a timid (0) and an aggressive (1) driver; 0.5 is `middle` itself. Desired speed 0.9
-/// to 1.15 times, T 1.8 to 0.8 s and so on are the span that traffic-simulation practice gives;
-/// each is applied as a factor to the middle driver, geometrically, so that a lorry's driver keeps
-/// being one.
+/// Between a timid (0) and an aggressive (1) driver; 0.5 is `middle` itself. Desired speed 0.9 to 1.15 times, T 1.8 to
+/// 0.8 s and so on are the span that traffic-simulation practice gives; each is applied as a factor to the middle
+/// driver, geometrically, so that a lorry's driver keeps being one.
 Driver with_temperament(const Driver& middle, double temperament);
 
 /// A driver with worse manners, by a step: follows closer, cuts in where others have to brake, keeps right less and
@@ -49,7 +48,7 @@ Driver with_worse_manners(const Driver& driver);
 inline constexpr double hardest_braking_mps2 = 9.0;
 inline constexpr double no_leader = std::numeric_limits<double>::infinity();
 
-/// IDM, eqs. 3 and 4: acceleration at `speed` behind a leader `gap` ahead; no leader: gap infinite.
+/// IDM, eqs. 3 and 4: acceleration at `speed_mps` behind a leader `gap_m` ahead; infinite `gap_m` without one.
 double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m);
 
 /// The speed at which this gap is kept with no acceleration: the root of eq. 3, to 1e-12 m/s.

@@ -1,9 +1,8 @@
 #pragma once
 /// The fundamental diagram of traffic: flow and speed over density, measured on rings.
 ///
-/// Terms as in M. Treiber and A. Kesting, "Traffic Flow Dynamics" (2013), chapters 3 and 4: density
-/// is vehicles per kilometre and lane, flow is density times the mean speed of the vehicles, which
-/// on a ring is exact.
+/// Terms as in M. Treiber and A. Kesting, "Traffic Flow Dynamics" (2013), chapters 3 and 4: density is vehicles per
+/// kilometre and lane, flow is density times the mean speed of the vehicles, which on a ring is exact.
 
 #include <cstdint>
 #include <span>

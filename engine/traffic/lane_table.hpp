@@ -34,7 +34,7 @@ struct LaneTable {
 
   int lowest = 1, highest = 0;                 ///< Lane numbers that are open anywhere along most of the corridor,
                                                ///< and anywhere at all.
-  double lane_width_m = 3.5;                   ///< Of the lowest lane at the corridor's middle.
+  double lane_width_m = 3.5;                   ///< Width of the lowest lane at the corridor's middle.
   std::vector<std::vector<OpenStretch>> open;  ///< [lane number], ascending, apart.
   std::vector<CentreLine> centres;             ///< [lane number]
 };
@@ -50,8 +50,7 @@ LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
 LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor, const LaneTable& table,
                              double x_m, int lane);
 
-/// The x at which the lane ends for a vehicle at x: infinite if it goes on; less than x where the
-/// lane is not open.
+/// The x at which the lane ends for a vehicle at x: infinite if it goes on; less than x where the lane is not open.
 double lane_end_m(const LaneTable& table, int lane, double x_m);
 
 }  // namespace septet::traffic

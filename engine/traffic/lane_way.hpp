@@ -30,8 +30,8 @@ struct LaneWay {
   /// Path length from the corridor's begin, every `step_m` of x; empty: the same stretch everywhere.
   std::vector<double> way_m;
   /// Square of the allowed speed, every `step_m` of x, linear between; empty: unbounded.
-  std::vector<double> allowed_m2ps2;       ///< By bends and limits.
-  std::vector<double> bend_allowed_m2ps2;  ///< By bends alone, for vehicles exempt from limits.
+  std::vector<double> allowed_m2ps2;       ///< Bound by bends and limits.
+  std::vector<double> bend_allowed_m2ps2;  ///< Bound by bends alone, for vehicles exempt from limits.
 };
 
 struct LaneWays {
@@ -44,7 +44,7 @@ LaneWays make_lane_ways(const road::RoadNetwork& network, const Corridor& corrid
 
 /// Path length from the corridor's begin; beyond an end as at that end.
 double way_at_m(const LaneWay& way, double x_m);
-/// From → to along the lane, negative if `to` lies behind; on a ring always ahead.
+/// Path length from → to along the lane, negative if `to_x_m` lies behind; on a ring always ahead.
 inline double way_between_m(const Corridor& corridor, const LaneWay& way, double from_x_m, double to_x_m) {
   const double d = to_x_m - from_x_m;
   const bool round = corridor.closed && d < 0.0;

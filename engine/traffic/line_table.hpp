@@ -27,7 +27,7 @@ struct LineTable {
   using Cubics = std::array<std::array<double, 8>, 4>;
   static constexpr std::uint32_t no_piece = 0xffffffff;
 
-  std::vector<std::uint32_t> pieces;  ///< Of the corridor, per step; no_piece: the road is queried.
+  std::vector<std::uint32_t> pieces;  ///< Piece of the corridor, per step; no_piece: the road is queried.
   std::vector<Cubics> cubics;         ///< Per step.
 };
 

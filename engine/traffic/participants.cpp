@@ -10,8 +10,7 @@
 namespace septet::traffic {
 namespace {
 
-/// Positive: to the left. A lane change is indicated until its end, making way until the vehicle is
-/// there.
+/// Positive: to the left. A lane change is indicated until its end, making way until the vehicle is there.
 double indicated_side(const CorridorTraffic& traffic, std::size_t i, double across_m) {
   if (traffic.emergency[i] != 0) return 0.0;
   if (changes_lane(traffic, i)) return across_m;

@@ -140,7 +140,7 @@ void add_ramps(const road::RoadNetwork& network, TrafficState& state) {
 }
 
 const RampMouth* exit_ahead(const CorridorTraffic& traffic, std::size_t i, double exit_share) {
-  // The wish to leave is a constant of the vehicle, not of the moment.
+  // The intention to leave is a constant of the vehicle, not of the moment.
   const std::uint32_t mixed = traffic.id[i] * 2654435761u;
   if ((mixed >> 8) >= exit_share * (1u << 24)) return nullptr;
   for (const RampMouth& exit : traffic.exits) {

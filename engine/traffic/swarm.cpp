@@ -13,7 +13,7 @@ namespace {
 constexpr int outside = 0;
 constexpr double from_end_m = 30.0;
 
-/// From bumper to bumper, if all of the corridor's vehicles stood evenly in the lanes that continue.
+/// Gap from bumper to bumper, if all of the corridor's vehicles stood evenly in the lanes that continue.
 double mean_gap_m(const TrafficParameters& parameters, const CorridorTraffic& traffic) {
   constexpr double usual_length_m = 5.5;
   int lanes = 0;

@@ -90,7 +90,7 @@ struct CorridorTraffic {
   std::vector<ModelIndex> model;
   std::vector<std::uint8_t> paint;
   std::vector<Driver> driver;
-  std::vector<FollowingLaw> law;                          ///< Of the driver.
+  std::vector<FollowingLaw> law;                          ///< Law of the driver.
   std::vector<double> x_m, speed_mps, acceleration_mps2;  ///< Speed and acceleration along the path, not by x.
   std::vector<double> rolled_m;                           ///< Path length rolled; at entry it equals x.
   std::vector<std::int16_t> lane,
@@ -134,8 +134,7 @@ struct TrafficState {
   std::uint32_t bad_numbers = 0;  ///< Accelerations that were NaN, and were replaced by 0.
 };
 
-/// Vehicles around the first foreign vehicle (the driver's car), clear of all of them; on a ring
-/// all around it.
+/// Vehicles around the first foreign vehicle (the driver's car), clear of all of them; on a ring all around it.
 TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwork& network,
                       std::span<const ForeignVehicle> foreign, Random& random);
 
@@ -157,8 +156,7 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
 /// Adds an ambulance that drives on the line between the two fastest lanes, past vehicles that make way.
 void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m, double speed_mps);
 
-/// Metres to the left of lane number 0's middle, with the corridor's nominal lane width: falls with
-/// the lane number.
+/// Metres to the left of lane number 0's middle, with the corridor's nominal lane width: falls with the lane number.
 double lateral_m(const CorridorTraffic& traffic, std::size_t vehicle);
 
 void append_participants(const TrafficState& state, const road::RoadNetwork& network,

@@ -53,13 +53,13 @@ Neighbours neighbours(const CorridorTraffic& traffic, int lane, double x_m, std:
 inline double rear_axle_x_m(const CorridorTraffic& traffic, std::size_t vehicle) {
   return traffic.x_m[vehicle] - vehicle_models()[traffic.model[vehicle]].front_m();
 }
-/// From a front bumper at x to the rear bumper of the one ahead, along the lane; infinite if there is none.
+/// Gap from a front bumper at x to the rear bumper of the one ahead, along the lane; infinite if there is none.
 inline double gap_to(const CorridorTraffic& traffic, int lane, double x_m, const LaneEntry* ahead) {
   if (ahead == nullptr) return no_leader;
   const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
   return way_between_m(traffic.corridor, way, x_m, ahead->x_m) - ahead->length_m;
 }
-/// From x to the lane's end, along it.
+/// Distance from x to the lane's end, along it.
 inline double to_lane_end_m(const CorridorTraffic& traffic, int lane, double x_m, double end_m) {
   const double d = end_m - x_m;
   if (traffic.ways.straight || !(d > 0.0) || d > look_ahead_lane_end_m) return d;
@@ -81,7 +81,7 @@ struct PathPoint {
   double direction = 1.0;  ///< 1 towards increasing s, −1 against it.
   double t_m = 0.0;        ///< In the road's own sense.
   LineTangent tangent;
-  /// Of the path against the line of constant t, by a metre of that, to the left of travel.
+  /// Slope of the path against the line of constant t, by a metre of that, to the left of travel.
   double slope = 0.0, curvature_per_m = 0.0;
 };
 PathPoint path_at(const road::RoadNetwork& network, const CorridorTraffic& traffic, std::size_t vehicle,

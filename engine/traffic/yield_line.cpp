@@ -27,7 +27,7 @@ bool is_for_travel_along(const road::Road& road, const road::Signal& signal) {
   return (signal.t_m <= 0.0) == (road.rule == road::TrafficRule::right_hand);
 }
 
-/// Of a light: the station at which its traffic stops.
+/// Station at which a light's traffic stops.
 double stop_line_s(const road::Road& road, const road::Signal& light, bool along) {
   double nearest_m = stop_line_near_m, found = light.s_m;
   for (const road::Signal& signal : road.signals) {

@@ -23,10 +23,10 @@ struct YieldLine {
   road::RoadIndex road = 0;
   bool along_s = true;  ///< Applies to traffic towards increasing s.
   double s_m = 0.0;
-  double signal_s_m = 0.0;  ///< Of the light itself.
+  double signal_s_m = 0.0;  ///< Station of the light itself.
 };
 
-/// In the order of roads, along each.
+/// Lines in the order of roads, along each.
 std::vector<YieldLine> yield_lines(const road::RoadNetwork& network);
 
 /// Points of the path beyond a line that others may cross, a metre apart, from a place in the lane on: for a crossing

@@ -5,8 +5,8 @@
 
 namespace septet::ice {
 
-/// `rest_m`: where the point lay in the whole body before anything moved or broke, which is what unevenness, cracks and air keep
-/// to. Of what is inside (engine/effects/ice/cracks.hpp): texture coordinates, and which kind it is.
+/// Vertex of ice; `rest_m`: its place in the whole body before any motion or fracture, to which unevenness, cracks and
+/// air are fixed. Of the inside (engine/effects/ice/cracks.hpp): texture coordinates, and its kind.
 struct IceVertex {
   glm::vec3 position_m{0.0f};
   glm::vec3 normal{0.0f};

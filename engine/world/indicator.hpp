@@ -13,7 +13,7 @@ inline bool indicator_is_lit(double time_s) {
   return flashes - std::floor(flashes) < 0.37 / 0.7;
 }
 
-/// Of one vehicle among others, which flash out of phase.
+/// State of one vehicle's indicator among others, which flash out of phase.
 inline bool indicator_is_lit(double time_s, ParticipantId vehicle) {
   return indicator_is_lit(time_s + 0.13 * static_cast<double>(vehicle % 7));
 }

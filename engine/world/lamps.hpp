@@ -1,5 +1,5 @@
 #pragma once
-/// Lamps and sirens of a vehicle, and lamps of a traffic light, one bit each.
+/// Lamps, siren and horn of a vehicle, and lamps of a traffic light, one bit each.
 
 #include <cstdint>
 

@@ -12,18 +12,18 @@
 
 namespace septet {
 
-/// Of an adult: two steps.
+/// Stride of an adult: two steps.
 inline constexpr double stride_m = 1.4;
 
 /// Joints of a person of 1.75 m, m: hip and shoulder above the ground, and from joint to joint.
 inline constexpr double hip_height_m = 0.90, shoulder_height_m = 1.40, thigh_m = 0.41, shin_m = 0.41;
 
-/// On a bicycle: the bottom bracket from the hip, forward and down, and the crank.
+/// Dimensions on a bicycle: the bottom bracket from the hip, forward and down, and the crank.
 inline constexpr double bracket_ahead_m = 0.20, bracket_below_m = 0.60, crank_m = 0.165;
 
 struct LegAngles {
   double thigh_rad = 0.0;  ///< From hanging straight down.
-  double knee_rad = 0.0;   ///< Of the shin against the thigh, backwards.
+  double knee_rad = 0.0;   ///< Angle of the shin against the thigh, backwards.
 };
 
 /// Share of the gait's swing at this speed: 0 for a standing person.
@@ -36,7 +36,7 @@ inline LegAngles walking_leg(double phase_rad, double share) {
 }
 inline double walking_arm_rad(double phase_rad, double share) { return -0.42 * share * std::sin(phase_rad); }
 
-/// From the hip to the pedal: two links (the law of cosines). 0: the pedal is on top; it turns forward.
+/// Angles from the hip to the pedal: two links (the law of cosines). 0: the pedal is on top; it turns forward.
 inline LegAngles pedalling_leg(double crank_rad) {
   const double ahead = bracket_ahead_m + crank_m * std::sin(crank_rad),
                below = bracket_below_m - crank_m * std::cos(crank_rad);

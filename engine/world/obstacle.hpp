@@ -24,7 +24,7 @@ enum class ObstacleKind : std::uint8_t {
   tree,
   bush,
   house,
-  post,         ///< Of a sign, a traffic light or a lamp.
+  post,         ///< Post of a sign, a traffic light or a lamp.
   ground_face,  ///< A step of the ground higher than a wheel climbs.
 };
 
@@ -38,7 +38,7 @@ struct Obstacle {
   double radius_m = 0.1;                  ///< Half the thickness of a line.
   double low_m = 0.0, high_m = 0.0;       ///< World z.
   bool open_from = true, open_to = true;  ///< No obstacle continues straight at this end.
-  double friction = 0.4;                  ///< Of a car's body that slides along it.
+  double friction = 0.4;                  ///< Friction of a car's body that slides along it.
   double yielding_kg = 0.0;               ///< Mass of an obstacle that is knocked over; 0: it stands fast.
 };
 

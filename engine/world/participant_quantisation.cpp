@@ -28,7 +28,8 @@ std::int64_t rounded(double value) {
   return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value));
 }
 
-/// Where doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's last 32 bits.
+/// Magnitude at which doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's
+/// last 32 bits.
 constexpr double unit_steps = 0x1.8p52;
 
 constexpr std::int32_t limit(double value) { return static_cast<std::int32_t>(value); }
@@ -59,7 +60,7 @@ constexpr std::array<FieldLimits, participant_field_count> make_limits() {
 }
 constexpr auto limits_of_field = make_limits();
 
-/// Some fields in a row: steps per unit, and the limits as doubles.
+/// Fields in a row: steps per unit, and the limits as doubles.
 template <std::size_t count>
 struct FieldRow {
   std::array<double, count> steps, lowest, highest;
@@ -80,7 +81,7 @@ constexpr FieldRow<4> orientation_row{
     .steps = {1.0, 1.0, 1.0, 1.0},
     .lowest = {-orientation_steps, -orientation_steps, -orientation_steps, -orientation_steps},
     .highest = {orientation_steps, orientation_steps, orientation_steps, orientation_steps}};
-/// From the velocity on; the wheels' angle is written separately.
+/// Fields from the velocity on; the wheels' angle is written separately.
 constexpr auto motion_row = make_row<participant_field_count - field_velocity_x>(
     field_velocity_x,
     {velocity_per_mps, velocity_per_mps, velocity_per_mps, acceleration_per_mps2, acceleration_per_mps2,
@@ -137,8 +138,8 @@ void quantise(const Participant& participant, WireParticipant& wire) {
 
   put_fields(bytes + offsetof(Participant, velocity_mps), motion_row, fields + field_velocity_x);
   const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
-  const double steps =
-      std::floor((turns - std::floor(turns)) * spin_steps);  // A hair below a whole turn rounds to one.
+  // A hair below a whole turn rounds to one.
+  const double steps = std::floor((turns - std::floor(turns)) * spin_steps);
   fields[field_wheel_spin] = steps < spin_steps ? static_cast<std::int32_t>(steps) : 0;
 }
 

@@ -2,7 +2,7 @@
 /// The snapshot: everything a screen, a log or a film needs to show one instant of the world.
 ///
 /// The server takes one per tick after its last stage; from then on it is const. Poses are in the world frame, double
-/// precision; the codec (snapshot_codec.hpp) quantises them with stated bounds.
+/// precision; the codec (wire_snapshot.hpp) quantises them with stated bounds.
 
 #include <array>
 #include <cstdint>
@@ -21,14 +21,14 @@ namespace septet {
 using ParticipantId = std::uint32_t;
 using Tick = std::uint64_t;
 
-/// The state of one rigid participant, with what is needed to draw it between two ticks.
+/// The state of one rigid participant, sufficient to draw it between two ticks.
 struct Participant {
   ParticipantId id = 0;
   ModelIndex model = 0;
   std::uint8_t paint = 0;  ///< Index into the palette of body colours.
   Lamps lamps;
   RigidTransform world_from_vehicle;
-  Vec3 velocity_mps{0.0};            ///< Of the origin, world frame.
+  Vec3 velocity_mps{0.0};            ///< Velocity of the origin, world frame.
   Vec3 acceleration_mps2{0.0};       ///< World frame.
   Vec3 angular_velocity_radps{0.0};  ///< World frame.
   double front_steer_rad = 0.0;      ///< Mean road-wheel angle of the front axle, positive to the left.
@@ -66,7 +66,7 @@ struct Environment {
   double sun_illuminance_lux = 80000.0;
   double visibility_m = 20000.0;  ///< Meteorological range of the fog.
   double cloud_cover = 0.2;       ///< 0 to 1.
-  double rain_mm_per_h = 0.0;     ///< As water; below 274.65 K it falls as snow.
+  double rain_mm_per_h = 0.0;     ///< Rain as water; below 274.65 K it falls as snow.
   double road_wetness = 0.0;      ///< 0 dry to 1 standing water.
   double snow_cover = 0.0;        ///< 0 to 1.
   double temperature_k = 288.15;
@@ -117,7 +117,7 @@ struct Snapshot {
   std::vector<Participant> participants;  ///< Ascending id.
   std::vector<EffectKeyframe> effects;    ///< Ascending id.
   Diagnostics diagnostics;
-  std::optional<GameStanding> game;  ///< Where the scenario is played as one.
+  std::optional<GameStanding> game;  ///< Present where the scenario is played as a game.
 };
 
 /// The participant with this id, or null. Logarithmic time.

@@ -14,7 +14,7 @@ namespace septet {
 class TakenSnapshot {
  public:
   explicit TakenSnapshot(Snapshot snapshot, WireSnapshot memory = {});
-  /// From a log: only its integers exist.
+  /// Makes one from a log: only its integers exist.
   explicit TakenSnapshot(WireSnapshot wire);
 
   /// Tick, time, state hash and all else that is not quantised. The participants are present only where it was

@@ -18,7 +18,7 @@ namespace septet {
 
 struct TrafficLight {
   std::uint32_t road = 0;  ///< Index in the road network.
-  double s_m = 0.0;        ///< Of the signal.
+  double s_m = 0.0;        ///< Station of the signal.
   bool along_s = true;     ///< Applies to traffic towards increasing s.
   bool for_walkers = false;
   RigidTransform world_from_light;  ///< x along the direction of the traffic it applies to; the lower edge of the head.

@@ -14,7 +14,7 @@ struct VehicleBody {
 };
 const VehicleBody& vehicle_body(ParticipantKind kind);
 
-/// From the bonnet's edge to the roof's beginning, as shares of the height and the length.
+/// Slope from the bonnet's edge to the roof's beginning, as shares of the height and the length.
 struct FrontSlope {
   double edge_height, roof_begins;
 };

@@ -131,7 +131,7 @@ void remove_ids(ByteReader& reader, std::vector<Item>& items, std::size_t limit)
   items = std::move(kept);
 }
 
-/// What a receiver expects of an instant from the baseline alone.
+/// Participants that a receiver expects at an instant from the baseline alone.
 std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline, double time_s) {
   std::vector<WireParticipant> expected;
   if (!baseline) return expected;

@@ -23,7 +23,7 @@ namespace septet {
 
 inline constexpr std::size_t max_wire_participants = 4096;
 inline constexpr std::size_t max_wire_effects = 4096;
-inline constexpr std::size_t max_wire_effect_bytes = 1 << 20;  ///< Of all effects of one snapshot together.
+inline constexpr std::size_t max_wire_effect_bytes = 1 << 20;  ///< Bound on all effects of one snapshot together.
 inline constexpr Tick max_effect_lead_ticks = 64;  ///< Limit on the lead of an effect's keyframe over its snapshot.
 
 /// Field order of a participant on the wire; SNAPSHOT.md gives each one's unit.
@@ -69,10 +69,11 @@ struct WireSnapshot {
   std::vector<WireParticipant> participants;  ///< Ascending id.
 };
 
-/// Seconds by which a receiver moves the baseline's participants on, for an instant at `time_s`; 1 at most, 0 for one before it.
+/// Seconds by which a receiver moves the baseline's participants on, for an instant at `time_s`; 1 at most, 0 for one
+/// before it.
 double seconds_since(const WireSnapshot& baseline, double time_s);
 
-/// `old` is one that nobody needs any more: its memory is used again.
+/// `old` is a spare one: its memory is reused.
 WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old = {});
 Snapshot from_wire(const WireSnapshot& wire);
 

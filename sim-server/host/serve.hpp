@@ -21,15 +21,16 @@ struct ServeOptions {
   bool lockstep = false;
   std::uint64_t draw_every_ticks = 8;  ///< In lockstep.
   std::uint64_t ticks = 0;             ///< 0: until stopped.
-  double patience_s =
-      60.0;  ///< In lockstep for the screens to be ready at the start (then the drive fails if not one came), and for each frame.
-  std::string
-      wait_for_driver;  ///< In real time: what to tell a driver for whom the world waits; empty: it begins at once.
-  std::string about;    ///< What he reads below that: what he is about to drive; empty: nothing.
-  bool can_go_without = false;  ///< Somebody at the console or the desk may begin without the screens that are missing.
-  double wait_for_screens_s = 0.0;  ///< The same in real time; then it drives without those that are missing.
-  double longest_silence_s =
-      10.0;  ///< In lockstep: whoever owes a frame that is not its first, and is not heard either, is left behind.
+  /// Lockstep waits so long for the screens to be ready, and fails where none came; and so long for each frame.
+  double patience_s = 60.0;
+  /// Real time waits so long for the screens, then drives without those that are missing.
+  double wait_for_screens_s = 0.0;
+  bool can_go_without = false;  ///< An attendant may begin the drive without the screens that are missing.
+  /// Text for a driver for whom the world waits, in real time; empty: it begins at once.
+  std::string wait_for_driver;
+  std::string about;  ///< Text below that: the drive in a line; empty: none.
+  /// Lockstep: a screen that owes a frame (not its first) and is silent for this long is left behind.
+  double longest_silence_s = 10.0;
 };
 
 /// The loop's time: the machine's, or that of a test.

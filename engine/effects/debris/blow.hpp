@@ -22,7 +22,7 @@ namespace septet::debris {
 
 struct Blow {
   Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< Mean direction of the impulse on the piece.
-  double stress_factor = 1.0;             ///< Of ElasticBody::step_stress_pa.
+  double stress_factor = 1.0;             ///< Factor of ElasticBody::step_stress_pa.
   double lost_j = 0.0;                    ///< Taken by the contact.
   double pressed_j = 0.0;                 ///< Work of lasting pressure: pays for cracks, scatters nothing.
 };

@@ -9,14 +9,14 @@
 namespace septet::debris {
 namespace {
 
-/// A node is a contact from so far above a surface on, beside what it may fall and fly in a step.
+/// Height above a surface from which a node is a contact, beside its fall and flight in a step.
 constexpr double margin_m = 0.02;
-/// Bound of what gravity adds to a velocity, m/s².
+/// Bound on gravity, m/s².
 constexpr double gravity_bound_mps2 = 10.0;
 /// Speed from which on a box wakes the pieces that it comes close to.
 constexpr double box_moves_mps = 0.01;
 
-/// How far a node of this velocity against a surface is looked for, above it.
+/// Search distance above a surface for a node of this velocity against it.
 double reach_m(double closing_mps, double step_s) {
   return margin_m + step_s * (closing_mps + gravity_bound_mps2 * step_s);
 }

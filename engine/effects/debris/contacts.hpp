@@ -1,5 +1,6 @@
 #pragma once
-/// Contacts of debris with the ground, with boxes and with other pieces (whose impulses are derived in piece_impulses.cpp).
+/// Contacts of debris with the ground, with boxes and with other pieces (whose impulses are derived in
+/// piece_impulses.cpp).
 
 #include <vector>
 

@@ -90,7 +90,7 @@ std::vector<Piece> crushed(Piece piece, const Vec3& push, double crush_m, double
   return std::move(result.pieces);
 }
 
-/// A random direction across the blow, rather up than down and rather away from its middle.
+/// A random direction across the impact, rather up than down and rather away from its middle.
 Vec3 way_out(Context& context, const Vec3& from_middle, const Vec3& push) {
   // In sequence: the order in which a call's arguments are evaluated is the compiler's choice.
   const double left = context.random.normal(), ahead = context.random.normal();

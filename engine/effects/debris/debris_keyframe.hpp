@@ -1,6 +1,5 @@
 #pragma once
-/// Debris on the wire: one EffectKeyframe per piece and one for all shards. The format is written
-/// down in DEBRIS.md.
+/// Debris on the wire: one EffectKeyframe per piece and one for all shards. The format is written down in DEBRIS.md.
 
 #include <array>
 #include <cstdint>
@@ -27,11 +26,11 @@ struct Keyframe {
   bool shards = false;
   bool asleep = false;
   std::vector<Vec3> vertices_m;
-  /// Of ice, of each vertex: its place in the whole part, before any motion or fracture. The inside's texture follows
+  /// Rest places of ice, one a vertex: in the whole part, before any motion or fracture. The inside's texture follows
   /// it.
   std::vector<Vec3> rest_m;
   std::vector<std::array<std::uint16_t, 3>> triangles;
-  /// Of ice: a cracked face that has not yet opened; it grows from its first corner.
+  /// A crack of ice: a face that has not yet opened; the crack grows from its first corner.
   struct Crack {
     std::array<std::uint16_t, 3> corners{};
     std::uint8_t reach = 0;  ///< Share of its edges, in 1/255.

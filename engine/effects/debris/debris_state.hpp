@@ -57,7 +57,7 @@ struct Box {
   RigidTransform world_from_box;  ///< Origin at the centre.
   Vec3 half_size_m{1.0};
   std::vector<HullPlane> cuts;
-  Vec3 velocity_mps{0.0};  ///< Of the centre.
+  Vec3 velocity_mps{0.0};  ///< Velocity of the centre.
   Vec3 angular_velocity_radps{0.0};
   double friction = 0.4;
   Vec3 impulse_ns{0.0};  ///< Out: impulse of the debris on the box during the tick.

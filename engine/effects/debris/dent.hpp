@@ -37,8 +37,8 @@ struct DentedVehicle {
 };
 
 inline constexpr double most_depth_m = 0.95;
-inline constexpr std::size_t most_dents = 8;             ///< Of a vehicle.
-inline constexpr std::size_t most_dented_vehicles = 48;  ///< Of a drive.
+inline constexpr std::size_t most_dents = 8;             ///< Limit of one vehicle's dents.
+inline constexpr std::size_t most_dented_vehicles = 48;  ///< Limit of a drive's dented vehicles.
 
 /// Residual crush of a vehicle that a crash slows by `lost_mps`; 0 up to the speed that leaves no crush.
 double residual_crush_m(double lost_mps);

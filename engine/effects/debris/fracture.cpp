@@ -76,8 +76,8 @@ double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa, con
 }
 
 struct Overload {
-  double lasting = 0.0;  ///< Of the shape and of the step's own stress.
-  double blow = 0.0;     ///< Of the impact's peak.
+  double lasting = 0.0;  ///< Overload by the shape and by the step's own stress.
+  double blow = 0.0;     ///< Overload by the impact's peak.
 };
 
 /// The step's stress at each node, the mean of the elements around it by their volume: within one cube its tetrahedra
@@ -130,7 +130,7 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
 /// Outcome for each inner face.
 struct FaceFates {
   std::vector<bool> opened;
-  std::vector<double> reach;  ///< Of its crack.
+  std::vector<double> reach;  ///< Reach of its crack.
   double left_j = 0.0;        ///< Energy lost in the impact that the cracks leave.
 };
 

@@ -32,7 +32,7 @@ namespace septet::debris {
 struct FractureResult {
   int opened_faces = 0;
   std::vector<Piece> pieces;      ///< Pieces after the fracture; empty where no face opened.
-  std::vector<FaceCrack> cracks;  ///< Of the piece where no face opened.
+  std::vector<FaceCrack> cracks;  ///< Cracks of the piece where no face opened.
 };
 
 /// n and τ. Both assumed: published exponents of ice's damage are from 3 to 5; a pull of 0.9 f_t parts it within half a

@@ -26,9 +26,9 @@ struct Piece {
   Part part = Part::bumper;
   MaterialData material;  ///< Spread over the lattice (breakable_part.hpp).
   elastic::ElasticBody body;
-  std::vector<int> splinter;           ///< Of each element; faces between two may open.
+  std::vector<int> splinter;           ///< Splinter of each element; faces between two may open.
   std::vector<double> plastic_strain;  ///< Accumulated, of each element.
-  std::vector<FaceCrack> cracks;       ///< Of ice; ascending.
+  std::vector<FaceCrack> cracks;       ///< Cracks of ice; ascending.
   std::vector<elastic::SurfaceTriangle> surface;
   double calm_s = 0.0;  ///< Time for which it has hardly moved.
   bool asleep = false;  ///< Neither stepped nor broken until touched.

@@ -1,14 +1,15 @@
 // Impulses between two pieces, node against element.
 //
-// A node of mass m, velocity v, lies inside a linear tetrahedron with nodes of mass m_c, velocities v_c, at barycentric weights w_c. The
-// surface there moves with u = Σ w_c v_c. An impulse p on the node and −w_c p on each corner keeps momentum, for Σ w_c = 1, and changes the
-// relative velocity v − u by p (1/m + Σ w_c²/m_c): the bracket is the pair's inverse mass at that place. Along the outward normal n of the
-// nearest outer face the pair should part with
+// A node of mass m, velocity v, lies inside a linear tetrahedron with nodes of mass m_c, velocities v_c, at barycentric
+// weights w_c. The surface there moves with u = Σ w_c v_c. An impulse p on the node and −w_c p on each corner keeps
+// momentum, for Σ w_c = 1, and changes the relative velocity v − u by p (1/m + Σ w_c²/m_c): the bracket is the pair's
+// inverse mass at that place. Along the outward normal n of the nearest outer face the pair should part with
 //
 //     (v − u)·n ≥ min(outward_share · depth / step, fastest_parting),
 //
-// Baumgarte's correction of depth, bounded so that deep overlaps (a break in the middle of things) do not throw pieces apart. The impulse
-// along n is the missing velocity over the inverse mass, never negative; across n Coulomb's friction takes away sliding, at most all of it.
+// Baumgarte's correction of depth, bounded so that deep overlaps (a break in the middle of things) do not throw pieces
+// apart. The impulse along n is the missing velocity over the inverse mass, never negative; across n Coulomb's friction
+// takes away sliding, at most all of it.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,7 @@ namespace {
 using elastic::ElasticBody;
 using elastic::Element;
 
-constexpr double outward_share = 0.2;        ///< Of the depth, given back in a step.
+constexpr double outward_share = 0.2;        ///< Share of the depth that is given back in a step.
 constexpr double fastest_parting_mps = 1.0;  ///< By depth alone.
 constexpr double waking_mps = 0.05;          ///< A change of velocity along the normal that wakes both.
 
@@ -46,8 +47,8 @@ std::vector<std::uint8_t> outer_faces(const Piece& piece) {
 /// A point below the surface of an element.
 struct Penetration {
   Eigen::Vector4d weight;  ///< Barycentric.
-  double depth_m;          ///< To the nearest outer face.
-  Eigen::Vector3d normal;  ///< Of that face, outwards.
+  double depth_m;          ///< Depth below the nearest outer face.
+  Eigen::Vector3d normal;  ///< Normal of that face, outwards.
 };
 
 std::optional<Penetration> penetration(const ElasticBody& body, const Element& e, std::uint8_t outer,

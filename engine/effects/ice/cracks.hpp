@@ -29,7 +29,7 @@ struct Crack {
   glm::mat3 turn{1.0f};  ///< Columns: along, across, normal.
   float size_m = 1.0f;
   float bend = 0.2f;  ///< Height of its middle over its rim, in sizes.
-  float seed = 0.0f;  ///< Of its texture.
+  float seed = 0.0f;  ///< Seed of its texture.
 };
 
 /// `count` cracks near the middle of a box that their size covers; the same for the same seed.

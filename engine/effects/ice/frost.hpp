@@ -38,7 +38,7 @@ inline constexpr std::size_t warmth_levels = 16;
 struct Frost {
   double thickness_kgpm2 = 0.0;  ///< In the morning, where the driver has not scraped; 0: no frost, or no longer any.
   double heated_s = 0.0;         ///< Running time of the engine.
-  std::uint32_t seed = 0;        ///< Of its pattern.
+  std::uint32_t seed = 0;        ///< Seed of its pattern.
   std::array<double, warmth_levels> glass_k{};
   std::array<double, warmth_levels> melted_kgpm2{};
 };

@@ -1,8 +1,8 @@
 #pragma once
 /// Ice and impacts on a windscreen, as drawn: frost that warmth melts (frost.hpp), and stars of cracks that stay.
 ///
-/// Both are surfaces without thickness on the pane, through which the world behind is seen. A pane is told by a grid of points, so
-/// that it may be bent as its car's is.
+/// Both are surfaces without thickness on the pane, through which the world behind is seen. A pane is a grid of points,
+/// so that it may be curved as its car's is.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace septet::ice {
 /// Place of an impact on the glass: cracks run out from there, and some around it.
 struct Star {
   double across = 0.5, up = 0.5;  ///< Shares of the pane, as in frost.hpp.
-  double reach_m = 0.4;           ///< Of the longest crack.
+  double reach_m = 0.4;           ///< Length of the longest crack.
   std::uint32_t seed = 0;
 };
 

@@ -39,9 +39,9 @@ void smooth(Surface& surface);
 /// Faults that keep a surface from being a solid; it is drawn none the less.
 struct Faults {
   std::size_t open_edges = 0;      ///< Edges that belong to one triangle alone.
-  std::size_t flat_triangles = 0;  ///< Without area.
+  std::size_t flat_triangles = 0;  ///< Triangles without area.
   bool inverted = false;           ///< Its volume is negative: its faces look inwards.
-  bool empty = false;              ///< Without extent.
+  bool empty = false;              ///< Surface without extent.
 };
 Faults faults(const Surface& surface);
 /// Text for people; empty without faults.

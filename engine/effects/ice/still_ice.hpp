@@ -53,12 +53,12 @@ struct IcicleRow {
 /// One of a row: a cone that hangs down.
 struct Icicle {
   Vec3 root_m{0.0};
-  double radius_m = 0.0, length_m = 0.0;  ///< Of its root; of all of it.
+  double radius_m = 0.0, length_m = 0.0;  ///< Radius of its root; length of all of it.
 };
 
 /// A sheet on the road: a band between two lines, point by point, along the ice.
 struct Sheet {
-  std::vector<Vec3> left_m, right_m;  ///< Of the road's surface.
+  std::vector<Vec3> left_m, right_m;  ///< Edges on the road's surface.
   double thickness_m = 0.004;
 };
 

@@ -54,7 +54,7 @@ bool mark_full(State& state, std::span<const Obstacle> obstacles) {
 struct Motion {
   float scale = 0.0f, jitter = 0.0f;
   glm::vec3 drift{0.0f};
-  std::uint64_t key = 0, counter = 0;  ///< Of the random numbers; a particle adds its own.
+  std::uint64_t key = 0, counter = 0;  ///< Key of the random numbers; a particle adds its own.
 };
 
 /// A cell's velocity is one load, one widening and one conversion of eight numbers.

@@ -14,10 +14,10 @@ namespace septet::smoke {
 
 struct Block {
   static constexpr int most = 256;
-  std::size_t first = 0;  ///< Of the particles.
+  std::size_t first = 0;  ///< Index of the first particle.
   int count = 0;
   std::array<int, most> cell;                    ///< Cells of the particles.
-  std::array<float, most> bias;                  ///< Of the samples above them.
+  std::array<float, most> bias;                  ///< Bias of the samples above the particles.
   alignas(32) std::array<float, 4 * most> step;  ///< Output: x, y, z and one unused for each; cells in the whole step.
 };
 

@@ -29,7 +29,7 @@ inline constexpr int steps_per_cell = 8;
 struct KeyframeTrack {
   struct Chunk {
     double time_s = 0.0;
-    std::vector<std::array<std::int32_t, 3>> place;  ///< Of each slot, quantised.
+    std::vector<std::array<std::int32_t, 3>> place;  ///< Place of each slot, quantised.
     std::vector<std::uint8_t> known;                 ///< 1 where the slot's particle was in the last keyframe.
     Bytes data;                                      ///< Empty where no particle is alive.
   };
@@ -74,7 +74,7 @@ struct Puff {
   float radius_m = 0.5f;            ///< Standard deviation of the density.
   float extinction_area_m2 = 0.0f;  ///< Optical depth through its middle is this over 2π radius².
   glm::vec3 albedo{0.25f};
-  float glow = 0.0f;       ///< Of the flame, 1 at birth.
+  float glow = 0.0f;       ///< Glow of the flame, 1 at birth.
   std::uint32_t seed = 0;  ///< Constant for the particle: turns its texture.
 };
 

@@ -26,7 +26,7 @@ inline constexpr std::uint64_t extinction_ticks = 4;
 struct Parameters {
   double steepness = 1.0;           ///< k of the logistic function of the density.
   double crowd = 5.0;               ///< Particles in a cell from which it repels.
-  double speed_cells_per_s = 20.0;  ///< Of a particle whose mean sample vector (figure 1) is one cell long.
+  double speed_cells_per_s = 20.0;  ///< Speed of a particle whose mean sample vector (figure 1) is one cell long.
   /// Random walk out of crowded cells: the steps of a second along an axis add up to this standard deviation for each ½
   /// by which the cell's attraction is below ½.
   double jitter_cells = 2.4;

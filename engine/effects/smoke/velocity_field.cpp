@@ -15,7 +15,7 @@ struct Padded {
   int nx, ny, nz;
   explicit Padded(const Grid& grid) : nx(grid.nx + 2 * pad), ny(grid.ny + 2 * pad), nz(grid.nz + 2 * pad) {}
   std::size_t size() const { return static_cast<std::size_t>(nx) * ny * nz; }
-  /// Of the grid's cell (0, j, k).
+  /// Index of the grid's cell (0, j, k).
   std::ptrdiff_t row(int j, int k) const { return static_cast<std::ptrdiff_t>(k + pad) * ny * nx + in_layer(j); }
   std::ptrdiff_t in_layer(int j) const { return static_cast<std::ptrdiff_t>(j + pad) * nx + pad; }
 };
@@ -28,7 +28,8 @@ void fill_outside(const Grid& grid, const Padded& padded, std::vector<float>& at
         attraction[padded.row(j, k) + i] = is_open(grid, i, j, k) ? 1.0f : -1.0f;
 }
 
-/// From sums over 3 cells of a row (differences, sums, magnitudes) and of those beside it, `y` numbers apart, to 3 × 3.
+/// Adds sums over 3 cells of a row (differences, sums, magnitudes) and those of the rows beside it, `y` numbers apart,
+/// to sums over 3 × 3.
 void add_rows(int count, std::ptrdiff_t y, const float* __restrict d, const float* __restrict s,
               const float* __restrict m, float* __restrict along_x, float* __restrict along_y, float* __restrict sum,
               float* __restrict magnitude) {

@@ -14,8 +14,8 @@ namespace septet::smoke {
 
 struct State;
 
-/// Of one cell: the velocity of a particle in it is (rest + bias·above), in multiples of `velocity_quantum` cells/s.
-/// Small, because a tick's time goes into reading these.
+/// One cell of the field: the velocity of a particle in it is (rest + bias·above), in multiples of `velocity_quantum`
+/// cells/s. Small, because a tick's time goes into reading these.
 struct CellVelocity {
   std::int16_t rest[3];
   std::int16_t crowding;  ///< max(0, ½ − f) of the cell itself, which the 46 samples do not see, in the same multiples.

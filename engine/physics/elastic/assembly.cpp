@@ -19,7 +19,7 @@ struct LaneVector {
   const Lanes& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   Lanes& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
 };
-/// By columns.
+/// Stored by columns.
 struct LaneMatrix {
   std::array<LaneVector, 3> column;
   const Lanes& operator()(int row, int col) const { return column[col][row]; }

@@ -27,7 +27,7 @@ inline Eigen::Array4d padded(const Eigen::Vector3d& v) { return {v.x(), v.y(), v
 struct BlockPattern {
   int node_count = 0;
   std::vector<int> row_start;  ///< node_count + 1 entries.
-  std::vector<int> column;     ///< Of each block; ascending within a row.
+  std::vector<int> column;     ///< Column of each block; ascending within a row.
 
   /// Index of the block (row, column), which must exist.
   int slot(int row, int col) const;

@@ -24,7 +24,7 @@ struct Element {
   /// F = [x₁−x₀, x₂−x₀, x₃−x₀] · rest_inverse. Plastic flow replaces it by rest_inverse · Fp⁻¹.
   Eigen::Matrix3d rest_inverse;
   double rest_volume_m3 = 0.0;
-  std::array<int, 6> slots{};  ///< Of the blocks (1,0) (2,0) (2,1) (3,0) (3,1) (3,2).
+  std::array<int, 6> slots{};  ///< Slots of the blocks (1,0) (2,0) (2,1) (3,0) (3,1) (3,2).
 };
 
 /// The factor at rest that preconditions large bodies, and the parameters it was made with.
@@ -67,7 +67,7 @@ struct ElasticBody {
   // Derived from the elements.
   BlockPattern pattern;
   FactorPattern factor_structure;
-  std::vector<Eigen::Matrix3d> rotation;  ///< Of each node from rest, followed from step to step.
+  std::vector<Eigen::Matrix3d> rotation;  ///< Rotation of each node from rest, followed from step to step.
   RestFactor rest_factor;
   StepWorkspace workspace;
 

@@ -37,11 +37,11 @@ struct StepSettings {
   double damping_ratio = 0.2;  ///< β/Δt; 0 conserves, 0.5 damps stiff modes within one step.
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -septet::gravity_mps2};
   bool tension_stiffness = true;
-  bool follow_spin = true;   ///< Of bodies without fixed nodes; false is the published update.
+  bool follow_spin = true;   ///< For bodies without fixed nodes; false is the published update.
   bool keep_stress = false;  ///< Fill ElasticBody::step_stress_pa.
   Solver solver = Solver::automatic;
   int direct_limit = 400;
-  double tolerance = 1e-5;  ///< Of the energy norm of the error, relative to the first guess's.
+  double tolerance = 1e-5;  ///< Bound on the error's energy norm, relative to the first guess's.
   int max_iterations = 400;
 };
 

@@ -8,8 +8,7 @@
 
 namespace septet::vehicle {
 
-/// Adds force and moment about the centre of the sprung mass, in the body's axes. `velocity_mps` is
-/// that of the centre.
+/// Adds force and moment about the centre of the sprung mass, in the body's axes. `velocity_mps` is that of the centre.
 void add_body_contact(const VehicleParameters& parameters, const Ground& ground, const VehicleState& state,
                       const Vec3& velocity_mps, Vec3& force_n, Vec3& moment_nm);
 

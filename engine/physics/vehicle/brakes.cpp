@@ -40,8 +40,9 @@ void advance_anti_lock(const VehicleParameters& parameters, const Vec3& velocity
   rear_left = rear_right = std::max(rear_left, rear_right);
 }
 
-/// Where one side has less grip and its front wheel is released, the other front wheel's pressure follows it down and
-/// rises again only as fast as the car does not turn: the driver has the time to steer against it.
+/// Delays the yaw moment where one side has less grip and its front wheel is released: the other front wheel's pressure
+/// follows it down and rises again only as fast as the car does not turn, so that the driver has the time to steer
+/// against it.
 void delay_yaw_moment(double yaw_rate_radps, double dt_s, BrakeState& brakes) {
   constexpr double bearable_radps = 0.01, rise_per_s = 0.8, fall_per_s = 6.0, gain_per_rad = 25.0;
   constexpr double least = 0.02;

@@ -8,9 +8,8 @@
 #include "engine/physics/vehicle/tyre.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 
-// Velocities are advanced with forces at the old positions, positions with the new velocities
-// (symplectic Euler); brakes and tyres are implicit in wheel spin and in deflection. Left out:
-// gyroscopic moments of the wheels.
+// Velocities are advanced with forces at the old positions, positions with the new velocities (symplectic Euler);
+// brakes and tyres are implicit in wheel spin and in deflection. Left out: gyroscopic moments of the wheels.
 
 namespace septet::vehicle {
 namespace {
@@ -25,7 +24,7 @@ struct WheelLoad {
   Vec3 aligning_nm{0.0};
   Vec3 rolling_n{0.0};             ///< Part of force_n along the wheel's heading.
   double rolling_torque_nm = 0.0;  ///< Torque of that part on the wheel, against its spin.
-  double lean_nm = 0.0;            ///< Of the load, on a contact shifted sideways.
+  double lean_nm = 0.0;            ///< Moment of the load on a contact shifted sideways.
   double shaft_torque_nm = 0.0;    ///< Drive and brake together, about the spin axis.
   double brake_torque_nm = 0.0;    ///< The brake's share.
 };

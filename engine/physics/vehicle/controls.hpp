@@ -20,8 +20,7 @@ double output_shaft_radps(const VehicleParameters& parameters, const VehicleStat
 /// The automatic's gear at a steady speed with little throttle.
 int cruising_gear(const PowertrainParameters& powertrain, double output_radps);
 
-/// Pedal, parking brake, anti-lock, traction and stability control: friction torque at each wheel,
-/// N m.
+/// Pedal, parking brake, anti-lock, traction and stability control: friction torque at each wheel, N m.
 std::array<double, wheel_count> advance_brakes(const VehicleParameters& parameters, const DriverInput& input,
                                                const Vec3& velocity_mps, double dt_s, VehicleState& state);
 

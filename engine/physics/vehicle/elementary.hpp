@@ -9,8 +9,7 @@
 
 namespace septet::vehicle {
 
-/// {sin x, cos x} for |x| ≤ 1.6 rad, error below 1e-12: Taylor polynomials of half the angle, then
-/// doubled.
+/// {sin x, cos x} for |x| ≤ 1.6 rad, error below 1e-12: Taylor polynomials of half the angle, then doubled.
 inline std::pair<double, double> sine_cosine(double x_rad) {
   const double h = 0.5 * x_rad;
   const double q = h * h;

@@ -9,8 +9,8 @@
 namespace septet::vehicle {
 
 struct Faults {
-  bool anti_lock =
-      false;  ///< The brakes' control unit has switched itself off: no anti-lock, traction or stability control.
+  /// The brakes' control unit has switched itself off: no anti-lock, traction or stability control.
+  bool anti_lock = false;
   bool misfire = false;  ///< One cylinder does not fire: its share of the torque is missing, it is dragged along.
 
   bool any() const { return anti_lock || misfire; }

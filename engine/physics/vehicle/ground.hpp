@@ -36,14 +36,12 @@ Ground level_ground(double height_m = 0.0, double friction = 0.9);
 
 enum class SurfaceKind : std::uint8_t { dry, wet, snow, ice };
 
-/// Peak friction coefficient of a surface at a temperature of the surface. Dry 0.9 and wet 0.55 are
-/// the upper half of the ranges 0.70–0.90 and 0.45–0.60 of accident reconstruction tables; packed
-/// snow rises from 0.22 at 0 °C to 0.35 in deep frost (Noon 1994: 0.20–0.25; tables 0.25–0.35). Ice
-/// is most slippery at its melting point: between −5 and 0 °C the tyre's pressure melts a film of
-/// water on it, colder it is a dry, micro-rough surface (tirestesting.com, subjective ice
-/// condition): 0.06 at 0 °C, 0.10 at −5 °C, 0.15 at −20 °C (tables of ice: 0.05–0.15,
-/// bohnenkamp.by; the values at the temperatures are derived from these two). Above 0 °C snow and
-/// ice keep their value at 0 °C.
+/// Peak friction coefficient of a surface at a temperature of the surface. Dry 0.9 and wet 0.55 are the upper half of
+/// the ranges 0.70–0.90 and 0.45–0.60 of accident reconstruction tables; packed snow rises from 0.22 at 0 °C to 0.35 in
+/// deep frost (Noon 1994: 0.20–0.25; tables 0.25–0.35). Ice is most slippery at its melting point: between −5 and 0 °C
+/// the tyre's pressure melts a film of water on it, colder it is a dry, micro-rough surface (tirestesting.com,
+/// subjective ice condition): 0.06 at 0 °C, 0.10 at −5 °C, 0.15 at −20 °C (tables of ice: 0.05–0.15, bohnenkamp.by; the
+/// values at the temperatures are derived from these two). Above 0 °C snow and ice keep their value at 0 °C.
 double peak_friction(SurfaceKind kind, double temperature_k);
 
 /// Peak friction coefficient of a surface with a measured or requested coefficient of its own: that of a dry one holds

@@ -25,12 +25,12 @@ namespace septet::vehicle {
 
 /// One obstacle's contact with the hull, from the first touch until half a second after the last.
 struct HullTouch {
-  std::uint32_t run = 0;  ///< Of the obstacle.
+  std::uint32_t run = 0;  ///< Run of the obstacle.
   ObstacleKind kind = ObstacleKind::tree;
-  // At the first touch, world frame.
+  // State at the first touch, world frame.
   Vec3 point_m{0.0};
   Vec3 normal{1.0, 0.0, 0.0};  ///< Unit length, level, from the obstacle to the car.
-  Vec3 velocity_mps{0.0};      ///< Of the car's centre of mass.
+  Vec3 velocity_mps{0.0};      ///< Velocity of the car's centre of mass.
   Vec3 angular_velocity_radps{0.0};
   double closing_speed_mps = 0.0;  ///< Along the normal, of the point.
 

@@ -20,7 +20,7 @@ namespace septet::vehicle {
 /// One instant, in the axes of ISO 8855.
 struct ManoeuvreSample {
   double time_s = 0.0;
-  double x_m = 0.0, y_m = 0.0;  ///< Of the centre of the sprung mass.
+  double x_m = 0.0, y_m = 0.0;  ///< Place of the centre of the sprung mass.
   double heading_rad = 0.0;
   double steer_rad = 0.0;  ///< Hand wheel over ratio.
   double speed_mps = 0.0;
@@ -53,24 +53,20 @@ struct ManoeuvreOptions {
   std::optional<bool> stability_control;
 };
 
-/// ISO 4138: constant speed (100 km/h), steering wheel turned slowly until the front axle slides or
-/// a wheel lifts. Figures at 2 and 4 m/s² and slopes between 1 and 3: understeer gradient, yaw
-/// gain, sideslip, roll.
+/// ISO 4138: constant speed (100 km/h), steering wheel turned slowly until the front axle slides or a wheel lifts.
+/// Figures at 2 and 4 m/s² and slopes between 1 and 3: understeer gradient, yaw gain, sideslip, roll.
 ManoeuvreReport steady_circle(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// ISO 7401: step to the angle that gives 4 m/s², at 0.4 rad/s of the road wheels, throttle frozen
-/// (80 km/h).
+/// ISO 7401: step to the angle that gives 4 m/s², at 0.4 rad/s of the road wheels, throttle frozen (80 km/h).
 ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
 /// ISO 3888-1: double lane change (80 km/h) by a driver who looks 0.6 s ahead, throttle frozen.
 ManoeuvreReport double_lane_change(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// ISO 19365: sine with dwell, 0.7 Hz, 0.5 s, at 80 km/h in neutral throttle; amplitude 5 times the
-/// angle for 0.3 g.
+/// ISO 19365: sine with dwell, 0.7 Hz, 0.5 s, at 80 km/h in neutral throttle; amplitude 5 times the angle for 0.3 g.
 ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// ISO 21994: full stop (100 km/h) with the anti-lock system, or without one with every wheel held
-/// at its best slip.
+/// ISO 21994: full stop (100 km/h) with the anti-lock system, or without one with every wheel held at its best slip.
 ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
 /// Rolling out in neutral (120 km/h) down to 20 km/h.

@@ -11,9 +11,8 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-/// Middle of the lanes of ISO 3888-1: 15 m straight, 30 m over, 25 m beside, 25 m back, 30 m
-/// straight. The lanes' edges lie 3.5 m apart; the second lane is 0.1 car widths wider than the
-/// first, so that its middle lies further out.
+/// Middle of the lanes of ISO 3888-1: 15 m straight, 30 m over, 25 m beside, 25 m back, 30 m straight. The lanes' edges
+/// lie 3.5 m apart; the second lane is 0.1 car widths wider than the first, so that its middle lies further out.
 double lane_change_path_m(double x_m, double width_m) {
   const double offset_m = 3.5 + 0.05 * width_m;
   const auto rise = [](double part) {

@@ -103,8 +103,8 @@ ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreO
     slow.speed_mps = speed_mps;
     steer_rad = steady_circle(parameters, slow).figure("steer at 4 m/s2");
   }
-  const double side =
-      steer_rad < 0.0 ? -1.0 : 1.0;  // Response times and overshoots are those of the side of the steering.
+  // Response times and overshoots are those of the side of the steering.
+  const double side = steer_rad < 0.0 ? -1.0 : 1.0;
   const double steered_s = std::abs(steer_rad) / rate_radps;
   ManoeuvreCar car(parameters, options, speed_mps);
   car.begin();

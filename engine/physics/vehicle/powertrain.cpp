@@ -8,10 +8,9 @@ namespace septet::vehicle {
 namespace {
 
 constexpr double reverse_inhibit_mps = 2.0;
-constexpr double winding_s = 0.02;  // Of the driveline: a jolt of about 7 Hz when the clutch bites.
+constexpr double winding_s = 0.02;  // Time constant of the driveline: a jolt of about 7 Hz when the clutch bites.
 
-/// Shares of the drive torque; they are also the weights of the wheels' speeds in the
-/// differentials.
+/// Shares of the drive torque; they are also the weights of the wheels' speeds in the differentials.
 std::array<double, wheel_count> wheel_shares(const PowertrainParameters& powertrain) {
   const double front = 0.5 * powertrain.front_share, rear = 0.5 - front;
   return {front, front, rear, rear};

@@ -23,7 +23,8 @@ Vec2 published_contact_velocity_mps(const VehicleParameters& parameters, const S
                                     const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal,
                                     double height_m);
 
-/// Of a wheel's spin axis against the ground, steer not counted: a steered wheel does not lean with a pitched body.
+/// Inclination of a wheel's spin axis against the ground, steer not counted: a steered wheel does not lean with a
+/// pitched body.
 double published_inclination_rad(const Vec3& spin_axis, const Vec3& normal);
 
 /// Yaw moment of one wheel's force: the wheels stand as on an upright car, although a leaning body carries its mass

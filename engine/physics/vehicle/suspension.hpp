@@ -24,10 +24,10 @@ Statics statics(const VehicleParameters& parameters);
 /// One wheel against the body, in the body's axes from the centre of the sprung mass.
 struct WheelPlace {
   Vec3 centre_m{0.0};
-  double contact_left_m =
-      0.0;  ///< The contact lies on the ground, as far ahead of the mass centre as the wheel's centre above it.
+  /// The contact lies on the ground, as far ahead of the mass centre as the wheel's centre above it.
+  double contact_left_m = 0.0;
   Vec2 contact_slope{0.0};  ///< d(forward, left)/d travel of the contact's path.
-  Vec2 centre_slope{0.0};   ///< Of the centre's path.
+  Vec2 centre_slope{0.0};   ///< d(forward, left)/d travel of the centre's path.
   Vec3 spin_axis{0.0, 1.0, 0.0};
 };
 
@@ -39,8 +39,7 @@ WheelPlace place_wheel(const VehicleParameters& parameters, const Statics& stati
 /// strike.
 double wheel_steer_rad(const VehicleParameters& parameters, int wheel, const WheelState& state, double mean_steer_rad);
 
-/// Upward force on the body (and downward on the wheel), spring, bump stop, damper and anti-roll
-/// bar, N.
+/// Upward force on the body (and downward on the wheel), spring, bump stop, damper and anti-roll bar, N.
 double suspension_force_n(const VehicleParameters& parameters, const Statics& statics, int wheel,
                           const std::array<WheelState, wheel_count>& wheels);
 

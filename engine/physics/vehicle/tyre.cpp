@@ -46,8 +46,7 @@ double force_at(const SlipCurve& curve, double slip) {
   return curve.sliding_force_n;
 }
 
-/// The curve in the direction (cosine, sine) of normalised slip, whose unit is `unit` of plain
-/// slip.
+/// The curve in the direction (cosine, sine) of normalised slip, whose unit is `unit` of plain slip.
 SlipCurve join(const SlipCurve& x, const SlipCurve& y, Vec2 unit, Vec2 direction) {
   const auto mean = [&](double along, double across) {
     const double a = along * direction.x, b = across * direction.y;

@@ -45,15 +45,16 @@ std::array<Vec3, wheel_count> wheel_centres_m(const VehicleParameters& parameter
 
 /// Outputs for the snapshot, the instruments and the analysis.
 struct VehicleOutputs {
-  RigidTransform world_from_vehicle;       ///< Of the vehicle frame, carried by the body.
-  Vec3 velocity_mps{0.0};                  ///< Of its origin, world frame.
-  Vec3 acceleration_mps2{0.0};             ///< Likewise.
-  Vec3 angular_velocity_radps{0.0};        ///< World frame.
-  double speed_mps = 0.0;                  ///< Along the car's x axis.
-  double yaw_rate_radps = 0.0;             ///< About the world's vertical.
-  double lateral_acceleration_mps2 = 0.0;  ///< Of the whole car's centre of mass, horizontal, to the left (ISO 8855).
-  double longitudinal_acceleration_mps2 = 0.0;  ///< Likewise, forward.
-  /// At the centre of mass in the body frame: the acceleration that a person in the car feels.
+  RigidTransform world_from_vehicle;  ///< Pose of the vehicle frame, carried by the body.
+  Vec3 velocity_mps{0.0};             ///< Velocity of its origin, world frame.
+  Vec3 acceleration_mps2{0.0};        ///< Acceleration of its origin, world frame.
+  Vec3 angular_velocity_radps{0.0};   ///< World frame.
+  double speed_mps = 0.0;             ///< Along the car's x axis.
+  double yaw_rate_radps = 0.0;        ///< About the world's vertical.
+  /// Acceleration of the whole car's centre of mass, horizontal, to the left (ISO 8855).
+  double lateral_acceleration_mps2 = 0.0;
+  double longitudinal_acceleration_mps2 = 0.0;  ///< Acceleration of that centre, horizontal, forward.
+  /// Acceleration felt by a person in the car: at the centre of mass in the body frame.
   Vec3 specific_force_mps2{0.0};
   double sideslip_rad = 0.0;  ///< At the centre of mass; 0 below walking pace.
   double roll_rad = 0.0;      ///< Against the horizontal, positive leans to the right.

@@ -9,7 +9,7 @@ namespace {
 constexpr double pinched_rubber_m = 0.015;
 /// Assumed: share of an inflated tyre's load on its carcass; a flat one keeps it.
 constexpr double carcass_share = 0.15;
-/// Of pinched rubber and rim. Assumed: ten times a tyre.
+/// Stiffness of pinched rubber and rim. Assumed: ten times a tyre.
 constexpr double rim_stiffness_npm = 2.0e6;
 /// Above it the rim bends. Assumed: three times the rating of such a wheel, 650 kg.
 constexpr double rim_bears_n = 20e3;
@@ -18,7 +18,7 @@ constexpr double leak_s = 0.5;
 /// Assumed: 0.3 degrees for a rim that is bent by 10 mm, 1.1 degrees at most.
 constexpr double toe_out_radpm = 0.5, most_toe_out_rad = 0.02;
 
-/// Of the tyre's stiffness.
+/// Carried share of the tyre's stiffness.
 double carried_share(const WheelDamage& damage) { return 1.0 - (1.0 - carcass_share) * damage.lost_air; }
 
 /// Compression of rubber and rim together.

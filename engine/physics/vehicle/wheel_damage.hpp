@@ -23,7 +23,7 @@ struct WheelDamage {
   double grip() const { return 1.0 - 0.2 * lost_air; }  ///< Assumed: the tread arches off the ground.
   double firmness() const {
     return 1.0 - 0.75 * lost_air;
-  }  ///< Of slopes and stiffness along the ground. Assumed: a quarter remains.
+  }  ///< Factor of slopes and stiffness along the ground. Assumed: a quarter remains.
   double rolling_resistance() const { return 1.0 + 19.0 * lost_air; }  ///< Assumed: 0.2 of the load in place of 0.01.
 };
 

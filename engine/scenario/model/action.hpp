@@ -1,6 +1,5 @@
 #pragma once
-/// Actions of the storyboard and of Init (OpenSCENARIO XML 1.3), as plain data. SI units
-/// throughout.
+/// Actions of the storyboard and of Init (OpenSCENARIO XML 1.3), as plain data. SI units throughout.
 
 #include <cstdint>
 #include <limits>
@@ -32,7 +31,7 @@ struct TransitionDynamics {
 
 struct SpeedAction {
   TransitionDynamics dynamics;
-  EntityIndex reference = no_entity;  ///< None: value is the speed.
+  EntityIndex reference = no_entity;  ///< no_entity: value is the speed.
   double value = 0.0;                 ///< m/s; added to the reference's speed, or multiplied with it if `factor`.
   bool factor = false;
   bool continuous = false;  ///< Follows the reference's speed without end.
@@ -49,7 +48,7 @@ struct DynamicConstraints {
 /// Speeds to be reached in sequence (speed_profile.hpp).
 struct SpeedProfileAction {
   struct Entry {
-    std::optional<double> time_s;  ///< After the entry before; absent: as soon as the bounds allow.
+    std::optional<double> time_s;  ///< Time after the entry before; absent: as soon as the bounds allow.
     double speed_mps = 0.0;
   };
   std::vector<Entry> entries;
@@ -87,7 +86,7 @@ struct SynchronizeAction {
 
 struct LaneChangeAction {
   TransitionDynamics dynamics;
-  EntityIndex reference = no_entity;  ///< None: `lane` is the lane's id.
+  EntityIndex reference = no_entity;  ///< no_entity: `lane` is the lane's id.
   int lane = 0;                       ///< With a reference: lanes to the left of its lane, as it drives.
   double target_offset_m = 0.0;       ///< From the centre of the target lane, positive to the left as the actor drives.
 };
@@ -95,7 +94,7 @@ struct LaneChangeAction {
 struct LaneOffsetAction {
   DynamicsShape shape = DynamicsShape::step;
   std::optional<double> max_lateral_acceleration_mps2;
-  EntityIndex reference = no_entity;  ///< None: `offset_m` is from the lane's centre.
+  EntityIndex reference = no_entity;  ///< no_entity: `offset_m` is from the lane's centre.
   double offset_m = 0.0;              ///< Positive to the left as the actor drives.
   bool continuous = false;            ///< Keeps the offset without end, once reached.
 };
@@ -163,7 +162,7 @@ struct TrafficSwarmAction {
   double inner_radius_m = 0.0;
   double semi_major_axis_m = 0.0;  ///< Along the central entity's x axis.
   double semi_minor_axis_m = 0.0;
-  double offset_m = 0.0;  ///< Of the ellipse's centre along the central entity's x axis.
+  double offset_m = 0.0;  ///< Offset of the ellipse's centre along the central entity's x axis.
   std::uint32_t vehicle_count = 0;
   double lowest_initial_speed_mps = 0.0,
          highest_initial_speed_mps = 0.0;  ///< Both 0: the traffic's own drivers choose.

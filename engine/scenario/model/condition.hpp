@@ -41,7 +41,7 @@ struct Comparison {
 struct SimulationTimeCondition {
   Comparison comparison;
 };
-/// Of a parameter or variable: Scenario::values.
+/// Condition on a parameter or variable: Scenario::values.
 struct ValueCondition {
   ValueIndex value = 0;
   Rule rule = Rule::equal;
@@ -118,7 +118,7 @@ struct TimeHeadwayCondition {
   Comparison comparison;
 };
 struct TimeToCollisionCondition {
-  EntityIndex entity = no_entity;  ///< None: `position`.
+  EntityIndex entity = no_entity;  ///< no_entity: `position`.
   Position position;
   DistanceMeasure measure;
   Comparison comparison;

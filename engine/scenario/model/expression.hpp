@@ -1,6 +1,5 @@
 #pragma once
-/// Parameters and expressions in attribute values (OpenSCENARIO XML 1.3, "Parameters",
-/// "Expressions").
+/// Parameters and expressions in attribute values (OpenSCENARIO XML 1.3, "Parameters", "Expressions").
 
 #include <functional>
 #include <map>

@@ -1,6 +1,5 @@
 #pragma once
-/// Positions as OpenSCENARIO XML 1.3 writes them, not yet looked up on a road (see
-/// resolve_position.hpp).
+/// Positions as OpenSCENARIO XML 1.3 writes them, not yet looked up on a road (see resolve_position.hpp).
 
 #include <cstddef>
 #include <memory>

@@ -85,7 +85,7 @@ struct Scenario {
   std::vector<Entity> entities;
   /// Name and value of the parameters that can be given from outside.
   std::vector<std::pair<std::string, std::string>> parameters;
-  std::vector<std::string> values;  ///< Of parameters and variables when the scenario begins.
+  std::vector<std::string> values;  ///< Values of parameters and variables when the scenario begins.
   std::vector<std::shared_ptr<const Route>> routes;
   std::vector<InitAction> init;
   std::vector<Story> stories;

@@ -1,6 +1,6 @@
 #pragma once
-/// Trajectories as OpenSCENARIO XML 1.3 writes them ("Trajectory", "Shape"), not yet laid on a road (see path.hpp). SI
-/// units.
+/// Trajectories as OpenSCENARIO XML 1.3 writes them ("Trajectory", "Shape"), not yet laid on a road (see
+/// engine/scenario/run/path.hpp). SI units.
 
 #include <optional>
 #include <string>

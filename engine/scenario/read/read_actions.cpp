@@ -114,7 +114,7 @@ TransitionDynamics read_dynamics(const Element& element) {
       DynamicsDimension::time);
   // Older files write a braking rate with its sign; the direction follows from the target.
   dynamics.value = std::abs(element.number("value"));
-  constexpr double least = 1e-6;  // Of a second, a metre or either's rate: smaller values are meant as 0.
+  constexpr double least = 1e-6;  // Least value in seconds, metres or either's rate: smaller ones are meant as 0.
   if (dynamics.value > 0.0 && dynamics.value < least) {
     element.warning(fmt::format("value=\"{}\" is as good as 0", dynamics.value),
                     "write 0, or a value that can be told from it");

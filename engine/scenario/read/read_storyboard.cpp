@@ -7,8 +7,7 @@
 namespace septet::scenario {
 namespace {
 
-/// The elements of a storyboard that have a state, from the outermost in; the order in which they
-/// are numbered.
+/// The elements of a storyboard that have a state, from the outermost in; the order in which they are numbered.
 constexpr std::array<std::pair<const char*, const char*>, 6> levels{{{"Story", "story"},
                                                                      {"Act", "act"},
                                                                      {"ManeuverGroup", "maneuverGroup"},

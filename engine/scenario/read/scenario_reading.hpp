@@ -33,17 +33,17 @@ struct Reading {
   /// A catalog is checked: its entries' names are declared elsewhere.
   bool names_are_elsewhere = false;
   std::vector<Element> used_entries;   ///< Entries of catalogs that were referred to.
-  std::vector<Element> init_elements;  ///< Of each action in Scenario::init.
+  std::vector<Element> init_elements;  ///< Element of each action in Scenario::init.
   /// Every position of the file, for checks once the road is known.
   std::vector<std::pair<Element, Position>> positions;
-  ElementIndex next_element = 1;           ///< Of the storyboard element to be read next.
-  std::vector<std::string> element_types;  ///< Of each storyboard element, in the words of the standard.
+  ElementIndex next_element = 1;           ///< Index of the storyboard element to be read next.
+  std::vector<std::string> element_types;  ///< Type of each storyboard element, in the words of the standard.
 };
 
 /// The parameters of `element`'s <ParameterDeclarations> over those of its surroundings. `assigned`
 /// values win; one of the wrong type or against its constraints is an error.
 Element with_declared_parameters(const Element& element, const Parameters& assigned = {});
-/// The same for the root, with values from outside the file, each of which must be declared.
+/// Parameters of the root, with values from outside the file, each of which must be declared.
 Element with_outside_parameters(const Element& root, const std::vector<ParameterValue>& values);
 
 /// Checks every entry of a catalog.

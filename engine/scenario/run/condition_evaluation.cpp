@@ -245,7 +245,7 @@ bool edge_of(Edge edge, const ConditionState& before, bool value) {
   return edge == Edge::rising_or_falling || value == (edge == Edge::rising);
 }
 
-/// The value of `delay` ago; a pulse of one step is never lost between two steps.
+/// The value a delay ago; a pulse of one step is never lost between two steps.
 bool delayed_value(const Condition& condition, double time_s, bool value, ConditionState& state) {
   if (condition.delay_s <= 0.0) return value;
   const bool newest = state.delayed.empty() ? state.delayed_value : state.delayed.back().value;

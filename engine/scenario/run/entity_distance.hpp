@@ -13,8 +13,7 @@ struct Target {
   const BoundingBox* box = nullptr;
 };
 
-/// Metres, never negative; infinite where the two are not on connected roads and the measure is
-/// along the road.
+/// Metres, never negative; infinite where the two are not on connected roads and the measure is along the road.
 double distance_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from, const Target& target,
                   const DistanceMeasure& measure);
 

@@ -70,7 +70,7 @@ double lateral_step_m(const road::RoadNetwork& network, const Scenario& scenario
   return entity.along_s ? entity.lane.offset_m - before : before - entity.lane.offset_m;
 }
 
-/// Where the target lane ends but the road continues, the entity keeps its t in the lane at that place.
+/// Steps into the lane at the entity's t where the target lane ends but the road continues.
 bool step_into_lane_beside(const road::RoadNetwork& network, EntityState& entity, Progress& progress) {
   const auto& on = network.roads[progress.lane.road];
   const double t = lateral_t_m(network, progress.lane);

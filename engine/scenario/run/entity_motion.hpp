@@ -1,7 +1,6 @@
 #pragma once
-/// The motion of the entities that a scenario drives: a follower of the road's lanes whose rear
-/// axle runs exactly where the speed and lateral transitions say, with a heading tangent to its
-/// path.
+/// The motion of the entities that a scenario drives: a follower of the road's lanes whose rear axle runs exactly where
+/// the speed and lateral transitions say, with a heading tangent to its path.
 
 #include <vector>
 

@@ -36,7 +36,7 @@ double reference_m(const road::RoadNetwork& network, const KeepDistanceAction& w
   return glm::dot(apart, driving_axis(network, actor, what.lateral));
 }
 
-/// Between the reference points where the boxes touch.
+/// Distance between the reference points where the boxes touch.
 double boxes_m(const BoundingBox& front, const BoundingBox& back, bool lateral) {
   if (!lateral) return back.front_m() - front.rear_m();
   return back.centre_m.y + 0.5 * back.width_m - (front.centre_m.y - 0.5 * front.width_m);

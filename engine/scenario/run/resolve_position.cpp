@@ -39,7 +39,7 @@ Placement place_at(const RigidTransform& pose, const road::RoadNetwork& network,
 
 namespace {
 
-/// On a lane, with an orientation relative to its direction of travel or to the world.
+/// Place on a lane, with an orientation relative to its direction of travel or to the world.
 std::optional<Placement> place_on_lane(const road::RoadNetwork& network, const road::LanePosition& lane,
                                        const Orientation& orientation) {
   const auto& section = road::section_at(network.roads[lane.road], lane.s_m);

@@ -39,7 +39,7 @@ struct SpeedControl {
   bool active = false;
   ElementIndex action = no_element;
   Transition transition;
-  EntityIndex follow = no_entity;  ///< Continuous: the speed is follow_factor · v + follow_delta of this entity.
+  EntityIndex follow = no_entity;  ///< Continuous: the speed is follow_factor · v + follow_delta_mps of this entity.
   double follow_factor = 1.0, follow_delta_mps = 0.0;
   std::shared_ptr<const SpeedProfile> profile;  ///< Added to the speed of `follow`, if there is one.
   double profile_s = 0.0;
@@ -51,7 +51,7 @@ struct SpeedControl {
 struct LateralControl {
   bool active = false;
   ElementIndex action = no_element;
-  Transition transition;     ///< Of LanePosition::offset_m, along +t.
+  Transition transition;     ///< Transition of LanePosition::offset_m, along +t.
   bool lane_change = false;  ///< Indicates while it runs.
   bool to_the_left = false;
   std::shared_ptr<const DistanceControl> distance;  ///< Instead of the transition.
@@ -91,7 +91,7 @@ struct EntityState {
   bool on_road = false;   ///< `lane` holds; else the entity stands at its given pose.
   road::LanePosition lane;
   bool along_s = true;              ///< It drives towards increasing s.
-  double heading_offset_rad = 0.0;  ///< Of the entity against its lane's direction, from its given orientation.
+  double heading_offset_rad = 0.0;  ///< Heading of the entity against its lane's direction, from its given orientation.
   RigidTransform world_from_entity;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
@@ -103,7 +103,7 @@ struct EntityState {
   double travelled_m = 0.0;
   double at_road_end_s = 0.0;  ///< Time since it came to the end of its road: it has left.
   double standing_s = 0.0;
-  double wheel_angle_rad = 0.0;  ///< Of the wheels' rolling, [0, 2π).
+  double wheel_angle_rad = 0.0;  ///< Angle of the wheels' rolling, [0, 2π).
   Lamps lamps;
   SpeedControl speed_control;
   LateralControl lateral_control;
@@ -125,7 +125,7 @@ struct ElementState {
 struct ConditionState {
   bool evaluated = false;
   bool last_value = false;
-  std::uint64_t sequence = 0;  ///< Of the last evaluation.
+  std::uint64_t sequence = 0;  ///< Sequence number of the last evaluation.
   bool delayed_value = false;
   struct Change {
     double time_s = 0.0;

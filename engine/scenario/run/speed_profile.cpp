@@ -6,7 +6,7 @@
 namespace septet::scenario {
 namespace {
 
-/// Time of the acceleration's rise to `acceleration` and its fall, per m/s²; 0 where its change is unbounded.
+/// Time of an acceleration's rise to its peak and its fall, per m/s² of the peak; 0 where its change is unbounded.
 double rise_s_per_mps2(double rise_mps3, double fall_mps3) { return 1.0 / rise_mps3 + 1.0 / fall_mps3; }
 
 struct Lay {
@@ -20,7 +20,7 @@ struct Lay {
     speed_mps += duration_s * (acceleration_mps2 + 0.5 * jerk_mps3 * duration_s);
   }
 
-  /// To a speed in a time, or as soon as possible: the acceleration rises, stays and falls again (a trapezoid).
+  /// Goes to a speed in a time, or as soon as possible: the acceleration rises, stays and falls again (a trapezoid).
   void go_to(double target_mps, double time_s, const DynamicConstraints& limits, bool smooth) {
     const double change = std::abs(target_mps - speed_mps);
     const double sign = target_mps >= speed_mps ? 1.0 : -1.0;

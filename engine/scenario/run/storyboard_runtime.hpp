@@ -31,8 +31,8 @@ struct StoryboardEvent {
 /// The storyboard's requests to other stages.
 struct StepResult {
   std::vector<StoryboardEvent> events;
-  std::vector<TrafficSwarmAction> swarms;    ///< To be started.
-  std::vector<EffectAction> effects;         ///< To be spilled, ignited, extinguished.
+  std::vector<TrafficSwarmAction> swarms;    ///< Swarms to be started.
+  std::vector<EffectAction> effects;         ///< Effects to be spilled, ignited, extinguished.
   std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.

@@ -13,7 +13,7 @@ struct BlackIce {
   road::RoadIndex road = 0;
   std::int32_t lane = 0;
   double s_m = 0.0, length_m = 0.0;
-  double thickness_m = 0.004;  ///< At first.
+  double thickness_m = 0.004;  ///< Initial thickness.
 };
 
 /// Edges of the ice at a station, in t: it freezes outwards from standing water, and narrows towards its ends. Empty

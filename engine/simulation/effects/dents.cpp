@@ -122,7 +122,7 @@ std::optional<DentingShape> denting_shape(ObstacleKind kind) {
     case ObstacleKind::tree:
     case ObstacleKind::post:
       return DentingShape{std::max(profile.radius_m, narrowest_dent_m), profile.height_m};
-    case ObstacleKind::ground_face:  // Its height is not told; a bumper's is chosen, as of a rail.
+    case ObstacleKind::ground_face:  // Its height is not known; a bumper's is chosen, as of a rail.
       return DentingShape{longer_than_a_vehicle_m, roadside::profile_of(ObstacleKind::guard_rail).height_m};
     default:
       return DentingShape{longer_than_a_vehicle_m, profile.height_m};

@@ -16,7 +16,7 @@
 namespace septet::simulation {
 namespace {
 
-/// In the order of debris::Part.
+/// Names in the order of debris::Part.
 constexpr std::array<std::string_view, debris::part_count> part_name_table{
     "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab"};
 

@@ -31,8 +31,8 @@ struct EffectsState {
   IceState ice;
   Random random{0};
   PublishedEffects published;
-  std::uint64_t hash =
-      0;  ///< Of all steps so far, chained: two drives that ever differed in their effects differ in it.
+  /// Hash of all steps so far, chained: two drives that ever differed in their effects differ in it.
+  std::uint64_t hash = 0;
   /// The road's surface as one plane per square metre near debris: a cache, not state.
   std::unordered_map<std::uint64_t, debris::GroundPoint> surface_memory;
   std::optional<road::RoadPosition> surface_hint;

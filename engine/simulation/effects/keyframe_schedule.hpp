@@ -33,7 +33,7 @@ struct PublishedEffect {
 
 struct PublishedEffects {
   std::vector<EffectKeyframe> keyframes;  ///< Ascending id: the snapshot's list.
-  std::vector<PublishedEffect> channels;  ///< Of the same ids.
+  std::vector<PublishedEffect> channels;  ///< Channels of the same ids.
 };
 
 struct KeyframeLimits {

@@ -12,7 +12,7 @@
 #include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
-namespace septet::server {
+namespace septet::simulation {
 namespace {
 
 /// 200 m straight along x, one lane each way, with what the road's objects are.
@@ -30,21 +30,21 @@ road::RoadNetwork straight_road(const std::string& objects) {
   return std::move(*network);
 }
 
-double friction_at(const road::RoadNetwork& roads, const simulation::RoadWeather& weather, double x_m, double y_m) {
+double friction_at(const road::RoadNetwork& roads, const RoadWeather& weather, double x_m, double y_m) {
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  REQUIRE(simulation::find_wheel_ground(roads, nullptr, weather, {x_m, y_m, 0.3}, false, place, wheel).has_value());
+  REQUIRE(find_wheel_ground(roads, nullptr, weather, {x_m, y_m, 0.3}, false, place, wheel).has_value());
   return wheel.friction;
 }
 
 /// The motorway with nothing on it and nothing beside it but the driver's car.
 struct EmptyMotorway {
-  simulation::Model model = *shipped_drive("behind-ambulance", "desktop").model;
-  simulation::State state;
+  Model model = *server::shipped_drive("behind-ambulance", "desktop").model;
+  State state;
 
   EmptyMotorway() {
     model.obstacles = nullptr;
-    auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
+    auto begun = initial_state(model, traffic::own_traffic(model.roads, 1));
     REQUIRE(begun.has_value());
     state = std::move(*begun);
     state.traffic->stop();
@@ -58,7 +58,7 @@ TEST_CASE("a patch of ice lies under one wheel and not under the others") {
   const auto roads = straight_road(
       "<object id=\"1\" type=\"patch\" s=\"50\" t=\"-1\" length=\"2\" width=\"0.8\" hdg=\"0\"><material "
       "surface=\"ice\"/></object>");
-  const simulation::RoadWeather frost{.temperature_k = 268.15};
+  const RoadWeather frost{.temperature_k = 268.15};
   const double ice = vehicle::peak_friction(vehicle::SurfaceKind::ice, frost.temperature_k);
   CHECK(friction_at(roads, frost, 50.0, -1.0) == doctest::Approx(ice));
   CHECK(friction_at(roads, frost, 50.0, -2.6) == doctest::Approx(0.9));
@@ -81,7 +81,7 @@ TEST_CASE("far from every road there is no surface to find") {
   const auto roads = straight_road("");
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  CHECK_FALSE(simulation::find_wheel_ground(roads, nullptr, {}, {50.0, 500.0, 0.3}, false, place, wheel).has_value());
+  CHECK_FALSE(find_wheel_ground(roads, nullptr, {}, {50.0, 500.0, 0.3}, false, place, wheel).has_value());
 }
 
 TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the road there is none") {
@@ -99,8 +99,8 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   const auto edge = [&](const Vec3& centre_m, const Vec2& ahead) {
     vehicle::WheelGround wheel;
     road::RoadPosition place;
-    REQUIRE(simulation::find_wheel_ground(*roads, nullptr, {}, centre_m, false, place, wheel).has_value());
-    simulation::find_kerb(*roads, nullptr, centre_m, ahead, 0.32, place, wheel);
+    REQUIRE(find_wheel_ground(*roads, nullptr, {}, centre_m, false, place, wheel).has_value());
+    find_kerb(*roads, nullptr, centre_m, ahead, 0.32, place, wheel);
     return wheel.edge_m;
   };
   CHECK_FALSE(edge({50.0, -2.0, 0.3}, {0.0, -1.0}).has_value());
@@ -141,8 +141,8 @@ TEST_CASE("an island and a kerb stone that are objects are met as kerbs and pain
   const auto met = [&](double x_m, double y_m, const Vec2& ahead) {
     vehicle::WheelGround wheel;
     road::RoadPosition place;
-    REQUIRE(simulation::find_wheel_ground(roads, &raised, {}, {x_m, y_m, 0.3}, false, place, wheel).has_value());
-    simulation::find_kerb(roads, &raised, {x_m, y_m, 0.3}, ahead, 0.32, place, wheel);
+    REQUIRE(find_wheel_ground(roads, &raised, {}, {x_m, y_m, 0.3}, false, place, wheel).has_value());
+    find_kerb(roads, &raised, {x_m, y_m, 0.3}, ahead, 0.32, place, wheel);
     return Met{wheel.point_m.z, wheel.edge_m};
   };
   const Vec2 along(1.0, 0.0), left(0.0, 1.0);
@@ -193,13 +193,13 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
   for (const bool as_object : {false, true}) {
     CAPTURE(as_object);
     EmptyMotorway motorway;
-    simulation::Model& model = motorway.model;
-    simulation::State& state = motorway.state;
-    Snapshot now = simulation::capture_snapshot(model, state);
+    Model& model = motorway.model;
+    State& state = motorway.state;
+    Snapshot now = capture_snapshot(model, state);
     const int lane = now.driver_car.lane;
     REQUIRE(lane < 0);
     road::Road& road = model.roads.roads[now.driver_car.road];
-    const RigidTransform start = find_participant(now, simulation::driver_participant)->world_from_vehicle;
+    const RigidTransform start = find_participant(now, driver_participant)->world_from_vehicle;
     if (as_object) {
       const auto place = road::locate(model.roads, Vec2(start.position_m));
       REQUIRE(place.has_value());
@@ -226,10 +226,10 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
     }
     const Quat to_the_right = glm::angleAxis(-0.5, Vec3(0.0, 0.0, 1.0));
     state.car = vehicle::standstill(model.car, {start * Vec3(0.0, 0.6, 0.0), to_the_right * start.orientation}, 8.0);
-    std::vector<simulation::Event> events;
-    for (int tick = 0; tick < 240; ++tick) now = simulation::server_step(model, {}, state, events);
+    std::vector<Event> events;
+    for (int tick = 0; tick < 240; ++tick) now = server_step(model, {}, state, events);
     std::vector<std::string> touches;
-    for (const simulation::Event& event : events)
+    for (const Event& event : events)
       if (event.kind == "kerb") touches.push_back(event.detail);
     REQUIRE(touches.size() >= 4);
     CHECK(touches[0].find("wheel=front_right height_m=0.1") == 0);
@@ -247,10 +247,10 @@ TEST_CASE("a kerb struck square at 15 m/s damages both front wheels and the log 
   for (const double speed_mps : {15.0, 2.0}) {
     CAPTURE(speed_mps);
     EmptyMotorway motorway;
-    simulation::Model& model = motorway.model;
-    simulation::State& state = motorway.state;
-    const Snapshot before = simulation::capture_snapshot(model, state);
-    const RigidTransform start = find_participant(before, simulation::driver_participant)->world_from_vehicle;
+    Model& model = motorway.model;
+    State& state = motorway.state;
+    const Snapshot before = capture_snapshot(model, state);
+    const RigidTransform start = find_participant(before, driver_participant)->world_from_vehicle;
     const auto place = road::locate(model.roads, Vec2(start.position_m));
     REQUIRE(place.has_value());
     road::RoadObject kerb;  // Across the whole road, its edge some metres before the front axle.
@@ -269,11 +269,10 @@ TEST_CASE("a kerb struck square at 15 m/s damages both front wheels and the log 
     state.car = vehicle::standstill(model.car, start, speed_mps);
     DriverInput rolling;
     rolling.selector = GearSelector::neutral;
-    std::vector<simulation::Event> events;
-    for (int tick = 0; tick < (speed_mps > 10.0 ? 120 : 480); ++tick)
-      simulation::server_step(model, rolling, state, events);
+    std::vector<Event> events;
+    for (int tick = 0; tick < (speed_mps > 10.0 ? 120 : 480); ++tick) server_step(model, rolling, state, events);
     const auto told = [&](const std::string& text) {
-      return std::ranges::count_if(events, [&](const simulation::Event& event) {
+      return std::ranges::count_if(events, [&](const Event& event) {
         return (event.kind + " " + event.detail).find(text) != std::string::npos;
       });
     };
@@ -287,4 +286,4 @@ TEST_CASE("a kerb struck square at 15 m/s damages both front wheels and the log 
   }
 }
 
-}  // namespace septet::server
+}  // namespace septet::simulation

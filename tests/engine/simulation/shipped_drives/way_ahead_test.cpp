@@ -11,19 +11,19 @@
 #include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
-namespace septet::server {
+namespace septet::simulation {
 namespace {
 
 /// A scenario's road without traffic, and its ambulance.
 struct EmptyRoad {
-  LoadedDrive drive;
-  std::vector<simulation::Event> events;
-  simulation::State state;
+  server::LoadedDrive drive;
+  std::vector<Event> events;
+  State state;
   scenario::EntityIndex ambulance = scenario::no_entity;
   Snapshot now;
 
-  explicit EmptyRoad(const std::string& scenario = "rescue-lane") : drive(shipped_drive(scenario, "desktop")) {
-    auto begun = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
+  explicit EmptyRoad(const std::string& scenario = "rescue-lane") : drive(server::shipped_drive(scenario, "desktop")) {
+    auto begun = initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
     REQUIRE(begun.has_value());
     state = std::move(*begun);
     state.traffic->stop();
@@ -43,9 +43,9 @@ struct EmptyRoad {
   }
   /// The driver's car beside the ambulance, its middle so far to the left, as fast.
   void keep_beside(double left_m, double seconds) {
-    for (int tick = 0; tick < seconds * simulation::tick_rate_hz; ++tick) {
+    for (int tick = 0; tick < seconds * tick_rate_hz; ++tick) {
       put_car(0.0, left_m, entity().speed_mps);
-      drive_for(1.0 / simulation::tick_rate_hz);
+      drive_for(1.0 / tick_rate_hz);
       hardest_mps2 = std::min(hardest_mps2, entity().acceleration_mps2);
     }
   }
@@ -53,11 +53,11 @@ struct EmptyRoad {
   void drive_for(double seconds) {
     DriverInput input;
     input.brake = 0.5;
-    for (int tick = 0; tick < seconds * simulation::tick_rate_hz; ++tick) {
-      now = simulation::server_step(*drive.model, input, state, events);
-      const Participant* car = find_participant(now, simulation::driver_participant);
-      const Participant* other = find_participant(now, simulation::first_scripted_participant + ambulance);
-      if (other && simulation::contact_of(simulation::body_box(*car), simulation::body_box(*other))) touched = true;
+    for (int tick = 0; tick < seconds * tick_rate_hz; ++tick) {
+      now = server_step(*drive.model, input, state, events);
+      const Participant* car = find_participant(now, driver_participant);
+      const Participant* other = find_participant(now, first_scripted_participant + ambulance);
+      if (other && contact_of(body_box(*car), body_box(*other))) touched = true;
     }
   }
   bool touched = false;
@@ -73,10 +73,9 @@ TEST_CASE("an ambulance stops behind a car that stands in its way and goes on wh
   road.drive_for(25.0);
   CHECK_FALSE(road.touched);
   CHECK(road.entity().speed_mps < 0.5);
-  const auto& p = find_participant(road.now, simulation::first_scripted_participant + road.ambulance)
-                      ->world_from_vehicle.position_m;
-  const double away_m =
-      glm::distance(p, find_participant(road.now, simulation::driver_participant)->world_from_vehicle.position_m);
+  const auto& p =
+      find_participant(road.now, first_scripted_participant + road.ambulance)->world_from_vehicle.position_m;
+  const double away_m = glm::distance(p, find_participant(road.now, driver_participant)->world_from_vehicle.position_m);
   CHECK(away_m > 6.0);
   CHECK(away_m < 12.0);
   road.put_car(8.0, 4.5);  // Aside.
@@ -100,7 +99,7 @@ TEST_CASE(
   EmptyRoad road("behind-ambulance");
   while (!road.entity().lateral_control.active ||
          road.now.simulated_time_s < 10.0) {  // Between the lanes first; then back.
-    road.drive_for(1.0 / simulation::tick_rate_hz);
+    road.drive_for(1.0 / tick_rate_hz);
     REQUIRE(road.now.simulated_time_s < 60.0);
   }
   // Where its action takes it, which the lane's offset knows; a car is 3 m beside the body's middle there.
@@ -123,7 +122,7 @@ TEST_CASE("a car across the whole bend is minded where the bend leads and not st
   road.drive_for(10.0);
   for (const double ahead_m : {60.0, 120.0}) {
     road.put_car(ahead_m, 0.0);
-    road.drive_for(1.0 / simulation::tick_rate_hz);
+    road.drive_for(1.0 / tick_rate_hz);
     REQUIRE(road.entity().in_the_way.has_value());
     CHECK(road.entity().in_the_way->gap_m == relative(ahead_m - 5.9, 0.05));
   }
@@ -154,7 +153,7 @@ TEST_CASE("an ambulance drives over what lies on the road at walking pace and hu
 TEST_CASE("an ambulance that comes to the end of its road leaves, the log says so, and the drive goes on") {
   EmptyRoad road;
   road.drive_for(0.5);
-  CHECK(find_participant(road.now, simulation::first_scripted_participant + road.ambulance) != nullptr);
+  CHECK(find_participant(road.now, first_scripted_participant + road.ambulance) != nullptr);
   road::LanePosition& lane = road.entity().lane;
   lane.s_m = road.drive.model->roads.roads[lane.road].length_m - 1.0;
   // On to the last road of the chain.
@@ -165,10 +164,10 @@ TEST_CASE("an ambulance that comes to the end of its road leaves, the log says s
   }
   lane.s_m -= 5.0;
   road.drive_for(1.0);
-  CHECK(find_participant(road.now, simulation::first_scripted_participant + road.ambulance) == nullptr);
-  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &simulation::Event::detail) == 1);
+  CHECK(find_participant(road.now, first_scripted_participant + road.ambulance) == nullptr);
+  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &Event::detail) == 1);
   road.drive_for(1.0);
-  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &simulation::Event::detail) == 1);
+  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &Event::detail) == 1);
 }
 
-}  // namespace septet::server
+}  // namespace septet::simulation

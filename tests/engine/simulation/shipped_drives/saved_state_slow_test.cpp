@@ -19,27 +19,26 @@
 #include "tests/checkout.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
-namespace septet::server {
+namespace septet::simulation {
 namespace {
-using simulation::restore_state, simulation::save_state, simulation::State;
 
 /// A drive by its inputs: those of a simulated driver, which no state holds, are taken down while he drives.
 struct Drive {
-  LoadedDrive loaded;
+  server::LoadedDrive loaded;
   State state;
-  std::vector<simulation::Event> events;
+  std::vector<Event> events;
 
-  Snapshot step(const DriverInput& input) { return simulation::server_step(*loaded.model, input, state, events); }
+  Snapshot step(const DriverInput& input) { return server_step(*loaded.model, input, state, events); }
 };
 
 Drive begin(const std::string& scenario, std::uint64_t seed) {
-  LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
-  auto state = simulation::initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, seed));
+  server::LoadedDrive loaded = server::shipped_drive(scenario, "seven-screens", seed);
+  auto state = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, seed));
   REQUIRE(state.has_value());
   return {std::move(loaded), std::move(*state), {}};
 }
 
-Expected<State> restored(const simulation::Model& model, std::span<const std::byte> bytes) {
+Expected<State> restored(const Model& model, std::span<const std::byte> bytes) {
   return restore_state(model, traffic::own_traffic(model.roads, model.seed), bytes, "test");
 }
 
@@ -62,10 +61,10 @@ std::vector<SavedDrive> drive_and_save(const std::string& scenario, const std::s
                                        std::vector<Tick> at) {
   constexpr Tick further = 480;
   Drive drive = begin(scenario, seed);
-  auto seat = open_driver_seat(rig::Car{.driver = driver}, seed, drive.loaded.model);
+  auto seat = server::open_driver_seat(rig::Car{.driver = driver}, seed, drive.loaded.model);
   REQUIRE(seat.has_value());
   std::vector<SavedDrive> saved;
-  Snapshot now = simulation::capture_snapshot(*drive.loaded.model, drive.state);
+  Snapshot now = capture_snapshot(*drive.loaded.model, drive.state);
   while (now.tick <= at.back() + further) {
     for (SavedDrive& each : saved)
       if (now.tick == each.at + further) each.end = *save_state(*drive.loaded.model, drive.state);
@@ -76,7 +75,7 @@ std::vector<SavedDrive> drive_and_save(const std::string& scenario, const std::s
       saved.push_back({now.tick, now.state_hash, std::move(*bytes), keyframes(now, smoke::keyframe_kind),
                        keyframes(now, debris::keyframe_kind)});
     }
-    if (seat->look) seat->look(now);
+    for (const auto& device : seat->devices) device->see(now);
     const DriverInput input = seat->car->poll(drive.state.time_s()).input;
     now = drive.step(input);
     for (SavedDrive& each : saved) {
@@ -90,15 +89,15 @@ std::vector<SavedDrive> drive_and_save(const std::string& scenario, const std::s
 
 void check_that_it_goes_on(const std::string& scenario, std::uint64_t seed, const SavedDrive& saved) {
   INFO(scenario << " seed " << seed << " tick " << saved.at);
-  const LoadedDrive fresh = shipped_drive(scenario, "seven-screens", seed);
+  const server::LoadedDrive fresh = server::shipped_drive(scenario, "seven-screens", seed);
   auto state = restored(*fresh.model, saved.bytes);
   REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
   CHECK(*save_state(*fresh.model, *state) == saved.bytes);
-  CHECK(simulation::hash_state(*state) == saved.hash);
-  std::vector<simulation::Event> events;
+  CHECK(hash_state(*state) == saved.hash);
+  std::vector<Event> events;
   std::vector<std::uint64_t> hashes;
   for (const DriverInput& input : saved.inputs)
-    hashes.push_back(simulation::server_step(*fresh.model, input, *state, events).state_hash);
+    hashes.push_back(server_step(*fresh.model, input, *state, events).state_hash);
   CHECK(hashes == saved.hashes);
   // More than the hash: everything that is kept.
   CHECK(*save_state(*fresh.model, *state) == saved.end);
@@ -154,7 +153,7 @@ TEST_CASE(
     "so many words") {
   Drive drive = begin("winter-lorry", 1);
   const Bytes bytes = *save_state(*drive.loaded.model, drive.state);
-  const auto why_not = [](const simulation::Model& model, const Bytes& what) {
+  const auto why_not = [](const Model& model, const Bytes& what) {
     const auto state = restored(model, what);
     REQUIRE(!state.has_value());
     return state.error().what;
@@ -174,7 +173,7 @@ TEST_CASE(
     void append_participants(std::vector<Participant>&) const override {}
     void add_to_hash(StateHash&) const override {}
   };
-  auto with_other = simulation::initial_state(*drive.loaded.model, std::make_unique<Elsewhere>());
+  auto with_other = initial_state(*drive.loaded.model, std::make_unique<Elsewhere>());
   REQUIRE(with_other.has_value());
   CHECK(save_state(*drive.loaded.model, *with_other).error().what.find("another program moves the traffic") !=
         std::string::npos);
@@ -188,16 +187,16 @@ TEST_CASE("two states that are the same but for what only a later tick will show
   const DriverInput input{.accelerator = 0.3};
   while (drive.state.tick < 700) drive.step(input);
   State& state = drive.state;
-  const std::uint64_t before = simulation::hash_state(state);
+  const std::uint64_t before = hash_state(state);
   const auto differs_with = [&](auto& member, const auto& other) {
     const auto kept = std::exchange(member, other);
-    const bool differs = simulation::hash_state(state) != before;
+    const bool differs = hash_state(state) != before;
     member = kept;
-    return differs && simulation::hash_state(state) == before;
+    return differs && hash_state(state) == before;
   };
   CHECK(differs_with(state.car.wheels[1].force_n.y, 1234.5));  // Bends the suspension in the next step.
   CHECK(differs_with(state.touching, std::vector<ParticipantId>{9999}));
-  CHECK(differs_with(state.kerbs[2], simulation::KerbTouch{0.1, 1.0}));
+  CHECK(differs_with(state.kerbs[2], KerbTouch{0.1, 1.0}));
   CHECK(differs_with(state.effects.crashes.struck_by_driver, std::vector<ParticipantId>{9999}));
   CHECK(differs_with(state.effects.random, Random(77)));
   scenario::EntityState& lorry = state.scenario.entities.back();
@@ -234,16 +233,15 @@ TEST_CASE("a state that was changed with care is refused or is one that can be d
     const std::size_t at = 40 + random.below(changed.size() - 60);
     for (std::size_t n = 0; n < 1 + random.below(8); ++n) changed[at + n] = static_cast<std::byte>(random.below(256));
     sign(changed);
-    const simulation::Model& model = *drive.loaded.model;
-    auto state =
-        simulation::restore_altered_state(model, traffic::own_traffic(model.roads, model.seed), changed, "test");
+    const Model& model = *drive.loaded.model;
+    auto state = restore_altered_state(model, traffic::own_traffic(model.roads, model.seed), changed, "test");
     if (!state) continue;
     ++accepted;
-    for (int tick = 0; tick < 2; ++tick) simulation::server_step(*drive.loaded.model, input, *state, drive.events);
+    for (int tick = 0; tick < 2; ++tick) server_step(*drive.loaded.model, input, *state, drive.events);
   }
   MESSAGE(accepted << " of 1,000 altered states are driven on with");
   CHECK(accepted > 0);
   CHECK(accepted < 1000);
 }
 
-}  // namespace septet::server
+}  // namespace septet::simulation
