@@ -104,6 +104,16 @@ with tempfile.TemporaryDirectory() as home:
         check("a failure is not kept", one.test(one.root / "scenarios/none.xodr") == (1, True))
         check("a test that mounts is always run", one.test(one.root / "scenarios/road.xodr", "-n", "a full disk")[1])
     check("a test reads what is not of the checkout", one.test("/etc/hostname" if os.path.exists("/etc/hostname") else "/etc/passwd") == (0, True))
+    lump, reader = one.root / "scenarios/lump", [one.root / ".ci/verdict", f"--build={one.build}", "--seen=scenarios/lump", "--", "/bin/grep", "-q", "good"]
+    lump.write_text("good")
+
+    def read_again():
+        said = subprocess.run([*reader, lump], env={"SEPTET_VERDICTS": str(one.home / "verdicts")}, capture_output=True, check=False)
+        return said.returncode, b"Kept" not in said.stdout
+
+    check("what is seen by another's eye is read once", [read_again(), read_again()] == [(0, True), (0, False)])
+    lump.write_text("evil")
+    check("what is seen by another's eye fails each time after a change", [read_again(), read_again()] == [(1, True), (1, True)])
     (one.home / "file").write_text("")
     for _ in range(2):
         check("where no verdict can be kept, each test runs", one.test(SEPTET_VERDICTS=str(one.home / "file/verdicts")) == (0, True))
