@@ -11,7 +11,7 @@ namespace septet::car_io {
 
 struct ActuatorGuard {
   double fall_s = 0.2, rise_s = 1.0;
-  double share = 1.0;  ///< Of the request.
+  double share = 1.0;  ///< Share of the request.
   bool is_cut = false;
 
   void rearm() { is_cut = false; }

@@ -27,7 +27,7 @@ struct ActuatorWriterOptions {
   double retry_s = 0.5;
   bool sticky = false;
   bool tells_cut = true;  ///< False: the owner, which polls `is_cut`, reports it.
-  double rise_s = 0.0;    ///< Of the return after a fault.
+  double rise_s = 0.0;    ///< Duration of the return after a fault.
 };
 
 class ActuatorWriter {

@@ -29,7 +29,7 @@ struct CarReading {
   CarSwitches switches;         ///< For a stale car the last state of the emergency stop, and no re-arming.
   std::optional<Bytes> report;  ///< Newest report since the last poll, as read.
   bool is_connected = false;
-  bool is_stale = false;  ///< Also while not connected.
+  bool is_stale = false;  ///< True also while not connected.
 };
 
 /// Input of a silent seat: accelerator and horn are released; the rest is held.

@@ -34,12 +34,13 @@ struct KeyboardSettings {
   double lateral_acceleration_mps2 = 5.0;  ///< At full steering, once the lock no longer limits.
   double wheelbase_m = 2.8;
   double steering_ratio = 16.0;     ///< Hand wheel over road wheel.
-  double largest_angle_rad = 7.0;   ///< Of the hand wheel, at a standstill.
+  double largest_angle_rad = 7.0;   ///< Angle of the hand wheel, at a standstill.
   double steer_time_s = 0.45;       ///< From straight to the target, at the rate of a key held long.
   double return_time_s = 0.25;      ///< From the target to straight.
   double hand_speed_radps = 4.5;    ///< At most, away from straight: the times above apply to small targets.
   double return_speed_radps = 9.0;  ///< At most, back to straight, and from one side to the other.
-  double press_time_s = 0.35, release_time_s = 0.15;  ///< Of a pedal; of the brake at the rate of a key held long.
+  /// Travel times of a pedal; for the brake at the rate of a key held long.
+  double press_time_s = 0.35, release_time_s = 0.15;
   /// A fresh key turns the wheel, and presses the brake, at this share of the rate; at all of it once held for this
   /// long.
   double first_share = 0.2, steer_growth_s = 0.4, brake_growth_s = 0.8;
@@ -81,7 +82,7 @@ struct GamepadState {
 };
 
 struct GamepadSettings {
-  double dead_zone = 0.12;  ///< Of the stick.
+  double dead_zone = 0.12;  ///< Share of the stick's travel.
   double exponent = 1.8;    ///< Finer near the middle.
   KeyboardSettings keys;    ///< Largest angle by speed.
   double steering_rate_radps = 9.0;

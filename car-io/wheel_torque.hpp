@@ -9,7 +9,7 @@
 namespace septet::car_io {
 
 struct WheelTorqueState {
-  double torque_nm = 0.0;  ///< As last returned.
+  double torque_nm = 0.0;  ///< Last returned value.
   double wheel_rad = 0.0;
   bool has_begun = false;
 };

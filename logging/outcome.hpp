@@ -22,7 +22,7 @@ struct ScreenOutcome {
   std::uint64_t refused_ticks = 0;       ///< Received, but unreadable.
   double frame_ms_p50 = 0.0,
          frame_ms_p99 = 0.0;  ///< From picture to picture: drawing, device, display and waiting for others.
-  double submit_ms_p50 = 0.0, submit_ms_p99 = 0.0;  ///< Of that, until the picture was handed to the device.
+  double submit_ms_p50 = 0.0, submit_ms_p99 = 0.0;  ///< Part of that until the picture was handed to the device.
   /// Over all its lives, in real time: from reading the driver's controls to the screen's report that a picture with
   /// them is shown. Empty in lockstep, and if it has shown no picture.
   std::optional<double> report_to_picture_ms_p50, report_to_picture_ms_p99;
@@ -37,7 +37,7 @@ struct DriveOutcome {
   std::uint64_t ticks = 0;
   double simulated_s = 0.0, wall_s = 0.0;
   std::uint64_t state_hash = 0;   ///< After the last tick; sixteen hexadecimal digits in the file.
-  std::uint64_t inputs_hash = 0;  ///< Of all driver inputs (input_hash.hpp): detects alterations.
+  std::uint64_t inputs_hash = 0;  ///< Hash of all driver inputs (input_hash.hpp): detects alterations.
   std::uint64_t late_ticks = 0;   ///< Real time: ticks begun more than a tick late.
   /// Numbers that were NaN or beyond all bounds and were reset; the events name participant and time.
   std::uint64_t bad_numbers = 0;

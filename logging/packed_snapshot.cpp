@@ -17,7 +17,7 @@ constexpr std::byte packed_version{3};  // The wire's own bytes begin with 2.
 constexpr std::uint8_t escape = 255;    // Marks a difference that lies behind the columns.
 constexpr std::size_t most_column_bytes = max_wire_participants * participant_field_count * 11;
 
-/// What is expected of the participants of `ids`; of new ones every field is 0.
+/// Prediction for the participants of `ids`; for new ones every field is 0.
 std::vector<WireParticipant> expect(const std::vector<ParticipantId>& ids, const std::vector<WireParticipant>& moved_on,
                                     const ExpectationErrors& errors) {
   std::vector<WireParticipant> expected;

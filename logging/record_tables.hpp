@@ -18,7 +18,7 @@ struct InsertStatements {
   Statement snapshot, input, scene_edit, sample, event, answer, state, actuators, head;
 };
 Expected<InsertStatements> prepare_inserts(const Database& database);
-Expected<Statement> prepare_answer_insert(const Database& database);  ///< Also for a session that lacks later tables.
+Expected<Statement> prepare_answer_insert(const Database& database);  ///< Works for a session that lacks later tables.
 
 Expected<void> insert_info(const Database& database, const SessionInfo& info);
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value);

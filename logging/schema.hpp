@@ -61,7 +61,7 @@ inline constexpr std::array tables{
 /// Absent from sessions of earlier builds.
 inline constexpr Table saved_states{"saved_states",
                                     "CREATE TABLE saved_states(tick INTEGER PRIMARY KEY, data BLOB NOT NULL)"};
-/// Likewise.
+/// Absent from sessions of earlier builds.
 inline constexpr Table actuators{"actuators",
                                  "CREATE TABLE actuators(tick INTEGER PRIMARY KEY, fan REAL, vibration REAL, "
                                  "vibration_hz REAL, steering REAL, is_cut INTEGER)"};

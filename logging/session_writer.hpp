@@ -29,8 +29,8 @@ namespace septet::logging {
 struct WriterOptions {
   std::size_t queue_bytes = std::size_t{64} << 20;  ///< About a thousand ticks.
   std::chrono::milliseconds commit_interval{50};
-  double keyframe_interval_s = 1.0;             ///< Of simulated time.
-  std::optional<std::uint64_t> max_bytes = {};  ///< Of the file; reaching it acts like a full disk.
+  double keyframe_interval_s = 1.0;             ///< Simulated time.
+  std::optional<std::uint64_t> max_bytes = {};  ///< Size of the file; reaching it acts like a full disk.
   /// Longest wait for another program's write to the file; meanwhile records wait in the queue.
   std::chrono::milliseconds patience{30'000};
 };

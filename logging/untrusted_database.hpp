@@ -14,7 +14,7 @@ namespace septet::logging {
 /// Work that one row may cost; kept beside the handle, since SQLite checks it while it works.
 struct QuestionLimit {
   std::int64_t steps_left = 0;
-  std::int64_t steps_a_row = 0;  ///< Of SQLite's virtual machine; 0: no limit.
+  std::int64_t steps_a_row = 0;  ///< Steps of SQLite's virtual machine; 0: no limit.
 };
 
 /// For every handle: triggers, views, and functions requested by a schema are off; cells are checked before use.

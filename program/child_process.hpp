@@ -23,7 +23,7 @@ struct ChildOptions {
 /// End of a child.
 struct ChildExit {
   int code = 0;    ///< Exit status; −1 after a signal.
-  int signal = 0;  ///< That signal, or 0.
+  int signal = 0;  ///< The signal, or 0.
 };
 
 /// Movable owner of one child. Destruction ends the child (SIGTERM, then SIGKILL after a second). One thread.

@@ -4,7 +4,8 @@
 
 namespace septet {
 
-// Each program lies in its build folder. Where the checkout lies is asked, not compiled in: .ci/verdict takes equal programs for one.
+// Each program lies in its build folder. Where the checkout lies is asked, not compiled in: .ci/verdict takes equal
+// programs for one.
 std::string build_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
 
 std::string source_folder() {

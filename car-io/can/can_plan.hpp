@@ -40,7 +40,7 @@ struct CanControls {
   double indicator_left_switch = 0.0, indicator_right_switch = 0.0;
   double hazard_switch = 0.0, horn_switch = 0.0;
   double low_beam_switch = 1.0, high_beam_switch = 0.0, parking_brake_switch = 0.0;
-  double selector_position = 3.0;  ///< As GearSelector.
+  double selector_position = 3.0;  ///< Values of GearSelector.
   double gear_position = 0.0;      ///< −1 reverse, 0 neutral, 1…6.
   double emergency_stop_switch = 0.0, rearm_switch = 0.0;
 };

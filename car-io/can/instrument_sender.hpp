@@ -57,7 +57,7 @@ class InstrumentSender {
   InstrumentSenderOptions options_;
   std::unique_ptr<CanBus> bus_;
   std::optional<double> next_try_s_;
-  std::vector<std::optional<double>> due_s_;  ///< Of each sent message; empty: at once.
+  std::vector<std::optional<double>> due_s_;  ///< Due time of each sent message; empty: at once.
   std::vector<std::uint8_t> sent_of_;         ///< Frames of each, wrapping.
   Instruments newest_;
   std::optional<double> set_at_s_;

@@ -26,7 +26,7 @@ struct GameTelemetry {
   double gear = 0.0;  ///< −1 reverse, 0 neutral, 1 and so on.
   double accelerator = 0.0, brake = 0.0, clutch = 0.0;
   double fuel_share = 0.0, coolant_temperature_c = 0.0;
-  double vertical_mps2 = 0.0;  ///< Of the body, without gravity.
+  double vertical_mps2 = 0.0;  ///< Acceleration of the body, without gravity.
   double wheel_rotation_hz = 0.0;
   double indicator_left = 0.0, indicator_right = 0.0, high_beam = 0.0, parking_brake = 0.0, anti_lock = 0.0;
 };

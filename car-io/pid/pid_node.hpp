@@ -14,7 +14,7 @@ struct PidNode {
   std::string node;  ///< "/dev/hidraw0".
   PidReports reports;
 };
-/// Of the HID device that an input device ("event5") belongs to; empty without force of this class. Read from /sys
+/// Node of the HID device that an input device ("event5") belongs to; empty without force of this class. Read from /sys
 /// alone, which every user may.
 std::optional<PidNode> find_pid_node(const std::string& event, const std::filesystem::path& sys,
                                      const std::filesystem::path& dev);

@@ -28,12 +28,12 @@ struct DriveOptions {
   std::string traffic = "own";          ///< Traffic engine: own or sumo.
   std::filesystem::path replay;         ///< A session to replay, instead of a scenario to drive.
   double replay_from_s = 0.0;
-  bool full_screen = false;             ///< Also without the rig's `full_screen`.
+  bool full_screen = false;             ///< Full screen even without the rig's `full_screen`.
   bool start_now = false;               ///< Do not wait for a person to take the controls.
-  std::optional<int> page_port;         ///< Of the operator's page; 0: any free one; empty: no page.
+  std::optional<int> page_port;         ///< Port of the operator's page; 0: any free one; empty: no page.
   std::vector<std::string> page_hosts;  ///< Allowed host names of the page, beside this machine's own.
   bool no_screens = false;              ///< Server and car only.
-  bool no_sound = false;                ///< Also if the rig has sound.
+  bool no_sound = false;                ///< Silences a rig with sound too.
 };
 
 /// Default length of an off-screen drive. One in a window, and a replay, last as for `--seconds 0`.

@@ -1,5 +1,5 @@
 #pragma once
-/// Which questionnaires of an experiment are still to be answered.
+/// Questionnaires of an experiment that are still due.
 
 #include <filesystem>
 #include <string>

@@ -14,7 +14,7 @@ namespace septet::server {
 const std::vector<std::string>& listed_kinds();
 
 struct ListEntry {
-  std::string name;  ///< As on the command line: a name of Septet's own, or a file of the user's.
+  std::string name;  ///< Name for the command line: one of Septet's own, or a file of the user's.
   std::string description;
   std::string title;                                            ///< For a lesson or an experiment; else empty.
   std::vector<std::pair<std::string, std::string>> parameters;  ///< For a scenario: name and default value.

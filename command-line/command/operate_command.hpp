@@ -12,7 +12,7 @@
 namespace septet::server {
 
 struct OperateOptions {
-  std::uint16_t port = 0;               ///< Of the page on 127.0.0.1; 0: any free one.
+  std::uint16_t port = 0;               ///< Port of the page on 127.0.0.1; 0: any free one.
   std::vector<std::string> page_hosts;  ///< Allowed host names of the page, beside this machine's own.
   std::filesystem::path out;            ///< Parent of each drive's folder; empty: out/drives of the data folder.
   std::filesystem::path keys;  ///< For a rig of several machines, whose screens run already: septet-server is started.

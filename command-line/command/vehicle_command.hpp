@@ -14,7 +14,7 @@ struct VehicleTestOptions {
   std::string manoeuvre;              ///< One of vehicle::manoeuvre_names(), or "all".
   std::filesystem::path out;          ///< Folder for NAME.json, NAME.csv and NAME.svg; empty writes nothing.
   std::filesystem::path inputs;       ///< Instead of a manoeuvre: a table of inputs (input_table.hpp).
-  /// Of the hand wheel, for step steer and sine with dwell; 0: determined by the manoeuvre.
+  /// Amplitude of the hand wheel, for step steer and sine with dwell; 0: determined by the manoeuvre.
   double amplitude_deg = 0.0;
   vehicle::ManoeuvreOptions conditions;
 };

@@ -40,7 +40,7 @@ struct Options {
   ForgetOptions forget;
   ExperimentOptions experiment;
   OperateOptions operate;
-  std::function<Expected<int>()> work;  ///< Of the chosen command.
+  std::function<Expected<int>()> work;  ///< Work of the chosen command.
 };
 
 /// --data, of the commands that choose among rigs, scenarios and experiments.

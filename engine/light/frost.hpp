@@ -68,7 +68,7 @@ LIGHT_FN float feather_mass(FeatherPlace feather, float grain, float fine, float
   const float seam = smoothstep(0.0f, 0.004f, feather.seam);
   const float lies = 0.84f +
                      fine * (1.1f * (barbs * barbs * barbs - 0.3125f) * (0.7f + 0.6f * twigs) + 0.8f * stem - 0.044f) +
-                     coarse * (grain - 0.492f);
+                     coarse * (grain - 0.496f);
   return max(lies * mix(0.94f, 0.55f + 0.45f * seam, coarse), 0.0f);
 }
 

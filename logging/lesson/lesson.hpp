@@ -45,7 +45,7 @@ struct LessonTask {
 
 struct Lesson {
   std::string title, aim;
-  double pass_mark = 6.0;   ///< Least weighted mean to pass, in a drive without danger.
+  double pass_mark = 6.0;   ///< Least weighted mean to pass, without a dangerous fault.
   double shortest_s = 0.0;  ///< A shorter drive does not count as taken, and gets no mark.
   std::vector<LessonTask> tasks;
 };
@@ -69,7 +69,7 @@ struct TaskMark {
 };
 
 struct LessonMarks {
-  std::vector<TaskMark> tasks;  ///< As Lesson::tasks.
+  std::vector<TaskMark> tasks;  ///< In the order of Lesson::tasks.
   std::optional<double> mark;   ///< Weighted mean of the tasks with a mark; empty for a lesson that was not taken.
   bool taken = false;           ///< The drive was long enough.
   bool passed = false;

@@ -32,7 +32,7 @@ std::vector<GlanceArea> left_hand_drive_mirrors();
 std::vector<GlanceArea> glance_areas(const rig::Rig& rig);
 
 struct Glance {
-  Tick tick = 0;  ///< Of its first sample.
+  Tick tick = 0;  ///< Tick of its first sample.
   double start_s = 0.0, duration_s = 0.0;
   std::string area;
   bool operator==(const Glance&) const = default;

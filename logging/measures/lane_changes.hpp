@@ -22,7 +22,7 @@ struct LaneChangeSettings {
 };
 
 struct LaneChange {
-  Tick tick = 0;  ///< Of the first sample beyond the line.
+  Tick tick = 0;  ///< Tick of the first sample beyond the line.
   double simulated_time_s = 0.0;
   int lanes_to_left = 0;  ///< +1 one lane to the left, −1 one to the right; ±2 when two lines were crossed.
   std::int32_t from_lane = 0, to_lane = 0;  ///< OpenDRIVE lane ids.

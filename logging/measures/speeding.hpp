@@ -17,7 +17,7 @@ struct SpeedingSettings {
 };
 
 struct SpeedingMeasures {
-  double share = 0.0;   ///< Of the samples with a limit.
+  double share = 0.0;   ///< Share of the samples with a limit.
   double over_s = 0.0;  ///< 0.1 s a sample.
   std::size_t episodes = 0;
   double largest_excess_mps = 0.0;  ///< Over the limit, of the violations.

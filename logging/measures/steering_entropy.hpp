@@ -26,7 +26,7 @@ std::optional<double> steering_entropy_alpha(std::span<const double> baseline_er
 std::optional<double> steering_entropy_of(std::span<const double> errors, double alpha_rad);
 
 struct SteeringEntropySettings {
-  /// Of a baseline drive of the same driver; without it the drive's own beginning is the baseline.
+  /// α of a baseline drive of the same driver; without it the drive's own beginning is the baseline.
   std::optional<double> alpha_rad;
   double baseline_s = 60.0;  ///< From the beginning.
 };

@@ -36,9 +36,9 @@ std::optional<double> van_winsum_tlc_s(const LineApproach& approach);
 /// The car and one line, seen from the point of the car that will cross it.
 struct PathAndLine {
   double speed_mps = 0.0;
-  double yaw_rate_radps = 0.0;     ///< Positive to the left: the path's curvature is this over the speed.
-  double heading_rad = 0.0;        ///< Of the motion relative to the line's direction abeam, positive to the left.
-  double distance_m = 0.0;         ///< To the line, at a right angle to it: positive if it is to the left.
+  double yaw_rate_radps = 0.0;  ///< Positive to the left: the path's curvature is this over the speed.
+  double heading_rad = 0.0;     ///< Heading of the motion relative to the line's direction abeam, positive to the left.
+  double distance_m = 0.0;      ///< To the line, at a right angle to it: positive if it is to the left.
   double line_curvature_pm = 0.0;  ///< Positive if the line bends to the left.
 };
 /// Exact for every combination of straight and circle. Empty if the path never meets the line.
@@ -58,12 +58,12 @@ enum class TlcKind { simple, quadratic, van_winsum, trigonometric };
 /// For one definition, over a drive.
 struct TlcStatistics {
   std::optional<double> smallest_s;
-  /// Of the local minima up to `longest_s`, one for each drift towards a line.
+  /// Median of the local minima up to `longest_s`, one for each drift towards a line.
   std::optional<double> minimum_median_s;
   std::size_t minima = 0;
-  double short_share = 0.0;  ///< Of the valid samples.
+  double short_share = 0.0;  ///< Share of the valid samples.
   std::size_t samples = 0;   ///< Samples in their lane, with a derivative, also those without an approach to a line.
-  std::size_t not_approaching = 0;  ///< Of these.
+  std::size_t not_approaching = 0;  ///< Number of these without an approach.
 };
 
 struct TlcMeasures {

@@ -1,4 +1,4 @@
-"""Writes Septet sessions for other programs: tables as CSV, JSON or Parquet with their units, and everybody's motion as an ASAM OSI trace.
+"""Writes Septet sessions for other programs: tables as CSV, JSON or Parquet with their units, and all participants' motion as an ASAM OSI trace.
 
     python3 septet_export.py tables out/session.sqlite --as parquet --out tables
     python3 septet_export.py osi out/session.sqlite --out drive.mcap
@@ -38,7 +38,7 @@ def unit_of(column, series):
 
 
 def tables_of(session, every=12):
-    """Everything of a session that is a table, by name. `every`: of which ticks the motion of everybody is taken."""
+    """All tables of a session, by name. `every`: interval in ticks of the participants' motion."""
     tables = {"samples": session.samples, "events": session.events, "driver_inputs": session.driver_inputs,
               "questionnaire": session.questionnaire, "meta": pandas.DataFrame(session.meta.items(), columns=["key", "value"])}
     if session.has_snapshots:
@@ -51,7 +51,7 @@ def columns_of(frame):
 
 
 def _plain(value):
-    """A cell as JSON has it; what is not finite is null."""
+    """A cell in JSON's form; NaN and infinite numbers are null."""
     if isinstance(value, (np.integer, np.bool_)):
         return value.item()
     if isinstance(value, (float, np.floating)):
@@ -296,8 +296,8 @@ def main(arguments=None):
     commands = parser.add_subparsers(dest="command", required=True)
     tables = commands.add_parser("tables", help="every table of the session as a file with units")
     tables.add_argument("--as", dest="form", choices=sorted(_WRITERS), default="csv")
-    tables.add_argument("--every", type=_positive, default=12, help="of which ticks everybody's motion is taken (12: ten times a second)")
-    osi = commands.add_parser("osi", help="everybody at every tick as osi3.GroundTruth in a MCAP file")
+    tables.add_argument("--every", type=_positive, default=12, help="interval in ticks of the participants' motion (12: ten times a second)")
+    osi = commands.add_parser("osi", help="all participants at every tick as osi3.GroundTruth in a MCAP file")
     osi.add_argument("--every", type=_positive, default=1, help="only each so many-th tick")
     for command, what in ((tables, "folder for the files"), (osi, "the .mcap file")):
         command.add_argument("session", help="session.sqlite of a drive")

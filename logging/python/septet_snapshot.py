@@ -1,4 +1,4 @@
-"""The snapshots of a Septet session file: from a row's bytes to everybody's motion (engine/world/SNAPSHOT.md, logging/FORMAT.md).
+"""The snapshots of a Septet session file: from a row's bytes to all participants' motion (engine/world/SNAPSHOT.md, logging/FORMAT.md).
 
 Those who want a session open it with septet_session.
 """
@@ -40,7 +40,7 @@ _VELOCITY_LIMIT = 1024 * 1024
 
 
 class SessionError(Exception):
-    """What is wrong with a file, where, and what to do."""
+    """A file's fault, its place, and the remedy."""
 
 
 class _Bytes:
@@ -100,7 +100,7 @@ def _rounded(values):
 
 
 def _moved_on(fields, seconds):
-    """Where participants are expected some time later: the reference that a difference is taken to (SNAPSHOT.md)."""
+    """Predicted participants some time later: the reference of differences (SNAPSHOT.md)."""
     moved = fields.copy()
     velocity = fields[:, _VELOCITY].astype(float)
     acceleration = fields[:, _ACCELERATION].astype(float)
@@ -224,7 +224,7 @@ def _orientations(fields):
 
 
 def motion_of(fields):
-    """Everybody's motion, column to array: a row for each of `fields`, as a Snapshot has them."""
+    """Motion of all participants, column to array: a row for each of `fields`, as in a Snapshot."""
     w, x, y, z = _orientations(fields).T
     frame = {}
     for index, name in enumerate(FIELDS):

@@ -17,6 +17,9 @@ from septet_snapshot import SessionError
 _JOURNAL_MAGIC = bytes.fromhex("d9d505f920a163d7")
 _LARGEST_VALUE_BYTES = 512 << 20
 _STEPS_BETWEEN_LOOKS = 100_000
+_WAL_MAGICS = (b"\x37\x7f\x06\x82", b"\x37\x7f\x06\x83")
+# Changes beside a session that are larger are not copied to be read (logging/files_beside.hpp).
+MOST_COPIED_BYTES = 4 << 30
 _ALLOWED_PRAGMAS = ("application_id", "user_version")
 # Exceptions that a file's bytes can make Python, NumPy, pandas and zlib raise.
 DAMAGE = (sqlite3.Error, sqlite3.Warning, ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, TypeError, ValueError, struct.error,
@@ -39,7 +42,7 @@ def _found(path):
 
 
 def _has_hot_journal(path):
-    """Whether something that was cut off has to be rolled back. A journal may name a second file, which SQLite deletes."""
+    """True if an interrupted change has to be rolled back. A journal may name a second file, which SQLite deletes."""
     journal = _beside(path, "-journal")
     found = _found(journal)
     if found is None or found.st_size == 0:
@@ -58,8 +61,19 @@ def _connect(path, options):
     return sqlite3.connect(uri, uri=True)
 
 
+def _is_wal(path):
+    """True where SQLite would read commits from it."""
+    with open(path, "rb") as file:
+        first = file.read(4)
+    return first in _WAL_MAGICS
+
+
 def _of_copy(path):
-    """A copy in a private folder, in which what was cut off is rolled back and a killed drive's newest commits are folded in."""
+    """A copy in a private folder, in which interrupted changes are rolled back and a killed drive's newest commits are folded in."""
+    beside = sum(found.st_size for found in (_found(_beside(path, "-journal")), _found(_beside(path, "-wal"))) if found is not None)
+    if beside > MOST_COPIED_BYTES:
+        raise SessionError(f"{path}: beside the session lie {beside / 1e6:.0f} MB of changes that belong to it, too many to be copied: if you trust who sent "
+                           "it, join them: sqlite3 FILE 'PRAGMA journal_mode=DELETE'")
     with tempfile.TemporaryDirectory(prefix="septet-read-") as folder:
         copy = Path(folder) / "copy.sqlite"
         for ending in ("-journal", "-wal", ""):
@@ -87,7 +101,7 @@ def _open(path):
         except sqlite3.Error:
             database.close()
             return _of_copy(path)
-    if wal is not None and wal.st_size > 0:
+    if wal is not None and _is_wal(_beside(path, "-wal")):
         return _of_copy(path)
     with open(path, "rb") as file:
         header = file.read(20)
@@ -105,7 +119,7 @@ def _may(action, first, second, _database, view):
 
 
 class UntrustedDatabase:
-    """A connection that only reads, and whose questions end."""
+    """A read-only connection with bounded queries."""
 
     def __init__(self, path):
         self.path = path
@@ -138,6 +152,6 @@ class UntrustedDatabase:
         self._database.close()
 
     def ask(self, sql, *values):
-        """A cursor; the limit counts anew from here."""
+        """A cursor; the limit restarts here."""
         self._steps_left = self._steps
         return self._database.execute(sql, values)

@@ -19,8 +19,8 @@ struct DriveRecords {
   /// One per sample, for its lane; empty if no limit is posted or the road is unknown. Empty vector: all unknown.
   std::vector<std::optional<double>> speed_limits_mps;
   double ticks_per_second = 120.0;
-  std::vector<GlanceArea> glance_areas;  ///< Of the session's rig; empty: unknown.
-  std::optional<double> car_width_m;     ///< Of the driven vehicle, without mirrors; empty: unknown.
+  std::vector<GlanceArea> glance_areas;  ///< Areas of the session's rig; empty: unknown.
+  std::optional<double> car_width_m;     ///< Width of the driven vehicle, without mirrors; empty: unknown.
   ImpossibleNumbers impossible;          ///< Rows left out of these.
 };
 

@@ -30,7 +30,7 @@ struct DriveSummary {
     std::uint64_t missing_ticks = 0;
     DriveMeasures measures;
     std::map<std::string, std::uint64_t> events;  ///< By kind.
-    std::vector<QuestionnaireRecord> answers;     ///< Of questionnaires, and a drop-out of the driver.
+    std::vector<QuestionnaireRecord> answers;     ///< Rows of questionnaires, and of a drop-out of the driver.
   };
   std::optional<FromLog> log;
 };

@@ -23,7 +23,7 @@ std::optional<EffectSize> hedges_g(const MeanAndSpread& first, const MeanAndSpre
 
 /// Welch's test: unequal variances, Satterthwaite's degrees of freedom, two-sided.
 struct WelchTest {
-  double difference = 0.0, low = 0.0, high = 0.0;  ///< Of the means, with its 95 % interval.
+  double difference = 0.0, low = 0.0, high = 0.0;  ///< Difference of the means, with its 95 % interval.
   double t = 0.0, degrees = 0.0, p = 1.0;
 };
 std::optional<WelchTest> welch_test(std::span<const double> first, std::span<const double> second);

@@ -75,7 +75,7 @@ struct FilmFrame {
 /// A script with the camera path of each shot and all frames, in order.
 struct FilmPlan {
   Script script;
-  std::vector<std::vector<Look>> paths;  ///< By shot.
+  std::vector<std::vector<Look>> paths;  ///< Indexed by shot.
   std::vector<FilmFrame> frames;
 };
 

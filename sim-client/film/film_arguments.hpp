@@ -19,7 +19,7 @@ struct FilmArguments {
   RanksOptions ranks;
   bool by_ranks = false;      ///< Programs are to be started: `ranks` holds their number.
   bool one_of_ranks = false;  ///< Set by film_by_ranks alone.
-  double within_s = 0.0;      ///< As many samples as fit into this time; 0: as many as `samples`.
+  double within_s = 0.0;      ///< Time for as many samples as fit into it; 0: as many as `samples`.
   std::string renderer = "raster", exr = "none", filter = "quadratic", schedule = "ours";
 };
 

@@ -32,12 +32,12 @@ class IceDrawing {
     ice::IceBody body;
     double reach_m = 0.0;  ///< Distance up to which it is drawn.
   };
-  Tick tick_ = 0;  ///< Of the latest keyframe.
+  Tick tick_ = 0;  ///< Tick of the latest keyframe.
   float film_ = 0.0f;
   std::optional<ice::StillIce> ice_;
   std::vector<Standing> standing_;
   std::vector<ice::IceBody> slabs_;
-  std::vector<instant::DynamicMesh> shadows_;  ///< Of the slabs.
+  std::vector<instant::DynamicMesh> shadows_;  ///< Shadow meshes of the slabs.
   std::uint32_t refused_ = 0;
 };
 

@@ -23,7 +23,7 @@ class SootDrawing {
 
  private:
   Tick tick_ = 0;
-  instant::SootField field_;  ///< Of the keyframe of that tick: each is read once.
+  instant::SootField field_;  ///< Field of the keyframe of that tick: each is read once.
   std::uint32_t refused_ = 0;
 };
 

@@ -16,12 +16,12 @@ struct IceOptions {
   std::string object = "cube";  ///< A name of ice::object, or an OBJ file.
   Surroundings surroundings = Surroundings::outdoors;
   ice::Look look;
-  std::uint32_t cracks = 2, air_planes = 19;  ///< As in the paper.
+  std::uint32_t cracks = 2, air_planes = 19;  ///< The paper's numbers.
   bool pair = false;                          ///< A second one stands behind it.
-  bool mark_cracks = false;                   ///< In red, as in figure 5.
+  bool mark_cracks = false;                   ///< Marks in red, as in figure 5.
   std::uint64_t seed = 1;
   std::uint32_t width_px = 800, height_px = 600;
-  std::uint32_t pictures = 8;  ///< For one turn.
+  std::uint32_t pictures = 8;  ///< Pictures of one turn.
   std::uint32_t surroundings_px = 256;
   bool surroundings_kept = false;  ///< The first picture's surroundings serve for all.
   double share_of_picture = 0.2;   ///< Approximate share that the object covers; more: the camera is nearer.

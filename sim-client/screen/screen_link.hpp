@@ -28,7 +28,7 @@ using OpenGroup = std::function<Expected<std::unique_ptr<net::DatagramSocket>>(c
 
 struct ScreenLinkOptions {
   std::string screen;           ///< Name in the rig.
-  std::uint16_t tick_port = 0;  ///< Of `tick_socket`, announced to the server for unicast ticks.
+  std::uint16_t tick_port = 0;  ///< Port of `tick_socket`, announced to the server for unicast ticks.
   net::SecureClientOptions lane;
 };
 

@@ -197,7 +197,7 @@ void Session::send_controls() {
     link_.send(control::Controls{*controls}, net::Reliability::unreliable);
 }
 
-/// Called after each picture. The parent program is told of the first.
+/// Called after each picture. The parent program is notified of the first.
 void Session::count_frame() {
   const double now_s = program::monotonic_s();
   if (last_picture_s_) frame_times_.add(1e3 * (now_s - *last_picture_s_));

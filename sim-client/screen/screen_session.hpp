@@ -17,7 +17,7 @@ struct ScreenOptions {
   std::filesystem::path keys;            ///< Folder with NAME.key and server.public.
   std::filesystem::path pictures;        ///< Folder for pictures of whole ticks (TICK.png); empty: not kept.
   bool is_virtual = false;               ///< Off-screen, on the software rasteriser.
-  bool full_screen = false;              ///< Also without the rig's `full_screen`.
+  bool full_screen = false;              ///< Full screen even without the rig's `full_screen`.
   std::optional<std::uint32_t> monitor;  ///< Overrides the rig's.
   bool validation = false;
 };

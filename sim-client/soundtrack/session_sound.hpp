@@ -9,7 +9,7 @@
 
 namespace septet::sound {
 
-/// Of the session's vehicle and rig; missing values are those of a Volvo S80.
+/// Sound of the session's vehicle and rig; missing values are those of a Volvo S80.
 audio::CarSound car_sound_of(const logging::SessionInfo& info);
 
 /// The session's road; empty if it has none that can be read.

@@ -65,10 +65,10 @@ struct PastSession {
   bool has_report = false, has_debrief = false, has_film = false;
   std::vector<std::string> answered;  ///< Names of its answers: "paper", "ssq-before".
   std::string lesson;                 ///< Title of the lesson, if the drive was one; else empty.
-  std::optional<double> mark;  ///< Of the lesson, 0 to 10; empty: too short to be marked, or without an occasion.
+  std::optional<double> mark;  ///< Mark of the lesson, 0 to 10; empty: too short to be marked, or without an occasion.
   bool is_taken = false, is_passed = false;
   std::vector<PastTask> tasks;
-  std::optional<double> points;  ///< Of a game, and the level reached.
+  std::optional<double> points;  ///< Points of a game, and the level reached.
   int level = 0;
 };
 

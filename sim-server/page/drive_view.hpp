@@ -81,7 +81,7 @@ struct LessonView {
 /// An event of the drive.
 struct PageEvent {
   double simulated_s = 0.0;
-  std::string kind;  ///< As in the log: "collision", "mark"; "message": the text is complete.
+  std::string kind;  ///< Kind as in the log: "collision", "mark"; "message": the text is complete.
   std::vector<std::pair<std::string, std::string>> values;  ///< By name; a part without a name is called "what".
   std::string text;                                         ///< The same in English words.
 };
@@ -123,21 +123,21 @@ struct DriveView {
   std::shared_ptr<const TakenSnapshot> newest;  ///< Null before the first tick.
   std::string phase;                            ///< "driving", "paused", "waiting for ahead".
   bool is_paused = false;
-  double wall_s = 0.0;            ///< Of any clock that goes on.
+  double wall_s = 0.0;            ///< Time of any clock that goes on.
   double real_time_factor = 0.0;  ///< Simulated seconds per second, recently.
   bool has_actuators = false;
   std::optional<std::string> fault;  ///< Stopped device, which cuts the actuators if there are any; empty: all run.
   std::string alarm;                 ///< Text that the driver reads: an emergency stop.
   std::optional<LeaderView> leader;
   std::vector<ScreenView> screens;
-  std::vector<double> conditions;  ///< As DriveFacts::conditions.
+  std::vector<double> conditions;  ///< Values in the order of DriveFacts::conditions.
   RatingView rating;
   /// The scenario's entities that can be hidden, and their presence.
   std::vector<std::pair<std::string, bool>> entities;
   std::vector<ThingView> lying;
   std::vector<std::string> triggers;  ///< Acts and events that have not begun.
   bool instructor_brakes = false;
-  std::vector<bool> faults;                  ///< As DriveFacts::faults: true if it has failed.
+  std::vector<bool> faults;                  ///< States in the order of DriveFacts::faults: true if it has failed.
   std::shared_ptr<const LessonView> lesson;  ///< A new object whenever it changes; null: no lesson, or no marks.
 };
 

@@ -27,7 +27,7 @@ struct Release {};
 struct Pause {};
 /// Lets fan, shaker and wheel force run again after a fault or an emergency stop.
 struct Rearm {};
-struct GoOn {};  ///< Also: drive without the missing screens.
+struct GoOn {};  ///< Resumes, or drives without the missing screens.
 struct End {
   std::string reason;
   bool participant_stops = false;  ///< A drop-out, which counts as one: the reason is the participant's.

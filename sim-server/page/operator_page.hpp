@@ -28,7 +28,7 @@ namespace septet::page {
 struct PageOptions {
   std::uint16_t port = 0;                                   ///< On 127.0.0.1; 0: any free one.
   std::vector<std::string> allowed_hosts;                   ///< Host names of a proxy.
-  std::string token;                                        ///< As in web_server.hpp.
+  std::string token;                                        ///< Token of web_server.hpp.
   std::optional<ListeningSocket> listening = std::nullopt;  ///< Instead of the port: handed over by the parent program.
 };
 

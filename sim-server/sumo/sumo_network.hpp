@@ -21,7 +21,7 @@ struct SumoEdge {
   road::RoadIndex road = 0;
   std::uint32_t section = 0;
   bool along_s = true;
-  double begin_s_m = 0.0, end_s_m = 0.0;  ///< Of the section, ascending.
+  double begin_s_m = 0.0, end_s_m = 0.0;  ///< Range of the section, ascending.
   std::vector<int> lanes;                 ///< OpenDRIVE ids by SUMO's lane index: the right-most first.
 };
 

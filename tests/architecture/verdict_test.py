@@ -21,7 +21,7 @@ if ctypes.CDLL(None).syscall(444, None, ctypes.c_size_t(0), 1) < 2:  # landlock_
 
 
 class Checkout:
-    """A checkout with one program, which reads what it is told to and counts its runs in a file beside the checkout."""
+    """A checkout with one program, which reads the given files and counts its runs in a file beside the checkout."""
 
     def __init__(self, home, name):
         self.home, self.root = home, home / name
@@ -38,7 +38,7 @@ class Checkout:
         self.program.chmod(0o755)
 
     def test(self, *arguments, **environment):
-        """Exit status, and whether it ran."""
+        """Exit status, and true if it ran."""
         before = self.runs.stat().st_size if self.runs.exists() else 0
         command = [self.root / ".ci/verdict", f"--build={self.build}", "--reads=scenarios", "--starts=septet", "--mounts=a full disk", "--",
                    self.program, *(arguments or [self.root / "scenarios/road.xodr"])]
@@ -74,7 +74,7 @@ def append(path, text):
 
 
 def same_size_and_time(checkout):
-    """What only the content tells."""
+    """Differences of content alone."""
     path = checkout.root / "scenarios/road.xodr"
     times = path.stat()
     path.write_text("as it wos")

@@ -1,7 +1,8 @@
-// Saved states that somebody has altered and signed again: traffic, a storyboard, debris and smoke on a short straight road. What is
-// accepted is saved once more, and gives the same bytes back.
+// Saved states, altered and signed again: traffic, a storyboard, debris and smoke on a short straight road. An accepted
+// one is saved once more, and gives the same bytes back.
 //
-// The input is a list of patches, each of three bytes where, one how long, and so many bytes; one of no length cuts the state off there.
+// The input is a list of patches, each of three bytes where, one how long, and so many bytes; one of no length cuts the
+// state off there.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

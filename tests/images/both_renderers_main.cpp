@@ -43,7 +43,8 @@ ice::IceBody frosted_pane(const instant::FrameView& view) {
   return pane;
 }
 
-/// Half of the light of road and vehicles ahead is lost to soot, the lamps' and signs' too, and thin smoke stands beside them.
+/// Half of the light of road and vehicles ahead is lost to soot, the lamps' and signs' too, and thin smoke stands
+/// beside them.
 void burn(instant::FrameInput& input) {
   const RigidTransform& world_from_car = input.views.front().world_from_car;
   instant::SootField& soot = input.soot;

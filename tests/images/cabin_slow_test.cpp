@@ -1,4 +1,5 @@
-/// The driver's car from his eyes, drawn by both renderers from one description of the instant: how alike its inside is lit.
+/// The driver's car from his eyes, drawn by both renderers from one description of the instant: how alike its inside is
+/// lit.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ namespace {
 
 constexpr std::uint32_t seat_width_px = 320, seat_height_px = 187, seat_samples = 48;
 
-/// What the desktop's screen shows, without what is written over it.
+/// The desktop's screen, without the text over it.
 class Seat {
  public:
   explicit Seat(const Motorway& motorway)

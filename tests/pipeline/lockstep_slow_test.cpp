@@ -23,7 +23,7 @@ class Circles final : public server::TickSource {
   Tick tick_ = 0;
 };
 
-/// Screens on a simulated clock that answer as those of the product do: each new tick, once they hold the scene.
+/// Screens on a simulated clock that acknowledge like the product's: each new tick, once they hold the scene.
 class LockstepRig {
  public:
   explicit LockstepRig(std::size_t screens)
@@ -90,7 +90,7 @@ TEST_CASE("in lockstep a screen that comes up is waited for and misses no tick a
       lockstep.rig.stop_screen(1);
       lockstep.shown[1].clear();
     }
-    // It comes back while the others wait for the answer of the one that was killed.
+    // It comes back while the others wait for the killed one's report.
     if (killed_s && !started && lockstep.rig.now_s() > *killed_s + 0.5 * silence_s) {
       started = true;
       newest_at_start = others.back();

@@ -31,7 +31,7 @@ class DrivenCircles final : public server::TickSource {
   logging::DriveEnd end() const override { return logging::DriveEnd::failed; }
 
   Tick tick = 0;
-  int rests = 0;  ///< How often whatever moves in the driver's seat was told to rest.
+  int rests = 0;  ///< Number of commands to rest to the driver's seat.
 };
 
 /// An operator who pauses, and may end the drive.
@@ -79,7 +79,7 @@ TEST_CASE("the world stands still and says so until the driver takes the control
         REQUIRE(rig.shown(0));
         CHECK(rig.shown(0)->tick == 0);
       }
-      // Who comes while the world waits sees it too.
+      // A screen that joins while the world waits sees it too.
       if (joined_s == 0.0 && rig.now_s() > 2.0) {
         rig.stop_screen(1);
         rig.start_screen(1);
@@ -115,7 +115,7 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
   double ready_s = 0.0;
   RigClock clock(rig, [&] {
     auto& screen = rig.screen(0);
-    // It compiles its shaders for longer than the server waits for an answer.
+    // It compiles its shaders for longer than the server waits for a reply.
     screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
     if (screen.link->finished()) screen.link->report({});
     if (rig.now_s() < 12.0 || ready_s > 0.0) return;
@@ -131,7 +131,7 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
       server::serve(circles, rig.host(),
                     {.ticks = 120, .wait_for_driver = "Press any key to start", .about = "A first lesson"}, {}, clock);
   CHECK(served.end == logging::DriveEnd::time_over);
-  CHECK_FALSE(rig.screen(0).link->notice().keys);  // Which keys drive is known to who has pressed one.
+  CHECK_FALSE(rig.screen(0).link->notice().keys);  // A pressed key shows that its holder knows the keys.
   CHECK(ready_s > 0.0);
   CHECK(rig.shown(0)->tick >= 116);
 }

@@ -13,7 +13,7 @@
 namespace septet::server {
 namespace {
 
-/// Keeps what the last tick has set, so that it can be set again.
+/// Keeps the last tick's command, so that it can be repeated.
 class Repeated final : public SeatDevice {
  public:
   Repeated(std::unique_ptr<SeatDevice> device, std::function<void()>& again) : device_(std::move(device)) {
@@ -30,7 +30,7 @@ class Repeated final : public SeatDevice {
   car_io::Actuators newest_;
 };
 
-/// A drive whose driver sits at a device that is plugged in. `actuate_again` sets what its last tick has set.
+/// A drive whose driver sits at a device that is plugged in. `actuate_again` repeats its last tick's command.
 std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::CarActuators& limits = {},
                                      std::function<void()>* actuate_again = nullptr) {
   port.plug();
@@ -71,7 +71,8 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
       port.send(car_io::encode_controls(input));
       REQUIRE(live->next(std::nullopt).has_value());
     }
-    // The writer has a thread and a clock of its own: give it until it has written this speed, which fades where nobody sets it.
+    // The writer has a thread and a clock of its own: wait until it has written this speed, which fades unless it is
+    // renewed.
     const double share = std::min(live->newest().driver_car.speed_mps / 70.0, 1.0);
     const auto expected = relative(0.2 + 0.8 * share, 1e-3);
     double fan = -1.0;

@@ -9,7 +9,7 @@ namespace {
 /// Time of an acceleration's rise to its peak and its fall, per m/s² of the peak; 0 where its change is unbounded.
 double rise_s_per_mps2(double rise_mps3, double fall_mps3) { return 1.0 / rise_mps3 + 1.0 / fall_mps3; }
 
-struct Lay {
+struct LayProfile {
   SpeedProfile profile;
   double speed_mps;
 
@@ -50,7 +50,7 @@ struct Lay {
 }  // namespace
 
 SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps, const DynamicConstraints& limits) {
-  Lay lay{{}, from_mps};
+  LayProfile lay{{}, from_mps};
   for (const SpeedProfileAction::Entry& entry : action.entries) {
     const double target = std::clamp(entry.speed_mps, -limits.max_speed_mps, limits.max_speed_mps);
     lay.go_to(target, entry.time_s.value_or(0.0), limits, action.smooth);

@@ -21,12 +21,12 @@ enum class FilmState : std::uint8_t { waiting, begun, made, failed, cancelled };
 
 struct QueuedFilm {
   std::uint64_t number = 0;            ///< From 1; its name in the folder.
-  std::vector<std::string> arguments;  ///< Of septet-film.
+  std::vector<std::string> arguments;  ///< Arguments of septet-film.
   std::filesystem::path said_in;       ///< Base of their relative paths.
   std::filesystem::path out;
   FilmState state = FilmState::waiting;
   std::string last_word;  ///< Reason of a failure.
-  double took_s = 0.0;    ///< So far, without the present start.
+  double took_s = 0.0;    ///< Time so far, without the present start.
 };
 
 class FilmQueue {

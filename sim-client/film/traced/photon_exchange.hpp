@@ -26,7 +26,7 @@ namespace septet::film {
 /// Request of a worker.
 struct PhotonQuestion {
   std::uint64_t frame = 0;
-  std::uint32_t buckets = 0;  ///< Of the frame.
+  std::uint32_t buckets = 0;  ///< Number of the frame's buckets.
   std::uint32_t threads = 1;
   bool fresh = true;  ///< First request for this frame: all present buckets are to be sent.
 };

@@ -17,7 +17,7 @@ namespace septet::film {
 struct RanksOptions {
   unsigned ranks = 0;           ///< Programs; 0: one per host.
   std::filesystem::path hosts;  ///< Host file of Open MPI, a machine a line; empty: this machine alone.
-  std::filesystem::path out;    ///< As FilmOptions.
+  std::filesystem::path out;    ///< Value for FilmOptions.
   bool resume = false;
   bool quiet = false;  ///< No summary at the end: the film is a trial.
 };

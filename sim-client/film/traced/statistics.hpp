@@ -13,7 +13,7 @@ struct TileTraced {
   std::uint64_t frame = 0;  ///< Number of the picture.
   std::uint32_t tile = 0;
   int program = 0;     ///< Rank under mpirun.
-  double cpu_s = 0.0;  ///< Of the thread that traced it.
+  double cpu_s = 0.0;  ///< Processor time of the thread that traced it.
   double came_s = 0.0;
   bool counts = true;  ///< False: another worker had delivered it.
 };
@@ -21,7 +21,7 @@ struct TileTraced {
 struct FilmStatistics {
   std::vector<TileTraced> tiles;                     ///< In order of arrival.
   double begun_s = 0.0;                              ///< Time of dealing the first tiles, as `came_s`.
-  double master_cpu_s = 0.0;                         ///< Of the thread that deals and keeps tiles.
+  double master_cpu_s = 0.0;                         ///< Processor time of the thread that deals and keeps tiles.
   std::uint64_t sent_bytes = 0, received_bytes = 0;  ///< Between programs, without what Open MPI adds.
   std::uint64_t splits = 0;
   std::uint64_t photon_buckets = 0;  ///< Photon buckets shot by several workers together; each counts once.

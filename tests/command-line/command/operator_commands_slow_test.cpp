@@ -1,4 +1,4 @@
-/// What an operator changes while somebody drives is part of the drive: logged, and done again when it is run again.
+/// An operator's changes during a drive are part of the drive: logged, and repeated when it is run again.
 
 #include <algorithm>
 
@@ -27,7 +27,7 @@ std::string placed_before(const LiveDrive& live) {
   return fmt::format("place x_m={:.2f} y_m={:.2f} part=traffic-cone", at.x, at.y);
 }
 
-/// To a place behind the car where nobody is, at rest.
+/// To a free place behind the car, at rest.
 std::string put_before(const LiveDrive& live) {
   const auto& all = live.newest().participants;
   const auto& car = all.front().world_from_vehicle;

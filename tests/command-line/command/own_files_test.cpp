@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A school's folder: a rig, a scenario of a folder with its lesson, one that lies alone, an experiment, and what is none of these.
+/// A school's folder: a rig, a scenario of a folder with its lesson, one that lies alone, an experiment, and other
+/// files.
 struct SchoolFolder {
   program::TemporaryFolder folder = program::TemporaryFolder::make("septet-own").value();
   fs::path data = program::data_folder().value();
@@ -51,8 +52,7 @@ TEST_CASE("rigs, scenarios, lessons and experiments of one's own are listed by t
   const auto rigs = list_of("rigs", {school.path()}).value();
   REQUIRE(find_own(rigs, school.path() / "lab.toml") != nullptr);
   CHECK(find_own(rigs, school.path() / "lab.toml")->is_own);
-  CHECK(rigs.size() ==
-        list_of("rigs").value().size() + 1);  // Neither the notes, nor the experiment, nor what is broken.
+  CHECK(rigs.size() == list_of("rigs").value().size() + 1);  // Without the notes, the experiment and the broken file.
   const auto lessons = list_of("lessons", {school.path()}).value();
   const auto* town = find_own(lessons, school.path() / "scenarios/town/town.xosc");
   REQUIRE(town != nullptr);
@@ -63,7 +63,7 @@ TEST_CASE("rigs, scenarios, lessons and experiments of one's own are listed by t
   CHECK(alone->is_game);
   CHECK_FALSE(alone->is_lesson);
   const auto* half = find_own(scenarios, school.path() / "half.xosc");
-  REQUIRE(half != nullptr);  // It is there, and says what is wrong with it.
+  REQUIRE(half != nullptr);  // It is listed, with its fault.
   CHECK(half->description.starts_with("cannot be read: "));
   const auto experiments = list_of("experiments", {school.path()}).value();
   CHECK(find_own(experiments, school.path() / "study.toml") != nullptr);

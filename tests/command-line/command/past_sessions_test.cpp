@@ -104,7 +104,7 @@ TEST_CASE("past drives are told of as they are read, and who looks waits for non
   std::size_t before = 0;
   while (true) {
     const auto found = past.found();
-    CHECK(found.sessions.size() >= before);  // None goes that has been shown.
+    CHECK(found.sessions.size() >= before);  // Listed sessions stay.
     before = found.sessions.size();
     if (!found.is_looking) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

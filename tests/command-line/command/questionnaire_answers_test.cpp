@@ -47,7 +47,7 @@ TEST_CASE("answers from the page lie in the session, and what cannot be is refus
   REQUIRE(rows().size() == 2);
   CHECK(rows()[0].item == "paper-after.fun");
   CHECK(rows()[0].value == 5.0);
-  // Answered again they are replaced, and what was left out is kept as unanswered.
+  // New answers replace them, and omitted items are kept as unanswered.
   page::Answer again = good;
   again.answers = {{"realistic", 1}};
   CHECK_FALSE(keep_answers(*questionnaires, again, session).has_value());

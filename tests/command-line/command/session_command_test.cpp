@@ -1,4 +1,4 @@
-// What is taken out of sessions, and what stands in the way of it.
+// Removals from sessions, and obstacles to them.
 
 #include "command-line/command/session_command.hpp"
 

@@ -1,5 +1,4 @@
-// The figures of docs/simulated-driver.md: measured and printed here, and held within what the
-// literature allows.
+// The figures of docs/simulated-driver.md: measured and printed here, and compared with the literature's range.
 
 #include <algorithm>
 #include <numeric>

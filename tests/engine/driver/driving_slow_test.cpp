@@ -25,7 +25,7 @@ double lane_keeping_sd_m(const char* name, std::uint64_t seed) {
   return logging::compute_lateral_position_statistics(loop.samples, {}).sd_m;
 }
 
-/// A driver who knows the gears of this car.
+/// A driver who knows this car's gears.
 DriverParameters who_knows(const vehicle::VehicleParameters& car, const char* name) {
   DriverParameters driver = *find_driver(name);
   driver.car.has_clutch = true;
@@ -161,7 +161,7 @@ TEST_CASE("a lorry in the way is overtaken after a look into the mirror and with
   CHECK(loop.snapshot.driver_car.lane <= -4);  // Back to the outer lanes.
   CHECK(signal_ended_s > crossed_s);
   CHECK(signal_ended_s - crossed_s < 5.0);
-  // And so it stands in the log: twice at the mirror of that side, out and back in.
+  // The log agrees: twice at the mirror of that side, out and back in.
   const auto changes = logging::find_lane_changes(loop.samples);
   const auto glances = logging::find_glances(loop.samples);
   CHECK(changes.size() >= 2);

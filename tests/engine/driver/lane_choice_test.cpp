@@ -1,4 +1,4 @@
-// Gaps, the way across and the way back.
+// Gaps, the path across and the path back.
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ SeenVehicle vehicle_in_lane(int lane, bool ahead, double gap_m, double speed_mps
           .speed_mps = speed_mps};
 }
 
-/// A driver in the third lane who means to go to the second.
+/// A driver in the third lane on the path to the second.
 struct Change {
   OwnPlace own;
   std::vector<SeenVehicle> vehicles;
@@ -147,7 +147,7 @@ TEST_CASE("whoever is ahead in the lane that a change leaves is minded until the
   CHECK(minded());
   change.own.room_right_m = 0.1;
   CHECK_FALSE(minded());
-  // Back again: what is ahead in the lane to be counts.
+  // Back again: the leader in the target lane counts.
   change.state.phase = LanePhase::go_back;
   CHECK(minded());
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
 
-/// What surfaces mirror in a direction; the sun's azimuth is x.
+/// Mirrored light of surfaces in a direction; the sun's azimuth is x.
 glm::vec3 mirrored(const SkyLight& light, const SkyTable& table, const glm::vec3& direction) {
   SkyLight as_table;
   as_table.sun_direction = light.sun_direction;
@@ -33,7 +33,7 @@ glm::dvec3 summed(const SkyLight& light, const glm::vec3& axis, double roughness
   constexpr int steps = 160;
   for (int i = 0; i < steps; ++i)
     for (int j = 0; j < steps; ++j) {
-      // Half the angle from the axis to the light; D(h)·cos h·sin h, of which the light's cosine is what counts.
+      // Half the angle from the axis to the light; D(h)·cos h·sin h, weighted with the light's cosine.
       const double half = (i + 0.5) / steps * 0.25 * turn_rad * 0.5, around = (j + 0.5) / steps * turn_rad;
       const double cosine = std::cos(half), d = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
       const double counts = cosine * std::sin(half) / (d * d) * std::cos(2.0 * half);

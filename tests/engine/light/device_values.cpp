@@ -20,7 +20,7 @@ constexpr std::uint32_t code[] = {
 };
 constexpr std::size_t points_per_group = 50;
 
-/// Whatever has been made of it is destroyed with it.
+/// Objects created from it are destroyed with it.
 struct Computation {
   vulkan::Device device;
   vulkan::MemoryPool memory;

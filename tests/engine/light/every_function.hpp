@@ -1,7 +1,7 @@
 #ifndef SEPTET_TESTS_EVERY_FUNCTION_HPP
 #define SEPTET_TESTS_EVERY_FUNCTION_HPP
-/// Every function of engine/light at one point of its arguments, in the language that these are written in: the same text runs on the device and on
-/// the host. A new function gets its case here, and `function_count` grows by one.
+/// Every function of engine/light at one point of its arguments, in the language that these are written in: the same
+/// text runs on the device and on the host. A new function gets its case here, and `function_count` grows by one.
 
 #include "engine/light/beam.hpp"
 #include "engine/light/clouds.hpp"

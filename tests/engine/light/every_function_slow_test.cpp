@@ -1,4 +1,5 @@
-/// The text of light means the same to both compilers: each function at 1,000 points, on the software device and on the host.
+/// The text of light means the same to both compilers: each function at 1,000 points, on the software device and on the
+/// host.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,8 @@ std::vector<vec4> points_of_arguments() {
   return points;
 }
 
-/// Sine, exponential and division differ from device to device by 2 in 10,000, and what is left of a difference of numbers near 1 by their rounding.
+/// Sine, exponential and division differ from device to device by 2 in 10,000, and what is left of a difference of
+/// numbers near 1 by their rounding.
 bool alike(float one, float other) {
   return std::abs(one - other) <= 2e-4f * std::max(std::abs(one), std::abs(other)) + 5e-7f;
 }

@@ -27,7 +27,7 @@ inline instant::Instant instant_from(const Vec3& eye_m, double angle_rad, std::u
                                      std::shared_ptr<const instant::SkyLight> light) {
   instant::Instant instant;
   instant.light = std::move(light);
-  instant.environment.cloud_cover = 0.0;  // The sky is what its table says.
+  instant.environment.cloud_cover = 0.0;  // The sky is that of its table.
   instant::FrameView view;
   view.projection = instant::symmetric_view(eye_m, 0.0, 0.0, angle_rad, angle_rad);
   view.viewport = {0, 0, side_px, side_px};

@@ -89,7 +89,7 @@ TEST_CASE("a sample is the same bit for bit whichever samples beside it are aske
 TEST_CASE("a mirrored view is the view with left and right exchanged") {
   const scene::ResolvedScene box = cornell_box();
   instant::Instant plain = before_cornell_box(24), mirrored = plain;
-  // Nothing but what is seen first counts, and it is the same for every sample of a pixel's middle.
+  // Only the first surface counts, and it is the same for every sample of a pixel's middle.
   plain.views[0].projection.left_slope *= 1.3;
   mirrored.views[0].projection.left_slope *= 1.3;
   mirrored.views[0].mirrored = true;
@@ -172,7 +172,7 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   for (scene::MeshPart& part : scene.meshes[1].parts) part.material = 1;
   scene.instances.push_back(scene.instances[0]);
   scene.instances[1].mesh = 1;
-  // Where one is seen three quarters of the way through the band.
+  // At three quarters of the band.
   const double eye_m = 8.0;
   scene.instances[0].visible_to_m = scene.instances[1].visible_from_m =
       static_cast<float>(eye_m) / (1.0f + 0.5f * instant::fade_half_band);
@@ -260,13 +260,13 @@ TEST_CASE("a point that is out of focus is a disc as wide as its circle of confu
     const double ball_px = ball_m / distance_m * px_of_slope, pixel_moment = 1.0 / 6.0;
     const double expected = 0.5 * (confusion_px * confusion_px + ball_px * ball_px) + pixel_moment;
     CHECK(moment / light == relative(expected, 0.06));
-    // Whatever the focus, as much light comes.
+    // Total light is independent of the focus.
     CHECK(light == relative(pi * ball_px * ball_px, 0.06));
   }
 }
 
 TEST_CASE("what the sun gives and what the sky gives add up whichever is looked at") {
-  // Which kind of light is looked at is a matter of chance; what is found is not.
+  // The kind of light sampled is random; the result is not.
   scene::SurfaceMaterial white;
   white.base_color = glm::vec3(0.5f);
   white.roughness = 1.0f;

@@ -62,7 +62,7 @@ inline scene::ResolvedScene each_alone(scene::ResolvedScene scene) {
   return scene;
 }
 
-/// As large as the first view, on all cores, with the photons of the settings.
+/// Picture as large as the first view, on all cores, with the photons of the settings.
 inline TracedPicture traced(const scene::ResolvedScene& scene, const instant::Instant& instant,
                             const TraceSettings& settings, std::vector<ClearBody> bodies = {}) {
   auto tracer = RayTracer::create(scene);
@@ -75,7 +75,7 @@ inline TracedPicture traced(const scene::ResolvedScene& scene, const instant::In
 
 struct PictureMean {
   glm::dvec3 radiance{0.0};
-  double sigma = 0.0;  ///< Of the mean's luminance.
+  double sigma = 0.0;  ///< Deviation of the mean's luminance.
 };
 inline PictureMean mean_of(const TracedPicture& picture) {
   PictureMean mean;

@@ -1,4 +1,5 @@
-/// How much light of a lamp arrives in a picture, by distance and by way of a wet road, and how much the air takes of it. Software device, validation layer on.
+/// How much light of a lamp arrives in a picture, by distance and over a wet road, and its loss in the air. Software
+/// device, validation layer on.
 
 #include <algorithm>
 #include <cmath>

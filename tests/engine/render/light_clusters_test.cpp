@@ -16,7 +16,7 @@
 namespace septet::render {
 namespace {
 
-/// The lights that a place relative to the eye asks, by their intensities: told apart by them here.
+/// Lights of a place relative to the eye, distinguished by their intensities.
 std::vector<float> asked_at(const LightClusters& clusters, const glm::vec3& place_m) {
   const float half = 0.5f * LightClusters::side;
   const auto x = static_cast<std::uint32_t>(std::floor(place_m.x / LightClusters::square_m + half)),

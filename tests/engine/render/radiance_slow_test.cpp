@@ -43,7 +43,8 @@ FrameInput forward(double elevation_rad) {
   return input;
 }
 
-/// A wall, 800 m wide and high, of squares as large as those of distant land. It glows with `emission` and reflects nothing.
+/// A wall, 800 m wide and high, of squares as large as those of distant land. It glows with `emission` and reflects
+/// nothing.
 void upload_wall(Renderer& renderer, float emission, double away_m) {
   static std::uint64_t revision = 1;
   scene::SurfaceMaterial material = glowing_material();

@@ -51,10 +51,10 @@ inline glm::dvec3 mean(const image::Image& picture, std::uint32_t x, std::uint32
   return sum / (double(w) * h);
 }
 
-/// Of a colour, codes.
+/// Level of a colour, codes.
 inline double level(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3.0; }
 
-/// Of all codes, alpha's too.
+/// Mean over all codes, alpha's too.
 inline double mean_difference(const image::Image& a, const image::Image& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::abs(int(a.rgba[i]) - int(b.rgba[i]));

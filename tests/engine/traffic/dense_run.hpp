@@ -10,7 +10,7 @@ struct DenseRun {
   double vehicle_hours = 0.0;
   int overlaps = 0;
   MotionCheck motion;
-  double hard_braking_s = 0.0;  ///< Of all vehicles, below −6 m/s².
+  double hard_braking_s = 0.0;  ///< Time of all vehicles below −6 m/s².
   double least_mps2 = 0.0;
 };
 

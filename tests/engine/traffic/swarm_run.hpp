@@ -10,7 +10,7 @@ namespace septet::traffic {
 
 struct SwarmRun {
   double ambulance_mps = 0.0;
-  double traffic_mps = 0.0;  ///< Of vehicles within 400 m of the ambulance.
+  double traffic_mps = 0.0;  ///< Mean of vehicles within 400 m of the ambulance.
   double least_near = 1e9;   ///< Number of these.
   int overlaps = 0;          ///< Among traffic.
   int overlaps_with_driver = 0;

@@ -16,7 +16,7 @@
 namespace septet::server {
 namespace {
 
-/// A person's car in a drive on simulated time, and what its actuators are told.
+/// A person's car in a drive on simulated time, and the commands to its actuators.
 struct SeatedDrive {
   explicit SeatedDrive(const rig::CarActuators& limits, bool has_actuators = true) {
     port.plug();
@@ -129,7 +129,7 @@ TEST_CASE("an emergency stop is in force with its own tick and outlasts its rele
   CHECK(seated.live->alarm().find("re-armed") != std::string::npos);
   CHECK_FALSE(seated.live->rearm_actuators("operator").has_value());
   seated.drive(12, true);
-  CHECK(car_io::is_rest(seated.told));  // What writes on another machine is re-armed by it.
+  CHECK(car_io::is_rest(seated.told));  // It re-arms the writer on another machine.
   seated.drive(1, true);
   CHECK(seated.told.fan < 0.02);
   seated.drive(120, true);

@@ -17,7 +17,7 @@
 
 namespace septet::page {
 
-/// Of the servers in these tests.
+/// Token of the servers in these tests.
 inline constexpr std::string_view token = "0123456789abcdef0123456789abcdef";
 
 class RawConnection {

@@ -40,7 +40,7 @@ inline bool is_peer_scene(std::string_view name) {
 
 /// A reflecting layer of GGX facets over the diffuse base.
 struct Gloss {
-  float share = 0.0f;  ///< Of its surface; 0: none.
+  float share = 0.0f;  ///< Share of its surface; 0: no gloss.
   float alpha = 1.0f;
   float f0 = 0.04f;  ///< For a dielectric.
   float metallic = 0.0f;
@@ -50,7 +50,7 @@ inline float wetness(const scene::SurfaceMaterial& material, const Environment& 
   return material.wettable ? static_cast<float>(weather.road_wetness) * material.share_of_sky : 0.0f;
 }
 
-/// As in World.
+/// Mirrors World.
 inline Gloss gloss_of(const scene::SurfaceMaterial& material, const Environment& weather) {
   if (const float wet = wetness(material, weather); wet > 0.0f)
     return {light::film_share * wet, light::film_roughness * light::film_roughness, light::water_reflectance, 0.0f};

@@ -1,4 +1,4 @@
-/// Each shipped scenario, saved in the middle and restored into a freshly loaded drive, goes on as if nothing had been.
+/// Each shipped scenario, saved in the middle and restored into a freshly loaded drive, goes on unchanged.
 
 #include <cstring>
 #include <filesystem>
@@ -48,7 +48,7 @@ std::size_t keyframes(const Snapshot& snapshot, std::uint16_t kind) {
 
 struct SavedDrive {
   Tick at = 0;
-  std::uint64_t hash = 0;  ///< That its snapshot tells.
+  std::uint64_t hash = 0;  ///< Of its snapshot.
   Bytes bytes;
   std::size_t smoke = 0, debris = 0;  ///< Keyframes at that tick.
   std::vector<DriverInput> inputs;    ///< After it.
@@ -103,7 +103,7 @@ void check_that_it_goes_on(const std::string& scenario, std::uint64_t seed, cons
   CHECK(*save_state(*fresh.model, *state) == saved.end);
 }
 
-/// With its last word made the hash of the rest again, as whoever means harm would.
+/// With its last word made the hash of the rest again, as by an attacker.
 void sign(Bytes& bytes) {
   StateHash hash;
   hash.add_bytes(std::span(bytes).first(bytes.size() - 8));
@@ -204,7 +204,7 @@ TEST_CASE("two states that are the same but for what only a later tick will show
   CHECK(differs_with(lorry.lateral_control.left_way_m, std::optional(0.5)));
   CHECK(differs_with(state.scenario.friction_scale, 0.5));
   CHECK(differs_with(state.scenario.elements.back().initialised, !state.scenario.elements.back().initialised));
-  CHECK_FALSE(differs_with(state.input.accelerator, 0.9));  // What it did is in the car.
+  CHECK_FALSE(differs_with(state.input.accelerator, 0.9));  // Its effect is in the car.
 }
 
 TEST_CASE("a state that was cut off or in which a bit was turned is refused") {

@@ -102,7 +102,7 @@ TEST_CASE(
     road.drive_for(1.0 / tick_rate_hz);
     REQUIRE(road.now.simulated_time_s < 60.0);
   }
-  // Where its action takes it, which the lane's offset knows; a car is 3 m beside the body's middle there.
+  // Its action's target, known to the lane's offset; a car is 3 m beside the body's middle there.
   const auto& control = road.entity().lateral_control.transition;
   const double aside_m = control.to > control.from ? 3.0 : -3.0;
   const double before_m = road.entity().lane.offset_m;

@@ -15,7 +15,7 @@
 namespace septet::simulation {
 namespace {
 
-/// 200 m straight along x, one lane each way, with what the road's objects are.
+/// 200 m straight along x, one lane each way, with the given road objects.
 road::RoadNetwork straight_road(const std::string& objects) {
   const std::string lane = "type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
   auto network = road::read_opendrive(
@@ -189,7 +189,7 @@ TEST_CASE("an island of more corners than can be met in a tick is left out and s
 }
 
 TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touch with height and speed") {
-  // What lies to the right of the car's own lane is raised, as lanes or as an object: a pavement along the motorway.
+  // The surface right of the car's own lane is raised, as lanes or as an object: a pavement along the motorway.
   for (const bool as_object : {false, true}) {
     CAPTURE(as_object);
     EmptyMotorway motorway;
