@@ -16,8 +16,8 @@ namespace septet::logging {
 
 class SessionReader;
 
-/// Of events, those that are input: what an operator changed while it was driven.
-inline constexpr std::string_view operator_command_kind = "operator_command";
+/// The meta row of a drive that begins at a state which an earlier one had kept: its first tick. The session holds that state.
+inline constexpr const char* begun_at_row = "begun_at_tick";
 
 struct SessionDigest {
   StateHash setup;     ///< Files, seeds, parameters, tick rate, traffic, names and models of participants.
@@ -39,7 +39,7 @@ struct SessionDigest {
 inline constexpr const char* digest_row = "digests";
 std::string to_json(const SessionDigest& digest);
 
-/// What differs between what a session holds and what its digest says, in words: "its scene", "its files, seeds or parameters".
+/// What differs between what a session holds and what its digest says, in words: "its scene was", "its samples were".
 /// Nothing where all agrees. Error: the row is not what Septet writes.
 Expected<std::optional<std::string>> altered_part(const SessionDigest& found, const std::string& row,
                                                   const std::string& where);
