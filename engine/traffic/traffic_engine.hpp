@@ -48,7 +48,8 @@ class TrafficEngine {
   /// How many numbers have gone bad and were reset since the last call.
   virtual std::uint32_t take_bad_numbers() { return 0; }
   /// What there is to say of the swarm once its first second is over, as key=value pairs: `asked` and `on_road`, where fewer than 95 % or more
-  /// than 105 % of the vehicles that were asked for are there. Said once.
+  /// than 105 % of the vehicles that were asked for are there. Septet's own traffic says it again, each ten seconds at most, where a further tenth has gone: at the ends
+  /// of a road that is shorter than the swarm's radius nobody comes back.
   virtual std::optional<std::string> take_remark() { return std::nullopt; }
   /// What has gone wrong outside, once. From then on the engine stands still; the drive is to end.
   virtual std::optional<Error> take_error() { return std::nullopt; }
@@ -57,7 +58,7 @@ class TrafficEngine {
 /// The remark on a swarm of so many: nothing where they are as many as asked for, within 5 %.
 std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road);
 /// When it is made.
-inline constexpr double swarm_remark_s = 1.0;
+inline constexpr double swarm_remark_s = 1.0, swarm_remark_again_s = 10.0;
 
 /// Septet's own traffic (traffic.hpp). `network` outlives it.
 std::unique_ptr<TrafficEngine> own_traffic(const road::RoadNetwork& network, std::uint64_t seed);
