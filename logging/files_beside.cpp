@@ -21,6 +21,9 @@ namespace fs = std::filesystem;
 
 /// Magic bytes that begin a journal, and end one that names a super-journal.
 constexpr std::array<unsigned char, 8> journal_magic = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
+/// First bytes of a WAL, but for the last bit, which tells the byte order of its checksums; without them SQLite reads
+/// nothing of one.
+constexpr std::array<unsigned char, 4> wal_magic = {0x37, 0x7f, 0x06, 0x82};
 constexpr off_t write_version_at = 18;  ///< Offset in the database's header; value 2: its newest commits are in a WAL.
 
 fs::path beside(const fs::path& database, const char* ending) { return database.string() + ending; }
@@ -65,6 +68,14 @@ Expected<bool> has_hot_journal(const fs::path& database) {
   return !first.empty() && first[0] != '\0';
 }
 
+/// True if SQLite would read commits from it.
+bool is_wal(const fs::path& path) {
+  std::string bytes = bytes_at(path, 0, wal_magic.size());
+  if (bytes.size() != wal_magic.size()) return false;
+  bytes.back() = static_cast<char>(bytes.back() & ~1);
+  return std::memcmp(bytes.data(), wal_magic.data(), bytes.size()) == 0;
+}
+
 /// True for the same file with the same content, as far as the file system tells.
 bool is_unchanged(const std::optional<struct stat>& before, const std::optional<struct stat>& after) {
   if (!before || !after) return !before && !after;
@@ -89,7 +100,7 @@ Expected<ReadWay> way_to_read(const fs::path& database) {
                      "delete it if nobody needs it");
   if (*is_hot) return ReadWay::copied;
   if (wal_found && index_found) return ReadWay::with_wal;
-  if (wal_found && wal_found->st_size > 0) return ReadWay::copied;
+  if (wal_found && is_wal(wal)) return ReadWay::copied;
   const std::string version = bytes_at(database, write_version_at, 2);
   return wal_found || version.find('\2') != std::string::npos ? ReadWay::immutable : ReadWay::shared;
 }
@@ -119,6 +130,13 @@ Expected<fs::path> copy_with_files_beside(const fs::path& database, const Privat
     for (std::size_t i = 0; i < endings.size(); ++i) before[i] = found_at(beside(database, endings[i]));
     std::uintmax_t bytes = 0;
     for (const auto& found : before) bytes += found ? static_cast<std::uintmax_t>(found->st_size) : 0;
+    if (const auto beside_it = bytes - (before.back() ? static_cast<std::uintmax_t>(before.back()->st_size) : 0);
+        beside_it > most_copied_bytes)
+      return failure(
+          fmt::format("beside the session lie {:.0f} MB of changes that belong to it, and up to {:.0f} MB are "
+                      "copied to be read",
+                      1e-6 * static_cast<double>(beside_it), 1e-6 * static_cast<double>(most_copied_bytes)),
+          database.string(), "if you trust who sent it, join them: sqlite3 FILE 'PRAGMA journal_mode=DELETE'");
     if (const auto room = fs::space(folder.path(), error); !error && room.available < bytes)
       return failure(fmt::format("a copy of {:.0f} MB has no room in {}, and without one the session cannot be read",
                                  1e-6 * static_cast<double>(bytes), folder.path().parent_path().string()),

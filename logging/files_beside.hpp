@@ -6,6 +6,7 @@
 /// file when it rolls the journal back. Septet changes one database at a time, so such a journal is not its own.
 /// Source: sqlite.org/fileformat.html, "The Rollback Journal"; sqlite.org/wal.html, "Read-Only Databases".
 
+#include <cstdint>
 #include <filesystem>
 #include <utility>
 
@@ -41,8 +42,12 @@ class PrivateFolder {
   std::filesystem::path path_;
 };
 
+/// Journal and WAL larger than this are not copied: a drive of eight hours whose every commit lies in its WAL has less,
+/// and a sparse file from somebody else would fill the disk.
+inline constexpr std::uintmax_t most_copied_bytes = std::uintmax_t{4} << 30;
+
 /// Copies the database, its journal and its WAL to `folder`/copy.sqlite, all from one moment, and returns its path.
-/// Error: no room, or it changed all the time.
+/// Error: they are larger than most_copied_bytes, no room, or it changed all the time.
 Expected<std::filesystem::path> copy_with_files_beside(const std::filesystem::path& database,
                                                        const PrivateFolder& folder);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/bytes.hpp"
@@ -100,6 +101,9 @@ struct Event {
   std::string detail;  ///< key=value pairs.
   bool operator==(const Event&) const = default;
 };
+
+/// The kind of events that are input: what an operator changed while it was driven, before the event's tick.
+inline constexpr std::string_view operator_command_kind = "operator_command";
 
 struct QuestionnaireRecord {
   std::string item;      ///< Short name of the question or endpoint: "fun", "drive_completed".

@@ -27,12 +27,12 @@ struct Part {
   const char* words;
   StateHash SessionDigest::*hash;
 };
-constexpr std::array parts = {Part{"setup", "its files, seeds or parameters", &SessionDigest::setup},
-                              Part{"scene", "its scene", &SessionDigest::scene},
-                              Part{"ticks", "its ticks", &SessionDigest::ticks},
-                              Part{"states", "its saved states", &SessionDigest::states},
-                              Part{"commands", "what an operator changed", &SessionDigest::commands},
-                              Part{"samples", "its samples", &SessionDigest::samples}};
+constexpr std::array parts = {Part{"setup", "its files, seeds or parameters were", &SessionDigest::setup},
+                              Part{"scene", "its scene was", &SessionDigest::scene},
+                              Part{"ticks", "its ticks were", &SessionDigest::ticks},
+                              Part{"states", "its saved states were", &SessionDigest::states},
+                              Part{"commands", "what an operator changed was", &SessionDigest::commands},
+                              Part{"samples", "its samples were", &SessionDigest::samples}};
 
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
@@ -52,7 +52,7 @@ void SessionDigest::add(const SessionInfo& info) {
   setup.add(info.ticks_per_second);
   for (const auto& [name, seed] : info.seeds) add_text(name, setup), setup.add(seed);
   for (const auto& [name, value] : info.parameters) add_text(name, setup), add_text(value, setup);
-  for (const char* key : {"driver", "traffic", "log", "vehicle_models", "participant_names"})
+  for (const char* key : {"driver", "traffic", "log", "vehicle_models", "participant_names", begun_at_row})
     if (const auto row = info.other.find(key); row != info.other.end())
       add_text(row->first, setup), add_text(row->second, setup);
   for (const SourceFile& file : info.files)

@@ -18,6 +18,8 @@ class SessionReader;
 
 /// Events that are input: an operator's changes during the drive.
 inline constexpr std::string_view operator_command_kind = "operator_command";
+/// The meta row of a drive that begins at a state kept by an earlier one: its first tick. The session holds that state.
+inline constexpr const char* begun_at_row = "begun_at_tick";
 
 struct SessionDigest {
   StateHash setup;     ///< Files, seeds, parameters, tick rate, traffic, names and models of participants.

@@ -1,6 +1,7 @@
 #include "logging/whole_session.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <string>
 
@@ -54,9 +55,25 @@ Expected<void> check_names(const SessionReader& session) {
   return {};
 }
 
-/// Snapshots follow each other from tick 0, each with the input that it was computed with.
+/// 0, or of a drive that begins at a state which an earlier one had kept, that state's tick.
+Expected<Tick> first_tick(const SessionReader& session) {
+  const auto row = session.info().other.find(begun_at_row);
+  if (row == session.info().other.end()) return Tick{0};
+  Tick tick = 0;
+  const char* const end = row->second.data() + row->second.size();
+  const auto [read, error] = std::from_chars(row->second.data(), end, tick);
+  const auto states = session.saved_state_ticks();
+  if (!states) return tl::unexpected(states.error());
+  if (error != std::errc() || read != end || states->empty() || states->front() != tick)
+    return damaged(session, "it does not hold the state that its drive began at");
+  return tick;
+}
+
+/// Snapshots follow each other from the first tick, each with the input that it was computed with.
 Expected<std::uint64_t> check_ticks(const SessionReader& session, SessionDigest& digest,
                                     const std::function<void(double)>& on_progress) {
+  const auto first = first_tick(session);
+  if (!first) return tl::unexpected(first.error());
   const auto inputs = session.inputs();
   if (!inputs) return tl::unexpected(inputs.error());
   StateHash inputs_hash;
@@ -76,14 +93,15 @@ Expected<std::uint64_t> check_ticks(const SessionReader& session, SessionDigest&
     if (!snapshot) return tl::unexpected(snapshot.error());
     if (!*snapshot) break;
     const Tick tick = (*snapshot)->tick;
-    if (tick != count) return damaged(session, fmt::format("the snapshot of tick {} is missing", count));
+    if (tick != *first + count)
+      return damaged(session, fmt::format("the snapshot of tick {} is missing", *first + count));
     if (input != inputs->end() && input->tick < tick)
       return damaged(session, fmt::format("the driver inputs are out of order at tick {}", input->tick));
     if (input != inputs->end() && input->tick == tick)
       ++input;
-    else if (tick > 0 && (session.ended_cleanly() || input != inputs->end()))
+    else if (tick > *first && (session.ended_cleanly() || input != inputs->end()))
       return damaged(session, fmt::format("the driver input of tick {} is missing", tick));
-    else if (tick > 0)
+    else if (tick > *first)
       break;  // A drive that goes on has recorded more since its inputs were read.
     digest.add_tick(tick, (*snapshot)->simulated_time_s, (*snapshot)->state_hash);
     if (on_progress && count % 256 == 255 && !inputs->empty())
@@ -129,7 +147,7 @@ Expected<WholeSession> read_whole(const SessionReader& session, const std::funct
   if (has_digest) {
     const auto altered = altered_part(digest, row->second, session.path().string());
     if (!altered) return tl::unexpected(altered.error());
-    if (*altered) return damaged(session, fmt::format("{} was altered since the drive, or is damaged", **altered));
+    if (*altered) return damaged(session, fmt::format("{} altered or damaged since the drive", **altered));
   }
   return WholeSession{has_digest, *snapshots};
 }

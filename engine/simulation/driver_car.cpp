@@ -104,6 +104,24 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   return ground;
 }
 
+/// Sets a car whose wheels all lie far below the ground (a scenario that put it there, a road without a floor) onto it, and logs that:
+/// forces of that depth are beyond all bounds. True where it did.
+bool set_on_ground(const Model& model, const vehicle::Ground& ground, State& state, std::vector<Event>& events) {
+  constexpr double buried_m = 10.0;  // More than one level of a road below another.
+  const auto centres = vehicle::wheel_centres_m(model.car, state.car);
+  double least_m = ground[0].point_m.z - centres[0].z, most_m = least_m;
+  for (std::size_t i = 1; i < centres.size(); ++i) {
+    const double below_m = ground[i].point_m.z - centres[i].z;
+    least_m = std::min(least_m, below_m);
+    most_m = std::max(most_m, below_m);
+  }
+  if (!(least_m > buried_m)) return false;
+  state.car.world_from_body.position_m.z += most_m + model.car.tyre.radius_m;
+  state.car.velocity_mps.z = 0.0;
+  events.push_back({"set_on_ground", driver_participant, fmt::format("below_m={:.1f}", least_m)});
+  return true;
+}
+
 /// Logs that the car has been off the roads for some seconds, each minute from then on, and its return.
 void note_off_road(const std::optional<road::Location>& place, State& state, std::vector<Event>& events) {
   constexpr double beside_m = 2.0;  // Two wheels on the verge are not off the road.
@@ -176,7 +194,8 @@ Participant car_participant(const Model& model, const State& state, const vehicl
 }  // namespace
 
 DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& events) {
-  const auto ground = ground_below(model, state, events);
+  auto ground = ground_below(model, state, events);
+  if (set_on_ground(model, ground, state, events)) ground = ground_below(model, state, events);
   const std::uint32_t bad_before = state.car.bad_numbers;
   const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
   auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m),

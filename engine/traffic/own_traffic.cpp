@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,13 +17,18 @@ class OwnTraffic final : public TrafficEngine {
   void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     parameters_ = parameters;
     state_ = populate(parameters_, network_, foreign, random_);
+    told_missing_ = 0;
   }
   void stop() override { state_ = {}; }
   void advance(std::span<const ForeignVehicle> foreign, double dt_s) override {
     const double before_s = state_.time_s;
     traffic::advance(parameters_, network_, foreign, dt_s, random_, state_);
     if (before_s < swarm_remark_s && state_.time_s >= swarm_remark_s)
-      remark_ = swarm_remark(parameters_.count, vehicles_on_road());
+      remark_on_swarm(0);
+    else if (std::floor(before_s / swarm_remark_again_s) < std::floor(state_.time_s / swarm_remark_again_s))
+      remark_on_swarm(
+          told_missing_ +
+          std::max<std::size_t>(1, parameters_.count / 10));  // It thins out where the road is shorter than its radius.
   }
   void worsen(std::uint32_t more_vehicles) override { traffic::worsen(parameters_, more_vehicles, random_, state_); }
   std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
@@ -45,6 +51,15 @@ class OwnTraffic final : public TrafficEngine {
   }
 
  private:
+  /// Where more than `missing` are missing.
+  void remark_on_swarm(std::size_t missing) {
+    const std::size_t on_road = vehicles_on_road();
+    if (on_road + missing >= parameters_.count && missing > 0) return;
+    if (auto remark = swarm_remark(parameters_.count, on_road)) {
+      remark_ = std::move(remark);
+      told_missing_ = parameters_.count > on_road ? parameters_.count - on_road : 0;
+    }
+  }
   std::size_t vehicles_on_road() const {
     std::size_t count = 0;
     for (const CorridorTraffic& traffic : state_.corridors)
@@ -57,6 +72,7 @@ class OwnTraffic final : public TrafficEngine {
   TrafficState state_;
   Random random_;
   std::optional<std::string> remark_;
+  std::size_t told_missing_ = 0;  ///< In the last remark.
 };
 
 }  // namespace

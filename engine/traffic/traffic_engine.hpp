@@ -49,7 +49,8 @@ class TrafficEngine {
   /// Number of non-finite values that were reset since the last call.
   virtual std::uint32_t take_bad_numbers() { return 0; }
   /// Remark on the swarm once its first second is over, as key=value pairs: `asked` and `on_road`, where fewer than 95
-  /// % or more than 105 % of the requested vehicles are there. Returned once.
+  /// % or more than 105 % of the requested vehicles are there. Returned once; by Septet's own traffic again, each ten
+  /// seconds at most, where a further tenth is gone: at the ends of a road shorter than the swarm's radius.
   virtual std::optional<std::string> take_remark() { return std::nullopt; }
   /// Failure outside of Septet, once. From then on the engine stands still; the drive is to end.
   virtual std::optional<Error> take_error() { return std::nullopt; }
@@ -57,8 +58,8 @@ class TrafficEngine {
 
 /// The remark on a swarm of this size: empty within 5 % of the requested number.
 std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road);
-/// Time of the remark.
-inline constexpr double swarm_remark_s = 1.0;
+/// Time of the first remark, and the least time between two.
+inline constexpr double swarm_remark_s = 1.0, swarm_remark_again_s = 10.0;
 
 /// Septet's own traffic (traffic.hpp). `network` outlives it.
 std::unique_ptr<TrafficEngine> own_traffic(const road::RoadNetwork& network, std::uint64_t seed);

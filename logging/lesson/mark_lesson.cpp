@@ -343,20 +343,17 @@ void add_faults(std::size_t index, const LessonTask& task, const DriveSeen& driv
 }
 
 DriveSeen seen_of(std::span<const Sample> samples, std::span<const Event> events) {
-  DriveSeen drive{samples, events, find_lane_changes(samples), find_glances(samples), false};
+  DriveSeen drive{samples, events, find_lane_changes(samples, {}, put_before_ticks(events)), find_glances(samples),
+                  false};
   drive.head_is_known = is_head_known(samples);
   for (const Event& event : events) {
-    if (event.kind == "operator_command" && event.detail.starts_with("put "))
+    if (event.kind == operator_command_kind && event.detail.starts_with("put "))
       drive.put_s.push_back(event.simulated_time_s);
     if (event.kind != "operator") continue;
     const std::string_view wish = word_of(event, "wish");
     if (wish == "brake") drive.instructor_s.emplace_back(event.simulated_time_s, 1e9);
     if (wish == "brake_off" && !drive.instructor_s.empty()) drive.instructor_s.back().second = event.simulated_time_s;
   }
-  std::erase_if(drive.changes, [&](const LaneChange& change) {
-    constexpr double near_s = 0.25;
-    return is_put_between(drive, change.simulated_time_s - near_s, change.simulated_time_s + near_s);
-  });
   return drive;
 }
 

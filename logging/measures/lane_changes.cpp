@@ -1,5 +1,6 @@
 #include "logging/measures/lane_changes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -59,12 +60,26 @@ std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sa
   return change;
 }
 
-std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings) {
+void break_off(LaneChangeDetector& detector) { detector.previous.reset(); }
+
+std::vector<Tick> put_before_ticks(std::span<const Event> events) {
+  std::vector<Tick> ticks;
+  for (const Event& event : events)
+    if (event.kind == operator_command_kind && event.detail.starts_with("put ")) ticks.push_back(event.tick);
+  std::ranges::sort(ticks);
+  return ticks;
+}
+
+std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings,
+                                          std::span<const Tick> put_before) {
   LaneChangeDetector detector;
   detector.settings = settings;
   std::vector<LaneChange> changes;
-  for (const Sample& sample : samples)
+  auto put = put_before.begin();
+  for (const Sample& sample : samples) {
+    for (; put != put_before.end() && *put <= sample.tick; ++put) break_off(detector);
     if (const auto change = advance(detector, sample)) changes.push_back(*change);
+  }
   return changes;
 }
 

@@ -6,7 +6,8 @@
 /// line is recognised by the jump of the lateral position from one edge of a lane to the other (more than half a lane
 /// width: a car moves less than that from sample to sample); where the lane's number changes without the jump, the road
 /// renumbered its lanes and nothing is counted. Samples off every lane (lane 0) break the sequence, and so does a gap
-/// of more than a second: a return to the road is not a lane change.
+/// of more than a second: a return to the road is not a lane change, nor is
+/// an operator's move of the car.
 
 #include <cstdint>
 #include <optional>
@@ -41,7 +42,15 @@ struct LaneChangeDetector {
 /// Takes the next sample; returns the lane change confirmed by this sample.
 std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sample);
 
-std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings = {});
+/// The car was put elsewhere: what it was in before has nothing to do with what it is in now.
+void break_off(LaneChangeDetector& detector);
+
+/// Before which ticks an operator put the car elsewhere, ascending, from the log's events.
+std::vector<Tick> put_before_ticks(std::span<const Event> events);
+
+/// `put_before`: as put_before_ticks() tells them.
+std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings = {},
+                                          std::span<const Tick> put_before = {});
 
 /// Simulated time from the first to the last sample over the number of lane changes: the paper's "on average every 15
 /// seconds" (Lebram, Engström and Gustavsson 2006, §4). Empty without a lane change.

@@ -38,7 +38,7 @@ DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureS
   measures.collisions = find_collisions(records.events);
   if (samples.empty()) return measures;
   measure_speed(samples, measures);
-  measures.lane_changes = find_lane_changes(samples, settings.lane_changes);
+  measures.lane_changes = find_lane_changes(samples, settings.lane_changes, put_before_ticks(records.events));
   if (!measures.lane_changes.empty())
     measures.between_lane_changes_s = measures.duration_s / static_cast<double>(measures.lane_changes.size());
   measures.lateral_position =

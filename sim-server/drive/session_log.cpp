@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <variant>
 
 #include <fmt/core.h>
 
@@ -41,7 +42,7 @@ std::map<std::string, std::string> parameters_of(const LoadedDrive& drive) {
 
 }  // namespace
 
-Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options) {
+Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options, Tick first) {
   logging::SessionInfo info;
   info.septet_version = version;
   info.git_revision = revision;
@@ -55,6 +56,7 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
   info.other["traffic"] = drive_options.traffic;
   info.other["compiler"] = __VERSION__;
   if (drive_options.log_samples_only) info.other["log"] = "samples";
+  if (first > 0) info.other[logging::begun_at_row] = std::to_string(first);
   logging::Subject subject;
   for (const auto& text : drive_options.about)
     if (auto added = add_to_subject(subject, text); !added) return tl::unexpected(added.error());
@@ -185,6 +187,7 @@ void SessionLog::record_message(const std::string& kind, const std::string& text
 }
 
 void SessionLog::record_command(Tick before, const simulation::OperatorCommand& command) {
+  if (std::holds_alternative<simulation::PutCar>(command)) logging::break_off(observer_.lane_changes);
   record(logging::Event{before, simulated_time_s_, std::string(operator_command_event), std::nullopt,
                         simulation::text_of(command)});
 }

@@ -30,7 +30,8 @@ inline constexpr std::string_view operator_command_event = logging::operator_com
 class SessionLog {
  public:
   /// session.sqlite in the drive's folder.
-  static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options);
+  /// `first`: the drive's first tick, not 0 where it begins at a kept state.
+  static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options, Tick first = 0);
 
   /// Whom to tell of each sample and each event beside the file, in its order; whom that takes no time.
   void watch(std::function<void(const logging::Sample&)> sampled, std::function<void(const logging::Event&)> happened) {

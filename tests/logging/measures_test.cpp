@@ -121,6 +121,23 @@ TEST_CASE("a renumbered lane is no lane change and a road left and entered again
   CHECK(find_lane_changes(off_road).empty());
 }
 
+TEST_CASE(
+    "a car that an operator put into another lane has changed no lane, and one that changes lanes afterwards has") {
+  std::vector<Sample> samples;
+  for (int i = 0; i < 20; ++i) samples.push_back(sample_at(i, -2, 1.2));
+  for (int i = 20; i < 40; ++i) samples.push_back(sample_at(i, -1, -1.2));
+  for (int i = 40; i < 60; ++i) samples.push_back(sample_at(i, -2, 1.2));
+  const std::vector<Event> events{{samples[19].tick, 1.9, "operator_command", {}, "conditions rain_mm_per_h=1"},
+                                  {samples[19].tick + 1, 1.9, "operator_command", {}, "put x_m=1 y_m=2"}};
+  const auto put_before = put_before_ticks(events);
+  REQUIRE(put_before == std::vector<Tick>{samples[19].tick + 1});
+  CHECK(find_lane_changes(samples).size() == 2);
+  const auto changes = find_lane_changes(samples, {}, put_before);
+  REQUIRE(changes.size() == 1);
+  CHECK(changes[0].tick == samples[40].tick);
+  CHECK(changes[0].lanes_to_left == -1);
+}
+
 TEST_CASE("mean time between lane changes is driving time over their number") {
   const auto samples = drive_through({-3.5, -2.5, -1.0, 0.0, -1.0, -2.5, -3.5});
   const auto changes = find_lane_changes(samples);

@@ -14,6 +14,7 @@
 
 #include <doctest/doctest.h>
 
+#include "logging/files_beside.hpp"
 #include "logging/recorded_scene.hpp"
 #include "logging/session_editor.hpp"
 #include "tests/logging/session_fixture.hpp"
@@ -246,6 +247,30 @@ TEST_CASE("a session with a trigger, or with a view or a foreign table in the pl
     CHECK_FALSE_MESSAGE(write_anonymous_copy(session).has_value(), kind);
     CHECK_MESSAGE(bytes_in(session) == before, kind);
   }
+}
+
+TEST_CASE(
+    "changes beside a session that are larger than any drive's are refused at once, and what is no WAL is passed "
+    "over") {
+  const TemporaryFolder folder;
+  const fs::path session = write_drive(folder / "session.sqlite");
+  const fs::path wal = folder / "session.sqlite-wal";
+  put(wal, std::string("\x37\x7f\x06\x83", 4));
+  fs::resize_file(wal, most_copied_bytes + 1);  // Holes: it takes no room here.
+  CHECK(read_all(session).find("MB of changes that belong to it") != std::string::npos);
+  put(wal, "no WAL");
+  fs::resize_file(wal, most_copied_bytes + 1);
+  CHECK(read_all(session) == "20 snapshots, weather clear");
+}
+
+TEST_CASE("a session whose statistics make SQLite sort is read without a file beside it") {
+  const TemporaryFolder folder;
+  const fs::path session = write_drive(folder / "session.sqlite");
+  execute(session, "ANALYZE; UPDATE sqlite_stat1 SET stat = '-1 -1 x'");
+  const WatchedFolder watched(folder.path());
+  const std::string said = read_all(session);
+  CHECK_MESSAGE(said == "20 snapshots, weather clear", said);
+  CHECK(watched.changes() == "");
 }
 
 TEST_CASE("functions in an index that somebody made are not run by who reads") {

@@ -96,6 +96,13 @@ def operate(session, _out):
     return 0
 
 
+def file_of_holes(path, begin):
+    """Larger than what is copied to be read, and takes no room."""
+    with open(path, "wb") as file:
+        file.write(begin)
+        file.truncate(5 << 30)
+
+
 def run(*words):
     return subprocess.run([str(word) for word in words], capture_output=True, stdin=subprocess.DEVNULL, timeout=600, check=False).returncode
 
@@ -160,4 +167,6 @@ with tempfile.TemporaryDirectory() as name:
     look_at("a read-only folder", lambda session: (session.chmod(0o400), session.parent.chmod(0o500)), True)
     look_at("a super-journal", lambda session: super_journal(session, own / "thesis.txt"), False)
     look_at("a super-journal beside newest commits", lambda session: (killed_with(session, commits), super_journal(session, own / "thesis.txt")), False)
+    look_at("no WAL where one would lie", lambda session: file_of_holes(f"{session}-wal", b"nothing"), True)
+    look_at("a WAL of holes", lambda session: file_of_holes(f"{session}-wal", b"\x37\x7f\x06\x83"), False)
     sys.exit(1 if bad else 0)

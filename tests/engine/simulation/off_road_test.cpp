@@ -69,6 +69,22 @@ TEST_CASE("a car far from every road stands on the land and does not sink") {
   }
 }
 
+TEST_CASE("a car that was set far below the ground stands on it from the first tick on, and the log says so") {
+  for (const double below_m : {12.0, 50.0, 1000.0, 1e6, 1e9}) {
+    CAPTURE(below_m);
+    State state = car_at({500.0, -1.5}, 0.0, 10.0);
+    state.car.world_from_body.position_m.z -= below_m;
+    std::vector<Event> events;
+    for (int tick = 0; tick < 3 * 120; ++tick) {
+      advance_car(world(), state, events);
+      REQUIRE(std::abs(over_land_m(state)) < 0.5);
+    }
+    CHECK(state.car.bad_numbers == 0);
+    CHECK(std::ranges::count(events, "set_on_ground", &Event::kind) == 1);
+    CHECK(std::ranges::count(events, "wheel_damage", &Event::kind) == 0);
+  }
+}
+
 TEST_CASE("the log tells of a car off the roads after five seconds and when it is back") {
   State state = car_at({500.0, 30.0}, 0.0, 0.0);
   std::vector<Event> events;

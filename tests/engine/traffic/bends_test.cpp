@@ -4,11 +4,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/traffic/traffic_engine.hpp"
 #include "engine/traffic/traffic_stages.hpp"
 #include "tests/engine/traffic/bend_road.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
@@ -258,6 +260,30 @@ TEST_CASE("in a bend nobody is pulled sideways more than is comfortable, and bra
   const auto right = read_road({.geometry = arc(600.0, -0.01), .length_m = 600.0});
   CHECK(fastest_between(right, -2, 200.0, 600.0).sideways_mps2 < 1.05 * bend_mps2);
   CHECK(fastest_between(right, -2, 200.0, 600.0).mps < fastest_between(right, 1, 200.0, 560.0).mps);
+}
+
+TEST_CASE("a swarm that thins out on a road shorter than its radius says so, each time that a further tenth has gone") {
+  const auto network = read_road(
+      {.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="500"><line/></geometry>)", .length_m = 500.0});
+  const std::vector somebody{somebody_at(network, 60.0)};
+  const TrafficParameters parameters = motorway_traffic(20, 280.0);
+  const auto traffic = own_traffic(network, 1);
+  traffic->start(parameters, somebody);
+  std::vector<std::size_t> on_road;
+  for (int tick = 0; tick < 60 * 120; ++tick) {
+    traffic->advance(somebody, tick_s);
+    if (const auto remark = traffic->take_remark()) {
+      CHECK(remark->starts_with("asked=20 on_road="));
+      on_road.push_back(std::stoul(remark->substr(remark->rfind('=') + 1)));
+    }
+  }
+  REQUIRE(!on_road.empty());
+  CHECK(on_road.size() <= 10);
+  for (std::size_t i = 1; i < on_road.size(); ++i) CHECK(on_road[i] + 2 < on_road[i - 1]);
+  std::vector<Participant> left;
+  traffic->append_participants(left);
+  CHECK(left.size() < on_road.back() + 3);  // Somebody may come in again at the other rim.
+  CHECK(on_road.back() < left.size() + 5);
 }
 
 TEST_CASE("a swarm is set out no faster than bends and limits allow") {
