@@ -16,8 +16,6 @@ namespace septet::logging {
 
 class SessionReader;
 
-/// Events that are input: an operator's changes during the drive.
-inline constexpr std::string_view operator_command_kind = "operator_command";
 /// The meta row of a drive that begins at a state kept by an earlier one: its first tick. The session holds that state.
 inline constexpr const char* begun_at_row = "begun_at_tick";
 
