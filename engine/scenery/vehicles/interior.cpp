@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -17,16 +19,23 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// The body below its windows and without its roof, in whose place the cabin's frame stands: bonnet and, in the mirrors, flanks.
-geometry::PolygonMesh body_below_windows(const VehicleModel& model, std::uint32_t material) {
+/// The body below its windows and without its roof, in whose place the cabin's frame stands. `seen`: of it only what the driver sees, bonnet and, in
+/// the mirrors, flanks.
+geometry::PolygonMesh body_below_windows(const VehicleModel& model, std::uint32_t material, bool seen) {
   const CarShape shape = car_shape(model);
   const geometry::PolygonMesh body = shown_surface(car_body_cage(model, shape, 1), 1);
+  const auto cowl = static_cast<float>(model.wheelbase_m) - shape.cowl_m;
   MeshBuilder builder;
   builder.material = material;
   for (const glm::vec3& p : body.vertices_m) builder.vertex(p);
   for (const auto& corners : body.polygons) {
-    const float middle_z = 0.5f * (body.vertices_m[corners[0]].z + body.vertices_m[corners[2]].z);
-    if (middle_z < shape.hood_rear_m + 0.02f) builder.quad(corners[0], corners[1], corners[2], corners[3]);
+    const glm::vec3 middle = (body.vertices_m[corners[0]] + body.vertices_m[corners[2]]) * 0.5f;
+    const glm::vec3 area = glm::cross(body.vertices_m[corners[2]] - body.vertices_m[corners[0]],
+                                      body.vertices_m[corners[3]] - body.vertices_m[corners[1]]);
+    const bool bonnet = middle.x > cowl - 0.08f && middle.z > 0.5f && area.z > 0.35f * glm::length(area);
+    const bool flank = middle.x < cowl && std::abs(area.y) > 0.6f * glm::length(area);
+    if (middle.z < shape.hood_rear_m + 0.02f && (!seen || bonnet || flank))
+      builder.quad(corners[0], corners[1], corners[2], corners[3]);
   }
   return builder.take();
 }
@@ -60,7 +69,7 @@ VehicleParts sample_of(CockpitFinish finish) {
 VehicleParts interior_parts() {
   const VehicleModel& model = vehicle_models()[*find_vehicle_model("volvo-s80")];
   VehicleParts parts;
-  parts.push_back({"body", body_below_windows(model, index_of(CockpitFinish::paint)), 0, {Placement{}}});
+  parts.push_back({"body", body_below_windows(model, index_of(CockpitFinish::paint), true), 0, {Placement{}}});
   parts.push_back({"dashboard", dashboard(), 0, {Placement{}}});
   parts.push_back({"instruments", instrument_faces(), 0, {Placement{}}});
   parts.push_back({"frame", cabin_frame(), 0, {Placement{}}});
@@ -73,7 +82,7 @@ VehicleParts interior_parts() {
 
 VehicleParts shell_parts() {
   const VehicleModel& model = vehicle_models()[*find_vehicle_model("volvo-s80")];
-  VehicleParts parts{{"body", body_below_windows(model, index_of(Finish::paint)), 0, {Placement{}}}};
+  VehicleParts parts{{"body", body_below_windows(model, index_of(Finish::paint), false), 0, {Placement{}}}};
   for (VehiclePart& part : vehicle_parts(model)) {
     const bool is_fixed = part.places.front().role == scene::PartRole::fixed;
     if (is_fixed || part.places.front().visible_from_m > 0.0f) continue;
