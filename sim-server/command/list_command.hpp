@@ -25,6 +25,9 @@ struct ListEntry {
 Expected<std::vector<ListEntry>> list_of(const std::string& kind,
                                          const std::vector<std::filesystem::path>& own_folders = {});
 
+/// What an entry is, in one line. A description that begins with the title says it once.
+std::string title_and_description(const ListEntry& entry);
+
 /// Names with the description that their file begins with, to standard output. `data` are folders of one's own beside the one that one
 /// stands in.
 Expected<int> run_list(const std::string& kind, const std::vector<std::filesystem::path>& data);
