@@ -48,8 +48,8 @@ class TrafficEngine {
   /// How many numbers have gone bad and were reset since the last call.
   virtual std::uint32_t take_bad_numbers() { return 0; }
   /// What there is to say of the swarm once its first second is over, as key=value pairs: `asked` and `on_road`, where fewer than 95 % or more
-  /// than 105 % of the vehicles that were asked for are there. Septet's own traffic says it again, each ten seconds at most, where a further tenth has gone: at the ends
-  /// of a road that is shorter than the swarm's radius nobody comes back.
+  /// than 105 % of the vehicles that were asked for are there. Septet's own traffic says it again, each ten seconds at most, where a further
+  /// tenth has gone: at the ends of a road that is shorter than the swarm's radius nobody comes back.
   virtual std::optional<std::string> take_remark() { return std::nullopt; }
   /// What has gone wrong outside, once. From then on the engine stands still; the drive is to end.
   virtual std::optional<Error> take_error() { return std::nullopt; }
