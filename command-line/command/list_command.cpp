@@ -116,6 +116,12 @@ Expected<std::vector<ListEntry>> list_of(const std::string& kind, const std::vec
   return entries;
 }
 
+std::string title_and_description(const ListEntry& entry) {
+  const std::string &title = entry.title, &description = entry.description;
+  if (title.empty() || description == title || description.starts_with(fmt::format("{}: ", title))) return description;
+  return description.empty() ? title : fmt::format("{}: {}", title, description);
+}
+
 Expected<int> run_list(const std::string& kind, const std::vector<fs::path>& data) {
   const auto folders = own_folders(data);
   if (!folders) return tl::unexpected(folders.error());
@@ -123,10 +129,7 @@ Expected<int> run_list(const std::string& kind, const std::vector<fs::path>& dat
   if (!entries) return tl::unexpected(entries.error());
   std::size_t width = 0;
   for (const auto& entry : *entries) width = std::max(width, entry.name.size());
-  for (const auto& entry : *entries) {
-    const bool has_both = !entry.title.empty() && !entry.description.empty();
-    fmt::print("{:<{}}  {}{}{}\n", entry.name, width, entry.title, has_both ? ": " : "", entry.description);
-  }
+  for (const auto& entry : *entries) fmt::print("{:<{}}  {}\n", entry.name, width, title_and_description(entry));
   return 0;
 }
 

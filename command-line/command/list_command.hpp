@@ -25,6 +25,9 @@ struct ListEntry {
 Expected<std::vector<ListEntry>> list_of(const std::string& kind,
                                          const std::vector<std::filesystem::path>& own_folders = {});
 
+/// An entry in one line; a description that begins with the title is not preceded by it.
+std::string title_and_description(const ListEntry& entry);
+
 /// Prints names with the description at the beginning of their file, to standard output. `data` are user folders beside
 /// the working folder.
 Expected<int> run_list(const std::string& kind, const std::vector<std::filesystem::path>& data);

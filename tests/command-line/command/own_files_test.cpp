@@ -47,6 +47,20 @@ const ListEntry* find_own(const std::vector<ListEntry>& list, const fs::path& fi
 
 }  // namespace
 
+TEST_CASE("a list says a title once, whether its description begins with it or not") {
+  CHECK(title_and_description({.description = "Title: and more", .title = "Title"}) == "Title: and more");
+  CHECK(title_and_description({.description = "Titles: and more", .title = "Title"}) == "Title: Titles: and more");
+  CHECK(title_and_description({.description = "Title", .title = "Title"}) == "Title");
+  CHECK(title_and_description({.description = "", .title = "Title"}) == "Title");
+  CHECK(title_and_description({.description = "A rig", .title = ""}) == "A rig");
+  const auto lessons = list_of("lessons").value();
+  for (const auto& lesson : lessons) {
+    const std::string line = title_and_description(lesson);
+    CAPTURE(line);
+    CHECK(line.find(lesson.title) == line.rfind(lesson.title));
+  }
+}
+
 TEST_CASE("rigs, scenarios, lessons and experiments of one's own are listed by the file that the command line takes") {
   const SchoolFolder school;
   const auto rigs = list_of("rigs", {school.path()}).value();
