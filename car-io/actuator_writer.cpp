@@ -49,7 +49,7 @@ struct ActuatorWriter::State {
     }
   }
 
-  /// All of it while somebody sets, then down to nothing.
+  /// The full command while it is renewed, then down to nothing.
   Actuators guarded() {
     const auto now = Clock::now();
     const bool is_silent = watch_silence(now);
@@ -57,7 +57,7 @@ struct ActuatorWriter::State {
     return guard.pass(newest, std::chrono::duration<double>(now - std::exchange(guarded_at, now)).count());
   }
 
-  /// Whether nobody sets, which cuts.
+  /// True if the command is not renewed, which cuts.
   bool watch_silence(Clock::time_point now) {
     const bool is_silent = now - set_at > duration(options.silent_after_s) && !is_rest(newest);
     if (guard.trip(is_silent) && options.sticky && options.tells_cut)
@@ -84,20 +84,20 @@ struct ActuatorWriter::State {
     if (written && options.has_steering_force) written = device->write(encode_steering(actuators.steering, sequence));
     if (written) {
       refusals = 0;
-      // Of a device that is there: one that was unplugged in the midst of it has answered nothing.
+      // For a present device: one unplugged in between has not replied.
       if (fault && std::exchange(told_of_watchdog, true)) fault.reset();
       return fault;
     }
     device.reset();
     next_try = Clock::now() + duration(options.retry_s);
-    // The first failure may be the unplugging; one right after opening again is a refusal.
+    // The first failure may be the unplugging; one right after reopening is a refusal.
     if (++refusals != 2) return std::nullopt;
     return Error{"it takes no output reports: " + written.error().what, written.error().where,
                  "check the rig's [car] layout against the device"};
   }
 
-  /// The second net, for the case that this program cannot write zeros any more: killed, stopped, the machine gone. Whether the device
-  /// has taken it shows when it is read back.
+  /// The second safety net, for the case that this program can no longer write zeros: killed, stopped, the machine
+  /// gone. Reading it back shows whether the device has accepted it.
   std::optional<Error> set_watchdog() {
     const auto sent = device->send_feature(encode_device_status({.watchdog_ms = watchdog_ms}));
     const auto kept = sent ? device->get_feature(device_report_id, device_report_bytes) : tl::unexpected(sent.error());
@@ -111,7 +111,7 @@ struct ActuatorWriter::State {
                  "correct its firmware (feature report 3), and keep a hand on the emergency switch"};
   }
 
-  // Of the thread alone.
+  // Used by the thread alone.
   OpenHidDevice open;
   ActuatorWriterOptions options;
   std::unique_ptr<HidDevice> device;

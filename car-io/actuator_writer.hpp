@@ -1,13 +1,12 @@
 #pragma once
-/// Writes the car's output reports from a thread of its own, so that a device that takes its time
-/// never delays who reads it or who simulates.
+/// Writes the car's output reports from a thread of its own, so that a slow device delays neither its reader nor the
+/// simulation.
 ///
-/// The thread opens the device for itself (a HID device may be open several times) and opens it
-/// again after an unplug. What was set last is written every `period_s`; where nobody has set
-/// anything for `silent_after_s`, everything fades to 0 in as long again: a simulation that hangs
-/// does not leave a fan blowing. A `sticky` writer then stays at 0 until what is at rest is set
-/// (actuator_guard.hpp), which is what a pause does: an operator confirms. The destructor writes zeros. For the case that nothing can be
-/// written any more, the device's own watchdog is set whenever it is opened, and read back.
+/// The thread opens the device for itself (a HID device may be open several times) and opens it again after an unplug.
+/// The latest command is written every `period_s`; without a new one for `silent_after_s`, everything fades to 0 in the
+/// same time: a hung simulation does not leave a fan blowing. A `sticky` writer then stays at 0 until the command of
+/// rest is set (actuator_guard.hpp), as in a pause: an operator confirms. The destructor writes zeros. For the case
+/// that writing becomes impossible, the device's own watchdog is set whenever it is opened, and read back.
 ///
 /// Threads: `set` and `take_error` from any; neither waits for the device.
 
@@ -27,8 +26,8 @@ struct ActuatorWriterOptions {
   double silent_after_s = 0.2;
   double retry_s = 0.5;
   bool sticky = false;
-  bool tells_cut = true;  ///< False: whoever asks `is_cut` says so itself.
-  double rise_s = 0.0;    ///< Of what comes back after a fault.
+  bool tells_cut = true;  ///< False: the owner, which polls `is_cut`, reports it.
+  double rise_s = 0.0;    ///< Duration of the return after a fault.
 };
 
 class ActuatorWriter {
@@ -38,12 +37,13 @@ class ActuatorWriter {
   ~ActuatorWriter();
 
   void set(const Actuators& actuators);
-  /// Everything to 0 with the next report, as after a fault: an emergency stop. It stays there until what is at rest is set.
+  /// Sets everything to 0 with the next report, as after a fault: an emergency stop. It stays there until the command
+  /// of rest is set.
   void stop();
-  /// Whether a fault holds everything at 0.
+  /// True while a fault holds everything at 0.
   bool is_cut() const;
-  /// A device that is there and takes no output reports, or whose watchdog does not hold, once; that a sticky writer was cut;
-  /// that it is away is for who reads it to say.
+  /// Faults to report, each once: a device that is there and takes no output reports, or whose watchdog does not hold;
+  /// a sticky writer that was cut. A missing device is reported by its reader.
   std::optional<Error> take_error();
 
  private:

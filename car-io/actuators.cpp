@@ -6,13 +6,13 @@
 namespace septet::car_io {
 namespace {
 
-// Shares of what the shaker may do; engineer's values, to be felt and changed.
+// Shares of the shaker's maximum; engineer's values, to be felt and changed.
 constexpr double idling_engine = 0.10, loaded_engine = 0.30;
 constexpr double road_at_30_mps = 0.25;
-constexpr double line = 0.35, line_profile_m = 0.3048;  // As a milled strip's 12 inches.
+constexpr double line = 0.35, line_profile_m = 0.3048;  // Like a milled strip's 12 inches.
 constexpr double bump = 0.90, wheel_hop_hz = 13.0, blow = 1.0, blow_hz = 30.0;
 constexpr double anti_lock = 0.60, anti_lock_hz = 12.0;
-constexpr double lowest_hz = 5.0, highest_hz = 200.0;  // What a shaker plays.
+constexpr double lowest_hz = 5.0, highest_hz = 200.0;  // Range of a shaker.
 
 struct Shake {
   double amplitude = 0.0, frequency_hz = 0.0;
@@ -20,7 +20,7 @@ struct Shake {
 
 double finite(double value) { return std::isfinite(value) ? value : 0.0; }
 
-/// Of the fan, so that its air is as fast as this share of what it can.
+/// Duty of the fan, for this share of its greatest air speed.
 double duty_for(double air_share, const rig::CarActuators& limits) {
   const auto& curve = limits.fan_curve;
   if (curve.empty()) return limits.fan_least + (1.0 - limits.fan_least) * air_share;

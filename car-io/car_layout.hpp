@@ -1,8 +1,8 @@
 #pragma once
-/// Where a wheel's controls lie in its HID report, as data: one decoder for every wheel.
+/// Layout of a wheel's controls in its HID report, as data: one decoder for every wheel.
 ///
-/// The layouts are listed in REPORTS.md. A report comes from outside: one that is too short, of
-/// another id or out of range is refused with an Error.
+/// REPORTS.md lists the layouts. A report is untrusted: one that is too short, of another id or out of range is refused
+/// with an Error.
 
 #include <cstdint>
 #include <optional>
@@ -16,8 +16,8 @@
 
 namespace septet::car_io {
 
-/// One axis of a report, little-endian, and the raw values that mean 0 and 1 (hand wheel: straight
-/// and full left; pedals: released and floored).
+/// One axis of a report, little-endian, and the raw values of 0 and 1 (hand wheel: straight and full left; pedals:
+/// released and floored).
 struct AxisField {
   std::uint8_t byte = 0;
   std::uint8_t bits = 16;  ///< 8 or 16.
@@ -51,7 +51,7 @@ struct ButtonField {
 
 struct CarLayout {
   std::string_view name;
-  std::optional<std::uint8_t> report_id;  ///< None: the device's reports have no id.
+  std::optional<std::uint8_t> report_id;  ///< Empty: the device's reports have no id.
   std::size_t report_bytes = 0;
   bool may_be_longer = false;
   AxisField steering, accelerator, brake, clutch;
@@ -65,17 +65,17 @@ struct CarLayout {
 std::span<const CarLayout> car_layouts();
 Expected<const CarLayout*> find_car_layout(std::string_view name);
 
-/// What a layout's own scale makes of each axis, uncalibrated: hand wheel −1 (full right) to 1
-/// (full left), pedals 0 to 1. What `septet-car calibrate` records.
+/// Values of the axes in a layout's own scale, uncalibrated: hand wheel −1 (full right) to 1 (full left), pedals 0 to
+/// 1. `septet-car calibrate` records them.
 struct AxisReadings {
   double steering = 0.0, accelerator = 0.0, brake = 0.0, clutch = 0.0;
 };
 Expected<AxisReadings> read_axes(const CarLayout& layout, std::span<const std::byte> report);
 
-/// Of a report that is one of the layout's (`decode_report` has taken it); a layout without them has none pressed.
+/// From a report that `decode_report` has accepted; without switches in the layout all are released.
 CarSwitches read_switches(const CarLayout& layout, std::span<const std::byte> report);
 
-/// The report with this button pressed, where the layout has it.
+/// Sets this button in the report, if the layout has it.
 void press(const CarLayout& layout, CarButton button, std::span<std::byte> report);
 
 /// The calibration comes from the rig, which has checked it.

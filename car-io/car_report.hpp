@@ -1,6 +1,5 @@
 #pragma once
-/// The HID reports of Septet's own car, as REPORTS.md writes them down: descriptor, and values to
-/// bytes.
+/// The HID reports of Septet's own car, as REPORTS.md specifies them: descriptor, and values to bytes.
 
 #include <array>
 #include <cstdint>
@@ -22,24 +21,23 @@ inline constexpr std::size_t controls_report_bytes = 15, actuators_report_bytes 
 /// Full left or right of a hand wheel with 2½ turns from lock to lock.
 inline constexpr double default_steering_lock_rad = 2.5 * std::numbers::pi;
 
-/// What the device tells the host about its reports (HID 1.11, 6.2.2).
+/// The device's report descriptor for the host (HID 1.11, 6.2.2).
 std::span<const std::uint8_t> car_report_descriptor();
 
-/// What a car says of its own safety, beside the driver's controls.
+/// The car's own safety switches, beside the driver's controls.
 struct CarSwitches {
-  bool emergency_stop =
-      false;           ///< The contact of the emergency stop, which has cut the power of fan and amplifier itself.
+  /// The contact of the emergency stop, which has cut the power of fan and amplifier itself.
+  bool emergency_stop = false;
   bool rearm = false;  ///< The button that lets fan, shaker and wheel force run again, while it is held.
   bool operator==(const CarSwitches&) const = default;
 };
 
-/// Input report of these controls; what is beyond a field's range is taken to its end. A sequence
-/// is the caller's.
+/// Input report of these controls; values beyond a field's range are clamped. The caller keeps the sequence.
 std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input,
                                                              double steering_lock_rad = default_steering_lock_rad,
                                                              const CarSwitches& switches = {});
 
-/// What the car's actuators shall do, 0 to 1.
+/// Commands of the car's actuators, 0 to 1.
 struct Actuators {
   double fan = 0.0;
   double vibration = 0.0;

@@ -1,5 +1,6 @@
 #pragma once
-/// What of the driver's controls is pressed or not, in the order of the input report's bits (REPORTS.md) and of the buttons that games see.
+/// The driver's two-state controls, in the order of the input report's bits (REPORTS.md) and of the buttons that games
+/// see.
 
 #include <array>
 

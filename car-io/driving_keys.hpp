@@ -1,6 +1,6 @@
 #pragma once
-/// Which key does what: the one table that the window obeys and that README, `septet drive --help`, the terminal and the
-/// screen show.
+/// Assignment of keys: the one table that the window uses and that docs/driving.md, `septet drive --help`, the terminal
+/// and the screen show.
 
 #include <array>
 #include <functional>
@@ -12,16 +12,16 @@
 
 namespace septet::car_io {
 
-/// One thing that the driver can do, and the keys that do it.
+/// One action of the driver, and its keys.
 struct DrivingKey {
-  std::array<Key, 2> keys;          ///< Either of them; the same one twice where there is no other.
-  bool KeyStates::*held = nullptr;  ///< What it means while it is down; null: the window minds it (Escape, F1).
+  std::array<Key, 2> keys;          ///< Either of them; the same one twice without an alternative.
+  bool KeyStates::*held = nullptr;  ///< Its state while it is down; null: the window handles it (Escape, F1).
   const char* does = "";
 };
 
 std::span<const DrivingKey> driving_keys();
 
-/// What a keyboard says on which `is_down` holds of the keys that are down.
+/// States of a keyboard whose pressed keys satisfy `is_down`.
 KeyStates key_states(const std::function<bool(Key)>& is_down);
 
 /// "Arrow up, W".
@@ -30,7 +30,7 @@ std::string names_of_keys(const DrivingKey& key);
 /// All of them, a line each, and the gamepad's: for terminals.
 std::string driving_keys_text();
 
-/// What a gamepad's sticks and buttons do, in a sentence.
+/// Sticks and buttons of a gamepad, in a sentence.
 inline constexpr const char* gamepad_text =
     "A gamepad drives too: left stick steers, triggers accelerate and brake, bumpers indicate, A horn, B parking "
     "brake, Y reverse.";

@@ -83,7 +83,7 @@ void choose_gearbox(KeyboardDriver& driver, const KeyStates& keys, double speed_
   driver.reverse_armed = false;
 }
 
-/// The left foot and the lever. What the gearbox makes of a gear without the clutch is its affair.
+/// The left foot and the lever. The gearbox models the effect of a gear without the clutch.
 void move_clutch_and_lever(KeyboardDriver& driver, const KeyStates& keys, double dt_s) {
   const KeyboardSettings& settings = driver.settings;
   DriverInput& input = driver.input;
@@ -96,7 +96,7 @@ void move_clutch_and_lever(KeyboardDriver& driver, const KeyStates& keys, double
   input.gear = static_cast<std::int8_t>(std::clamp(input.gear + steps, -1, static_cast<int>(settings.gears)));
 }
 
-/// Drive or reverse, by which pedal key is pressed anew at a standstill.
+/// Drive or reverse, by the pedal key that is pressed first at a standstill.
 void choose_direction(KeyboardDriver& driver, const KeyStates& keys, double speed_mps) {
   GearSelector& selector = driver.input.selector;
   if (selector == GearSelector::manual) return;

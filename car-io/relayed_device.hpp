@@ -1,10 +1,9 @@
 #pragma once
-/// The car's HID device on another machine: reports that come over the network stand in for those
-/// of a device here, so that the server reads near and far cars alike.
+/// The car's HID device on another machine: reports from the network stand in for those of a local device, so that the
+/// server reads near and far cars alike.
 ///
-/// Whoever has the connection says what came (`receive`) and when it broke (`lose`); who reads
-/// opens the device as any other. Reading returns the newest report; a far device that is away
-/// returns why. Threads: one at a time, both ends together.
+/// The owner of the connection calls `receive` and `lose`; the reader opens the device as any other. Reading returns
+/// the newest report, or the reason of a missing far device. Threads: one at a time, both ends together.
 
 #include <cstdint>
 #include <memory>
@@ -18,10 +17,10 @@ class RelayedDevice {
  public:
   RelayedDevice();
 
-  /// `number` counts on the far side: what is older than the newest is late and does not count. An
-  /// empty report with a problem says that the device is away.
+  /// `number` counts on the far side: reports older than the newest are dropped. An empty report with a problem means
+  /// that the device is away.
   void receive(std::uint32_t number, Bytes report, const std::string& problem);
-  /// The connection has gone; the next one counts anew.
+  /// The connection has gone; the next one counts afresh.
   void lose(const std::string& why);
 
   OpenHidDevice opener() const;

@@ -1,10 +1,9 @@
 #pragma once
-/// A HID device without hardware: a port into which the program plugs one, and which it opens like
-/// any other.
+/// A HID device without hardware: a port into which the program plugs one, opened like any other.
 ///
-/// It behaves as Linux' hidraw does: the oldest 63 reports wait and newer ones are dropped, an
-/// unplugged device stays dead for who holds it, and a replugged one is a new device.
-/// Threads: any; each open device one at a time, as a real one.
+/// Behaves as Linux' hidraw does: the oldest 63 reports are kept and newer ones are dropped, an unplugged device stays
+/// dead for its holder, and a replugged one is a new device. Threads: any; each open device one at a time, as a real
+/// one.
 
 #include <deque>
 #include <map>
@@ -23,11 +22,11 @@ class SimulatedHidPort {
   void unplug();
 
   // The device's side.
-  /// Sends an input report; false where it was dropped because nobody read the ones before.
+  /// Sends an input report; returns false if it was dropped because the earlier ones were not read.
   bool send(std::span<const std::byte> report);
   /// Output reports since the last call.
   std::vector<Bytes> take_written();
-  /// A device that takes no output reports: writing blocks until it does again or is unplugged.
+  /// Simulates a device that takes no output reports: writing blocks until it does again or is unplugged.
   void block_writes(bool block);
   void set_feature(std::uint8_t id, Bytes report);
   std::optional<Bytes> feature(std::uint8_t id) const;

@@ -18,7 +18,7 @@
 namespace septet::car_io {
 namespace {
 
-constexpr std::size_t reading_at_once = 8;  // So many reports wait before the device must.
+constexpr std::size_t reading_at_once = 8;  // Reports pending before the device must wait.
 constexpr unsigned timeout_ms = 250;        // Of a write or request: the device's own watchdog.
 constexpr std::size_t largest_transfer = 1024;
 
@@ -39,7 +39,7 @@ bool is_endpoint_of(const libusb_endpoint_descriptor& endpoint, bool in) {
          (type == LIBUSB_TRANSFER_TYPE_INTERRUPT || type == LIBUSB_TRANSFER_TYPE_BULK);
 }
 
-/// The named endpoints, or those of the first HID interface; nothing where there are none such.
+/// The named endpoints, or those of the first HID interface; empty without them.
 std::optional<UsbWay> find_way(const libusb_config_descriptor& config, const std::optional<rig::UsbEndpoints>& named) {
   for (int i = 0; i < config.bNumInterfaces; ++i) {
     if (config.interface[i].num_altsetting < 1) continue;
@@ -72,7 +72,7 @@ class UsbLink {
                                                  const std::optional<rig::UsbEndpoints>& endpoints,
                                                  const std::string& name) {
     auto link = std::shared_ptr<UsbLink>(new UsbLink(name));
-    // A new context looks at what is plugged in now, also where no udev tells an old one (containers).
+    // A new context sees the devices plugged in now, also where udev does not notify an old one (containers).
     if (const int code = libusb_init(&link->context_); code != 0)
       return failure("libusb cannot start: " + reason(code), name, "check that /dev/bus/usb is there");
     libusb_device** devices = nullptr;
@@ -100,7 +100,7 @@ class UsbLink {
     return loss_ != 0;
   }
 
-  /// The newest report after the one with this number, which becomes its own.
+  /// The newest report after the one with this number, which is updated.
   Expected<std::optional<Bytes>> read_newer_than(std::uint64_t& number) {
     if (auto begun = start_reading(); !begun) return tl::unexpected(std::move(begun.error()));
     timeval none{};
@@ -115,7 +115,7 @@ class UsbLink {
   Expected<void> write(std::span<const std::byte> report) {
     const bool has_no_id = way_.is_hid && !report.empty() && report[0] == std::byte{0};
     if (way_.out == 0) return request(false, 2, report).map([](const Bytes&) {});
-    // As hidapi has it: a device without ids is written to with an id of 0, which does not travel.
+    // hidapi's convention: a device without ids is written to with an id of 0, which is not transmitted.
     Bytes bytes(report.begin() + (has_no_id ? 1 : 0), report.end());
     int sent = 0;
     const auto transfer = way_.out_is_bulk ? libusb_bulk_transfer : libusb_interrupt_transfer;
@@ -246,7 +246,7 @@ class UsbLink {
     if (code != 0) loss_ = code;
   }
 
-  /// Called by libusb on the thread of whoever handles its events.
+  /// Called by libusb on the thread that handles its events.
   static void LIBUSB_CALL take(libusb_transfer* transfer) {
     Reading& reading = *static_cast<Reading*>(transfer->user_data);
     UsbLink& link = *reading.link;
@@ -278,10 +278,10 @@ class UsbLink {
   libusb_device_handle* handle_ = nullptr;
   UsbWay way_;
 
-  std::mutex mutex_;  ///< Of what follows.
+  std::mutex mutex_;  ///< Guards the members below.
   std::array<Reading, reading_at_once> readings_;
   bool is_reading_ = false, is_ending_ = false;
-  int loss_ = 0;  ///< libusb's code for why nothing can be read any more.
+  int loss_ = 0;  ///< libusb's code of the loss, after which reading is impossible.
   Bytes newest_;
   std::uint64_t number_ = 0;
 };
@@ -306,7 +306,7 @@ class UsbDevice final : public HidDevice {
   std::uint64_t number_ = 0;
 };
 
-/// What all that one opener opens share, while any of it is open.
+/// Shared by all devices of one opener, while any of them is open.
 struct SharedLink {
   std::mutex mutex;
   std::weak_ptr<UsbLink> link;

@@ -1,9 +1,9 @@
 #pragma once
-/// How much the shaker has shaken the driver: the daily exposure of Directive 2002/44/EC, Annex B, by ISO 2631-1.
+/// The driver's exposure to the shaker's vibration: the daily exposure of Directive 2002/44/EC, Annex B, by ISO 2631-1.
 ///
-/// a_w is the root mean square of the frequency-weighted acceleration at the seat; A(8) = √(∫ a_w² dt / 8 h). The directive asks for action
-/// from 0.5 m/s² and allows 1.15 m/s². What the shaker does at its full is measured once at the seat and stands in the rig
-/// (vibration_full_mps2); without that there is no dose.
+/// a_w is the root mean square of the frequency-weighted acceleration at the seat; A(8) = √(∫ a_w² dt / 8 h). The
+/// directive asks for action from 0.5 m/s² and allows 1.15 m/s². The shaker's acceleration at full scale is measured
+/// once at the seat and stands in the rig (vibration_full_mps2); without it there is no dose.
 
 #include <optional>
 #include <string>
@@ -13,7 +13,8 @@
 
 namespace septet::car_io {
 
-/// Weight of a vertical acceleration of this frequency, 0 to 1.05: Wk of ISO 2631-1:1997, 5.1, as its transfer function gives it.
+/// Weight of a vertical acceleration of this frequency, 0 to 1.05: Wk of ISO 2631-1:1997, 5.1, as its transfer function
+/// gives it.
 double vertical_weight(double frequency_hz);
 
 struct VibrationDose {
@@ -23,13 +24,13 @@ struct VibrationDose {
   double a8_mps2() const;
 };
 
-/// A shaker that has shaken for a day rests until the program ends.
+/// A shaker that has used up a day's dose rests until the program ends.
 class DoseLimit {
  public:
-  /// What of `wanted` is done for the next dt_s.
+  /// Permitted part of `wanted` for the next dt_s.
   Actuators pass(Actuators wanted, const rig::CarActuators& limits, double dt_s);
   bool is_reached() const { return is_reached_; }
-  /// What a person should know, once.
+  /// Message for a person, once.
   std::optional<std::string> take_message();
 
  private:

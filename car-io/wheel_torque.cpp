@@ -26,7 +26,7 @@ double wheel_torque_nm(WheelTorqueState& state, const WheelMotion& motion, doubl
   share -= damping_share * within(turning_radps / damping_full_at_radps);
   const double beyond_rad = std::abs(wheel_rad) - (motion.lock_rad - stop_begins_before_rad);
   if (beyond_rad > 0.0) {
-    // The end wins over whatever else pulls.
+    // The end stop overrides all other forces.
     const double stop = std::min(beyond_rad / stop_full_within_rad, 1.0);
     share = (1.0 - stop) * share - stop * std::copysign(1.0, wheel_rad);
   }

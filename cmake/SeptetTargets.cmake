@@ -77,6 +77,23 @@ function(septet_embedded_texts target)
   endforeach()
 endfunction()
 
+# Each of these shaders becomes build/…/generated/FOLDER/FILE.inc, comma-separated words of SPIR-V. Shaders include what lies beside them, and
+# engine/light by its path from the root; a change of either makes them anew.
+find_program(SEPTET_GLSLC glslc REQUIRED)
+function(septet_shaders target)
+  foreach(shader IN LISTS ARGN)
+    cmake_path(RELATIVE_PATH shader BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE path)
+    set(words ${CMAKE_BINARY_DIR}/generated/${path}.inc)
+    cmake_path(GET words PARENT_PATH folder)
+    file(MAKE_DIRECTORY ${folder})
+    add_custom_command(OUTPUT ${words}
+      COMMAND ${SEPTET_GLSLC} --target-env=vulkan1.3 -O -mfmt=num -I ${CMAKE_SOURCE_DIR} -MD -MF ${words}.d -o ${words} ${shader}
+      DEPENDS ${shader} DEPFILE ${words}.d COMMENT "Shader ${path}" VERBATIM)
+    target_sources(${target} PRIVATE ${words})
+  endforeach()
+  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endfunction()
+
 # Each header includes what it needs: a file of the same name includes it first (tests/architecture), and those that have no such file become
 # files of their own, which .ci/alone reads.
 function(septet_lone_headers library headers)
@@ -156,12 +173,16 @@ function(septet_program name)
   endif()
 endfunction()
 
-# septet_test(NAME [HOT] [DRAWS] [THREADS] [DEPENDS library…] [PRIVATE library…])
+# septet_test(NAME [HOT] [DRAWS] [THREADS] [KEPT] [DEPENDS library…] [PRIVATE library…] [READS path…] [STARTS program…] [MOUNTS case…])
 # One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files (a slow test starts processes,
 # draws frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that drive for hours; `./test --long`).
 # HOT: its tests reckon long themselves and are optimised as the product is. DRAWS: its slow tests draw within the program; the address sanitizer's
 # build has these slow ones and no others (label slow-drawn). THREADS: its fast tests start threads; the thread sanitizer's build has these and no
 # others. Every test case is one CTest test. The limits are for a hang, however busy the machine.
+# READS: what its tests read of the checkout, from its root. STARTS: programs and modules of the build that its slow tests start or load. A test that
+# takes anything else of the checkout fails; one that passed with all of these as they are is not run again (.ci/verdict). That holds for fast tests, and with KEPT for
+# slow ones; those that start programs show more each time that they run. MOUNTS: a part of the name of a case that mounts a file system, which is run
+# always.
 function(septet_test name)
   file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB slow_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_slow_test.cpp)
@@ -177,7 +198,7 @@ function(septet_test name)
 endfunction()
 
 function(septet_test_program name label timeout_s sources)
-  cmake_parse_arguments(arg "HOT;DRAWS;THREADS" "" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "HOT;DRAWS;THREADS;KEPT" "" "DEPENDS;PRIVATE;READS;STARTS;MOUNTS" ${ARGN})
   if(NOT sources)
     return()
   endif()
@@ -198,6 +219,24 @@ function(septet_test_program name label timeout_s sources)
   set(environment)
   if(SEPTET_SANITIZE MATCHES "address" AND label STREQUAL "slow-drawn")
     set(environment ENVIRONMENT LD_PRELOAD=libvulkan_lvp.so)  # .ci/leaks-of-others.txt says why.
+  endif()
+  if(label STREQUAL "fast")
+    set(arg_STARTS)
+  endif()
+  foreach(started IN LISTS arg_STARTS)
+    cmake_path(REMOVE_EXTENSION started OUTPUT_VARIABLE target)
+    if(TARGET ${target})
+      add_dependencies(${name} ${target})
+    else()
+      list(REMOVE_ITEM arg_STARTS ${started})  # Its library is not installed.
+    endif()
+  endforeach()
+  if(label STREQUAL "fast" OR (arg_KEPT AND label MATCHES "^slow"))
+    list(JOIN arg_READS "," reads)
+    list(JOIN arg_STARTS "," starts)
+    list(JOIN arg_MOUNTS "," mounts)
+    set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR  # Put before each of its cases.
+                          "${CMAKE_SOURCE_DIR}/.ci/verdict;--build=${CMAKE_BINARY_DIR};--reads=${reads};--starts=${starts};--mounts=${mounts};--")
   endif()
   doctest_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label} TIMEOUT ${timeout_s} ${environment})
 endfunction()

@@ -1,7 +1,8 @@
 #pragma once
 /// The best list of a game: best-list.json in the folder that holds the drives' folders, the best first.
 ///
-/// Written whole or not at all. A file that is no best list is never written over. Two drives that end at the same moment may lose one entry.
+/// Atomic: written whole or not at all. A file that is not a best list is never overwritten. Two drives that end at the
+/// same moment may lose one entry.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,13 +23,13 @@ struct BestListEntry {
 
 inline constexpr std::size_t longest_best_list = 200;  ///< Entries of one game.
 
-/// Nobody where there is no such file.
+/// Empty if the file does not exist.
 Expected<std::vector<BestListEntry>> read_best_list(const std::filesystem::path& path);
 
-/// Adds the entry; answers its place among those of its game, from 1 on.
+/// Adds the entry; returns its place among those of its game, from 1 on.
 Expected<std::size_t> enter_best_list(const std::filesystem::path& path, const BestListEntry& entry);
 
-/// Takes out everything of a participant. Answers how many entries there were.
+/// Removes everything of a participant. Returns the number of entries removed.
 Expected<std::size_t> forget_in_best_list(const std::filesystem::path& path, const std::string& participant);
 
 }  // namespace septet::logging

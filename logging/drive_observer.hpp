@@ -1,6 +1,6 @@
 #pragma once
-/// What the log notes of a drive beyond the snapshots: ten samples a second, and the events that
-/// follow from them. One call per tick, on the thread that steps the simulation.
+/// Records of the log beyond the snapshots: ten samples a second, and the events that follow from them. One call per
+/// tick, on the thread that steps the simulation.
 
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace septet::logging {
 
-/// What is remembered from tick to tick.
+/// State carried from tick to tick.
 struct DriveObserver {
   double ticks_per_second = 120.0;
   LaneChangeDetector lane_changes = {};

@@ -1,5 +1,5 @@
 #pragma once
-/// The document that lists the keys of experiments and questionnaires: a message about an unknown key names it.
+/// Document that lists the keys of experiments and questionnaires; named in messages about unknown keys.
 
 namespace septet::logging {
 

@@ -19,11 +19,12 @@ namespace septet::logging {
 namespace {
 namespace fs = std::filesystem;
 
-/// Begins a journal, and ends one that names a super-journal.
+/// Magic bytes that begin a journal, and end one that names a super-journal.
 constexpr std::array<unsigned char, 8> journal_magic = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
-/// Begins a WAL, but for the last bit, which tells the order of bytes in its checksums; without it SQLite reads nothing of one.
+/// First bytes of a WAL, but for the last bit, which tells the byte order of its checksums; without them SQLite reads
+/// nothing of one.
 constexpr std::array<unsigned char, 4> wal_magic = {0x37, 0x7f, 0x06, 0x82};
-constexpr off_t write_version_at = 18;  ///< In the database's header; 2: its newest commits are in a WAL.
+constexpr off_t write_version_at = 18;  ///< Offset in the database's header; value 2: its newest commits are in a WAL.
 
 fs::path beside(const fs::path& database, const char* ending) { return database.string() + ending; }
 
@@ -49,7 +50,7 @@ bool is_magic(const std::string& bytes) {
   return bytes.size() == journal_magic.size() && std::memcmp(bytes.data(), journal_magic.data(), bytes.size()) == 0;
 }
 
-/// Whether SQLite would roll it back. Error: it is none of ours.
+/// True if SQLite would roll the journal back. Error: it is not Septet's.
 Expected<bool> has_hot_journal(const fs::path& database) {
   const fs::path journal = beside(database, "-journal");
   const auto found = found_at(journal);
@@ -67,7 +68,7 @@ Expected<bool> has_hot_journal(const fs::path& database) {
   return !first.empty() && first[0] != '\0';
 }
 
-/// Whether SQLite would read commits from it.
+/// True if SQLite would read commits from it.
 bool is_wal(const fs::path& path) {
   std::string bytes = bytes_at(path, 0, wal_magic.size());
   if (bytes.size() != wal_magic.size()) return false;
@@ -75,7 +76,7 @@ bool is_wal(const fs::path& path) {
   return std::memcmp(bytes.data(), wal_magic.data(), bytes.size()) == 0;
 }
 
-/// The same file with the same content, as far as the file system tells.
+/// True for the same file with the same content, as far as the file system tells.
 bool is_unchanged(const std::optional<struct stat>& before, const std::optional<struct stat>& after) {
   if (!before || !after) return !before && !after;
   return before->st_ino == after->st_ino && before->st_size == after->st_size &&
@@ -144,13 +145,13 @@ Expected<fs::path> copy_with_files_beside(const fs::path& database, const Privat
       const fs::path to = beside(copy, endings[i]);
       fs::remove(to, error);
       if (!before[i]) continue;
-      // A link in the place of a journal was refused; the database itself may be one, which is followed.
+      // A link in place of a journal was refused; the database itself may be one, and it is followed.
       if (!fs::copy_file(beside(database, endings[i]), to, error)) is_one_moment = false;
     }
     for (std::size_t i = 0; i < endings.size(); ++i)
       is_one_moment &= is_unchanged(before[i], found_at(beside(database, endings[i])));
     if (!is_one_moment) continue;
-    // What was copied is what is opened: it is looked at again.
+    // The copy is the file that will be opened: it is checked again.
     return check_journal(copy).map([&] { return copy; });
   }
   return failure("the session cannot be copied, or changes all the time", database.string(),

@@ -1,12 +1,12 @@
 #pragma once
-/// The hash of the inputs that a drive was computed with, in their order.
+/// Hash of a drive's inputs, in their order.
 
 #include "engine/core/hash.hpp"
 #include "logging/records.hpp"
 
 namespace septet::logging {
 
-/// The device's report is left out: what was computed with is the input.
+/// Excludes the device's report: the input is the value that the simulation used.
 void add_to_hash(const InputRecord& record, StateHash& hash);
 
 }  // namespace septet::logging

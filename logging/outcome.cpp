@@ -46,7 +46,7 @@ Json json_of(const ScreenOutcome& screen) {
 /// A number that `number` wrote.
 double real(const Json& json) { return json.is_null() ? std::nan("") : json.get<double>(); }
 
-/// Earlier builds did not tell.
+/// Absent from earlier builds.
 std::optional<double> optional_real(const Json& json, const char* name) {
   const auto found = json.find(name);
   return found == json.end() || found->is_null() ? std::nullopt : std::optional(found->get<double>());
@@ -113,7 +113,7 @@ Expected<DriveOutcome> read_outcome(const std::string& text, const std::string& 
     outcome.state_hash = from_hex(json.at("state_hash").get<std::string>());
     outcome.inputs_hash = from_hex(json.at("inputs_hash").get<std::string>());
     json.at("late_ticks").get_to(outcome.late_ticks);
-    outcome.bad_numbers = json.value("bad_numbers", std::uint64_t{0});  // Earlier builds did not tell.
+    outcome.bad_numbers = json.value("bad_numbers", std::uint64_t{0});  // Absent from earlier builds.
     json.at("log").at("lost_records").get_to(outcome.lost_records);
     outcome.log_waited_s = real(json.at("log").at("waited_s"));
     for (const Json& screen : json.at("screens")) outcome.screens.push_back(screen_of(screen));

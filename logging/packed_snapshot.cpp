@@ -14,14 +14,10 @@ namespace septet::logging {
 namespace {
 
 constexpr std::byte packed_version{3};  // The wire's own bytes begin with 2.
-constexpr std::uint8_t escape = 255;    // From here on a difference lies behind the columns.
+constexpr std::uint8_t escape = 255;    // Marks a difference that lies behind the columns.
 constexpr std::size_t most_column_bytes = max_wire_participants * participant_field_count * 11;
 
-double seconds_since(const WireSnapshot& baseline, double time_s) {
-  return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0);
-}
-
-/// What is expected of the participants of `ids`; of new ones every field is 0.
+/// Prediction for the participants of `ids`; for new ones every field is 0.
 std::vector<WireParticipant> expect(const std::vector<ParticipantId>& ids, const std::vector<WireParticipant>& moved_on,
                                     const ExpectationErrors& errors) {
   std::vector<WireParticipant> expected;
@@ -45,7 +41,7 @@ std::vector<WireParticipant> expect(const std::vector<ParticipantId>& ids, const
   return expected;
 }
 
-/// How far those who were known went wrong against `moved_on`, the wire's own expectation.
+/// Stores the error of `moved_on`, the wire's own prediction, for known participants.
 void remember(const std::vector<WireParticipant>& now, const std::vector<WireParticipant>& moved_on,
               ExpectationErrors& errors) {
   errors.clear();
@@ -57,7 +53,7 @@ void remember(const std::vector<WireParticipant>& now, const std::vector<WirePar
     error.id = participant.id;
     for (std::size_t f = 0; f < ExpectationError::fields; ++f)
       error.steps[f] = std::int64_t{participant.fields[field_position_x + f]} - known->fields[field_position_x + f];
-    // Another component has become the largest: the others are told anew, and that says nothing of the next tick.
+    // Another component has become the largest: the others are recoded, which predicts nothing for the next tick.
     if (participant.fields[field_largest] != known->fields[field_largest])
       std::fill(error.steps.begin() + (field_largest - field_position_x), error.steps.end(), 0);
   }
@@ -67,14 +63,14 @@ auto damaged(std::string what) { return failure(std::move(what), "snapshot", "th
 
 bool is_packed(std::span<const std::byte> bytes) { return !bytes.empty() && bytes[0] == packed_version; }
 
-/// The bytes of the wire within packed ones; nothing where they end too early.
+/// The bytes of the wire within packed ones; empty if they end too early.
 std::optional<std::span<const std::byte>> take_rest(ByteReader& reader) {
   reader.take(1);
   const auto rest = reader.take(reader.get_count(std::numeric_limits<std::uint32_t>::max()));
   return reader.ok() ? std::optional(rest) : std::nullopt;
 }
 
-/// All of it, and nothing more than that.
+/// Exactly the whole of it.
 bool inflate_all(std::span<const std::byte> bytes, Bytes& out) {
   z_stream stream{};
   if (inflateInit2(&stream, -15) != Z_OK) return false;
@@ -179,7 +175,7 @@ Expected<WireSnapshot> SnapshotUnpacker::unpack(std::span<const std::byte> bytes
   ByteReader reader(bytes);
   const auto rest = take_rest(reader);
   if (!rest) return damaged("unreadable header");
-  auto wire = decode_snapshot(*rest, baseline);  // Whose participants are those of the baseline, moved on.
+  auto wire = decode_snapshot(*rest, baseline);  // Its participants are the baseline's, moved on.
   if (!wire) return wire;
   const std::vector<WireParticipant> moved_on = std::exchange(wire->participants, {});
 

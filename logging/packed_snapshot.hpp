@@ -1,12 +1,15 @@
 #pragma once
-/// A snapshot's bytes in the session file: those of the wire but for the participants, which are packed tighter (FORMAT.md, `snapshots`).
+/// Bytes of a snapshot in the session file: the wire's except for the participants, which are packed more tightly
+/// (FORMAT.md, `snapshots`).
 ///
-/// Of 200 vehicles the wire needs 2.2 KB a tick, the file 0.75. Each field's difference goes to what was expected, where the wire expects
-/// even motion; position and orientation are expected to go wrong as much as they did a tick ago, for bends and rounding make that last.
-/// The differences lie field by field, where most are 0 or ±1, and are deflated (RFC 1951). What is packed comes back to the last bit.
+/// For 200 vehicles the wire needs 2.2 KB a tick, the file 0.75. Each field is coded as its difference to a prediction,
+/// where the wire assumes uniform motion; position and orientation also assume the previous tick's prediction error,
+/// since bends and rounding make that persist. The differences lie field by field, where most are 0 or ±1, and are
+/// deflated (RFC 1951). Lossless to the last bit.
 ///
-/// Packer and unpacker remember the last snapshot's error of expectation: one of each a file, and its snapshots in their order. A snapshot
-/// without a baseline needs no memory. One thread each. Bytes come from outside: whatever they are, unpacking ends in a snapshot or an error.
+/// Packer and unpacker remember the last snapshot's prediction error: one of each per file, and its snapshots in their
+/// order. A snapshot without a baseline needs no memory. One thread each. Bytes are untrusted: unpacking always ends in
+/// a snapshot or an error.
 
 #include <array>
 #include <cstdint>
@@ -20,7 +23,7 @@
 
 namespace septet::logging {
 
-/// How far a participant was from where it had been expected, in steps of the wire: position, index and rest of the orientation.
+/// A participant's prediction error, in steps of the wire: position, index and rest of the orientation.
 struct ExpectationError {
   static constexpr std::size_t fields = field_velocity_x - field_position_x;
   ParticipantId id = 0;
@@ -46,7 +49,7 @@ class SnapshotPacker {
 
 class SnapshotUnpacker {
  public:
-  /// Takes bytes of either kind: packed, or as earlier builds kept them, those of the wire. `baseline` is the snapshot that
+  /// Reads bytes of either kind: packed, or the wire's, as stored by earlier builds. `baseline` is the snapshot that
   /// `read_stored_header` names, unpacked just before.
   Expected<WireSnapshot> unpack(std::span<const std::byte> bytes, const WireSnapshot* baseline);
 
@@ -55,7 +58,7 @@ class SnapshotUnpacker {
   Bytes columns_;
 };
 
-/// Of bytes of either kind.
+/// From bytes of either kind.
 Expected<SnapshotHeader> read_stored_header(std::span<const std::byte> bytes);
 
 }  // namespace septet::logging

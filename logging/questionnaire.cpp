@@ -52,7 +52,7 @@ std::string read_id(TableReader& reader, std::set<std::string>& taken) {
   return id;
 }
 
-/// A table's array, taken from what the reader is told to know: toml++ has no view without a key.
+/// A table's array, taken from the reader's known keys: toml++ has no view without a key.
 toml::table without(const toml::table& table, std::initializer_list<std::string_view> keys) {
   toml::table rest = table;
   for (const auto key : keys) rest.erase(key);

@@ -8,7 +8,7 @@
 
 namespace septet::logging {
 
-/// Of a tick at which the head was not at rest.
+/// For a tick at which the head was not at rest.
 struct HeadRecord {
   Tick tick = 0;
   Head head;
@@ -18,12 +18,12 @@ struct InsertStatements {
   Statement snapshot, input, scene_edit, sample, event, answer, state, actuators, head;
 };
 Expected<InsertStatements> prepare_inserts(const Database& database);
-Expected<Statement> prepare_answer_insert(const Database& database);  ///< Also of a session that lacks later tables.
+Expected<Statement> prepare_answer_insert(const Database& database);  ///< Works for a session that lacks later tables.
 
 Expected<void> insert_info(const Database& database, const SessionInfo& info);
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value);
 Expected<void> insert(Statement& statement, const InputRecord& record);
-Expected<void> insert_head(Statement& statement, const InputRecord& record);  ///< No row of a head at rest.
+Expected<void> insert_head(Statement& statement, const InputRecord& record);  ///< Writes no row for a head at rest.
 Expected<void> insert(Statement& statement, const SceneEdit& edit);
 Expected<void> insert(Statement& statement, const Sample& sample);
 Expected<void> insert(Statement& statement, const Event& event);

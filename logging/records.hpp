@@ -1,5 +1,5 @@
 #pragma once
-/// What a session file holds, as plain data: see FORMAT.md for the meaning of every field.
+/// Content of a session file, as plain data: FORMAT.md has the meaning of every field.
 
 #include <cstdint>
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace septet::logging {
 
-/// A text that the drive was made from.
+/// A text that the drive was built from.
 struct SourceFile {
   std::string role;  ///< "rig", "scenario", "road", "vehicle", …
   std::string name;
@@ -22,24 +22,24 @@ struct SourceFile {
   bool operator==(const SourceFile&) const = default;
 };
 
-/// What is known when a drive begins.
+/// Facts known when a drive begins.
 struct SessionInfo {
   std::string septet_version;
-  std::string git_revision;  ///< Empty where it is not known.
+  std::string git_revision;  ///< Empty if unknown.
   std::string started_utc;   ///< ISO 8601, from the caller's clock.
   std::string participant;   ///< The driver's code.
   double ticks_per_second = 120.0;
   std::map<std::string, std::uint64_t> seeds;
-  std::map<std::string, std::string> parameters;  ///< Of the scenario, where they were given from outside.
+  std::map<std::string, std::string> parameters;  ///< Scenario parameters given from outside.
   std::map<std::string, std::string> other;       ///< Any other meta rows.
   std::vector<SourceFile> files;
   bool operator==(const SessionInfo&) const = default;
 };
 
-/// The input that one tick was computed with.
+/// Input of one tick.
 struct InputRecord {
   Tick tick = 0;
-  std::optional<Bytes> report;  ///< The HID report as read, id first; none for a keyboard.
+  std::optional<Bytes> report;  ///< The HID report as read, id first; empty for a keyboard.
   DriverInput input;
   bool operator==(const InputRecord&) const = default;
 };
@@ -50,18 +50,18 @@ struct SceneEdit {
   bool operator==(const SceneEdit&) const = default;
 };
 
-/// The simulation's whole state after a tick, opaque here (engine/simulation/saved_state.hpp).
+/// Whole state of the simulation after a tick, opaque here (engine/simulation/saved_state.hpp).
 struct StateRecord {
   Tick tick = 0;
   Bytes data;
   bool operator==(const StateRecord&) const = default;
 };
 
-/// What fan, shaker and wheel force were told, shares of what they can; steering is positive to the left.
+/// Commands to fan, shaker and wheel force, as shares of their maximum; steering is positive to the left.
 struct ActuatorRecord {
   Tick tick = 0;
   double fan = 0.0, vibration = 0.0, vibration_hz = 0.0, steering = 0.0;
-  bool is_cut = false;  ///< A fault or the emergency stop held them at 0, or let them fall.
+  bool is_cut = false;  ///< A fault or the emergency stop held them at 0, or released them.
   bool operator==(const ActuatorRecord&) const = default;
 };
 
@@ -107,19 +107,19 @@ inline constexpr std::string_view operator_command_kind = "operator_command";
 
 struct QuestionnaireRecord {
   std::string item;      ///< Short name of the question or endpoint: "fun", "drive_completed".
-  std::string question;  ///< As it was asked.
+  std::string question;  ///< Wording of the question.
   std::optional<std::string> answer;
   std::optional<double> value;  ///< On the item's scale.
   double observed_s = 0.0;      ///< Simulated time until which the participant was observed.
-  bool censored = false;        ///< They stopped before an answer or the endpoint.
-  std::string reason;           ///< Of stopping, in their words.
+  bool censored = false;        ///< The participant stopped before an answer or the endpoint.
+  std::string reason;           ///< For stopping, in their words.
   bool operator==(const QuestionnaireRecord&) const = default;
 };
 
 /// The sample of the driver's car in this snapshot.
 Sample take_sample(const Snapshot& snapshot, const std::optional<Leader>& leader);
 
-/// Whether this tick is one of the ten of its second; true for tick 0.
+/// True if this tick is one of the ten of its second; true for tick 0.
 bool is_sample_due(Tick tick, double ticks_per_second);
 
 }  // namespace septet::logging

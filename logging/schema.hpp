@@ -9,14 +9,14 @@ namespace septet::logging {
 
 inline constexpr std::int32_t application_id = 0x53535444;
 inline constexpr std::int32_t format_version = 2;
-inline constexpr std::int32_t oldest_format_version = 1;  ///< Whose snapshots are not packed.
+inline constexpr std::int32_t oldest_format_version = 1;  ///< With unpacked snapshots.
 
-/// A row of `snapshots` is near 1 KB: in pages of SQLite's usual 4 KB a fifth of each would stay empty.
+/// A row of `snapshots` is near 1 KB: with SQLite's usual pages of 4 KB a fifth of each would stay empty.
 inline constexpr std::uint32_t page_bytes = 16384;
 
 struct Table {
   std::string_view name;
-  std::string_view sql;  ///< Stored by SQLite as it is, and compared with what a file says.
+  std::string_view sql;  ///< Stored verbatim by SQLite, and compared with the file's.
 };
 
 inline constexpr std::array tables{
@@ -58,15 +58,15 @@ inline constexpr std::array tables{
           "value REAL, observed_s REAL NOT NULL, censored INTEGER NOT NULL, reason TEXT NOT NULL)"},
 };
 
-/// Sessions of earlier builds lack it.
+/// Absent from sessions of earlier builds.
 inline constexpr Table saved_states{"saved_states",
                                     "CREATE TABLE saved_states(tick INTEGER PRIMARY KEY, data BLOB NOT NULL)"};
-/// Likewise.
+/// Absent from sessions of earlier builds.
 inline constexpr Table actuators{"actuators",
                                  "CREATE TABLE actuators(tick INTEGER PRIMARY KEY, fan REAL, vibration REAL, "
                                  "vibration_hz REAL, steering REAL, is_cut INTEGER)"};
 
-/// Of ticks at which the head was not at rest; sessions of earlier builds lack it.
+/// Ticks at which the head was not at rest; absent from sessions of earlier builds.
 inline constexpr Table head_positions{
     "head_positions",
     "CREATE TABLE head_positions(tick INTEGER PRIMARY KEY, forward_m REAL NOT NULL, left_m REAL NOT NULL, "

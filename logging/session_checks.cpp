@@ -49,7 +49,7 @@ Expected<void> check_values_of(const Database& database, const Table& table) {
 
 }  // namespace
 
-/// Refuses what is not a session file of this version.
+/// Error: not a session file of this version.
 Expected<void> check_format(const Database& database) {
   const auto id = database.query_integer("PRAGMA application_id");
   if (!id) return tl::unexpected(id.error());

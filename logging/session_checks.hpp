@@ -1,18 +1,18 @@
 #pragma once
-/// What a database must be to be a session of ours, and whole.
+/// Checks that a database is a whole session of Septet.
 
 #include "engine/core/expected.hpp"
 #include "logging/sqlite_database.hpp"
 
 namespace septet::logging {
 
-/// Refuses what is not a session file of a version that is known, and one whose tables somebody has altered.
+/// Error: not a session file, an unknown version, or altered tables.
 Expected<void> check_format(const Database& database);
 
-/// Every page of the file.
+/// Checks every page of the file.
 Expected<void> check_integrity(const Database& database);
 
-/// Every row: each value has its column's type, each text is UTF-8.
+/// Checks every row: each value has its column's type, each text is UTF-8.
 Expected<void> check_values(const Database& database);
 
 }  // namespace septet::logging

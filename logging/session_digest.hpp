@@ -1,7 +1,7 @@
 #pragma once
-/// What a drive was, as five hashes in the session's meta row `digests`, written when the log is closed: who reads it can tell
-/// whether it has been altered or damaged since, without driving again. They protect against damage and slips, not against
-/// forgery. What may be added or taken out after the drive is in none of them: who drove, answers, notes.
+/// Fingerprint of a drive: five hashes in the session's meta row `digests`, written when the log is closed, by which a
+/// reader detects alteration or damage without driving again. They protect against damage and slips, not against
+/// forgery. Later additions and removals are in none of them: driver, answers, notes.
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,9 @@ namespace septet::logging {
 
 class SessionReader;
 
-/// The meta row of a drive that begins at a state which an earlier one had kept: its first tick. The session holds that state.
+/// Events that are input: an operator's changes during the drive.
+inline constexpr std::string_view operator_command_kind = "operator_command";
+/// The meta row of a drive that begins at a state kept by an earlier one: its first tick. The session holds that state.
 inline constexpr const char* begun_at_row = "begun_at_tick";
 
 struct SessionDigest {
@@ -24,7 +26,7 @@ struct SessionDigest {
   StateHash scene;     ///< Scene edits.
   StateHash ticks;     ///< Each snapshot's tick, time and state hash.
   StateHash states;    ///< Saved states.
-  StateHash commands;  ///< What an operator changed.
+  StateHash commands;  ///< An operator's changes.
   StateHash samples;   ///< All of their columns.
 
   void add(const SessionInfo& info);
@@ -39,13 +41,13 @@ struct SessionDigest {
 inline constexpr const char* digest_row = "digests";
 std::string to_json(const SessionDigest& digest);
 
-/// What differs between what a session holds and what its digest says, in words: "its scene was", "its samples were".
-/// Nothing where all agrees. Error: the row is not what Septet writes.
+/// Differences between a session and its digest, in words: "its scene", "its files, seeds or parameters". Empty if all
+/// agrees. Error: the row is not in Septet's form.
 Expected<std::optional<std::string>> altered_part(const SessionDigest& found, const std::string& row,
                                                   const std::string& where);
 
-/// Whether the scene is the one that was driven in; nothing where the session has no digest: it is of an earlier build, or its
-/// drive was killed. Error: it is another one, or cannot be read.
+/// True if the scene is the driven one; empty if the session has no digest: it is of an earlier build, or its drive was
+/// killed. Error: it is another scene, or cannot be read.
 Expected<std::optional<bool>> is_scene_as_driven(const SessionReader& session);
 
 }  // namespace septet::logging

@@ -15,19 +15,19 @@
 namespace septet::logging {
 namespace {
 
-/// As a text of SQL.
+/// As an SQL text.
 std::string quoted(const std::string& text) {
   std::string sql = "'";
   for (const char c : text) sql += c == '\'' ? std::string("''") : std::string(1, c);
   return sql + '\'';
 }
 
-/// Opens a session to change it, the newest commits of a killed drive folded in. Error: it is none, or whoever writes it has not
-/// ended.
+/// Opens a session for changes, the newest commits of a killed drive folded in. Error: not a session, or its writer has
+/// not ended.
 Expected<Database> open_closed(const std::filesystem::path& session) {
   bool has_ended = false;
   {
-    // Asked of the reader first: it refuses what is no session, or one that somebody has altered.
+    // The reader goes first: it refuses files that are no session, or were altered.
     const auto reader = SessionReader::open(session);
     if (!reader) return tl::unexpected(reader.error());
     has_ended = reader->ended_cleanly();
@@ -35,7 +35,7 @@ Expected<Database> open_closed(const std::filesystem::path& session) {
   std::error_code ignored;
   const bool has_wal = std::filesystem::exists(session.string() + "-wal", ignored);
   auto database = Database::open(session, OpenMode::change);
-  // It succeeds only where nobody else has the file open; who has one open that has ended reads it.
+  // Succeeds only if no other program has the file open; a session that has ended may be open in a reader.
   if (database && has_wal && !database->execute("PRAGMA journal_mode=DELETE") && !has_ended)
     return failure("the drive is still going on", session.string(), "wait for its end");
   return database;
@@ -47,7 +47,7 @@ Expected<void> strip(const Database& database, const SessionInfo& info) {
   for (const auto& [key, value] : info.other)
     if (done && is_personal(key)) done = database.execute("DELETE FROM meta WHERE key = " + quoted(key));
   if (done) done = database.execute("UPDATE questionnaire SET reason = ''");
-  // What an operator wrote, of the drive's end or of a moment, may be about them.
+  // An operator's words, at the drive's end or at a moment, may be about them.
   for (const auto& [kind, words] : {std::pair("mark", " note="), {"operator", " reason="}})
     if (done)
       done =
@@ -92,7 +92,8 @@ Expected<std::filesystem::path> write_anonymous_copy(const std::filesystem::path
   {
     const auto database = open_closed(session);
     if (!database) return tl::unexpected(database.error());
-    // Everything in one file, which nobody has open: what is put in its place would be read with its side files otherwise.
+    // One file without side files, and no program has it open: otherwise the replacement would be read with the old
+    // side files.
     if (auto joined = database->execute("PRAGMA journal_mode=DELETE"); !joined) return tl::unexpected(joined.error());
   }
   const std::filesystem::path draft = session.string() + ".part";

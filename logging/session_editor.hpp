@@ -1,7 +1,7 @@
 #pragma once
-/// Changes to a session that is closed: answers that came after the drive, and a person who is to be forgotten.
+/// Changes to a closed session: answers given after the drive, and the removal of a person's data.
 ///
-/// Each call succeeds as a whole or changes nothing, also where the program is killed or the disk is full.
+/// Each call succeeds as a whole or changes nothing, also if the program is killed or the disk is full.
 
 #include <filesystem>
 #include <vector>
@@ -11,13 +11,14 @@
 
 namespace septet::logging {
 
-/// Rows for the table `questionnaire`. Where `replace` is not empty, rows of items that begin with it go first.
-/// Error: the drive is still going on, or the file cannot be changed.
+/// Rows for the table `questionnaire`. Unless `replace` is empty, rows whose item begins with it are removed first.
+/// Error: the drive is still running, or the file cannot be changed.
 Expected<void> add_answers(const std::filesystem::path& session, const std::vector<QuestionnaireRecord>& answers,
                            const std::string& replace = {});
 
-/// A copy beside the session, PATH.part, in which nothing tells who drove: no participant, note or own column, and no reason in
-/// their words. Group, condition and everything measured stay. Nothing of what went is left in the copy's free pages.
+/// Writes a copy beside the session, PATH.part, without the driver's identity: no participant, note or own column, and
+/// no reason in their words. Group, condition and everything measured stay. The copy's free pages hold no remains of
+/// the removed data.
 Expected<std::filesystem::path> write_anonymous_copy(const std::filesystem::path& session);
 
 }  // namespace septet::logging

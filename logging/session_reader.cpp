@@ -29,7 +29,7 @@ Expected<std::vector<T>> read_rows(Expected<Statement> statement, Expected<T> (*
   }
 }
 
-/// The tick that a query answers, or nothing.
+/// The tick that a query returns; empty without a row.
 template <class... Parameter>
 Expected<std::optional<std::int64_t>> query_tick(const Database& database, std::string_view sql,
                                                  Parameter... parameters) {
@@ -42,7 +42,7 @@ Expected<std::optional<std::int64_t>> query_tick(const Database& database, std::
   return *row && !statement->is_null(0) ? std::optional(statement->integer(0)) : std::nullopt;
 }
 
-/// Of those that files of earlier builds lack.
+/// For tables that files of earlier builds lack.
 Expected<bool> has_table_called(const Database& database, std::string_view name) {
   return database
       .query_integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name))
@@ -75,8 +75,8 @@ struct SnapshotCursor::State {
   std::string where;
   SnapshotUnpacker unpacker;
   std::optional<WireSnapshot> previous;
-  std::optional<WireSnapshot> ready;  ///< Decoded on the way to the time that was asked for.
-  bool ended = false;                 ///< Another step would begin anew.
+  std::optional<WireSnapshot> ready;  ///< Decoded on the path to the requested time.
+  bool ended = false;                 ///< Another step would start over.
 };
 
 SnapshotCursor::SnapshotCursor(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -112,7 +112,7 @@ Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
   if (!snapshot) return damaged(snapshot.error().what);
   if (snapshot->rest.simulated_time_s != rows.real(3)) return damaged("its row and its bytes name two times");
   state_->previous = *snapshot;
-  // The row's own hash is the one that was recorded for comparison; whoever altered it has altered the session.
+  // The row's own hash is the recorded one, for comparison; a changed hash is an altered session.
   snapshot->rest.state_hash = static_cast<std::uint64_t>(rows.integer(2));
   return std::optional(std::move(*snapshot));
 }
@@ -175,8 +175,7 @@ Expected<std::pair<double, double>> SessionReader::shown_span_s() const {
 
 Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) const {
   const Database& database = state_->database;
-  // The keyframe before the time, the first snapshot after it, and the one before that, where the
-  // cursor will stand.
+  // The keyframe before the time, the first snapshot after it, and the one before that, the cursor's position.
   const auto keyframe = query_tick(database,
                                    "SELECT tick FROM snapshots WHERE baseline_tick IS NULL AND "
                                    "simulated_time_s <= ? ORDER BY simulated_time_s DESC LIMIT 1",

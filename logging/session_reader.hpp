@@ -1,10 +1,10 @@
 #pragma once
-/// Reads a session file (FORMAT.md), also one whose writer was killed, and one that is still being
-/// written. Nothing beside the file, nor the file, is changed: it may be somebody else's.
+/// Reads a session file (FORMAT.md), also one whose writer was killed, and one that is still being written. Neither the
+/// file nor its folder is changed: it may belong to another user.
 ///
-/// The file is not trusted: a foreign, newer or damaged one is refused with one Error, at opening
-/// or, for damage that only reading meets, at the call that meets it. Memory is bounded by what a
-/// call asks for. Threads: one thread at a time for a reader; several readers may be open.
+/// The file is not trusted: a foreign, newer or damaged one is refused with one Error, at opening or, for damage that
+/// only reading meets, at the call that meets it. Memory is bounded by the request. Threads: one thread at a time for a
+/// reader; several readers may be open.
 
 #include <filesystem>
 #include <limits>
@@ -30,10 +30,10 @@ class SnapshotCursor {
   SnapshotCursor(SnapshotCursor&&) noexcept;
   SnapshotCursor& operator=(SnapshotCursor&&) noexcept;
   ~SnapshotCursor();
-  /// The next snapshot, or nothing at the end. After an Error the next call goes on with the next
-  /// row; behind damage, the first keyframe decodes again.
+  /// The next snapshot; empty at the end. After an Error the next call goes on with the next row; behind damage, the
+  /// first keyframe decodes again.
   Expected<std::optional<Snapshot>> next();
-  /// The same, as it lies in the file.
+  /// The same, in its stored form.
   Expected<std::optional<WireSnapshot>> next_wire();
 
  private:
@@ -52,13 +52,13 @@ class SessionReader {
 
   const SessionInfo& info() const;
   const std::filesystem::path& path() const;
-  /// Whether the writer closed the file itself.
+  /// True if the writer closed the file itself.
   bool ended_cleanly() const;
-  /// Ticks from 0 to the newest that have no snapshot: gaps of early builds, or rows that somebody removed.
+  /// Ticks from 0 to the newest without a snapshot: gaps of early builds, or removed rows.
   Expected<std::uint64_t> missing_ticks() const;
-  /// Simulated time of the first and last snapshot; nothing where there is none.
+  /// Simulated time of the first and last snapshot; empty without a snapshot.
   Expected<std::optional<std::pair<double, double>>> time_span_s() const;
-  /// The same for whoever shows the drive again: an Error where nothing is there to be shown, and why.
+  /// The same for a replay: an Error with the reason if there is nothing to show.
   Expected<std::pair<double, double>> shown_span_s() const;
 
   /// From the last snapshot at or before this time on; before the first one, from the first.
@@ -72,13 +72,13 @@ class SessionReader {
   Expected<std::vector<QuestionnaireRecord>> questionnaire() const;
   /// Empty also in sessions of earlier builds.
   Expected<std::vector<ActuatorRecord>> actuators(TickRange range = {}) const;
-  /// The last saved state at or before a tick, if there is one.
+  /// Last saved state at or before a tick, if there is one.
   Expected<std::optional<StateRecord>> saved_state(Tick at_or_before) const;
   Expected<std::vector<Tick>> saved_state_ticks() const;
 
-  /// Reads every page of the file; an Error names what is damaged.
+  /// Reads every page of the file; an Error names the damage.
   Expected<void> check_integrity() const;
-  /// Reads every row: each value has its column's type, each text is UTF-8. SQLite alone minds neither.
+  /// Reads every row: each value has its column's type, each text is UTF-8. SQLite alone enforces neither.
   Expected<void> check_values() const;
 
  private:

@@ -47,14 +47,14 @@ std::size_t bytes_of(const Record& record) {
   return sizeof record + std::visit(Extra{}, record);
 }
 
-/// Which file a path leads to, or nothing.
+/// Identity of the file at a path; empty without a file.
 std::optional<std::pair<dev_t, ino_t>> file_at(const std::filesystem::path& path) {
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0) return std::nullopt;
   return std::pair(found.st_dev, found.st_ino);
 }
 
-/// Executes it; where another connection is in the way, again and again for so long.
+/// Executes it; while another connection blocks it, retries up to the limit.
 Expected<void> execute_patiently(const Database& database, const std::string& sql, std::chrono::milliseconds patience) {
   constexpr std::chrono::milliseconds pause{20};
   const Clock::time_point last = Clock::now() + patience;
@@ -94,8 +94,8 @@ Expected<Database> create_database(const std::filesystem::path& path, const Sess
 
 }  // namespace
 
-/// What the two sides share. `queue` and the atomics are for both, `error` is behind its mutex, and
-/// everything under "the writer's thread" belongs to it between construction and join.
+/// State shared by both sides. `queue` and the atomics are for both, `error` is behind its mutex, and everything under
+/// "the writer's thread" belongs to it between construction and join.
 struct SessionWriter::State {
   State(Database database_in, InsertStatements inserts_in, const WriterOptions& options_in)
       : options(options_in),
@@ -124,7 +124,7 @@ struct SessionWriter::State {
     // Taken in small batches while they are in the processor's cache, committed by the clock.
     constexpr std::size_t batch_records = 32;
     std::vector<Record> batch;
-    // From commit to commit, so that the time of one is part of the interval.
+    // Scheduled from commit to commit, so that a commit's duration is part of the interval.
     Clock::time_point next_commit = Clock::now() + options.commit_interval;
     while (queue.take_all(batch, next_commit, batch_records)) {
       if (!batch.empty()) write(batch);
@@ -155,7 +155,7 @@ struct SessionWriter::State {
   // The writer's thread.
   Database database;
   InsertStatements inserts;
-  const std::optional<std::pair<dev_t, ino_t>> file;  ///< The one that was made.
+  const std::optional<std::pair<dev_t, ino_t>> file;  ///< The created file.
   std::shared_ptr<const TakenSnapshot> previous;
   double keyframe_time_s = 0.0;
   std::size_t uncommitted = 0;  ///< Records of the transaction that is open.
@@ -173,7 +173,7 @@ void SessionWriter::State::write(const std::vector<Record>& batch) {
     lost.fetch_add(batch.size(), std::memory_order_relaxed);
     return;
   }
-  // At once as a writer: whoever is in the way is met here, where nothing is lost by waiting, and nowhere else.
+  // Begins as a writer: a blocking connection is met here, where waiting loses nothing, and nowhere else.
   auto done = uncommitted == 0 ? execute_patiently(database, "BEGIN IMMEDIATE", options.patience) : Expected<void>{};
   uncommitted += batch.size();
   if (done) done = write_all(batch);
@@ -182,7 +182,7 @@ void SessionWriter::State::write(const std::vector<Record>& batch) {
 
 void SessionWriter::State::commit() {
   if (has_failed) return;
-  // Also where nothing has come: whoever waits hears that the file is gone.
+  // Also without new records: callers learn that the file is gone.
   auto done = check_file();
   if (done && uncommitted > 0) done = database.execute("COMMIT");
   if (!done) return fail(std::move(done.error()));
@@ -191,7 +191,7 @@ void SessionWriter::State::commit() {
 }
 
 void SessionWriter::State::fail(Error reason) {
-  // The transaction is undone as a whole; what earlier ones wrote stays.
+  // The transaction is undone as a whole; earlier ones stay.
   if (database.in_transaction()) (void)database.execute("ROLLBACK");
   lost.fetch_add(std::exchange(uncommitted, 0), std::memory_order_relaxed);
   has_failed = true;
@@ -240,15 +240,15 @@ Expected<void> SessionWriter::State::write_snapshot(const std::shared_ptr<const 
   return statement.run();
 }
 
-/// An open file that has been deleted takes what is written without a word, and it is gone in the end.
+/// Writes to a deleted open file succeed silently, and are lost in the end.
 Expected<void> SessionWriter::State::check_file() const {
   if (file_at(database.where()) == file && file_at(database.where() + "-wal")) return {};
   return failure("the session file was deleted or moved, or its disk has gone, while it was written", database.where(),
                  "leave the folder alone until the drive is over, and drive again");
 }
 
-/// What is committed is safe in either file. One file alone needs the only connection, which nobody who reads can be made to
-/// leave; those who come and go leave a gap.
+/// Commits are safe in either file. Joining them needs the only connection, and a reader cannot be made to leave;
+/// readers that come and go leave a gap.
 Expected<void> SessionWriter::State::join_side_files() {
   constexpr std::chrono::milliseconds for_a_gap{1000};
   auto done = database.execute("PRAGMA wal_checkpoint(TRUNCATE)");

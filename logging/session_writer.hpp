@@ -1,17 +1,16 @@
 #pragma once
 /// Writes a session file (FORMAT.md) without making the simulation wait for the disk.
 ///
-/// Records go into one queue, bounded by the memory that it takes; a thread of the writer's own takes
-/// them, encodes the snapshots and commits them every `commit_interval`. Killing the process loses
-/// what is not yet committed: at most 100 ms of wall time. Nothing is left out because the disk is
-/// slow: once the queue is full, `record` waits, and `waited_s` says for how long.
+/// Records go into one queue, bounded by its memory; a thread of the writer's own takes them, encodes the snapshots and
+/// commits them every `commit_interval`. Killing the process loses uncommitted records: at most 100 ms of wall time. A
+/// slow disk drops nothing: once the queue is full, `record` waits, and `waited_s` returns the time.
 ///
-/// Readers change nothing: whoever has the file open, in whatever transaction, neither stops the recording nor spoils its end.
+/// Readers change nothing: a program that has the file open, in any transaction, neither stops the recording nor spoils
+/// its end.
 ///
-/// Threads: `record` and the queries may be called from any thread. Records of one kind come in
-/// ascending ticks. Errors: `create` returns them. Later ones (a full disk, a file that somebody has
-/// deleted) end the recording, not the drive: what was committed stays, `take_error` hands the one
-/// message over, and further records are counted and not written.
+/// Threads: `record` and the queries may be called from any thread. Records of one kind come in ascending ticks.
+/// Errors: `create` returns them. Later ones (a full disk, a deleted file) end the recording, not the drive: committed
+/// records stay, `take_error` hands the one message over, and further records are counted and not written.
 
 #include <chrono>
 #include <cstdint>
@@ -30,9 +29,9 @@ namespace septet::logging {
 struct WriterOptions {
   std::size_t queue_bytes = std::size_t{64} << 20;  ///< About a thousand ticks.
   std::chrono::milliseconds commit_interval{50};
-  double keyframe_interval_s = 1.0;             ///< Of simulated time.
-  std::optional<std::uint64_t> max_bytes = {};  ///< Of the file; reaching it is like a full disk.
-  /// For so long another program may write to the file; meanwhile records wait in the queue.
+  double keyframe_interval_s = 1.0;             ///< Simulated time.
+  std::optional<std::uint64_t> max_bytes = {};  ///< Size of the file; reaching it acts like a full disk.
+  /// Longest wait for another program's write to the file; meanwhile records wait in the queue.
   std::chrono::milliseconds patience{30'000};
 };
 
@@ -43,11 +42,10 @@ class SessionWriter {
                                         const WriterOptions& options = {});
   SessionWriter(SessionWriter&&) noexcept;
   SessionWriter& operator=(SessionWriter&&) noexcept;
-  /// Writes what is queued and closes the file as after a kill; `finish` is the clean end.
+  /// Writes the queue and closes the file as after a kill; `finish` is the clean end.
   ~SessionWriter();
 
-  /// The first snapshot, and one after each `keyframe_interval_s`, is stored whole, the others as
-  /// differences.
+  /// Stores the first snapshot, and one after each `keyframe_interval_s`, whole, the others as differences.
   void record(std::shared_ptr<const TakenSnapshot> snapshot);
   void record(InputRecord input);
   void record(SceneEdit edit);
@@ -57,18 +55,18 @@ class SessionWriter {
   void record(StateRecord state);
   void record(ActuatorRecord actuators);
 
-  /// The error that ended the recording, once; afterwards and before, nothing.
+  /// The error that ended the recording, once; empty otherwise.
   std::optional<Error> take_error();
-  /// Records that were not written, because the recording had ended.
+  /// Records not written because the recording had ended.
   std::uint64_t lost_records() const;
-  /// For how long `record` has waited for the disk, all calls together.
+  /// Time that `record` has waited for the disk, all calls together.
   double waited_s() const;
   /// Tick of the newest snapshot that is safely in the file.
   std::optional<Tick> committed_tick() const;
 
-  /// Writes the rest, adds rows to `meta`, marks the clean end and leaves one file without side
-  /// files, unless somebody reads it just then: that is no error. Answers the error that ended the
-  /// recording where `take_error` has not. The writer loses every record from then on.
+  /// Writes the rest, adds rows to `meta`, marks the clean end and leaves one file without side files, unless another
+  /// program reads it just then: that is no error. Returns the error that ended the recording unless `take_error` has.
+  /// Later records are lost.
   Expected<void> finish(const std::map<std::string, std::string>& meta = {});
   /// After `finish`: another program has the file open, so its side files stay beside it; log and clean end are whole.
   bool is_still_read() const;

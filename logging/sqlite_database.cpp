@@ -39,10 +39,10 @@ tl::unexpected<Error> sqlite_failure(sqlite3* database, const std::string& where
   }
 }
 
-/// Reads the schema, and with it what lies beside the file.
+/// Reads the schema, and with it the files beside the file.
 constexpr std::string_view first_question = "SELECT 1 FROM sqlite_schema LIMIT 1";
 
-/// The most rows that a file can hold, each takes 4 bytes and more: a damaged one may lead in circles.
+/// Upper bound of rows in a file, each of at least 4 bytes: a damaged file may lead in circles.
 std::uint64_t most_rows(const std::string& where) {
   std::uint64_t bytes = 0;
   std::error_code error;
@@ -169,10 +169,10 @@ Expected<Database> Database::open(const std::filesystem::path& path, OpenMode mo
     return std::filesystem::exists(path, ignored)
                ? failure("this is no file that can be read as a log", where, "give the log itself")
                : failure("there is no such file", where, "check the path");
-  // SQLite deletes what lies beside an empty file.
+  // SQLite deletes the files beside an empty file.
   if (std::filesystem::file_size(path, ignored) == 0)
     return failure("this is not an SQLite file", where, "give a session file that Septet wrote");
-  // SQLite looks for what lies beside the file where a link leads to; so do we.
+  // SQLite looks for side files beside the target of a link; so does Septet.
   const std::filesystem::path real = std::filesystem::canonical(path, ignored);
   if (ignored) return failure(ignored.message(), where, "check the path");
   if (mode == OpenMode::read) return open_to_read(real, where);
@@ -197,7 +197,7 @@ Expected<Database> Database::open_to_read(const std::filesystem::path& path, con
     return database;
   };
   if (*way == ReadWay::immutable) return open_as("?immutable=1");
-  // Without its index writable, a WAL that nobody writes is read all the same; one whose index says nothing is copied.
+  // A WAL without a writer can be read without write access to its index; one with an empty index is copied.
   if (*way == ReadWay::with_wal)
     return open_as("?readonly_shm=1").or_else([&](const Error&) { return open_copy(path, where); });
   return open_as("");
@@ -214,7 +214,7 @@ Expected<Database> Database::open_copy(const std::filesystem::path& path, const 
     if (auto folded = whole->execute("PRAGMA journal_mode=DELETE"); !folded) return tl::unexpected(folded.error());
     if (auto opened = whole->query_integer(first_question); !opened) return tl::unexpected(opened.error());
   }
-  // The handle keeps the file: the folder can go at once, and nothing is left of a program that is killed.
+  // The handle keeps the file: the folder can go at once, and a killed program leaves no remains.
   return open_to_read(*copy, where);
 }
 

@@ -22,8 +22,8 @@ namespace septet::logging {
 
 enum class OpenMode {
   create,  ///< A new file.
-  read,    ///< Nothing in the file's folder is written, made or removed.
-  change,  ///< To change a closed file; what a killed program left is rolled back or folded in.
+  read,    ///< The file's folder stays untouched.
+  change,  ///< For changes to a closed file; remains of a killed program are rolled back or folded in.
 };
 
 class Database;
@@ -32,7 +32,7 @@ class Database;
 class Statement {
  public:
   void bind(int index, std::int64_t value);
-  void bind(int index, double value);  ///< NaN is stored as NULL: SQLite has none.
+  void bind(int index, double value);  ///< NaN is stored as NULL: SQLite has no NaN.
   void bind(int index, std::string_view text);
   void bind(int index,
             std::span<const std::byte> bytes);  ///< The bytes must live until the next `run` or `step`.
@@ -40,15 +40,16 @@ class Statement {
   void bind(int index, const std::optional<double>& value);
   void bind(int index, const std::optional<std::int64_t>& value);
 
-  /// Executes a statement without rows and makes it ready for the next values.
+  /// Executes a statement without rows and prepares it for the next values.
   Expected<void> run();
-  /// Goes to the next row; false after the last one.
+  /// Steps to the next row; returns false after the last one.
   Expected<bool> step();
 
   const std::string& where() const { return where_; }
   int columns() const;
   std::string column_name(int column) const;
-  /// INTEGER, REAL, TEXT or BLOB as the table says, or NULL. SQLite alone stores anything anywhere.
+  /// True for NULL, or for the type that the table declares: INTEGER, REAL, TEXT or BLOB. SQLite alone stores any type
+  /// anywhere.
   bool is_of_declared_type(int column) const;
   bool is_text(int column) const;
   bool is_null(int column) const;
@@ -67,15 +68,15 @@ class Statement {
       : statement_(statement), where_(std::move(where)), limit_(limit) {}
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
   std::string where_;
-  QuestionLimit* limit_;  ///< The database's.
+  QuestionLimit* limit_;  ///< Owned by the database.
   std::uint64_t rows_ = 0;
 };
 
 class Database {
  public:
-  /// The file may be somebody else's. To be read, it is opened where it lies, with the WAL of a drive that goes on or was killed,
-  /// or through a copy in the temporary folder where a journal must be rolled back.
-  /// Error: it is no database, or a journal beside it is not Septet's.
+  /// The file may belong to another user. For reading, it is opened in place, with the WAL of a running or killed
+  /// drive, or through a copy in the temporary folder if a journal must be rolled back. Error: not a database, or a
+  /// journal beside it is not Septet's.
   static Expected<Database> open(const std::filesystem::path& path, OpenMode mode);
 
   Expected<Statement> prepare(std::string_view sql) const;
@@ -83,7 +84,7 @@ class Database {
   /// The first column of the first row.
   Expected<std::int64_t> query_integer(std::string_view sql) const;
   bool in_transaction() const;
-  /// Whether what was done last met another connection in its way.
+  /// True if the last call collided with another connection.
   bool is_busy() const;
   const std::string& where() const { return where_; }
 
@@ -97,7 +98,7 @@ class Database {
   static Expected<Database> open_to_read(const std::filesystem::path& path, const std::string& where);
   static Expected<Database> open_copy(const std::filesystem::path& path, const std::string& where);
 
-  std::unique_ptr<QuestionLimit> limit_;  ///< Outlives the handle, which looks at it.
+  std::unique_ptr<QuestionLimit> limit_;  ///< Outlives the handle, which points to it.
   std::unique_ptr<sqlite3, Close> database_;
   std::string where_;
 };

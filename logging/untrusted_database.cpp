@@ -13,7 +13,7 @@ namespace {
 /// The largest text or blob of a row: a road network as a file is the largest that a session has.
 constexpr int largest_value_bytes = 512 << 20;
 constexpr int steps_between_looks = 100'000;
-/// The most for one row: what `integrity_check` asks of the largest table, with room to spare.
+/// Limit for one row: the cost of `integrity_check` for the largest table, with room to spare.
 constexpr std::int64_t least_steps_a_row = 50'000'000, steps_a_byte = 4;
 
 bool is_one_of(const char* word, std::initializer_list<std::string_view> words) {

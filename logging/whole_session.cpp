@@ -24,7 +24,7 @@ tl::unexpected<Error> damaged(const SessionReader& session, const std::string& w
   return failure(what, session.path().string(), "it was altered or damaged: use an unaltered copy");
 }
 
-/// A text of JSON no deeper than anything that Septet writes; nothing where it is none.
+/// A JSON text no deeper than Septet's own; empty if it is not one.
 std::optional<Json> shallow_json(const std::string& text) {
   constexpr int deepest = 16;
   bool is_deep = false;

@@ -1,5 +1,6 @@
 #pragma once
-/// Reads everything in a session once, as all of its readers together do: what passes here, none of them refuses.
+/// Reads everything in a session once, as all of its readers together do: a session that passes is accepted by each of
+/// them.
 
 #include <cstdint>
 #include <functional>
@@ -10,14 +11,14 @@
 namespace septet::logging {
 
 struct WholeSession {
-  bool has_digest = false;  ///< Its contents are those that were recorded, and not only readable.
+  bool has_digest = false;  ///< Its contents are proved to be those recorded, and not only readable.
   std::uint64_t snapshots = 0;
 };
 
-/// Every page, row and byte: types and text, each snapshot decoded, inputs and snapshots tick for tick, the scene built from its edits, the
-/// meta rows that are JSON, and the digests where the session has them. `on_progress` is told the share that is done, 0 to 1.
-/// Takes the time of one decoding of the drive, and the memory of its samples and scene edits.
-/// Error: the first thing that is wrong, with the session's path.
+/// Checks every page, row and byte: types and text, each snapshot decoded, inputs and snapshots tick for tick, the
+/// scene built from its edits, the meta rows that are JSON, and the digests if the session has them. `on_progress`
+/// receives the share done, 0 to 1. Takes the time of one decoding of the drive, and the memory of its samples and
+/// scene edits. Error: the first fault, with the session's path.
 Expected<WholeSession> read_whole(const SessionReader& session, const std::function<void(double share)>& on_progress);
 
 }  // namespace septet::logging

@@ -22,7 +22,7 @@ namespace septet::program {
 
 namespace {
 
-/// The end of a child that is not the program yet: says why where it can still be read. Between fork and exec nothing may allocate.
+/// End of a child between fork and exec: reports the reason if its output can still be read. Nothing may allocate here.
 [[noreturn]] void give_up(const std::string& program, const char* why, int status) {
   for (const char* text : {"septet: ", program.c_str(), ": ", why, "\n"})
     if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
@@ -63,7 +63,7 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
     return failure(std::strerror(error), options.program, "close other programs: the system starts no more");
   }
   if (child == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // Dies with its parent, however that one ends.
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // Dies with its parent, in any case.
     if (::getppid() != parent) give_up(options.program, "whoever starts it ended first", 1);
     ::setpgid(0, 0);  // Ctrl-C reaches the parent only, which then ends the drive in order.
     ::dup2(output[1], STDOUT_FILENO);
@@ -113,7 +113,8 @@ std::optional<std::string> ChildProcess::read_line(std::chrono::milliseconds tim
       unread_.erase(0, end + 1);
       return line;
     }
-    // What is there is read however late it is: this process may have waited for its turn since it looked at the clock.
+    // Pending output is read even when it is late: this process may have waited for its turn since it looked at the
+    // clock.
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     pollfd waiting{output_, POLLIN, 0};

@@ -13,17 +13,17 @@
 namespace septet::program {
 
 struct ChildOptions {
-  std::string program;  ///< Path; no search through PATH.
+  std::string program;  ///< Path; PATH is not searched.
   std::vector<std::string> arguments;
   std::map<std::string, std::string> environment;  ///< Added to this process's own.
-  std::filesystem::path log;                       ///< Where its standard error goes; empty: to this process's.
-  std::filesystem::path folder = {};               ///< In which it works; empty: in this process's.
+  std::filesystem::path log;                       ///< File for its standard error; empty: this process's.
+  std::filesystem::path folder = {};               ///< Working folder; empty: this process's.
 };
 
-/// How a child ended.
+/// End of a child.
 struct ChildExit {
-  int code = 0;    ///< Exit status; −1 for one that a signal ended.
-  int signal = 0;  ///< That signal, or 0.
+  int code = 0;    ///< Exit status; −1 after a signal.
+  int signal = 0;  ///< The signal, or 0.
 };
 
 /// Movable owner of one child. Destruction ends the child (SIGTERM, then SIGKILL after a second). One thread.
@@ -35,9 +35,9 @@ class ChildProcess {
   ~ChildProcess();
 
   int process_id() const { return process_id_; }
-  /// Whether and how it has ended; does not wait.
+  /// The child's end, if it has ended; does not wait.
   std::optional<ChildExit> poll();
-  /// The next line of its standard output, or nothing after the time-out or at the end of the output.
+  /// Next line of its standard output; empty after the time-out or at the end of the output.
   std::optional<std::string> read_line(std::chrono::milliseconds timeout);
   void send_signal(int signal);
   /// SIGTERM, a second of patience, SIGKILL.
@@ -51,7 +51,7 @@ class ChildProcess {
   std::optional<ChildExit> exit_;
 };
 
-/// Where the shell would find the program of this name; nothing where it is not installed.
+/// Path at which the shell would find the program of this name; empty if it is not installed.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
 /// The folder of the running program, where its sister programs lie.

@@ -5,7 +5,7 @@
 
 namespace septet::program {
 
-/// Seconds since the machine was started, or so: they never jump or go back.
+/// Seconds since about the machine's start: never jumps or goes back.
 inline double monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What every program asks of its command line beyond CLI11's own checks.
+/// Checks of every program's command line beyond CLI11's own.
 
 #include <charconv>
 #include <cstdint>
@@ -27,7 +27,7 @@ inline CLI::Validator number_between(double least, double most) {
           "FLOAT in " + bounds};
 }
 
-/// A whole number of 64 bits without a sign. CLI11 makes the largest one of "-1" and of all beyond it.
+/// A whole number of 64 bits without a sign. CLI11 turns "-1", and all numbers beyond the range, into the largest one.
 inline CLI::Validator seed_number() {
   return {[](std::string& text) -> std::string {
             std::uint64_t number = 0;
@@ -38,7 +38,7 @@ inline CLI::Validator seed_number() {
           ""};
 }
 
-/// The commands there are, where the first word is none of them: the parser's own message does not name that word.
+/// List of the commands, for a first word that is not among them: the parser's own message does not name that word.
 inline std::optional<std::string> commands_instead_of(const CLI::App& app, int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "-";
   if (word.starts_with('-')) return std::nullopt;
@@ -50,8 +50,8 @@ inline std::optional<std::string> commands_instead_of(const CLI::App& app, int a
   return commands;
 }
 
-/// Throws where a word after an option of `app`, or of the command that was given, is empty, as of a shell's variable that nobody set:
-/// else it would read as if the option were not there.
+/// Throws if a word after an option of `app`, or of the chosen command, is empty, as from an unset shell variable:
+/// otherwise it would read as if the option were absent.
 inline void refuse_empty_words(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& word : option->results())
@@ -59,7 +59,8 @@ inline void refuse_empty_words(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) refuse_empty_words(*command);
 }
 
-/// Reads the command line by `parse`, of `app`, then does the work; returns the exit status. 0 after --help and --version, 2 for a wrong command line.
+/// Reads the command line by `parse`, of `app`, then does the work; returns the exit status. 0 after --help and
+/// --version, 2 for a wrong command line.
 inline int run(std::string_view name, const CLI::App& app, const std::function<void()>& parse,
                const std::function<Expected<int>()>& work) {
   try {

@@ -18,7 +18,8 @@ constexpr std::uint64_t making =
     LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_SOCK |
     LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
 constexpr std::uint64_t writing = making | LANDLOCK_ACCESS_FS_WRITE_FILE;
-/// From the third version on a file can be cut short without being opened to be written; the header may be older than the kernel.
+/// From the third version on, truncating without opening for writing is controlled too; the header may be older than
+/// the kernel.
 constexpr std::uint64_t truncating = 1ull << 14;
 constexpr long truncates_since = 3;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a program says while it runs. Nothing here throws where nobody listens any more or a disk is full: fmt::print does.
+/// Output of a running program. Never throws for a closed pipe or a full disk, as fmt::print does.
 
 #include <cstdio>
 #include <string_view>
@@ -9,10 +9,10 @@ namespace septet::program {
 /// A line for people, on standard error.
 void say(std::string_view line);
 
-/// A line for whoever started this program, on standard output and at once.
+/// A line for the parent program, on standard output, flushed.
 void announce(std::string_view line);
 
-/// How far a program has come: on a terminal one line that is written over, elsewhere a line every ten seconds.
+/// Progress of a program: on a terminal one line that is overwritten, elsewhere a line every ten seconds.
 ///
 ///     if (progress.is_due(now_s)) progress.show(fmt::format("{} of {} frames", made, planned));
 class ProgressLine {
@@ -20,7 +20,7 @@ class ProgressLine {
   ProgressLine();  ///< On standard error.
   ProgressLine(std::FILE* file, bool is_terminal) : file_(file), is_terminal_(is_terminal) {}
 
-  /// Whether it is time to show again. `now_s` may be any clock, and may begin anew.
+  /// True if it is time to show again. `now_s` may be any clock, and may restart.
   bool is_due(double now_s);
   void show(std::string_view text);
   /// A line of its own, which stays.

@@ -1,6 +1,6 @@
 #pragma once
-/// What somebody has told a program on its standard input: to go (Enter, or the line "go"), and to let fan, shaker and wheel force run again (the
-/// line "rearm").
+/// Commands on a program's standard input: to go (Enter, or the line "go"), and to let fan, shaker and wheel force run
+/// again (the line "rearm").
 
 #include <string>
 
@@ -8,7 +8,7 @@ namespace septet::program {
 
 class GoWord {
  public:
-  /// Reads what has come, without waiting. Once said it stays said.
+  /// Reads pending input, without waiting. True from then on.
   bool said();
   /// Each "rearm" once.
   bool take_rearm();

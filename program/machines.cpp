@@ -31,7 +31,7 @@ std::optional<int> number_by_mpirun() {
 
 Expected<std::unique_ptr<Machines>> start_machines() {
   std::error_code ignored;
-  auto file = own_folder() / "septet-mpi.so";  // As it is built; else as it is installed.
+  auto file = own_folder() / "septet-mpi.so";  // In the build tree; else as installed.
   if (!std::filesystem::exists(file, ignored)) file = own_folder().parent_path() / "lib/septet/modules/septet-mpi.so";
   if (!std::filesystem::exists(file, ignored))
     return failure("this Septet was built without Open MPI", "mpirun",

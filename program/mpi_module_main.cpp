@@ -1,7 +1,7 @@
 /// septet-mpi.so: the only place that knows Open MPI.
 ///
-/// Nothing here waits for another program but its start: a worker that is lost holds nobody up. What is sent is kept until it is
-/// gone. At the end all wait for each other, for a while: mpirun takes one that ends otherwise for one that has failed.
+/// Only the start waits for other programs: a lost worker delays nobody. Messages are kept until they are sent. At the
+/// end all wait for each other, for a while: mpirun takes a program that ends otherwise for a failed one.
 
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
@@ -35,7 +35,7 @@ class MpiMachines : public Machines {
     ::MPI_Comm_size(MPI_COMM_WORLD, &count_);
   }
   ~MpiMachines() override {
-    // Until all are here what still comes is taken, for whoever has sent it waits for that.
+    // Until all are here, arriving messages are received, since their senders wait for that.
     MPI_Request all_here = MPI_REQUEST_NULL;
     int here = ::MPI_Ibarrier(MPI_COMM_WORLD, &all_here) != MPI_SUCCESS;
     const auto until = std::chrono::steady_clock::now() + (has_losses() ? patience_without_all : patience);
@@ -45,7 +45,7 @@ class MpiMachines : public Machines {
       if (::MPI_Test(&all_here, &here, MPI_STATUS_IGNORE) != MPI_SUCCESS) break;
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
-    // Where one of them hangs or its machine is gone, nobody could end: then without a word, with the status that is its due.
+    // If one of them hangs or its machine is gone, no program could end: then exit silently, with the due status.
     std::fflush(nullptr);
     std::signal(SIGALRM, [](int) { ::_exit(exit_status); });
     ::alarm(static_cast<unsigned>((here ? patience : patience_without_all).count()));
@@ -68,7 +68,7 @@ class MpiMachines : public Machines {
     forget_sent();
     begin_to_receive();
     for (auto mail = incoming_.begin(); mail != incoming_.end(); ++mail) {
-      // What came before it from there comes first.
+      // Earlier messages from the same sender come first.
       if (std::any_of(incoming_.begin(), mail, [&](const Incoming& other) { return other.from == mail->from; }))
         continue;
       int came = 0;
@@ -89,7 +89,7 @@ class MpiMachines : public Machines {
     Bytes bytes;
     MPI_Request request;
   };
-  /// Comes piece by piece where it is large; never whole where the sender dies amid it, whom nobody may wait for.
+  /// A large message arrives piece by piece; it stays incomplete if the sender dies, which must block nobody.
   struct Incoming {
     int from;
     Bytes bytes;
@@ -112,14 +112,14 @@ class MpiMachines : public Machines {
   void forget_sent() {
     for (auto mail = outgoing_.begin(); mail != outgoing_.end();) {
       int sent = 0;
-      // An error means that whoever should have it is gone.
+      // An error means that the receiver is gone.
       if (::MPI_Test(&mail->request, &sent, MPI_STATUS_IGNORE) != MPI_SUCCESS || sent)
         mail = outgoing_.erase(mail);
       else
         ++mail;
     }
   }
-  /// Until no more than `most` are on their way; not forever, for some may be to one that is gone.
+  /// Until at most `most` are on their path; bounded, since some may go to a lost program.
   void wait_for_outgoing(std::size_t most) {
     const auto until = std::chrono::steady_clock::now() + patience;
     for (forget_sent(); outgoing_.size() > most && std::chrono::steady_clock::now() < until; forget_sent())

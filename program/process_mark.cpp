@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t longest_machine = 1 << 16;
 
-/// This start of the system, and whose processes are counted: a container counts its own.
+/// This start of the system, and its process namespace: a container numbers its own.
 std::string own_machine() {
   std::string boot;
   std::ifstream file("/proc/sys/kernel/random/boot_id");

@@ -1,5 +1,5 @@
 #pragma once
-/// A process as others may know it, who see at once that it is gone where they run on the same machine.
+/// Identity of a process for others, which on the same machine notice its end at once.
 
 #include <cstdint>
 #include <optional>
@@ -10,7 +10,7 @@
 namespace septet::program {
 
 struct ProcessMark {
-  std::string machine;  ///< Alike for processes that see each other's numbers.
+  std::string machine;  ///< Equal for processes that see each other's numbers.
   std::int32_t number = 0;
   bool operator==(const ProcessMark&) const = default;
 };
@@ -20,7 +20,7 @@ ProcessMark own_process_mark();
 void put_process(ByteWriter& writer, const ProcessMark& process);
 ProcessMark get_process(ByteReader& reader);
 
-/// Whether the process is there; nothing where it runs on another machine.
+/// True while the process exists; empty if it runs on another machine.
 std::optional<bool> is_there(const ProcessMark& process);
 
 }  // namespace septet::program

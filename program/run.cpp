@@ -38,7 +38,7 @@ int run(std::string_view name, const std::function<Expected<int>()>& work) {
 }
 
 int status_after_output(std::string_view name, int status) {
-  // What ended with a line's end was written at once: the stream remembers that it failed.
+  // Output that ended with a line's end was written at once: the stream remembers its failure.
   const bool written = std::cout.good() && std::fflush(stdout) == 0;
   if (written || errno == EPIPE || status != 0) return status;
   say(std::string(name) + ": standard output: " + std::strerror(errno) + ": make room, then run this again");

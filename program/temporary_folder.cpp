@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view random_letters = "XXXXXX";
-constexpr std::string_view ending = ".run";  // Only these folders have it: whatever else begins alike is not an orphan.
+constexpr std::string_view ending = ".run";  // Only these folders have it: others with the same prefix are not orphans.
 
-/// The folder, open and locked; −1 where somebody else holds it, or it is none of this user's.
+/// The folder, open and locked; −1 if another process holds it, or it is not this user's.
 int lock(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (file < 0) return -1;
@@ -31,7 +31,7 @@ int lock(const fs::path& folder) {
   return -1;
 }
 
-/// Removes what killed runs have left.
+/// Removes the remains of killed runs.
 void remove_orphans(const fs::path& parent, const std::string& prefix) {
   std::error_code ignored;
   for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
@@ -55,7 +55,7 @@ Expected<TemporaryFolder> TemporaryFolder::make(std::string_view name) {
   if (error) return failure("there is no folder for temporary files: " + error.message(), "TMPDIR", remedy);
   const std::string prefix = fmt::format("{}-", name);
   remove_orphans(parent, prefix);
-  // It gets its name once it is locked, so that nobody takes it for an orphan.
+  // Renamed once it is locked, so that it is never mistaken for an orphan.
   std::string draft = (parent / fmt::format(".{}{}", prefix, random_letters)).string();
   if (!::mkdtemp(draft.data())) return failure("cannot make a folder for temporary files", draft, remedy);
   const int held = lock(draft);
@@ -72,9 +72,9 @@ TemporaryFolder::TemporaryFolder(fs::path path, int lock) : path_(std::move(path
   if (::pipe2(ends, O_CLOEXEC) != 0) return;
   keeper_ = ::fork();
   if (keeper_ == 0) {
-    ::setsid();  // Neither Ctrl-C nor a terminal that closes is meant for it.
+    ::setsid();  // Unaffected by Ctrl-C and by a closing terminal.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
-    // It holds nothing of the run open, least of all the pipe's other end.
+    // Keeps no descriptor of the run open, least of all the pipe's other end.
     ::dup2(ends[0], STDIN_FILENO);
     ::close_range(STDOUT_FILENO, ~0u, 0);
     char nothing;

@@ -1,5 +1,6 @@
 #pragma once
-/// Folders of this checkout, asked for at run time: a test's text, and so what a compiler's cache keeps of it, is the same in every checkout.
+/// Folders of this checkout, queried at run time: a test's text, and so its entry in a compiler's cache, is the same in
+/// every checkout.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Files as text, those of the source tree first of all.
+/// Files as text, mostly of the source tree.
 
 #include <filesystem>
 #include <fstream>
@@ -11,7 +11,7 @@
 
 namespace septet {
 
-/// The bytes of a file; none where it cannot be read.
+/// The bytes of a file; empty if it cannot be read.
 inline std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::stringstream text;
@@ -19,7 +19,7 @@ inline std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// A file of the source tree, such as "rigs/desktop.toml"; throws where there is none.
+/// A file of the source tree, such as "rigs/desktop.toml"; throws if it does not exist.
 inline std::string shipped_text(const std::string& name) {
   std::string text = text_of(std::filesystem::path(source_folder()) / name);
   if (text.empty()) throw std::runtime_error(name + " is missing or empty");

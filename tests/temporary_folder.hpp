@@ -1,5 +1,5 @@
 #pragma once
-/// A folder of a test's own, gone at the end with all that is in it.
+/// A folder of a test's own, removed at the end with its content.
 
 #include <cstdlib>
 #include <filesystem>

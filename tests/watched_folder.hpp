@@ -1,6 +1,6 @@
 #pragma once
-// Tells what happened to the files of a folder: by inotify while it is watched, and by listing, sizes, times and bytes before and
-// after. Reading alone is no change.
+// Records changes to the files of a folder: by inotify while it is watched, and by listing, sizes, times and bytes
+// before and after. Reading alone is no change.
 
 #include <sys/inotify.h>
 #include <sys/stat.h>
@@ -26,7 +26,7 @@ class WatchedFolder {
   WatchedFolder& operator=(const WatchedFolder&) = delete;
   ~WatchedFolder() { ::close(inotify_); }
 
-  /// One line for each change since it was made, empty where there is none.
+  /// One line per change since construction, empty if there is none.
   std::string changes() const {
     std::string text;
     alignas(inotify_event) std::array<char, 65536> buffer{};
@@ -34,7 +34,7 @@ class WatchedFolder {
       for (const char* at = buffer.data(); at < buffer.data() + bytes;) {
         const auto* event = reinterpret_cast<const inotify_event*>(at);
         const std::string name = event->len > 0 ? event->name : "the folder";
-        // As root SQLite gives a WAL and its index, when it opens them, the owner that they have.
+        // As root, SQLite gives a WAL and its index their owner when it opens them.
         const bool is_owner =
             event->mask == IN_ATTRIB && (name.ends_with("-wal") || name.ends_with("-shm")) && ::geteuid() == 0;
         if (!is_owner) text += name + ": event " + std::to_string(event->mask) + "\n";

@@ -1,7 +1,8 @@
 #pragma once
-/// A CAN bus: SocketCAN behind a seam that a simulated bus fills, too.
+/// A CAN bus: SocketCAN behind an interface that a simulated bus implements, too.
 ///
-/// Threads: one at a time. Errors: an interface that is down or gone returns an Error from every call; close the bus and open it anew.
+/// Threads: one at a time. Errors: an interface that is down or gone returns an Error from every call; close the bus
+/// and open it again.
 
 #include <array>
 #include <cstddef>
@@ -27,26 +28,27 @@ struct CanFrame {
   bool operator==(const CanFrame&) const = default;
 };
 
-/// What a controller says of its bus.
+/// A controller's notice about its bus.
 struct CanNotice {
   Error told;           ///< For a person.
-  bool is_off = false;  ///< It has left the bus (bus-off) and sends nothing; otherwise it is there again.
+  bool is_off = false;  ///< It has left the bus (bus-off) and sends nothing; false: it is there again.
 };
 
 class CanBus {
  public:
   virtual ~CanBus() = default;
-  /// Never waits. False: the queue is full and the frame is dropped (nobody else is on the bus, or it is overloaded).
+  /// Never waits. Returns false if the queue is full and the frame is dropped (no other node is on the bus, or it is
+  /// overloaded).
   virtual Expected<bool> send(const CanFrame& frame) = 0;
-  /// The next frame that waits, or nothing. Never waits.
+  /// Next pending frame; empty: none. Never waits.
   virtual Expected<std::optional<CanFrame>> receive() = 0;
-  /// What the controller has said of the bus since the last call (bus-off, restarted); of several the last.
+  /// The controller's last notice since the previous call (bus-off, restarted).
   virtual std::optional<CanNotice> take_notice() = 0;
 };
 
 using OpenCanBus = std::function<Expected<std::unique_ptr<CanBus>>()>;
 
-/// The interface must be there, up, and fit for CAN FD where that is needed.
+/// The interface must exist, be up, and support CAN FD if needed.
 Expected<std::unique_ptr<CanBus>> open_socket_can(const std::string& interface, bool needs_fd);
 
 /// A socket that speaks in Linux' can_frame and canfd_frame, which it takes over and closes.

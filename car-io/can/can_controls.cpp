@@ -30,7 +30,7 @@ class CanControlsDevice final : public HidDevice {
       if (!*frame) break;
       came |= take(**frame);
     }
-    // A controller off the bus hears nothing; its silence is what makes the car stale.
+    // A controller off the bus hears nothing; its silence makes the car stale.
     if (!came) return std::nullopt;
     input_ = driver_input_of(controls_, input_);
     if (all_have_come()) {
@@ -80,7 +80,7 @@ class CanControlsDevice final : public HidDevice {
   double steering_lock_rad_;
   CanControls controls_;
   DriverInput input_;
-  std::vector<bool> has_come_;  ///< Of the heard messages, since the sequence moved.
+  std::vector<bool> has_come_;  ///< Of the heard messages, since the sequence advanced.
 };
 
 double share(double percent) { return std::clamp(percent / 100.0, 0.0, 1.0); }

@@ -1,8 +1,10 @@
 #pragma once
-/// The car's controls from a CAN bus, as a device that sends Septet's own input reports (REPORTS.md): whoever reads a HID device reads it.
+/// The car's controls from a CAN bus, as a device that sends Septet's own input reports (REPORTS.md): any reader of a
+/// HID device reads it.
 ///
-/// The reports' sequence moves when every message with the wheel or a pedal has come since it moved last, so that one node that falls
-/// silent makes the car stale. Values that are no numbers, and selectors and gears that there are not, keep what was there before.
+/// The reports' sequence advances once every message with the wheel or a pedal has come since its last advance, so that
+/// one silent node makes the car stale. NaN and infinite values, and undefined selectors and gears, keep the previous
+/// value.
 
 #include "car-io/can/can_bus.hpp"
 #include "car-io/can/can_plan.hpp"
@@ -13,7 +15,7 @@ namespace septet::car_io {
 
 DriverInput driver_input_of(const CanControls& controls, const DriverInput& before);
 
-/// Opens the bus and reads the plan's heard messages. `steering_lock_rad` is what the reports' full steering means.
+/// Opens the bus and reads the plan's heard messages. `steering_lock_rad` is the angle of the reports' full steering.
 OpenHidDevice can_controls_opener(OpenCanBus open, CanPlan plan, double steering_lock_rad);
 
 }  // namespace septet::car_io

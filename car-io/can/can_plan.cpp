@@ -70,7 +70,7 @@ bool is_axis(double CanControls::*control) {
   return std::ranges::any_of(std::span(controls).first(axes), [&](const auto& axis) { return axis.value == control; });
 }
 
-/// What the rig says of a signal, or else its own name.
+/// The rig's assignment of a signal, or else its own name.
 std::variant<std::string_view, double> meaning(const rig::Can& can, const dbc::Message& message,
                                                const dbc::Signal& signal) {
   const std::string name = message.name + "." + signal.name;
@@ -85,7 +85,7 @@ const dbc::Signal* selecting_of(const dbc::Message& message) {
   return found == message.signals.end() ? nullptr : &*found;
 }
 
-/// The signal with the raw bits themselves for its value, whatever its scale and range are.
+/// The signal with the raw bits as its value, without its scale and range.
 dbc::Signal raw(const dbc::Signal& signal) {
   return {.name = signal.name,
           .start_bit = signal.start_bit,
@@ -94,7 +94,7 @@ dbc::Signal raw(const dbc::Signal& signal) {
           .selects = signal.selects};
 }
 
-/// Where the rig holds the selecting signal at a constant: the raw value that then is sent.
+/// With the selecting signal at a constant in the rig: the raw value that is sent.
 std::optional<double> held_selection(const SentMessage& sent, const dbc::Signal& selecting) {
   const auto found = std::ranges::find_if(sent.signals, [&](const SentSignal& of) { return of.signal.selects; });
   const double* constant = found == sent.signals.end() ? nullptr : std::get_if<double>(&found->carries);
@@ -105,8 +105,8 @@ std::optional<double> held_selection(const SentMessage& sent, const dbc::Signal&
   return dbc::decode(sent.message, raw(selecting), frame);
 }
 
-/// A frame carries the signals of one selected value, so that a multiplexed message becomes several: one for each value that selects
-/// anything of ours, or the one that the rig holds it at.
+/// A frame carries the signals of one selected value, so that a multiplexed message becomes several: one for each value
+/// that selects a signal in use, or the rig's constant.
 Expected<std::vector<SentMessage>> by_selection(SentMessage sent, const std::string& dbc) {
   std::set<std::uint64_t> values;
   for (const SentSignal& of : sent.signals)

@@ -1,8 +1,8 @@
 #pragma once
-/// Which signals of a DBC file carry what of the car: instruments out, controls in.
+/// Signals of a DBC file and the car's quantities that they carry: instruments out, controls in.
 ///
-/// A signal that is called as a quantity of the tables below carries that quantity; the rig's [can.signals] gives others theirs, or a
-/// constant. README.md lists the quantities with their units.
+/// A signal named like a quantity of the tables below carries that quantity; the rig's [can.signals] assigns one to
+/// others, or a constant. README.md lists the quantities with their units.
 
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@
 
 namespace septet::car_io {
 
-/// What a cluster shows; what is no measurement is 0 or 1.
+/// Values of a cluster; flags are 0 or 1.
 struct Instruments {
   double ignition = 0.0;
   double speed_kmh = 0.0;
@@ -33,14 +33,14 @@ struct Instruments {
   double engine_fault = 0.0, tyre_pressure = 0.0, lamp_fault = 0.0;
 };
 
-/// What the driver does, as signals say it.
+/// The driver's controls, as signals carry them.
 struct CanControls {
   double steering_wheel_deg = 0.0;  ///< Positive to the left.
   double accelerator_percent = 0.0, brake_percent = 0.0, clutch_percent = 0.0;
   double indicator_left_switch = 0.0, indicator_right_switch = 0.0;
   double hazard_switch = 0.0, horn_switch = 0.0;
   double low_beam_switch = 1.0, high_beam_switch = 0.0, parking_brake_switch = 0.0;
-  double selector_position = 3.0;  ///< As GearSelector.
+  double selector_position = 3.0;  ///< Values of GearSelector.
   double gear_position = 0.0;      ///< −1 reverse, 0 neutral, 1…6.
   double emergency_stop_switch = 0.0, rearm_switch = 0.0;
 };
@@ -53,14 +53,15 @@ struct Quantity {
 std::span<const Quantity<Instruments>> instrument_quantities();
 std::span<const Quantity<CanControls>> control_quantities();
 
-/// Counts the frames of its message; clusters notice by it that a sender hangs.
+/// Counts the frames of its message; clusters detect a hung sender by it.
 struct FrameCounter {};
 
 struct SentSignal {
   dbc::Signal signal;
-  std::variant<double, double Instruments::*, FrameCounter> carries;  ///< A number: always that.
+  std::variant<double, double Instruments::*, FrameCounter> carries;  ///< A number: a constant.
 };
-/// Of a multiplexed message: of one selected value, which is among the signals as a constant. A plan has one for each value.
+/// For a multiplexed message: with one selected value, which is among the signals as a constant. A plan has one per
+/// value.
 struct SentMessage {
   dbc::Message message;
   double period_s = 0.1;
@@ -70,7 +71,7 @@ struct HeardSignal {
   dbc::Signal signal;
   double CanControls::*control = nullptr;
 };
-/// Likewise; those of its signals that are in each frame are one by themselves.
+/// Likewise; signals present in every frame form an entry of their own.
 struct HeardMessage {
   dbc::Message message;
   std::vector<HeardSignal> signals;
@@ -82,8 +83,8 @@ struct CanPlan {
   bool needs_fd = false;
 };
 
-/// Error: a signal or quantity that is not there, a message that would be sent and heard, signals on each other, multiplexed ones
-/// that nothing can select.
+/// Error: an unknown signal or quantity, a message both sent and heard, overlapping signals, multiplexed ones that
+/// nothing can select.
 Expected<CanPlan> plan_can(const dbc::Database& database, const rig::Can& can);
 
 }  // namespace septet::car_io

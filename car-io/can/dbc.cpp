@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t largest_file = 8u << 20, most_messages = 10'000, most_signals = 1024;
 constexpr std::uint64_t extended_flag = 1ull << 31;
-/// Vector's places for signals that belong to no message, today's and an older one.
+/// Vector's pseudo messages for signals without a message, today's and an older one.
 constexpr std::array<std::uint64_t, 2> independent_signals{0xC0000000, 0x40000000};
 
 constexpr std::string_view statements[] = {"VERSION",
@@ -63,7 +63,7 @@ bool is_length(std::uint64_t bytes) {
   return bytes <= 8 || std::ranges::find(of_fd, bytes) != of_fd.end();
 }
 
-/// Whether all bits of the signal lie in its message. Motorola's sit in rows from bit 7 down, byte after byte.
+/// True if all bits of the signal lie in its message. Motorola's sit in rows from bit 7 down, byte after byte.
 bool fits(const Signal& signal, std::uint8_t bytes) {
   const int begin =
       signal.order == ByteOrder::intel ? signal.start_bit : signal.start_bit / 8 * 8 + 7 - signal.start_bit % 8;
@@ -148,7 +148,7 @@ class Reader {
     }
   }
 
-  /// A list of words that are statements elsewhere, until the first that is none of them.
+  /// A list of words that are statements elsewhere, up to the first other word.
   void new_symbols() {
     if (!scan_.take(':')) return refuse("NS_ has no colon");
     for (auto word = scan_.peek_identifier(); word && *word != "BS_" && *word != "BU_" && *word != "BO_";
@@ -161,7 +161,7 @@ class Reader {
                     std::string remedy = "correct it, or export the file again") {
     unread_.try_emplace(message, Error{std::move(what), fmt::format("{}:{}", name_, line_), std::move(remedy)});
   }
-  /// Both, for which of the two is meant nobody can tell.
+  /// Both, since the intended one is unknown.
   void leave_both_unread(std::size_t one, std::size_t other, const std::string& what) {
     leave_unread(one, what, "keep one of them");
     leave_unread(other, what, "keep one of them");
@@ -227,7 +227,7 @@ class Reader {
     message.signals.push_back(std::move(signal));
   }
 
-  /// The fault, where it has one; what is behind it in its line is skipped then.
+  /// The fault, if it has one; the rest of its line is skipped then.
   std::optional<std::string> read_signal(Signal& signal) {
     const auto faulty = [&](std::string what) {
       skip_rest_of_line();
@@ -318,7 +318,7 @@ class Reader {
     end_statement();
   }
 
-  /// As the file has it: an index, or a name in quotes.
+  /// As in the file: an index, or a name in quotes.
   struct FrameFormat {
     double index = 0.0;
     std::optional<std::string> name;
@@ -352,7 +352,7 @@ class Reader {
     end_statement();
   }
 
-  /// SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST,…; says again what mNUMBER does, or is extended multiplexing.
+  /// SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST,…; repeats the meaning of mNUMBER, or is extended multiplexing.
   void selected_values() {
     const auto id = scan_.take_unsigned();
     const auto name = scan_.take_name();
@@ -451,11 +451,11 @@ class Reader {
   std::map<std::uint64_t, std::size_t> numbers_;  ///< Messages by their identifier as the file writes it.
   std::map<std::string, std::size_t> names_;
   std::set<std::string> periodless_;
-  std::map<std::size_t, Error> unread_;  ///< Why, by the message's place in the database, likewise the next.
+  std::map<std::size_t, Error> unread_;  ///< Reason, by the message's place in the database, likewise the next.
   std::map<std::size_t, FrameFormat> formats_;
   std::vector<std::string> frame_formats_;  ///< The names of VFrameFormat's values, where the file lists them.
   std::optional<FrameFormat> default_format_;
-  int line_ = 1;            ///< In which the statement begins.
+  int line_ = 1;            ///< Of the statement's beginning.
   bool ignored_ = false;    ///< The signals that follow belong to no message.
   bool is_nested_ = false;  ///< The signal that was read is selected and selects.
   double default_period_ms_ = 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-/// The words of a DBC file, one after the other, with the line that each stands in. For dbc.cpp.
+/// Tokens of a DBC file, in sequence, with their lines. For dbc.cpp.
 
 #include <cstdint>
 #include <optional>
@@ -14,22 +14,22 @@ class Scanner {
 
   int line() const { return line_; }
   bool at_end();
-  /// The next character that is no space, without taking it; 0 at the end.
+  /// Next non-space character, without taking it; 0 at the end.
   char peek();
   bool take(char wanted);
-  /// A C identifier, or nothing (and nothing is taken).
+  /// A C identifier; empty (and nothing taken) otherwise.
   std::optional<std::string_view> take_identifier();
   std::optional<std::string_view> peek_identifier();
-  /// An identifier that may begin with a digit, as people's names of messages and signals do; or nothing.
+  /// An identifier that may begin with a digit, as in real files' messages and signals; or empty.
   std::optional<std::string_view> take_name();
-  /// A finite number, or nothing.
+  /// A finite number, or empty.
   std::optional<double> take_number();
   std::optional<std::uint64_t> take_unsigned();
-  /// A text in quotes, which may go over several lines; nothing where it begins otherwise or never ends.
+  /// A quoted text, which may span several lines; empty if it begins otherwise or never ends.
   std::optional<std::string> take_string();
-  /// One word of any kind; false at the end, or where a text in quotes has none.
+  /// Skips one word of any kind; false at the end, or at a quoted text without an end.
   bool skip_word();
-  /// Up to the end of the line.
+  /// Skips to the end of the line.
   void skip_line();
 
  private:

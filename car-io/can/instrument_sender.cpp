@@ -16,7 +16,7 @@
 namespace septet::car_io {
 namespace {
 
-/// Frames that were sent: with these signals, and with this identifier whatever is selected.
+/// Sent frames: with these signals, and with this identifier under any selection.
 struct SentCounts {
   std::uint8_t of_selection = 0, of_message = 0;
 };
@@ -38,7 +38,7 @@ CanFrame frame_of(const SentMessage& sent, const Instruments& instruments, SentC
   return frame;
 }
 
-/// Nobody says how the car moves: a pause, or a server that hangs.
+/// Without news of the car's motion: a pause, or a server that hangs.
 constexpr Instruments resting{.ignition = 1.0};
 
 }  // namespace
@@ -103,7 +103,8 @@ void InstrumentSender::send(std::size_t message, const Instruments& instruments,
   if (*sent) {
     ++counts_.sent;
     ++sent_of_[message];
-    // A controller that leaves the bus takes frames until its queue is full; after that one that is taken means that it is back.
+    // A controller that leaves the bus takes frames until its queue is full; a later accepted frame means that it is
+    // back.
     if (full_since_s_) is_off_ = false;
     is_stuck_ = false;
     full_since_s_.reset();
@@ -130,7 +131,7 @@ double InstrumentSender::pump(double now_s) {
     next_s = std::min(next_s, *due_s_[i]);
   }
   if (bus_) {
-    // Frames of others fill the socket unless somebody takes them; among them is what the controller says of the bus.
+    // Frames of others fill the socket unless they are drained; the controller's notices are among them.
     constexpr int most_taken = 1000;
     for (int i = 0; i < most_taken; ++i) {
       const auto received = bus_->receive();
@@ -142,7 +143,7 @@ double InstrumentSender::pump(double now_s) {
     }
     if (auto notice = bus_ ? bus_->take_notice() : std::nullopt) {
       is_off_ = notice->is_off;
-      if (is_off_) full_since_s_.reset();  // What was refused before says nothing of its coming back.
+      if (is_off_) full_since_s_.reset();  // An earlier refusal tells nothing about its return.
       tell(std::move(notice->told));
     }
   }

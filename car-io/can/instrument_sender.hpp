@@ -1,9 +1,10 @@
 #pragma once
-/// Sends the instruments' messages, each as often as its DBC file says, whatever happens to the bus.
+/// Sends the instruments' messages, each at its DBC file's rate, in any state of the bus.
 ///
-/// What was set last is sent; while nobody has set anything for `silent_after_s` the instruments rest (speed 0, no lamp
-/// lit, ignition on), and the messages go on: they are the cluster's keep-alive. A full queue drops frames and is told once; an interface
-/// that is down or gone is opened again every `retry_s`. A sender that is late sends each message once, and no backlog.
+/// The latest values are sent; without new ones for `silent_after_s` the instruments rest (speed 0, no lamp lit,
+/// ignition on), and the messages go on: they are the cluster's keep-alive. A full queue drops frames and is reported
+/// once; an interface that is down or gone is opened again every `retry_s`. A late sender sends each message once, and
+/// no backlog.
 ///
 /// `InstrumentSender` has no thread and no clock; `InstrumentThread` runs one.
 
@@ -20,7 +21,7 @@ namespace septet::car_io {
 struct InstrumentSenderOptions {
   double silent_after_s = 0.2;
   double retry_s = 0.5;
-  double stuck_after_s = 0.25;  ///< A queue that is full for so long: nobody acknowledges.
+  double stuck_after_s = 0.25;  ///< A queue full for this long: no node acknowledges.
 };
 
 class InstrumentSender {
@@ -28,19 +29,21 @@ class InstrumentSender {
   InstrumentSender(OpenCanBus open, CanPlan plan, InstrumentSenderOptions options = {});
 
   void set(const Instruments& instruments, double now_s);
-  /// Sends what is due; returns when the next message is.
+  /// Sends due messages; returns the time of the next one.
   double pump(double now_s);
-  /// The last word of a drive: everything at rest, ignition off, once each.
+  /// Final messages of a drive: everything at rest, ignition off, once each.
   void finish(double now_s);
-  /// What a person should know since the last call: a lost interface, a full queue, a controller off the bus, and that it is well again.
+  /// Report for a person since the last call: a lost interface, a full queue, a controller off the bus, and the
+  /// recovery.
   std::optional<Error> take_error();
 
   struct Counts {
     std::uint64_t sent = 0, dropped = 0,
-                  lost = 0;  ///< Frames sent, dropped at a full queue, and times the interface was lost.
+                  lost = 0;  ///< Frames sent, dropped at a full queue, and losses of the interface.
   };
   const Counts& counts() const { return counts_; }
-  /// Nothing reaches the cluster: the interface was there and is not now, the controller is off the bus, or the queue stays full.
+  /// The cluster is unreachable: the interface was there and is gone, the controller is off the bus, or the queue stays
+  /// full.
   bool is_lost() const { return (counts_.lost > 0 && !bus_) || is_off_ || is_stuck_; }
 
  private:
@@ -54,7 +57,7 @@ class InstrumentSender {
   InstrumentSenderOptions options_;
   std::unique_ptr<CanBus> bus_;
   std::optional<double> next_try_s_;
-  std::vector<std::optional<double>> due_s_;  ///< Of each sent message; nothing: at once.
+  std::vector<std::optional<double>> due_s_;  ///< Due time of each sent message; empty: at once.
   std::vector<std::uint8_t> sent_of_;         ///< Frames of each, wrapping.
   Instruments newest_;
   std::optional<double> set_at_s_;
@@ -68,7 +71,7 @@ class InstrumentSender {
 class InstrumentThread {
  public:
   explicit InstrumentThread(InstrumentSender sender);
-  ~InstrumentThread();  ///< Sends the last word.
+  ~InstrumentThread();  ///< Sends the final messages.
   void set(const Instruments& instruments);
   std::optional<Error> take_error();
   bool is_lost() const;

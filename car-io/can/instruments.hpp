@@ -1,5 +1,5 @@
 #pragma once
-/// What the instruments show of a tick. A pure function.
+/// Values of the instruments at a tick. A pure function.
 
 #include "car-io/actuators.hpp"
 #include "car-io/can/can_plan.hpp"

@@ -53,7 +53,7 @@ double number_of(const Signal& signal, std::uint64_t raw) {
   return 0.0;
 }
 
-/// Of a number that may be anything.
+/// From any number.
 std::uint64_t raw_of(const Signal& signal, double number) {
   if (signal.number == Number::float64) return std::bit_cast<std::uint64_t>(number);
   if (signal.number == Number::float32) {

@@ -30,7 +30,7 @@ class SocketCan final : public CanBus {
     raw.can_id = frame.id | (frame.is_extended ? CAN_EFF_FLAG : 0u);
     raw.len = frame.bytes;
     std::memcpy(raw.data, frame.data.data(), frame.bytes);
-    // Both structures begin alike; their size says which one it is.
+    // Both structures begin alike; the size tells them apart.
     const std::size_t size = frame.is_fd ? CANFD_MTU : CAN_MTU;
     if (::send(socket_, &raw, size, MSG_DONTWAIT | MSG_NOSIGNAL) == static_cast<ssize_t>(size)) return true;
     if (errno == ENOBUFS || errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return false;

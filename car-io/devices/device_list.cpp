@@ -111,7 +111,8 @@ void find_hid(const fs::path& sys, const fs::path& dev, std::vector<FoundDevice>
   }
 }
 
-/// By which way its motor would be moved: evdev's constant force where the kernel's driver has it, HID PID reports where it has not. A rumble is no motor.
+/// Path to its motor: evdev's constant force if the kernel's driver has it, HID PID reports otherwise. A rumble is no
+/// motor.
 void describe_motor(FoundDevice& device, const std::string& effects, const std::optional<PidNode>& pid) {
   constexpr std::size_t constant = 0x52;
   constexpr std::pair<std::size_t, const char*> others[] = {{0x53, "spring"}, {0x55, "damper"}, {0x54, "friction"}};
@@ -129,7 +130,7 @@ void describe_motor(FoundDevice& device, const std::string& effects, const std::
   device.remedy += (device.remedy.empty() ? "" : "\n") + hidraw_rule(device);
 }
 
-/// Of all input devices those with an axis and a joystick's or a gamepad's button, or with a wheel's axis.
+/// Input devices with an axis and a joystick's or a gamepad's button, or with a wheel's axis.
 void find_joysticks(const fs::path& sys, const fs::path& dev, std::vector<FoundDevice>& found) {
   constexpr std::size_t abs_x = 0, abs_wheel = 8, abs_gas = 9;
   constexpr std::size_t first_button = 0x120, last_button = 0x13f, first_gear_button = 0x150;
@@ -204,7 +205,7 @@ void find_sound(const fs::path& sys, const fs::path& dev, std::vector<FoundDevic
   }
 }
 
-/// Beside a hidraw node whose it is.
+/// Adds to a hidraw node the device that it belongs to.
 void name_motors(std::vector<FoundDevice>& found) {
   for (const FoundDevice& wheel : found)
     for (FoundDevice& device : found)

@@ -11,7 +11,7 @@ double number(double value) { return std::isfinite(value) ? value : 0.0; }
 
 double within(double value) { return std::clamp(number(value), -1.0, 1.0); }
 
-/// What answers a way or a speed of the wheel: against it, beyond the dead band.
+/// Reaction to the wheel's position or speed: against it, beyond the dead band.
 double answer(const ForceEffect& effect, double wheel) {
   const double away = number(wheel) - effect.centre, half = 0.5 * std::max(effect.dead_band, 0.0);
   if (away > half) return -std::min(effect.left_coefficient * (away - half), effect.left_most);
@@ -36,7 +36,7 @@ double wave(const ForceEffect& effect, double played_s) {
   }
 }
 
-/// Of the level: how it begins and ends.
+/// Factor on the level: its attack and fade.
 double envelope(const ForceEffect& effect, double played_s, double level) {
   const double sign = level < 0.0 ? -1.0 : 1.0;
   if (effect.attack_s > 0.0 && played_s < effect.attack_s)
@@ -78,7 +78,7 @@ double force_of(const ForceEffect& effect, const WheelPlace& wheel, double playe
 void ForceEffects::load(std::int16_t id, const ForceEffect& effect) {
   constexpr std::size_t most = 64;
   if (loaded_.size() >= most && !loaded_.contains(id)) return;
-  loaded_[id].effect = effect;  // One that plays goes on, changed.
+  loaded_[id].effect = effect;  // A playing effect goes on with its changes.
 }
 
 void ForceEffects::erase(std::int16_t id) { loaded_.erase(id); }

@@ -1,8 +1,8 @@
 #pragma once
-/// The force effects that a game has loaded into a wheel, and the one force that they make together at an instant: what the kernel's drivers of
-/// wheels do (Linux' Documentation/input/ff.rst), as plain data.
+/// The force effects that a game has loaded into a wheel, and their sum at an instant: the model of the kernel's wheel
+/// drivers (Linux' Documentation/input/ff.rst), as plain data.
 ///
-/// Forces are shares of what the motor can, −1 to 1, positive to the left. A pure function of effects, wheel and time.
+/// Forces are shares of the motor's maximum, −1 to 1, positive to the left. A pure function of effects, wheel and time.
 
 #include <cstdint>
 #include <map>
@@ -15,12 +15,13 @@ enum class ForceWave : std::uint8_t { square, triangle, sine, saw_up, saw_down }
 
 struct ForceEffect {
   ForceKind kind = ForceKind::constant;
-  double level = 0.0;      ///< Of constant, periodic and of a ramp's beginning.
-  double end_level = 0.0;  ///< Of a ramp.
-  double offset = 0.0;     ///< Of a periodic.
+  double level = 0.0;      ///< For constant, periodic and a ramp's beginning.
+  double end_level = 0.0;  ///< For a ramp.
+  double offset = 0.0;     ///< For a periodic.
   ForceWave wave = ForceWave::sine;
   double period_s = 0.1, phase_turns = 0.0;
-  // Of what answers the wheel: shares of force for the whole way (or speed) to the left and to the right, the most there, and the middle.
+  // For conditions: shares of force at full travel (or speed) to the left and to the right, their limits, and the
+  // centre.
   double left_coefficient = 0.0, right_coefficient = 0.0, left_most = 1.0, right_most = 1.0;
   double centre = 0.0, dead_band = 0.0;
   double length_s = 0.0, delay_s = 0.0;  ///< 0: until it is stopped.
@@ -41,7 +42,7 @@ class ForceEffects {
   void play(std::int16_t id, int times, double now_s);
   void set_gain(double gain) { gain_ = gain; }
   void set_autocentre(double share) { autocentre_ = share; }
-  /// Forgets all: the game has gone.
+  /// Clears all: the game has gone.
   void clear() { *this = {}; }
   std::size_t size() const { return loaded_.size(); }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double silent_after_s = 0.2, falls_asleep_in_s = 0.2, wakes_in_s = 1.0, rearm_held_for_s = 1.0,
                  rests_for_s = 0.1;
 constexpr double fan_full_in_s = 1.0, vibration_full_in_s = 0.2, force_full_in_s = 0.05, dies_in_s = 0.09;
-constexpr double stop_within = 0.03;  // Of the wheel's way, before its end.
+constexpr double stop_within = 0.03;  // Of the wheel's travel, before its end.
 
 bool carries(const TelemetryFormat& format, double GameTelemetry::*quantity) {
   return std::ranges::any_of(format.fields, [&](const TelemetryField& field) { return field.quantity == quantity; });
@@ -20,7 +20,7 @@ double towards(double from, double to, double most) { return std::clamp(to, from
 
 }  // namespace
 
-/// A game whose speed has stopped is silent, whatever else goes on.
+/// A game without new speeds is silent, whatever else it sends.
 std::optional<double> GameDrive::told_s() const { return speed_told_s_ ? speed_told_s_ : other_told_s_; }
 
 bool GameDrive::is_told(double now_s) const { return told_s() && now_s - *told_s() <= silent_after_s; }
@@ -35,7 +35,7 @@ void GameDrive::receive(const TelemetryFormat& format, std::span<const std::byte
   const bool tells_speed = carries(format, &GameTelemetry::speed_mps);
   const auto before = told_by_.find(format.name);
   const bool is_first = before == told_by_.end();
-  // A jolt is between two words of one format: those of others come at any time in between.
+  // A jolt is a change between two datagrams of one format: other formats come at any time in between.
   const CarMotion felt =
       motion_of(*read, is_first ? *read : before->second.telemetry, is_first ? 0.0 : now_s - before->second.at_s);
   if (carries(format, &GameTelemetry::vertical_mps2)) bump_ = std::max(bump_, felt.bump);
@@ -91,7 +91,7 @@ double GameDrive::wheel_force(const CarReading& reading, const ForceEffects& eff
   wheel_.share = share;
   // A game that hangs leaves its force where it was.
   double wanted = awake_ * effects.force(wheel_, now_s);
-  // The end wins over whatever the game pulls.
+  // The end stop overrides the game's force.
   const double beyond = (std::abs(share) - (1.0 - stop_within)) / stop_within;
   if (beyond > 0.0) {
     const double stop = std::min(beyond, 1.0);
@@ -114,7 +114,7 @@ Actuators GameDrive::actuate(const CarReading& reading, const ForceEffects& effe
   wanted.fan = awake_ * (fan_ = towards(fan_, wanted.fan, dt_s / fan_full_in_s));
   wanted.vibration = awake_ * (vibration_ = towards(vibration_, wanted.vibration, dt_s / vibration_full_in_s));
   wanted.steering = wheel_force(reading, effects, now_s, dt_s) * limits_.steering_most;
-  // Not at rest, which would re-arm what writes.
+  // Not the command of rest, which would re-arm the writer.
   wanted.vibration_hz = std::max(wanted.vibration_hz, 1.0);
   if (resting_s_ > 0.0 && !guard_.is_cut) {
     resting_s_ -= dt_s;

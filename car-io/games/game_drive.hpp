@@ -1,11 +1,13 @@
 #pragma once
-/// A commercial game driven from the car: what its telemetry and its force effects make the car's actuators do, and when they rest.
+/// A commercial game driven from the car: the actuators' commands from its telemetry and its force effects, and their
+/// times of rest.
 ///
-/// Telemetry that is silent for 200 ms is a menu, or a game that has gone or hangs: fan, shaker and the game's force fade in 200 ms, and are back over a
-/// second when it goes on. A game that never told anything has its force all the same. The emergency stop, and a car whose reports stop, cut
-/// everything until the re-arm button has been held for a second; so does whoever calls `cut`, and a lost CAN bus. At the beginning and then a tenth of a
-/// second of rest is told, which is what arms a device (car-io/firmware), and everything rises over a second. Of several formats the one that carries the
-/// speed is the game's word. No socket, device or clock of its own; one thread.
+/// Telemetry silent for 200 ms is a menu, or a game that has gone or hangs: fan, shaker and the game's force fade in
+/// 200 ms, and return over a second when it goes on. A game that never sent telemetry keeps its force. The emergency
+/// stop, and a car whose reports stop, cut everything until the re-arm button has been held for a second; so do `cut`
+/// and a lost CAN bus. At the beginning, and on re-arming, a tenth of a second of rest is sent, which arms a device
+/// (car-io/firmware), and everything rises over a second. Of several formats the one that carries the speed decides. No
+/// socket, device or clock of its own; one thread.
 
 #include <cstdint>
 #include <map>
@@ -27,19 +29,20 @@ class GameDrive {
   GameDrive(const rig::CarActuators& limits, double steering_lock_rad)
       : limits_(limits), steering_lock_rad_(steering_lock_rad) {}
 
-  /// A datagram of this format; one that is none is counted and changes nothing.
+  /// Takes a datagram of this format; an invalid one is counted and changes nothing.
   void receive(const TelemetryFormat& format, std::span<const std::byte> datagram, double now_s);
-  /// What the actuators shall do now; call it a hundred times a second or more.
+  /// Present commands of the actuators; call it a hundred times a second or more.
   Actuators actuate(const CarReading& reading, const ForceEffects& effects, double now_s);
-  /// Nothing while no telemetry comes: then the cluster rests.
+  /// Empty without telemetry: then the cluster rests.
   std::optional<Instruments> instruments(double now_s) const;
 
-  /// What moves goes to 0 for this reason and waits to be re-armed; nothing new while it is cut, or rests to be armed.
+  /// Brings the moving actuators to 0 for this reason until they are re-armed; no effect while they are cut, or rest
+  /// before arming.
   void cut(const std::string& why);
-  /// Of the cluster: cuts when it is lost, and nobody re-arms before it is back.
+  /// For the cluster: its loss cuts, and re-arming waits for its return.
   void set_bus_lost(bool is_lost);
-  /// Somebody at the console lets the actuators run again, also a device that has cut itself off; while the emergency stop is pressed, or the
-  /// CAN bus lost, they do not.
+  /// Re-arms the actuators from the terminal, also a device that has cut itself off; without effect while the emergency
+  /// stop is pressed, or the CAN bus is lost.
   void rearm();
 
   std::uint64_t refused_datagrams() const { return refused_; }
@@ -47,7 +50,7 @@ class GameDrive {
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:
-  /// The last word of one format.
+  /// The latest telemetry of one format.
   struct Told {
     GameTelemetry telemetry;
     double at_s = 0.0;
@@ -60,7 +63,7 @@ class GameDrive {
   rig::CarActuators limits_;
   double steering_lock_rad_;
   GameTelemetry now_;
-  double bump_ = 0.0, blow_ = 0.0;                    ///< What is left of the last.
+  double bump_ = 0.0, blow_ = 0.0;                    ///< Remainders of the latest.
   std::map<std::string, Told, std::less<>> told_by_;  ///< By the format's name.
   std::optional<double> speed_told_s_, other_told_s_, stepped_s_;
   ActuatorGuard guard_;

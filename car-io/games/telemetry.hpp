@@ -1,9 +1,9 @@
 #pragma once
-/// What a commercial game says of its car, datagram for datagram: Live for Speed's OutGauge and OutSim, the UDP packets of Codemasters'
-/// rally and racing games, and any other by a TOML file (README.md).
+/// Telemetry of a commercial game's car, datagram by datagram: Live for Speed's OutGauge and OutSim, the UDP packets of
+/// Codemasters' rally and racing games, and any other by a TOML file (README.md).
 ///
-/// Bytes come from whoever reaches the port: what is not finite, beyond bounds or of another length is refused, and nothing of it is kept.
-/// Pure functions; they allocate nothing but errors.
+/// Bytes come from any sender that reaches the port: datagrams with non-finite values, values beyond bounds or another
+/// length are refused as a whole. Pure functions; they allocate nothing but errors.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,21 +19,21 @@
 
 namespace septet::car_io {
 
-/// As far as any game tells; what one does not tell keeps its value.
+/// Union of all games' quantities; a quantity that a game lacks keeps its value.
 struct GameTelemetry {
   double speed_mps = 0.0;
   double engine_rpm = 0.0;
   double gear = 0.0;  ///< −1 reverse, 0 neutral, 1 and so on.
   double accelerator = 0.0, brake = 0.0, clutch = 0.0;
   double fuel_share = 0.0, coolant_temperature_c = 0.0;
-  double vertical_mps2 = 0.0;  ///< Of the body, without gravity.
+  double vertical_mps2 = 0.0;  ///< Acceleration of the body, without gravity.
   double wheel_rotation_hz = 0.0;
   double indicator_left = 0.0, indicator_right = 0.0, high_beam = 0.0, parking_brake = 0.0, anti_lock = 0.0;
 };
 
 enum class NumberKind : std::uint8_t { u8, i8, u16, i16, u32, i32, f32, f64 };
 
-/// Where one quantity lies, and what it means: value = number × scale + offset; with a `bit`, whether that bit is set.
+/// Place and meaning of one quantity: value = number × scale + offset; with a `bit`, true if that bit is set.
 struct TelemetryField {
   double GameTelemetry::*quantity = nullptr;
   std::size_t byte = 0;
@@ -41,14 +41,14 @@ struct TelemetryField {
   bool big_endian = false;
   double scale = 1.0, offset = 0.0;
   int bit = -1;
-  /// Numbers of the datagram, before scale and offset, that mean these gears; beside −1 and 0 of the scaled value.
+  /// Numbers of the datagram, before scale and offset, for these gears; beside −1 and 0 of the scaled value.
   std::optional<double> reverse, neutral;
 };
 
 struct TelemetryFormat {
   std::string name;
   std::size_t least_bytes = 0, most_bytes = 0;
-  std::uint16_t port = 0;  ///< That the game usually sends to.
+  std::uint16_t port = 0;  ///< The game's default.
   std::vector<TelemetryField> fields;
 };
 
@@ -58,13 +58,13 @@ Expected<const TelemetryFormat*> find_telemetry_format(std::string_view name);
 /// A format as TOML; `name` is used in messages.
 Expected<TelemetryFormat> read_telemetry_format(std::string_view toml, std::string_view name);
 
-/// What a datagram changes of `before`.
+/// `before`, updated by a datagram.
 Expected<GameTelemetry> decode_telemetry(const TelemetryFormat& format, std::span<const std::byte> datagram,
                                          const GameTelemetry& before);
 
-/// What is felt of it. `before` is the telemetry `seconds` earlier.
+/// Motion to be felt. `before` is the telemetry `seconds` earlier.
 CarMotion motion_of(const GameTelemetry& now, const GameTelemetry& before, double seconds);
-/// What the cluster shows of it.
+/// Values for the cluster.
 Instruments instruments_of(const GameTelemetry& now);
 
 }  // namespace septet::car_io

@@ -89,7 +89,7 @@ ForceEffect force_effect_of(const ff_effect& effect) {
   ForceEffect result;
   result.length_s = effect.replay.length / 1000.0;
   result.delay_s = effect.replay.delay / 1000.0;
-  // 0x4000 is to the left. A direction along the other axis is one that nobody has set.
+  // 0x4000 is to the left. A direction along the other axis is unset.
   const double turned = std::sin(2.0 * std::numbers::pi * effect.direction / 65536.0);
   const double to_left = std::abs(turned) < 0.1 ? 1.0 : turned;
   switch (effect.type) {

@@ -1,8 +1,8 @@
 #pragma once
-/// The car as a wheel of Linux (uinput), which every game takes for one: axes and buttons out, force effects in.
+/// The car as a Linux wheel (uinput), for any game: axes and buttons out, force effects in.
 ///
-/// Axes as games know them of wheels: X the hand wheel, Z the accelerator, RZ the brake, Y the clutch. One thread. Errors: the system lets
-/// nobody make one (udev rule in packaging), or it was taken away.
+/// Axes by games' convention for wheels: X the hand wheel, Z the accelerator, RZ the brake, Y the clutch. One thread.
+/// Errors: this user may not create one (udev rule in packaging), or it was removed.
 
 #include <cstdint>
 #include <memory>
@@ -16,16 +16,16 @@ struct ff_effect;
 
 namespace septet::car_io {
 
-/// What Linux calls an effect.
+/// From Linux' form of an effect.
 ForceEffect force_effect_of(const ff_effect& effect);
 
-/// What is told to a game of the controls: each event's type, code and value.
+/// Events for a game from the controls: each one's type, code and value.
 struct WheelEvent {
   std::uint16_t type = 0, code = 0;
   std::int32_t value = 0;
   bool operator==(const WheelEvent&) const = default;
 };
-/// Only what has changed; `before` may be null: all of it.
+/// Only the changes; `before` may be null: everything.
 std::vector<WheelEvent> wheel_events(const DriverInput& now, const DriverInput* before, double steering_lock_rad);
 
 class UinputWheel {
@@ -36,7 +36,7 @@ class UinputWheel {
   ~UinputWheel();
 
   Expected<void> show(const DriverInput& input, double steering_lock_rad);
-  /// Takes what the game has loaded, started and stopped since the last call. Never waits.
+  /// Takes the game's loads, starts and stops since the last call. Never waits.
   Expected<void> take_effects(ForceEffects& effects, double now_s);
 
  private:

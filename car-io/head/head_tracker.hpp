@@ -1,5 +1,5 @@
 #pragma once
-/// The head tracker of a rig: its UDP port, read once a tick, and where the head is by now.
+/// The head tracker of a rig: its UDP port, read once a tick, and the present pose of the head.
 ///
 /// One thread. Never waits; of a flood it reads a bounded part each tick.
 
@@ -17,9 +17,9 @@ class HeadTracker {
   /// Error: the address is not this machine's, or the port is taken.
   static Expected<HeadTracker> open(const rig::HeadTracking& tracking);
 
-  /// Puts the head of `dt_s` later into the input: where it is and, while the tracker speaks, where it points.
+  /// Writes the head of `dt_s` later into the input: its place and, while the tracker sends, its heading.
   void move(DriverInput& input, double dt_s);
-  /// What the operator is to hear: the tracker has come, or has fallen silent.
+  /// Message for the operator: the tracker has come, or has fallen silent.
   std::optional<std::string> take_message();
   const net::Address& address() const { return socket_.local_address(); }
 

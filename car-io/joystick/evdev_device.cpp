@@ -79,7 +79,7 @@ class EvdevDevice final : public InputDevice {
       Condition& condition = conditions_[i];
       if (!condition.is_there || (shares[i] <= 0.0 && condition.id < 0)) continue;
       ff_effect effect = condition_effect(condition.type, shares[i], condition.id);
-      // A wheel may have no room for one more, and drives without it.
+      // A wheel may have no room for another effect, and drives without it.
       if (ioctl(file_, EVIOCSFF, &effect) < 0) {
         if (errno == ENODEV) return lost("setting its feel", errno);
         condition.is_there = false;
@@ -95,7 +95,7 @@ class EvdevDevice final : public InputDevice {
   struct Condition {
     std::uint16_t type;
     bool is_there = false;
-    std::int16_t id = -1;  ///< None yet.
+    std::int16_t id = -1;  ///< Not loaded yet.
   };
 
   bool play(std::int16_t id) const {
@@ -140,7 +140,7 @@ class EvdevDevice final : public InputDevice {
   std::string node_;
   InputState state_;
   bool has_force_ = false;
-  std::int16_t effect_ = -1;  ///< None yet.
+  std::int16_t effect_ = -1;  ///< Not loaded yet.
   std::array<Condition, 3> conditions_{{{FF_SPRING}, {FF_DAMPER}, {FF_FRICTION}}};
 };
 
@@ -165,7 +165,7 @@ Expected<std::unique_ptr<InputDevice>> open_input_device(const InputAddress& add
     const auto pid = find_pid_node(std::filesystem::path(found.node).filename().string(), sys, dev);
     if (!pid) return device;
     auto motor = open_hid_node(pid->node);
-    if (!motor) return device;  // It drives without its force, which whoever wants force is told.
+    if (!motor) return device;  // It drives without its force, which is reported to callers that want force.
     return with_pid_force(std::move(device), std::move(*motor), pid->reports);
   }
   return failure("no such wheel or joystick is plugged in", name,

@@ -1,7 +1,8 @@
 #pragma once
-/// An input device of Linux (evdev): any wheel, joystick or set of pedals that the kernel has a driver for, behind a seam that tests fill.
+/// An input device of Linux (evdev): any wheel, joystick or set of pedals with a kernel driver, behind an interface
+/// that tests implement.
 ///
-/// Threads: one at a time. Errors: a device that was unplugged returns an Error from every call; close it and open it anew.
+/// Threads: one at a time. Errors: an unplugged device returns an Error from every call; close it and open it again.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +20,7 @@ struct InputAxis {
   std::int32_t value = 0, low = 0, high = 0;
 };
 
-/// Everything as it stands now: axes by their ABS_ number, buttons that are down by their BTN_ number.
+/// Present state: axes by their ABS_ number, pressed buttons by their BTN_ number.
 struct InputState {
   std::map<std::uint16_t, InputAxis> axes;
   std::set<std::uint16_t> down;
@@ -28,12 +29,12 @@ struct InputState {
 class InputDevice {
  public:
   virtual ~InputDevice() = default;
-  /// Takes what has happened since the last call. Never waits.
+  /// Takes the events since the last call. Never waits.
   virtual Expected<const InputState*> read() = 0;
-  /// Turns the wheel: −1 (right) to 1 (left) of what its motor can, for 250 ms unless it is told again: the driver's own watchdog, for a
-  /// program that hangs. False: it has no constant force.
+  /// Turns the wheel: −1 (right) to 1 (left) of its motor's maximum, for 250 ms unless renewed: the driver's own
+  /// watchdog, for a program that hangs. Returns false if it has no constant force.
   virtual Expected<bool> set_force(double force) = 0;
-  /// What the wheel does by itself while `set_force` goes on. False: it can nothing of it.
+  /// The wheel's own effects while `set_force` goes on. Returns false if it has none of them.
   virtual Expected<bool> set_feel(const WheelFeel& /*feel*/) { return false; }
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-/// An input device as a car: the rig's [car.joystick] says what is what, and whoever reads a HID device reads it.
+/// An input device as a car: the rig's [car.joystick] assigns its controls, and any reader of a HID device reads it.
 ///
-/// Held while held: indicators, horn, high beam, the gears of a lever. Switched by each press: hazard lights, low beam, parking brake, reverse.
-/// Events come only when something moves, so that the reports' sequence moves with every reading: such a car is never stale, and unplugging
-/// it shows as an error. Of the output reports it takes the hand wheel's force.
+/// Momentary: indicators, horn, high beam, the gears of a lever. Toggled by each press: hazard lights, low beam,
+/// parking brake, reverse. Events come only with motion, so the reports' sequence advances with every reading: such a
+/// car is never stale, and unplugging it is an error. Of the output reports it uses the hand wheel's force.
 
 #include <set>
 #include <string>
@@ -17,10 +17,10 @@
 
 namespace septet::car_io {
 
-/// 0 to 1 of an axis, for the wheel −1 to 1, within its ends and beyond its dead zone.
+/// Axis value 0 to 1, for the wheel −1 to 1, within its ends and beyond its dead zone.
 double axis_share(const rig::JoystickControl& control, double value);
 
-/// What is remembered from reading to reading.
+/// State between readings.
 struct JoystickDriver {
   DriverInput input;
   std::set<std::string, std::less<>> were_down;
@@ -28,14 +28,14 @@ struct JoystickDriver {
 DriverInput advance(JoystickDriver& driver, const std::vector<rig::JoystickControl>& controls, const InputState& state,
                     double steering_lock_rad);
 
-/// Its emergency stop and re-arm buttons, where [car.joystick] names some.
+/// Its emergency stop and re-arm buttons, if [car.joystick] names any.
 CarSwitches switches_of(const std::vector<rig::JoystickControl>& controls, const InputState& state);
 
 using OpenInputDevice = std::function<Expected<std::unique_ptr<InputDevice>>()>;
 OpenHidDevice joystick_opener(OpenInputDevice open, std::vector<rig::JoystickControl> controls,
                               double steering_lock_rad, const WheelFeel& feel = {});
 
-/// What opens the car that the rig names: its joystick, or else its HID device.
+/// Opener of the rig's car: its joystick, or else its HID device.
 OpenHidDevice car_opener(const rig::Car& car);
 
 }  // namespace septet::car_io

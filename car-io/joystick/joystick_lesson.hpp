@@ -1,8 +1,9 @@
 #pragma once
-/// What moves when a person is asked to move one control: how `septet-car learn` finds out what a joystick's axes and buttons are.
+/// Detection of the control that a person moves on request: how `septet-car learn` identifies a joystick's axes and
+/// buttons.
 ///
-/// A lesson begins with the device at rest. Of the axes the one that went furthest from rest, by its own range, is the control; where none
-/// went a quarter of it, the first button that went down is. A pure function of what it is shown.
+/// A lesson begins with the device at rest. The axis that went furthest from rest, relative to its own range, is the
+/// control; if none went a quarter of it, the first pressed button is. A pure function of its inputs.
 
 #include <optional>
 #include <string>
@@ -15,10 +16,10 @@ namespace septet::car_io {
 
 class JoystickLesson {
  public:
-  /// `rest`: hands off. As often as wanted: trembling widens the dead zone.
+  /// `rest`: hands off. Any number of calls: trembling widens the dead zone.
   void show_rest(const InputState& rest);
   void show(const InputState& state);
-  /// What the control `name` is; nothing where nothing moved.
+  /// The detected control `name`; empty if nothing moved.
   std::optional<rig::JoystickControl> learnt(const std::string& name) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// A wheel whose motor the kernel's driver does not know: evdev says what the driver does, HID PID reports move it (car-io/pid).
+/// A wheel whose motor is unknown to the kernel's driver: controls from evdev, force by HID PID reports (car-io/pid).
 
 #include <memory>
 

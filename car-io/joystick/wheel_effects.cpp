@@ -16,7 +16,7 @@ ff_effect constant_effect(double force, std::int16_t id) {
   ff_effect effect{};
   effect.type = FF_CONSTANT;
   effect.id = id;
-  effect.direction = 0x4000;  // To the left, for which a positive level stands.
+  effect.direction = 0x4000;  // To the left, the sign of a positive level.
   effect.replay.length = effect_ends_after_ms;
   effect.u.constant.level = static_cast<std::int16_t>(std::lround(32767.0 * std::clamp(number(force), -1.0, 1.0)));
   return effect;

@@ -1,8 +1,9 @@
 #pragma once
-/// What is loaded into a wheel's own force feedback (Linux' evdev): constant force, and what the wheel then does by itself a thousand times a
-/// second, which no program is fast enough for: a spring to its middle, a damper, friction.
+/// Effects loaded into a wheel's own force feedback (Linux' evdev): constant force, and effects that the wheel computes
+/// itself a thousand times a second, too fast for a program: a spring to its middle, a damper, friction.
 ///
-/// Each effect ends by itself after 250 ms unless it is played again: the driver's own watchdog, for a program that hangs. Pure functions.
+/// Each effect ends by itself after 250 ms unless it is played again: the driver's own watchdog, for a program that
+/// hangs. Pure functions.
 
 #include <cstdint>
 
@@ -12,7 +13,8 @@ namespace septet::car_io {
 
 inline constexpr std::uint16_t effect_ends_after_ms = 250;
 
-/// Shares of the motor's full force: of the spring at the end of the wheel's way, of the damper at its fastest, of friction.
+/// Shares of the motor's full force: of the spring at the end of the wheel's travel, of the damper at its fastest, of
+/// friction.
 struct WheelFeel {
   double spring = 0.0, damper = 0.0, friction = 0.0;
   bool operator==(const WheelFeel&) const = default;

@@ -33,7 +33,7 @@ enum Item : unsigned {
   usage_maximum = 0x2 << 2 | 2,
 };
 
-/// What goes on from item to item until it is said anew.
+/// State that continues from item to item until it is set again.
 struct Globals {
   std::uint32_t page = 0, bits = 0, count = 0;
   std::int32_t least = 0, most = 0;
@@ -73,7 +73,7 @@ class Reader {
     return failure(what, fmt::format("HID report descriptor, byte {}", at), "correct the device's firmware");
   }
 
-  /// What is wrong with it, or nothing.
+  /// The fault, or empty.
   std::string take(unsigned item, std::uint32_t value, std::size_t bytes) {
     switch (item) {
       case input:
@@ -167,7 +167,7 @@ class Reader {
     const std::uint64_t end = used + std::uint64_t{now_.bits} * now_.count;
     if (end > most_bits) return "a report is longer than 4096 bytes";
     if (result_.fields.size() >= most_fields) return "it has too many fields";
-    // Where the least is not negative, a maximum of all ones is meant without a sign.
+    // With a minimum that is not negative, a maximum of all ones is unsigned.
     const std::int32_t most = now_.least >= 0 && now_.most < 0
                                   ? static_cast<std::int32_t>(std::min(now_.most_unsigned, 0x7FFFFFFFu))
                                   : now_.most;

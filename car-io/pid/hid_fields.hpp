@@ -1,8 +1,8 @@
 #pragma once
-/// What a HID device's report descriptor says: which values lie where in which report (HID 1.11, 6.2.2).
+/// A HID device's report descriptor: values and their places in its reports (HID 1.11, 6.2.2).
 ///
-/// Descriptors come from outside. One that contradicts itself, ends in the midst of an item, or announces more than the bounds below is refused
-/// with an Error; what it says of pages that nobody asks for is kept and means nothing. Pure functions.
+/// Descriptors are untrusted. One that contradicts itself, ends within an item, or announces more than the bounds below
+/// is refused with an Error; unknown pages are kept and ignored. Pure functions.
 
 #include <array>
 #include <cstddef>
@@ -27,15 +27,15 @@ struct HidField {
   std::uint32_t bits = 0, count = 0;
   std::int32_t least = 0, most = 0;  ///< Logical.
   int unit_exponent = 0;
-  bool is_array = false;              ///< Each value says which of `usages` holds; least is the first of them.
-  std::vector<HidUsage> usages;       ///< Of a variable field one for each value, the last one for all that follow it.
+  bool is_array = false;              ///< Each value selects one of `usages`; least is the first of them.
+  std::vector<HidUsage> usages;       ///< For a variable field one per value, the last one for all following values.
   std::vector<HidUsage> collections;  ///< From the outermost on.
 };
 
 struct HidReportFields {
   std::vector<HidField> fields;
-  std::array<std::array<std::uint32_t, 256>, 3> report_bits{};  ///< By kind and id, what is only filling included.
-  /// Bytes of a report, its id included; 0: there is none.
+  std::array<std::array<std::uint32_t, 256>, 3> report_bits{};  ///< By kind and id, including padding.
+  /// Bytes of a report, its id included; 0: no such report.
   std::size_t bytes_of(HidReportKind kind, std::uint8_t report_id) const;
 };
 

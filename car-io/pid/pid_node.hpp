@@ -1,5 +1,6 @@
 #pragma once
-/// Where the motor of a wheel is that the kernel's own driver does not know: the hidraw node of its HID device, and the reports that move it.
+/// Motor of a wheel without force in the kernel's driver: the hidraw node of its HID device, and the reports that move
+/// it.
 
 #include <filesystem>
 #include <optional>
@@ -13,7 +14,8 @@ struct PidNode {
   std::string node;  ///< "/dev/hidraw0".
   PidReports reports;
 };
-/// Of the HID device that an input device ("event5") belongs to; nothing where it has no force of this class. Read from /sys alone, which everybody may.
+/// Node of the HID device that an input device ("event5") belongs to; empty without force of this class. Read from /sys
+/// alone, which every user may.
 std::optional<PidNode> find_pid_node(const std::string& event, const std::filesystem::path& sys,
                                      const std::filesystem::path& dev);
 

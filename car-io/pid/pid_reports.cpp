@@ -25,7 +25,7 @@ std::optional<PidReport> PidReport::of(const HidReportFields& device, HidReportK
                   .most = field.most,
                   .unit_exponent = field.unit_exponent};
       const HidUsage named = field.usages.empty() ? 0 : field.usages[std::min<std::size_t>(i, field.usages.size() - 1)];
-      // A list, and what is numbered only (the axes of a direction), go by the collection that they lie in.
+      // Lists, and merely numbered values (the axes of a direction), are identified by their collection.
       value.usage = field.is_array || page_of(named) != pid::page ? field.collections.back() : named;
       if (field.is_array) value.options = field.usages;
       report.values_.push_back(std::move(value));

@@ -1,8 +1,8 @@
 #pragma once
-/// Force feedback of wheels that speak USB's own class for it (Device Class Definition for Physical Interface Devices 1.0): which reports of
-/// a device create, change and start an effect, and where their values lie.
+/// Force feedback of wheels with USB's own class for it (Device Class Definition for Physical Interface Devices 1.0):
+/// the reports of a device that create, change and start an effect, and the places of their values.
 ///
-/// Pure functions over what the device's descriptor says (hid_fields.hpp).
+/// Pure functions over the device's descriptor (hid_fields.hpp).
 
 #include <cstdint>
 #include <optional>
@@ -31,7 +31,7 @@ inline constexpr HidUsage set_effect_report = page | 0x21, block_index = page | 
                           reset = page | 0x9A, create_report = page | 0xAB;
 }  // namespace pid
 
-/// One report and its values. A value that it has not is not set; one beyond its logical ends is taken to them.
+/// One report and its values. A missing value is skipped; one beyond its logical range is clamped.
 class PidReport {
  public:
   std::uint8_t id() const { return id_; }
@@ -40,18 +40,18 @@ class PidReport {
 
   Bytes empty() const;
   void set(Bytes& report, HidUsage usage, double value) const;
-  /// 0 to 1 of the most, or −1 to 1 where the least is negative.
+  /// 0 to 1 of the maximum, or −1 to 1 if the minimum is negative.
   void set_share(Bytes& report, HidUsage usage, double share) const;
-  /// A part of the whole way from the least to the most: of a direction a part of a turn.
+  /// A share of the range from minimum to maximum: for a direction a share of a turn.
   void set_part(Bytes& report, HidUsage usage, double part) const;
   void set_seconds(Bytes& report, HidUsage usage, double seconds) const;
-  /// One of a list, or a switch of its own. False: there is no such choice.
+  /// One of a list, or a switch of its own. Returns false if the choice does not exist.
   bool choose(Bytes& report, HidUsage option) const;
 
   std::optional<std::int64_t> get(std::span<const std::byte> report, HidUsage usage) const;
   bool is_chosen(std::span<const std::byte> report, HidUsage option) const;
 
-  /// The report whose fields lie in this collection; nothing where there is none, or where it has no id.
+  /// The report whose fields lie in this collection; empty if there is none, or if it has no id.
   static std::optional<PidReport> of(const HidReportFields& device, HidReportKind kind, HidUsage collection);
 
  private:
@@ -60,7 +60,7 @@ class PidReport {
     std::uint32_t first_bit = 0, bits = 0;
     std::int32_t least = 0, most = 0;
     int unit_exponent = 0;
-    std::vector<HidUsage> options;  ///< Of a list.
+    std::vector<HidUsage> options;  ///< For a list.
   };
   const Value* find(HidUsage usage) const;
   void put(Bytes& report, const Value& value, double number) const;
@@ -74,7 +74,7 @@ struct PidReports {
   PidReport create, load, effect, constant, operation;
   std::optional<PidReport> condition, gain, control;
 };
-/// Nothing where the device has no constant force of this class.
+/// Empty if the device has no constant force of this class.
 std::optional<PidReports> find_pid_reports(const HidReportFields& device);
 
 }  // namespace septet::car_io

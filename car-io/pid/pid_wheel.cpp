@@ -6,7 +6,7 @@ namespace septet::car_io {
 namespace {
 
 constexpr double lasts_s = 0.25;
-constexpr double from_the_right = 0.25;  // Of a turn: what comes from there pushes to the left.
+constexpr double from_the_right = 0.25;  // Of a turn: a force from there pushes to the left.
 
 }  // namespace
 

@@ -1,8 +1,9 @@
 #pragma once
-/// A wheel's motor by HID PID reports, for wheels whose force the kernel's own driver does not know (Linux 6.1: many of HID PID) or may not reach.
+/// A wheel's motor by HID PID reports, for wheels whose force the kernel's own driver does not know (Linux 6.1: many of
+/// HID PID) or may not reach.
 ///
-/// Each effect lasts 250 ms unless it is started again: the device's own watchdog, for a program that hangs. One thread. Errors: a device that was
-/// unplugged returns an Error from every call; make another one then.
+/// Each effect lasts 250 ms unless it is started again: the device's own watchdog, for a program that hangs. One
+/// thread. Errors: a device that was unplugged returns an Error from every call; create another one then.
 
 #include <array>
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace septet::car_io {
 
-/// What a wheel does by itself, a thousand times a second.
+/// Effects that a wheel computes itself, a thousand times a second.
 enum class PidCondition : std::uint8_t { spring, damper, friction };
 
 class PidWheel {
@@ -24,19 +25,20 @@ class PidWheel {
       : device_(std::move(device)), reports_(std::move(reports)) {}
   PidWheel(PidWheel&&) noexcept = default;
   PidWheel& operator=(PidWheel&&) = delete;
-  /// Everything stops.
+  /// Stops everything.
   ~PidWheel();
 
-  /// −1 (right) to 1 (left), and whatever condition there is goes on. False: the device has no room for it.
+  /// −1 (right) to 1 (left); present conditions go on. Returns false if the device has no room for it.
   Expected<bool> set_force(double force);
-  /// Share of the motor's force: of a spring at the end of the way. False: the device has none of it, or no room.
+  /// Share of the motor's force: for a spring at the end of its travel. Returns false if the device lacks it, or has no
+  /// room.
   Expected<bool> set_condition(PidCondition kind, double share);
 
  private:
   using Block = std::int64_t;
 
   Expected<void> switch_on();
-  /// A block of the device's memory with an effect of this kind in it, or nothing where it has no room.
+  /// A block of the device's memory with an effect of this kind in it; empty if it has no room.
   Expected<std::optional<Block>> create(HidUsage kind);
   Expected<void> start(Block block);
   Expected<void> control(HidUsage what);

@@ -21,8 +21,8 @@ constexpr Axis axes[] = {
     {"brake", &AxisReadings::brake, &CalibrationRecord::brake, &rig::CarCalibration::brake},
     {"clutch", &AxisReadings::clutch, &CalibrationRecord::clutch, &rig::CarCalibration::clutch}};
 
-constexpr double least_travel = 0.1;      ///< Less than this, and nobody has moved it.
-constexpr double pedal_dead_zone = 0.02;  ///< What a foot at rest weighs.
+constexpr double least_travel = 0.1;      ///< Below it the axis counts as not moved.
+constexpr double pedal_dead_zone = 0.02;  ///< Weight of a resting foot.
 
 bool is_wheel(const Axis& axis) { return axis.reading == &AxisReadings::steering; }
 

@@ -1,6 +1,5 @@
 #pragma once
-/// Calibrating a car: how far its axes really go, recorded while somebody moves them, as the TOML
-/// that belongs into the rig.
+/// Calibration of a car: the real range of its axes, recorded while a person moves them, as the TOML for the rig.
 
 #include <string>
 
@@ -9,8 +8,7 @@
 
 namespace septet::car_io {
 
-/// The extremes of one axis, and its first reading: nobody touches anything when a recording
-/// begins.
+/// The extremes of one axis, and its first reading: a recording begins hands off.
 struct AxisRange {
   double first = 0.0, least = 0.0, most = 0.0;
 };
@@ -22,8 +20,8 @@ struct CalibrationRecord {
   void add(const AxisReadings& readings);
 };
 
-/// The calibration that the record shows. A pedal whose first reading lies nearer to its largest
-/// counts the other way round. An axis that was not moved keeps `before` and is named in `unmoved`.
+/// Calibration from the record. A pedal whose first reading lies nearer to its largest is reversed. An axis that was
+/// not moved keeps `before` and is named in `unmoved`.
 struct RecordedCalibration {
   rig::CarCalibration calibration;
   std::string unmoved;  ///< "clutch, brake"; empty: all were moved.

@@ -64,7 +64,7 @@ void CarLink::take_rig(const std::string& text) {
   }
   layout_ = *layout;
   const OpenHidDevice open = find_device_(rig->car);
-  // A server that comes back finds the device as it is; at the start a missing one is a mistake.
+  // A server that comes back finds the device as it is; at the start a missing one is an error.
   if (!connection_)
     if (const auto device = open(); !device) {
       refusal_ = device.error();
@@ -84,7 +84,7 @@ void CarLink::take_rig(const std::string& text) {
 
 void CarLink::report(double now_s) {
   const CarReading reading = connection_->poll(now_s);
-  // Here at once; the server hears of it with the report and keeps it so.
+  // Immediate here; the server learns it from the report and keeps it so.
   if (reading.switches.emergency_stop) writer_->stop();
   if (const auto error = connection_->take_error()) {
     messages_.push_back(describe(*error));

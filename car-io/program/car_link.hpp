@@ -2,10 +2,9 @@
 /// The car's side of the secure lane (engine/control/CONTROL.md): the device's reports to the
 /// server, the server's feedback to the device.
 ///
-/// It reads the device with what the server itself reads a device of its own with, sends each
-/// report as it came, and says why there is none. Fan, shaker and hand wheel are moved by a thread
-/// of their own, which stops them where the server is silent. It connects by itself, also again.
-/// Sockets only through the DatagramSocket seam, time only as an argument. One thread.
+/// Reads the device as the server reads a local one, sends each report unchanged, and gives the reason when there is
+/// none. Fan, shaker and hand wheel are moved by a thread of their own, which stops them when the server is silent.
+/// Connects and reconnects by itself. Sockets only through DatagramSocket, time only as an argument. One thread.
 
 #include <functional>
 #include <memory>
@@ -22,7 +21,7 @@
 
 namespace septet::car_io {
 
-/// How to open the device that a rig names.
+/// Opener for the rig's device.
 using FindDevice = std::function<OpenHidDevice(const rig::Car&)>;
 
 class CarLink {
@@ -31,15 +30,16 @@ class CarLink {
   CarLink(net::DatagramSocket& socket, const net::SecureClientOptions& lane, FindDevice find_device);
 
   void pump(double now_s);
-  /// Whoever is at this machine lets fan, shaker and wheel force run again: the re-arm button is held for as long as it takes.
+  /// Re-arms fan, shaker and wheel force for a person at this machine: acts as the re-arm button, held as long as
+  /// needed.
   void rearm(double now_s) { rearm_until_s_ = now_s + 1.3; }
 
   net::ClientState state() const { return lane_.state(); }
   bool finished() const { return finished_; }
-  /// Why this car cannot take part: the server said so, or the device of its rig is not there.
+  /// Reason that this car cannot take part: from the server, or its rig's device is missing.
   const std::optional<Error>& refusal() const { return refusal_; }
   bool has_device() const { return connection_ != nullptr; }
-  /// What happened since the last call, for the console.
+  /// Events since the last call, for the terminal.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
   void close() { lane_.close(); }
 

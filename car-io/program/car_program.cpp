@@ -38,7 +38,7 @@ OpenHidDevice find_device(const rig::Car& car) { return car_opener(car); }
 struct CarHere {
   rig::Car car;
   const CarLayout* layout = nullptr;
-  OpenHidDevice open;  ///< For more of it: what goes through libusb is one program's and one opener's.
+  OpenHidDevice open;  ///< For several uses: a libusb device belongs to one program and one opener.
   std::unique_ptr<HidDevice> device;
 };
 
@@ -90,7 +90,7 @@ Expected<void> run_car(const DriveOptions& options) {
     }
     for (const auto& text : link.take_messages()) say(text);
     if (link.refusal()) return tl::unexpected(*link.refusal());
-    // The device is asked twice a millisecond or so; whatever the server sends wakes this at once.
+    // The device is polled about twice a millisecond; the server's datagrams wake this at once.
     const net::UdpSocket* waiting[] = {&*socket};
     net::wait_readable(waiting, link.has_device() ? 0.001 : 0.01);
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// What `septet-car` does: drive, calibrate, try the actuators. Each ends with an error or with
-/// nothing to say; Ctrl-C ends it, too.
+/// Commands of `septet-car`: drive, calibrate, try the actuators. Each ends with an error or silently; Ctrl-C ends it,
+/// too.
 
 #include <cstdint>
 #include <filesystem>
@@ -28,9 +28,10 @@ Expected<void> run_calibration(const CalibrateOptions& options);
 struct LearnOptions {
   std::uint16_t vendor_id = 0, product_id = 0;
   std::string serial;
-  double seconds = 4.0;  ///< For each control.
+  double seconds = 4.0;  ///< Per control.
 };
-/// Asks for each control of a joystick in turn and prints the rig's [car.joystick] on standard output. `device`: "046d:c24f".
+/// Asks for each control of a joystick in turn and prints the rig's [car.joystick] on standard output. `device`:
+/// "046d:c24f".
 Expected<void> run_lesson(const std::string& device, LearnOptions options);
 
 struct ActuateOptions {
@@ -38,14 +39,15 @@ struct ActuateOptions {
   double seconds = 3.0;
   Actuators actuators;
 };
-/// Sets fan, shaker and hand wheel to what a person chose, to try them.
+/// Sets fan, shaker and hand wheel to chosen values, for a trial.
 Expected<void> run_actuators(const ActuateOptions& options);
 
 struct TrialOptions {
   std::filesystem::path rig;
-  double seconds = 2.0;  ///< Of each.
+  double seconds = 2.0;  ///< Per actuator.
 };
-/// Tries each actuator that the rig has, one after the other and gently, within its limits, and says what should be felt.
+/// Tries each actuator of the rig, one after the other and gently, within its limits, and prints the expected
+/// sensation.
 Expected<void> run_trial(const TrialOptions& options);
 
 }  // namespace septet::car_io

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double half_track_m = 0.76, half_tyre_m = 0.10;
 
-/// The beginnings of words, most telling first.
+/// Beginnings of words, the most specific first.
 constexpr std::array<std::pair<std::string_view, double>, 14> surfaces{{{"cobble", class_d_m3},
                                                                         {"sett", class_d_m3},
                                                                         {"paving", class_c_m3},
@@ -33,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, double>, 14> surfaces{{{"cobble
                                                                         {"snow", class_c_m3},
                                                                         {"ice", class_b_m3}}};
 
-/// Whether this lane's mark is paint where the wheel stands on its outer border.
+/// True where this lane's mark is paint at the wheel, on its outer border.
 bool is_painted(const road::RoadNetwork& roads, const road::RoadPosition& at, int lane, double border_t_m) {
   const road::RoadMark* mark = road::road_mark_at(roads, at.road, lane, at.s_m);
   if (!mark) return false;

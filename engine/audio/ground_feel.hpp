@@ -1,9 +1,10 @@
 #pragma once
-/// What the ground does to the driver's car, as far as it is felt and heard: how uneven it is by its material, and the painted lines under the wheels.
+/// Road feedback of the driver's car, felt and heard: unevenness of the ground by its material, and the painted lines
+/// under the wheels.
 ///
-/// Unevenness is a class of ISO 8608: the power spectrum of a road's height over its length is Gd(n) = Gd(n0)·(n/n0)⁻² with n0 = 0.1 cycles/m.
-/// Driven over at v, the velocity of that height is white: (2π·n0)²·Gd(n0)·v in every hertz, so its size grows with the roots of Gd and of v.
-/// Pure functions; `place` is remembered by the caller from tick to tick.
+/// Unevenness is a class of ISO 8608: the power spectrum of a road's height over its length is Gd(n) = Gd(n0)·(n/n0)⁻²
+/// with n0 = 0.1 cycles/m. Driven over at v, the velocity of that height is white: (2π·n0)²·Gd(n0)·v in every hertz, so
+/// its size grows with the roots of Gd and of v. Pure functions; `place` is remembered by the caller from tick to tick.
 
 #include <optional>
 #include <string_view>
@@ -23,13 +24,15 @@ struct GroundFeel {
   bool on_line = false;  ///< A front wheel rolls over paint.
 };
 
-/// By the word for a surface of a road file: asphalt, concrete, cobble, gravel, grass and their like; what nobody knows is a good road.
+/// By the word for a surface of a road file: asphalt, concrete, cobble, gravel, grass and their like; an unknown word
+/// is a good road.
 double unevenness_m3(std::string_view surface);
 
 /// Root mean square of the vertical velocity of the ground under a wheel, within a band.
 double ground_velocity_mps(double unevenness_m3, double speed_mps, double low_hz, double high_hz);
 
-/// `place` is where the car was, or nothing, and becomes where it is. Beside the road the ground is as even as a meadow.
+/// `place` is the car's last place, if any, and becomes the present one. Beside the road the ground is as even as a
+/// meadow.
 GroundFeel feel_ground(const road::RoadNetwork& roads, const Snapshot& snapshot,
                        std::optional<road::RoadPosition>& place, double wheelbase_m);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t lanes = 8;
 constexpr double highest_hz = 16000.0;
 
-/// What of the same sines goes into one block.
+/// One set of amplitudes on the common sines, for one block.
 struct Part {
   Tone& tone;
   const Harmonics& pressure_pa;
@@ -31,7 +31,7 @@ void add(std::array<Part, parts_count> parts, double hz, std::size_t count) {
   const double from_hz = tone.hz > 0.0 ? tone.hz : hz;
   const double fastest_hz = std::max({from_hz, hz, 1.0});
   count = std::min({count, most_harmonics, static_cast<std::size_t>(highest_hz / fastest_hz)});
-  // Nothing is computed beyond the highest that sounds.
+  // Harmonics above the highest audible one are skipped.
   std::size_t sounding = 0;
   double phase = tone.phase + 0.5 * (from_hz + hz) * double(block_samples) / sample_rate_hz;
   phase -= std::floor(phase);
@@ -45,7 +45,8 @@ void add(std::array<Part, parts_count> parts, double hz, std::size_t count) {
     sounding = std::max(sounding, highest);
   }
   if (sounding == 0) return;
-  // Within eight samples the frequency stands still, so that one turn leads from each to the next; another leads from turn to turn.
+  // Within eight samples the frequency is constant, so that one rotation leads from each to the next; another leads
+  // from rotation to rotation.
   constexpr double groups = double(block_samples) / double(lanes), turn_rad = 2.0 * std::numbers::pi;
   using Turn = std::complex<double>;
   const auto times = [](const Turn& a, const Turn& b) {
@@ -55,7 +56,7 @@ void add(std::array<Part, parts_count> parts, double hz, std::size_t count) {
   const Turn faster = std::polar(1.0, turn_rad * change_hz / sample_rate_hz);
   const Turn step = std::polar(1.0, turn_rad * (from_hz + 0.5 * change_hz) / sample_rate_hz);
   Turn place = std::polar(1.0, turn_rad * began);
-  // How far each of the eight samples is turned from the end of the eight before, and how that grows from these to those.
+  // Rotation of each of the eight samples against the end of the eight before, and its growth from these to those.
   std::array<double, lanes> turned_re, turned_im, growth_re, growth_im;
   Turn turned = 1.0, growth = 1.0;
   for (std::size_t i = 0; i < lanes; ++i) {

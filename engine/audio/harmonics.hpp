@@ -1,8 +1,9 @@
 #pragma once
 /// A sum of sines whose frequencies are the whole multiples of one: an engine by its orders, a horn, a siren.
 ///
-/// sin((h+1)θ) = 2·cosθ·sin(hθ) − sin((h−1)θ), for eight samples at a time. Frequency and amplitudes go in straight lines from one block to
-/// the next, the amplitudes in steps of eight samples, so nothing clicks. Pure functions over plain states.
+/// sin((h+1)θ) = 2·cosθ·sin(hθ) − sin((h−1)θ), for eight samples at a time. Frequency and amplitudes are interpolated
+/// linearly from one block to the next, the amplitudes in steps of eight samples, so that there are no clicks. Pure
+/// functions over plain states.
 
 #include <array>
 #include <cstddef>
@@ -24,7 +25,7 @@ struct Tone {
 
 /// Adds a block of the first `count` harmonics to `out`, those at most that stay below 16 kHz.
 void add_harmonics(Tone& tone, double hz, const Harmonics& pressure_pa, std::size_t count, Block& out);
-/// Two of one frequency that have always been rendered together: the sines are made once.
+/// Adds two tones of one frequency that have always been rendered together: the sines are made once.
 void add_harmonics(const std::array<Tone*, 2>& tones, double hz, const std::array<const Harmonics*, 2>& pressures_pa,
                    std::size_t count, const std::array<Block*, 2>& out);
 

@@ -11,16 +11,16 @@ namespace septet::audio {
 namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
-constexpr double snow_below_k = 274.65;         // As snapshot.hpp says.
-constexpr double tyres_do_at_most_mps2 = 15.0;  // What is faster is a blow.
+constexpr double snow_below_k = 274.65;         // As in snapshot.hpp.
+constexpr double tyres_do_at_most_mps2 = 15.0;  // A greater acceleration is an impact.
 constexpr double least_blow_mps = 0.25;
-constexpr double furthest_m = 1000.0;  // Of whom anything is heard.
+constexpr double furthest_m = 1000.0;  // Range of hearing.
 constexpr double quietest_db = 30.0;
 constexpr double portal_m = 20.0;
 constexpr std::uint16_t debris_kind = 2;  // engine/effects/debris/debris_keyframe.hpp
 constexpr double fastest_mps = 150.0, fastest_engine_hz = 300.0;
 
-/// A number that is one, within bounds; what is none is counted.
+/// Reads numbers within bounds; NaN and infinities are counted.
 class Reader {
  public:
   double number(double value, double least, double most) {
@@ -33,7 +33,7 @@ class Reader {
   Vec3 vector(const Vec3& value, double most) {
     return {number(value.x, -most, most), number(value.y, -most, most), number(value.z, -most, most)};
   }
-  /// Nothing is heard of what is nowhere.
+  /// False for a non-finite place: it has no sound.
   bool is_somewhere(const Participant& participant) {
     const Vec3& p = participant.world_from_vehicle.position_m;
     const Quat& q = participant.world_from_vehicle.orientation;
@@ -60,7 +60,8 @@ double depth_in(const EchoBox& box, const Vec3& position_m) {
   return 1.0;
 }
 
-/// The share of places from here to 10 m ahead and behind that lie in a box: boxes of one tunnel meet, so only its mouths count.
+/// The share of places from here to 10 m ahead and behind that lie in a box: boxes of one tunnel meet, so only its
+/// mouths count.
 double tunnel_around(const std::vector<EchoBox>& boxes, const Vec3& position_m, const Vec3& forward) {
   if (boxes.empty()) return 0.0;
   constexpr int places = 8;
@@ -151,7 +152,7 @@ OtherSound hear_other(const Snapshot& now, const Snapshot* before, const Partici
   sound.load = std::clamp(0.15 + 0.3 * along_mps2, 0.0, 1.0);
   sound.siren = other.lamps.has(Lamp::siren);
   sound.horn = other.lamps.has(Lamp::horn);
-  // By simulated time alone, so that a film's cut goes on in the same place; two of them are not in step.
+  // By simulated time alone, so that a film's cut continues at the same place; two of them are out of step.
   constexpr double apart_s = 0.37;
   sound.siren_s = reader.number(now.simulated_time_s, 0.0, 1e9) + apart_s * static_cast<double>(other.id % 64);
   if (before)
@@ -197,7 +198,7 @@ Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, con
   if (body && !reader.is_somewhere(*body)) body = nullptr;
   if (!body) {
     heard.bad_numbers = reader.bad();
-    return heard;  // Nobody sits anywhere, so nothing is heard.
+    return heard;  // Without a driver's car there is no ear.
   }
   heard.car = hear_own(now, before, *body, car, boxes, reader);
   heard.car.ground = ground;

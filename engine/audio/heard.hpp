@@ -1,10 +1,10 @@
 #pragma once
-/// What of one tick the driver hears, as plain data: the step from a snapshot to numbers that sounds are made of.
+/// Sounds of one tick at the driver's ear, as plain data: the step from a snapshot to the numbers of the synthesis.
 ///
-/// The ear frame is the vehicle frame moved to the driver's head: x forward, y left, z up. What a snapshot does not hold is told from what it
-/// does: the load from the accelerator and the engine's speed (on the overrun fuel is cut), slips from the motion of the axles against the
-/// wheels' turning, the ground from lane (0: beside the road), wetness and snow, a blow from a velocity that jumps. Numbers that are not
-/// finite are counted and become silence. Pure functions.
+/// The ear frame is the vehicle frame moved to the driver's head: x forward, y left, z up. Quantities missing from a
+/// snapshot are inferred: the load from the accelerator and the engine's speed (on the overrun fuel is cut), slips from
+/// the motion of the axles against the wheels' turning, the ground from lane (0: beside the road), wetness and snow, an
+/// impact from a velocity that jumps. Non-finite numbers are counted and become silence. Pure functions.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@
 
 namespace septet::audio {
 
-/// What of the driver's car does not change.
+/// Constants of the driver's car.
 struct CarSound {
   int cylinders = 6;
   double idle_radps = 73.0;
@@ -32,28 +32,28 @@ struct EchoBox {
 
 /// The driver's car in one tick.
 struct OwnCar {
-  bool running = false;                      ///< There is such a car and its engine turns.
+  bool running = false;                      ///< True for an existing car with a running engine.
   double engine_hz = 0.0;                    ///< Turns a second.
   double load = 0.0;                         ///< Share of the full torque, 0 to 1.
-  bool fuel_cut = false;                     ///< On the overrun nothing burns.
+  bool fuel_cut = false;                     ///< On the overrun there is no combustion.
   double speed_mps = 0.0;                    ///< Along the car, either sign.
   double air_mps = 0.0;                      ///< Against the air.
   double wheel_hz = 0.0;                     ///< Turns a second.
-  double front_slip = 0.0, rear_slip = 0.0;  ///< Of the contact over the ground as a share of the speed.
+  double front_slip = 0.0, rear_slip = 0.0;  ///< Slip of the contact over the ground, as a share of the speed.
   double looseness = 0.0;                    ///< 0 on a paved road, 1 on gravel or grass.
-  GroundFeel ground;                         ///< Without roads: a good one, without lines.
+  GroundFeel ground;                         ///< Default without roads: a good one, without lines.
   double wetness = 0.0, snow = 0.0;
-  double rain_mm_per_h = 0.0;  ///< On the roof: none in a tunnel, none as snow.
+  double rain_mm_per_h = 0.0;  ///< On the roof: 0 in a tunnel, 0 as snow.
   bool indicator_lit = false, horn = false, reversing = false;
-  double blow_mps = 0.0;  ///< Change of velocity within this tick, beyond what tyres can do; 0: no blow.
-  double bump_mps =
-      0.0;  ///< Of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond what a road does.
-  int pieces = 0;          ///< That were broken off in this tick.
+  double blow_mps = 0.0;  ///< Change of velocity within this tick, beyond the tyres' limit; 0: no impact.
+  /// Jolt of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond a road's.
+  double bump_mps = 0.0;
+  int pieces = 0;          ///< Pieces broken off in this tick.
   double tunnel = 0.0;     ///< 0 in the open to 1 inside, over 20 m at its mouth.
-  double low_share = 1.0;  ///< Of the low frequencies, which may move a shaker: less while what shakes is cut.
+  double low_share = 1.0;  ///< Share of the low frequencies, which may move a shaker: less while its output is cut.
 };
 
-/// Somebody else in one tick.
+/// Another participant in one tick.
 struct OtherSound {
   ParticipantId id = 0;
   ParticipantKind kind = ParticipantKind::car;
@@ -62,31 +62,32 @@ struct OtherSound {
   double speed_mps = 0.0;
   double engine_hz = 0.0, load = 0.0;
   bool siren = false, horn = false;
-  double siren_s = 0.0;  ///< Where its siren is in its melody, or would be.
+  double siren_s = 0.0;  ///< Time in its siren's melody, sounding or not.
   double blow_mps = 0.0;
-  double level_db = 0.0;  ///< dB(A) at the ear outside of the car, by which the loudest are chosen.
+  double level_db = 0.0;  ///< dB(A) at the ear outside of the car, for choosing the loudest.
 };
 
 struct Heard {
   OwnCar car;
   std::vector<OtherSound> others;  ///< The loudest, ascending id.
-  std::uint32_t bad_numbers = 0;   ///< That were not finite, in this tick.
+  std::uint32_t bad_numbers = 0;   ///< Non-finite numbers in this tick.
 };
 
 inline constexpr std::size_t most_others = 16;
 inline constexpr double speed_of_sound_mps = 343.3;
 
-/// Heard over emitted frequency. Velocities in any one frame that stands still in the air; `to_listener` points from source to listener.
+/// Heard over emitted frequency. Velocities in any one frame at rest in the air; `to_listener` points from source to
+/// listener.
 double doppler_factor(const Vec3& to_listener, const Vec3& source_mps, const Vec3& listener_mps);
 
 /// `before` is the tick before, or null at the start and behind a gap.
 Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, const std::vector<EchoBox>& boxes,
            const GroundFeel& ground = {});
 
-/// The jolt that went through a body in the time between two of its states: `OwnCar::bump_mps`.
+/// The vertical jolt of a body between two of its states: `OwnCar::bump_mps`.
 double bump_mps(const Participant& now, const Participant& before, double seconds);
 
-/// What jolted the driver's car between two ticks: `OwnCar::blow_mps` and `bump_mps`.
+/// Jolts of the driver's car between two ticks: `OwnCar::blow_mps` and `bump_mps`.
 struct Felt {
   double blow_mps = 0.0, bump_mps = 0.0;
 };

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double low_hz = 400.0, high_hz = 500.0;
 constexpr std::size_t horn_multiples = 8;
-constexpr double follows = 0.4;  // Of the way, each block.
+constexpr double follows = 0.4;  // Share of the difference, each block.
 
 double fallen(std::size_t n) { return std::pow(double(n), -0.8); }
 

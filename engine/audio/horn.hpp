@@ -7,7 +7,7 @@ namespace septet::audio {
 
 /// Peak pressure of its fundamentals where the whole has this level in dB(A).
 double horn_pressure(double a_level_db);
-/// Adds a block; it swells and dies away within 20 ms.
+/// Adds a block; it swells and fades within 20 ms.
 void add_horn(Tone& low, Tone& high, double pressure_pa, double doppler, Block& out);
 
 }  // namespace septet::audio

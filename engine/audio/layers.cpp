@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t together = 4;
 
-/// Four layers' memories side by side. What is not there has no gain.
+/// Four layers' memories side by side. An absent one has gain 0.
 void add_four(std::span<const NoisePart> parts, const Shape& shape) {
   std::array<std::uint32_t, together> bits;
   std::array<float, together> first1{}, first2{}, second1{}, second2{}, gain{}, step{};

@@ -1,5 +1,6 @@
 #pragma once
-/// The two kinds of sound besides tones: a layer of shaped noise, and a burst that dies away. Plain states, a block at a time.
+/// The two kinds of sound besides tones: a layer of shaped noise, and a burst that fades. Plain states, a block at a
+/// time.
 
 #include <algorithm>
 #include <span>
@@ -8,7 +9,7 @@
 
 namespace septet::audio {
 
-/// How a layer's noise is shaped; `unit_db` is its level in dB(A) before any gain.
+/// Spectrum of a layer's noise; `unit_db` is its level in dB(A) before any gain.
 struct Shape {
   Section first, second;
   double unit_db;
@@ -23,11 +24,11 @@ struct NoiseLayer {
   Filter first, second;
   double gain = 0.0;  ///< At the end of the last block.
 };
-/// Adds a block whose gain goes from that of the last to this one. Nothing is computed of silence.
+/// Adds a block whose gain goes from that of the last to this one. Silence is skipped.
 void add_noise(NoiseLayer& layer, const Shape& shape, double gain, Block& out);
 
-/// The same of several layers of one shape, four at a time: a filter waits for itself, and four wait together. The samples are those of one
-/// after the other, whatever stands beside it.
+/// Adds several layers of one shape, four at a time: a filter waits for itself, and four wait together. The samples are
+/// those of one after the other, whatever their neighbours.
 struct NoisePart {
   NoiseLayer* layer = nullptr;
   double gain = 0.0;
@@ -35,7 +36,7 @@ struct NoisePart {
 };
 void add_noises(std::span<const NoisePart> parts, const Shape& shape);
 
-/// What begins within 1 to 5 ms and dies away: its envelope follows a value that decays, so it has no edge.
+/// A sound that begins within 1 to 5 ms and fades: its envelope follows a value that decays, so it has no edge.
 struct Burst {
   float drive = 0.0f, envelope = 0.0f;
   void strike(double pressure_pa) { drive = std::max(drive, static_cast<float>(pressure_pa)); }
@@ -54,14 +55,15 @@ float decay_of(double seconds);
 struct CabinWall;
 void apply_walls(std::span<CabinWall* const> walls, std::span<Block* const> blocks);
 
-/// What lies between somebody outside and the ear. The car's body, windows shut: −12 dB at 125 Hz, −24 at 1 kHz, −30 at 2 kHz: 11 dB and one
-/// pole at 225 Hz. Before it the air as one pole, which takes 5 dB of every 100 m at 5 kHz (ISO 9613-1 at 10 °C and 70 %) and the first 100 m 0.4 at 1 kHz.
+/// Attenuation from a source outside to the ear. The car's body, windows shut: −12 dB at 125 Hz, −24 at 1 kHz, −30 at 2
+/// kHz: 11 dB and one pole at 225 Hz. Before it the air as one pole, which takes 5 dB of every 100 m at 5 kHz (ISO
+/// 9613-1 at 10 °C and 70 %) and the first 100 m 0.4 at 1 kHz.
 struct CabinWall {
   float memory = 0.0f;
   float air_memory = 0.0f, air_pole = 0.0f;  ///< 0: no air.
   static double gain(double frequency_hz);
 };
-/// The pole with which the air takes what it takes at 5 kHz over that way.
+/// The pole with the air's absorption at 5 kHz over that distance.
 float air_pole(double way_m);
 
 }  // namespace septet::audio

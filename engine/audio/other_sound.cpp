@@ -13,7 +13,7 @@ namespace septet::audio {
 namespace {
 
 constexpr double engine_follows_s = 0.15;
-constexpr double masked_db = 8.0;  // Below the tyres, an engine's noise is not worth making.
+constexpr double masked_db = 8.0;  // Margin below the tyres from which an engine's noise is masked.
 constexpr double least_hz = 80.0;  // The A curve would make a roar of an idling engine's lowest tones.
 constexpr std::size_t engine_multiples = 8, siren_multiples = 8;
 
@@ -55,7 +55,7 @@ void begin_other(OtherState& state, const OtherSound& sound, std::uint32_t first
 
 namespace {
 
-/// What is loud of somebody's rolling and engine.
+/// Levels of a vehicle's rolling and engine.
 struct Loudness {
   double rolling_db, engine_db;
 };

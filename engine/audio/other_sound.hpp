@@ -1,5 +1,5 @@
 #pragma once
-/// A block of somebody else: tyres, engine, siren, horn, blows, through the wall of the driver's car.
+/// A block of another participant: tyres, engine, siren, horn, impacts, through the wall of the driver's car.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 namespace septet::audio {
 
 void begin_other(OtherState& state, const OtherSound& sound, std::uint32_t first_seed, std::uint32_t second_seed);
-/// Of each one's `last`; silence at its end where it is leaving. `voices` are as many, in the same order.
+/// Renders each one's `last`; fades out where it is leaving. `voices` are as many, in the same order.
 void render_others(std::span<OtherState* const> states, std::span<Voice> voices);
 
 }  // namespace septet::audio

@@ -15,11 +15,12 @@ namespace {
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double line_profile_m = 0.3048, wheel_hop_hz = 13.0;
 
-/// How each layer's noise is shaped, worked out once.
+/// Spectrum of each layer's noise, computed once.
 struct Shapes {
   Shape mechanical{Section::band_pass(900.0, 0.5), Section::low_pass(3000.0, 0.7)};
   Shape intake{Section::band_pass(350.0, 0.6), Section::low_pass(1200.0, 0.7)};
-  // Heard through the body: what comes by air has its most at 1 kHz before it (CNOSSOS), what comes through the structure below 250 Hz.
+  // Heard through the body: airborne sound has its most at 1 kHz before it (CNOSSOS), structure-borne sound below 250
+  // Hz.
   Shape tyre_air{Section::band_pass(1000.0, 0.6), Section::low_pass(400.0, 0.5)};
   Shape tyre_structure{Section::band_pass(110.0, 0.6), Section::low_pass(250.0, 0.7)};
   Shape spray{Section::high_pass(1800.0, 0.7), Section::low_pass(6000.0, 0.7)};
@@ -53,7 +54,7 @@ Harmonics single(double pressure) {
 void render_engine(OwnState& state, const CarSound& car, const OwnCar& heard, Block& front, Block& rear) {
   state.gain = towards(state.gain, heard.running ? 1.0 : 0.0, 0.05);
   if (state.gain < 1e-4) state.gain = heard.running ? 1e-4 : 0.0;
-  // An engine that stops keeps its last tone while it dies away.
+  // An engine that stops keeps its last tone while it fades.
   if (heard.running)
     state.engine_hz = state.engine_hz > 0.0 ? towards(state.engine_hz, heard.engine_hz, 0.01) : heard.engine_hz;
   if (state.gain == 0.0) state.engine_hz = 0.0;
@@ -173,14 +174,14 @@ void render_crash(OwnState& state, const OwnCar& heard, Block& out, Block& low) 
   }
 }
 
-/// What is felt: the firing order, the wheels' turning, the road, below 120 Hz and above 5 Hz.
+/// Vibration: the firing order, the wheels' turning, the road, below 120 Hz and above 5 Hz.
 void render_low(OwnState& state, const CarSound& car, const OwnCar& heard, Block& out) {
   static const Section upper = Section::low_pass(120.0, 0.54), steeper = Section::low_pass(120.0, 1.31);
   const double firing =
       state.gain * pressure_pa(firing_order_db(std::max(state.engine_hz, 3.0), state.load, false) - 3.0);
   add_harmonics(state.low_orders, std::max(state.engine_hz * car.cylinders / 2.0, 1.0), single(firing), 1, out);
   const double speed = std::abs(heard.speed_mps);
-  // A good road at 30 m/s is the measure; the worst that is played is ten times that.
+  // A good road at 30 m/s is the reference; the worst that is played is ten times that.
   const double moving = std::min(speed, 60.0);
   const double unevenness = heard.looseness > 0.0 ? std::max(heard.ground.unevenness_m3, class_e_m3)
                                                   : std::clamp(heard.ground.unevenness_m3, 0.0, class_e_m3);
@@ -191,7 +192,7 @@ void render_low(OwnState& state, const CarSound& car, const OwnCar& heard, Block
   // Lines are profiled every 0.3 m (a milled strip's 12 inches).
   add_harmonics(state.low_line, std::max(moving / line_profile_m, 1.0),
                 single(heard.ground.on_line ? 0.08 * std::min(1.0, moving / 5.0) : 0.0), 1, out);
-  // A wheel that is struck hops on its tyre, at some 13 Hz.
+  // A struck wheel hops on its tyre, at some 13 Hz.
   static const float attack = attack_of(0.003), decay = decay_of(0.09);
   if (heard.bump_mps > 0.0) {
     if (state.bump.is_over()) state.bump_phase = 0.0;

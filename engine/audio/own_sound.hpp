@@ -1,5 +1,5 @@
 #pragma once
-/// A block of the driver's own car: engine, exhaust, wind, tyres, rain, relay, horn, crash, and what shakes.
+/// A block of the driver's own car: engine, exhaust, wind, tyres, rain, relay, horn, crash, and shaker.
 
 #include "engine/audio/soundtrack.hpp"
 

@@ -8,7 +8,7 @@
 namespace septet::audio {
 namespace {
 
-constexpr double reference_db = 94.0;  // Of 1 Pa above 20 µPa: 93.98.
+constexpr double reference_db = 94.0;  // Level of 1 Pa above 20 µPa: 93.98.
 
 struct Angle {
   double cosine, alpha;

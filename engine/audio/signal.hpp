@@ -1,9 +1,9 @@
 #pragma once
-/// What sounds are made of: noise, filters of second order, ramps. Plain states and inline steps, one sample each.
+/// Elements of sounds: noise, filters of second order, ramps. Plain states and inline steps, one sample each.
 ///
-/// A sample is a pressure in pascal: a root mean square of 1 is 94 dB, and ±1 is the full scale of a device or a file. Levels with an
-/// A are weighted by the A curve of IEC 61672-1. Filters: R. Bristow-Johnson's formulas for second-order sections ("Cookbook formulae for
-/// audio equalizer biquad filter coefficients"). Threads: no shared state.
+/// A sample is a pressure in pascal: a root mean square of 1 is 94 dB, and ±1 is the full scale of a device or a file.
+/// Levels with an A are weighted by the A curve of IEC 61672-1. Filters: R. Bristow-Johnson's formulas for second-order
+/// sections ("Cookbook formulae for audio equalizer biquad filter coefficients"). Threads: no shared state.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace septet::audio {
 
 inline constexpr double sample_rate_hz = 48000.0;
-/// Samples that are made at once: those of one tick (1/120 s).
+/// Samples of one block: those of one tick (1/120 s).
 inline constexpr std::size_t block_samples = 400;
 inline constexpr double block_s = double(block_samples) / sample_rate_hz;
 using Block = std::array<float, block_samples>;
@@ -55,10 +55,10 @@ struct Filter {
   }
 };
 
-/// Level in dB(A) of white noise of variance 1 Pa² behind two sections: what a layer's gain is told from.
+/// Level in dB(A) of white noise of variance 1 Pa² behind two sections: the reference of a layer's gain.
 double a_level_of_noise_db(const Section& first, const Section& second);
 
-/// A straight line from one value to the next over a block: gains never step.
+/// A linear ramp from one value to the next over a block: gains never step.
 struct Ramp {
   float value, step;
   Ramp(double from, double to)

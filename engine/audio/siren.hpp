@@ -1,6 +1,7 @@
 #pragma once
-/// How sirens sound: a pattern of tones that repeats. DIN 14610 wants two tones a fourth apart (4:3) between 360 and 630 Hz; a′ and d″ are
-/// usual. The wail is that of SAE J1849: 500 to 1500 Hz and back, 20 times a minute. Pure functions.
+/// Sounds of sirens: a pattern of tones that repeats. DIN 14610 requires two tones a fourth apart (4:3) between 360 and
+/// 630 Hz; a′ and d″ are usual. The wail is that of SAE J1849: 500 to 1500 Hz and back, 20 times a minute. Pure
+/// functions.
 
 #include <span>
 
@@ -16,12 +17,12 @@ struct SirenTone {
 inline constexpr SirenTone two_tone[] = {{440.0, 440.0, 0.75}, {1760.0 / 3.0, 1760.0 / 3.0, 0.75}};
 inline constexpr SirenTone wail[] = {{500.0, 1500.0, 1.5}, {1500.0, 500.0, 1.5}};
 
-/// Ambulances have the two tones; who else has a siren wails.
+/// Ambulances have the two tones; all other sirens wail.
 inline std::span<const SirenTone> siren_of(ParticipantKind kind) {
   return kind == ParticipantKind::ambulance ? std::span<const SirenTone>(two_tone) : std::span<const SirenTone>(wail);
 }
 
-/// At a time of its melody, which repeats.
+/// Frequency at a time of its melody, which repeats.
 double siren_hz(std::span<const SirenTone> pattern, double time_s);
 
 }  // namespace septet::audio

@@ -23,7 +23,7 @@ struct Source {
   std::array<ALuint, buffers_each> buffers{};
   std::vector<ALuint> free;
   bool is_wanted = false, is_ending = false;
-  double echo = 0.0;  ///< How much of it the tunnel gets.
+  double echo = 0.0;  ///< Share of it that the tunnel gets.
 };
 
 /// OpenAL's axes: x to the right, y up, z backwards.
@@ -90,7 +90,8 @@ struct SoundStage::State {
     alAuxiliaryEffectSlotf(tunnel_slot, AL_EFFECTSLOT_GAIN, 0.0f);
   }
 
-  /// OpenAL gives placed sources no share in the channel of low frequencies; the dedicated effect does, and the source's own way is shut.
+  /// OpenAL gives placed sources no share in the channel of low frequencies; the dedicated effect does, and the
+  /// source's direct path is closed.
   void make_low() {
     alGenFilters(1, &muted);
     alFilteri(muted, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
@@ -117,7 +118,8 @@ struct SoundStage::State {
       if (low_slot != 0)
         alSource3i(source.name, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(low_slot), 0, AL_FILTER_NULL);
     } else {
-      // OpenAL would take something of the highs with the distance, too, by a filter for each source that costs more than all the rest of it.
+      // OpenAL would attenuate the highs with the distance, too, by a filter for each source that costs more than all
+      // the rest of it.
       alSourcei(source.name, AL_AUXILIARY_SEND_FILTER_GAIN_AUTO, AL_FALSE);
       set_echo(source, voice);
     }
@@ -126,7 +128,7 @@ struct SoundStage::State {
     return true;
   }
 
-  /// Whoever is far off has lost of the tunnel's echo what it loses in the time of that way; told anew with every decibel.
+  /// Reverb of a distant source is attenuated by its decay over the travel time; updated in steps of 1 dB.
   void set_echo(Source& source, const Voice& voice) {
     constexpr double way_of_60_db_m = 3.42 * 343.3;  // The preset's decay time.
     const double way_m = voice.is_near ? 0.0 : std::max(0.0, glm::length(voice.position_m) - 1.0);
@@ -139,7 +141,7 @@ struct SoundStage::State {
     alFilteri(share, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
     alFilterf(share, AL_LOWPASS_GAIN, static_cast<float>(wanted));
     alSource3i(source.name, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(tunnel_slot), 0, static_cast<ALint>(share));
-    alDeleteFilters(1, &share);  // A source keeps what the filter said.
+    alDeleteFilters(1, &share);  // A source keeps the filter's setting.
   }
 
   void end(Source& source) {
@@ -160,7 +162,7 @@ struct SoundStage::State {
   }
 
   void queue(Source& source, const Block& samples) {
-    if (source.free.empty()) return;  // Too far ahead; whoever puts looks at blocks_ahead.
+    if (source.free.empty()) return;  // Too far ahead; the caller of put checks blocks_ahead.
     const ALuint buffer = source.free.back();
     source.free.pop_back();
     alBufferData(buffer, AL_FORMAT_MONO_FLOAT32, samples.data(), static_cast<ALsizei>(sizeof samples),

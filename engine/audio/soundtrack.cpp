@@ -12,9 +12,9 @@ namespace {
 
 std::uint32_t seed(Random& random) { return static_cast<std::uint32_t>(random.next_bits() >> 32) | 1u; }
 
-/// Nothing that is no number leaves here, whatever went in.
+/// Replaces NaN and infinities, so that none leaves here.
 void make_finite(Block& block) {
-  constexpr std::uint32_t exponent = 0x7F800000u;  // All of its bits are set in infinities and in what is no number.
+  constexpr std::uint32_t exponent = 0x7F800000u;  // All of its bits are set in infinities and NaN.
   std::uint32_t bad = 0;
   for (const float sample : block) bad |= (std::bit_cast<std::uint32_t>(sample) & exponent) == exponent ? 1u : 0u;
   if (bad == 0) return;

@@ -1,10 +1,11 @@
 #pragma once
-/// From what is heard of a tick to one block of samples for each thing that sounds.
+/// Synthesis: from the sounds of a tick (heard.hpp) to one block of samples for each source.
 ///
-/// All that goes on from block to block is `State`, an argument; its random numbers come from the caller's. What changes from tick to tick goes
-/// there in a straight line over the block, and who is heard no longer fades over one, so that nothing clicks. The Doppler effect is ours, not
-/// OpenAL's: every frequency of a source is multiplied by its factor, sample for sample. OpenAL's would play streamed blocks faster than they come,
-/// and takes its velocities in steps. Levels: levels.hpp; samples are pascals (signal.hpp). One thread a state.
+/// All that lasts from block to block is `State`, an argument; its random numbers come from the caller's. Values that
+/// change from tick to tick are interpolated linearly over the block, and a source no longer heard fades over one, so
+/// that there are no clicks. The Doppler effect is ours, not OpenAL's: every frequency of a source is multiplied by its
+/// factor, sample for sample. OpenAL's would play streamed blocks faster than they come, and takes its velocities in
+/// steps. Levels: levels.hpp; samples are pascals (signal.hpp). One thread a state.
 
 #include <cstdint>
 #include <map>
@@ -19,11 +20,11 @@ namespace septet::audio {
 
 /// One source and its next block.
 struct Voice {
-  std::uint64_t key = 0;  ///< The same from block to block.
+  std::uint64_t key = 0;  ///< Constant from block to block.
   Vec3 position_m{0.0};   ///< Ear frame.
-  bool is_near = true;    ///< Of the driver's car: its level is that at the ear. Otherwise that at 1 m from it.
-  bool is_low = false;    ///< For the channel of low frequencies and the shaker, and for nothing else.
-  float echo = 0.0f;      ///< How much of it a tunnel throws back.
+  bool is_near = true;    ///< Sound of the driver's car: its level is that at the ear. Otherwise that at 1 m from it.
+  bool is_low = false;    ///< For the channel of low frequencies and the shaker alone.
+  float echo = 0.0f;      ///< Share of it that a tunnel reflects.
   Block samples{};
 };
 
@@ -65,7 +66,7 @@ struct OwnState {
   Filter blow_filter, glass_filter, pieces_filter, low_first, low_second, low_blow;
 };
 
-/// Somebody else from block to block.
+/// Another participant from block to block.
 struct OtherState {
   Vec3 position_m{0.0};
   Tone orders, siren, horn_low, horn_high;
@@ -87,7 +88,7 @@ struct State {
 
 State start(const CarSound& car, const Random& random);
 
-/// The voices of the next block; `voices` is what was made for the last one, or empty.
+/// The voices of the next block; `voices` are those of the last one, or empty.
 void render(State& state, const Heard& heard, std::vector<Voice>& voices);
 
 }  // namespace septet::audio

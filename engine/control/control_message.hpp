@@ -1,5 +1,5 @@
 #pragma once
-/// What server, screens and car say to each other besides the scene: who is there, what was shown, what the driver did.
+/// Messages between server, screens and car besides the scene: joining, frames shown, the driver's controls.
 ///
 /// These share the secure lane with scene commands; the first byte of every message tells which of the two it is
 /// (`LaneMessage`). Format: CONTROL.md. A message from outside is decoded whole or refused.
@@ -21,7 +21,7 @@ namespace septet::control {
 /// First byte of every message on the secure lane.
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
-/// Of these messages; who speaks another one is refused.
+/// Version of these messages; a program of another version is refused.
 inline constexpr std::uint16_t protocol_version = 4;
 
 /// Screen → server, first of all.
@@ -31,7 +31,7 @@ struct Hello {
   std::uint16_t protocol = protocol_version;
 };
 
-/// Server → screen, the answer.
+/// Server → screen, the reply.
 struct Welcome {
   std::string rig;  ///< The rig file's text: a screen needs no file of its own.
   bool lockstep = false;
@@ -40,7 +40,7 @@ struct Welcome {
   std::uint32_t group_ip = 0;             ///< Multicast group of the tick lane; 0: ticks come to `Hello::tick_port`.
   std::uint16_t group_port = 0;
   std::uint32_t interface_ip = 0;
-  bool thumbnails = false;  ///< Somebody looks on: send a small picture with each that is kept.
+  bool thumbnails = false;  ///< The operator watches: send a small picture with each that is kept.
 };
 
 /// Server → screen: this screen cannot take part.
@@ -52,10 +52,10 @@ struct Refusal {
 struct TickArrived {
   Tick tick = 0;
   float lateness_s = 0.0f;     ///< From its publication on the server's clock to its arrival.
-  bool lost_baseline = false;  ///< It could not be read for want of its baseline: send a keyframe.
+  bool lost_baseline = false;  ///< The tick could not be read for want of its baseline: send a keyframe.
 };
 
-/// Screen → server: the scene's content up to this revision of the server's store is here.
+/// Screen → server: the scene's content has arrived up to this revision of the server's store.
 struct SceneArrived {
   std::uint64_t revision = 0;
 };
@@ -66,25 +66,25 @@ struct Presented {
   float frame_ms = 0.0f;
 };
 
-/// Screen → server: the driver's controls, from a screen that has a keyboard or gamepad. Pedals outside of 0 to 1 and angles of
-/// many turns are refused.
+/// Screen → server: the driver's controls, from a screen that has a keyboard or gamepad. Pedals outside of 0 to 1 and
+/// angles of many turns are refused.
 struct Controls {
   DriverInput input;
 };
 
-/// Server → screen: the drive is over; the screen answers with its report and leaves.
+/// Server → screen: the drive has ended; the screen replies with its report and leaves.
 struct Finish {
   std::string reason;
 };
 
-/// Screen → server: what it has seen, for summary.json.
+/// Screen → server: its measurements, for summary.json.
 struct ScreenReport {
   std::uint64_t frames = 0;
   std::uint64_t frames_off_tick = 0;  ///< Frames that showed another tick than they should have.
   std::uint64_t datagrams_lost = 0, datagrams_repaired = 0;
-  std::uint64_t refused_ticks = 0;                   ///< That arrived and could not be read.
-  float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;    ///< From picture to picture.
-  float submit_ms_p50 = 0.0f, submit_ms_p99 = 0.0f;  ///< Of that, until the picture was handed to the device.
+  std::uint64_t refused_ticks = 0;                   ///< Ticks that arrived and could not be read.
+  float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;    ///< Interval between pictures.
+  float submit_ms_p50 = 0.0f, submit_ms_p99 = 0.0f;  ///< The part of it until the picture was handed to the device.
 };
 
 /// septet-car → server, first of all.
@@ -92,63 +92,63 @@ struct CarHello {
   std::uint16_t protocol = protocol_version;
 };
 
-/// Server → septet-car, the answer.
+/// Server → septet-car, the reply.
 struct CarWelcome {
-  std::string rig;  ///< The rig file's text: it says which device.
+  std::string rig;  ///< The rig file's text: it names the device.
 };
 
-/// septet-car → server: the device's newest report, again and again, whether there is a newer one or not.
+/// septet-car → server: the device's newest report, repeated whether there is a newer one or not.
 struct CarReport {
-  std::uint32_t number = 0;  ///< Counts these messages: one that was overtaken does not count.
-  std::string report;        ///< As the device sent it; empty where there is none yet.
-  std::string problem;       ///< Why the device is away; empty while it is there.
+  std::uint32_t number = 0;  ///< Counts these messages: an overtaken one is dropped.
+  std::string report;        ///< As the device sent it; empty before the first one.
+  std::string problem;       ///< Reason why the device is away; empty while it is there.
 };
 
-/// Server → septet-car: what fan, shaker and hand wheel shall do, shares of what they can.
+/// Server → septet-car: outputs of fan, shaker and hand wheel, shares of their maxima.
 struct CarFeedback {
   Tick tick = 0;
   float fan = 0.0f, vibration = 0.0f, vibration_hz = 0.0f;
   float steering = 0.0f;  ///< Positive turns to the left.
 };
 
-/// Screen → server: the person at this screen wants the drive to end. It is answered by Finish.
+/// Screen → server: the person at this screen requests the end of the drive. The reply is Finish.
 struct Quit {
   enum class How : std::uint8_t { window_closed, escape, restart } how = How::window_closed;
 };
 
-/// Server → screen: what the driver is to read on the screen ahead, until the next notice.
+/// Server → screen: text for the driver on the screen ahead, until the next notice.
 struct Notice {
   std::string text;     ///< Empty: nothing.
-  bool keys = false;    ///< Also which keys drive, until the first one is pressed.
+  bool keys = false;    ///< Shows also the driving keys, until the first one is pressed.
   bool paused = false;  ///< The person at a screen has paused the drive, and may go on or end it.
   bool operator==(const Notice&) const = default;
 };
 
-/// Screen → server: the person at this screen wants the world to stand still, or to go on.
+/// Screen → server: the person at this screen requests a pause of the world, or its end.
 struct Pause {
   bool paused = true;
 };
 
-/// Of a thumbnail, and of a large picture; a larger one is refused.
+/// Bounds of a thumbnail, and of a large picture; a larger one is refused.
 inline constexpr std::size_t most_thumbnail_bytes = 64 * 1024, most_picture_bytes = 512 * 1024;
 
-/// Screen → server: what this screen shows, small, about once a second.
+/// Screen → server: this screen's picture, small, about once a second.
 struct Thumbnail {
   Tick tick = 0;
-  std::string picture;  ///< Any bytes: nobody here reads them.
+  std::string picture;  ///< Any bytes: the server does not decode them.
 };
 
-/// Server → screen: somebody looks closely at this screen. For `looked_at_for_s` from now on it sends a LargePicture every
-/// `look_every_s`; whoever goes on looking says so again.
+/// Server → screen: an operator watches this screen closely. For `looked_at_for_s` from now on it sends a LargePicture
+/// every `look_every_s`; the request is renewed as long as it is watched.
 struct Look {
-  bool closely = true;  ///< False: no more.
+  bool closely = true;  ///< False: stop.
 };
 inline constexpr double looked_at_for_s = 3.0, look_every_s = 0.2;
 
-/// Screen → server: what this screen shows, large.
+/// Screen → server: this screen's picture, large.
 struct LargePicture {
   Tick tick = 0;
-  std::string picture;  ///< As a thumbnail's.
+  std::string picture;  ///< Any bytes, as of a thumbnail.
 };
 
 using ControlMessage =
@@ -163,12 +163,12 @@ Expected<ControlMessage> decode_control(std::span<const std::byte> bytes);
 /// A replication message with its lane byte.
 Bytes scene_message(std::span<const std::byte> message);
 
-/// What kind a received message is; nothing for an empty or unknown one.
+/// Kind of a received message; empty for an empty or unknown one.
 std::optional<LaneMessage> lane_of(std::span<const std::byte> bytes);
 
-/// What the tick lane carries besides the snapshot: when it was published, and which simulated time to show at which instant.
-/// The offset is the server's alone and changes at an announced instant of its clock: were it taken from the ticks that a
-/// screen happens to hold, screens would differ by the jitter of publication, and a difference tears the seams.
+/// The tick lane's data beside the snapshot: time of publication, and which simulated time to show at which instant.
+/// The offset is the server's alone and changes at an announced instant of its clock: were it taken from the ticks that
+/// a screen happens to hold, screens would differ by the jitter of publication, and a difference tears the seams.
 struct TickHeader {
   double published_s = 0.0;  ///< Server's clock.
   double offset_s = 0.0;     ///< Shown simulated time = server's clock − offset.

@@ -6,17 +6,18 @@
 ///     StateReader reader(bytes);  transfer(reader, wheel);  if (!reader.ok()) …reader.problem()…
 ///     hash_members(hash, wheel);
 ///
-/// The list names every member in its order: it is a structured binding, so that a struct that gains a member does not compile before
-/// its list has it. Each is kept and hashed, unless the list says otherwise, in groups:
+/// The list names every member in its order: it is a structured binding, so that a struct that gains a member does not
+/// compile before its list has it. Each member is kept and hashed, unless the list says otherwise, in groups:
 ///
 ///     SEPTET_MEMBER_GROUPS(Fire, hashed(vehicle, burning_s), kept(nearest_hint), left_out(picture))
 ///
-/// `kept` but not hashed is what only shortens the way to the next state, or was drawn or read once and stays. Whoever uses the list
-/// says why, and why something is left out: it follows from the rest, or has a reader of its own.
+/// `kept` but not hashed: members that only speed up the way to the next state, or were drawn or read once and stay. A
+/// comment beside the list gives the reason, also for `left_out`: the member follows from the rest, or has a reader of
+/// its own.
 ///
-/// Bytes are those of this build: numbers as they stand in memory (little-endian), counts of 64 bits, no names. The reader trusts
-/// nothing: a count is no more than the bytes that are left, memory has a limit, no number is a NaN and no vector infinite; what an index
-/// may be is for whoever reads to require. After the first problem everything reads as zero.
+/// Bytes are those of this build: numbers as they stand in memory (little-endian), counts of 64 bits, no names. The
+/// reader trusts nothing: a count is no more than the bytes that are left, memory has a limit, no number is NaN and no
+/// vector infinite; bounds of an index are for the caller to require. After the first problem everything reads as zero.
 
 #include <array>
 #include <bit>
@@ -63,7 +64,7 @@ class StateHasher {
 
   void put(const void* from, std::size_t count) {
     const auto* bytes = static_cast<const std::byte*>(from);
-    if (count > 4 * word_size) {  // By chains of one's own, which no byte can be a part of.
+    if (count > 4 * word_size) {  // Local copies, which the bytes cannot alias.
       auto chains = chains_;
       for (; count >= 4 * word_size; bytes += 4 * word_size, count -= 4 * word_size)
         for (std::size_t i = 0; i < 4; ++i) chains[i].add(word_of(bytes + i * word_size, word_size));
@@ -85,7 +86,7 @@ class StateHasher {
   }
   void add(std::uint64_t word) { chains_[turn_++ % chains_.size()].add(word); }
 
-  std::array<StateHash, 4> chains_;  ///< They take turns: a single one would wait for every product.
+  std::array<StateHash, 4> chains_;  ///< Used in turns: a single chain would wait for every product.
   std::size_t turn_ = 0;
 };
 
@@ -98,12 +99,12 @@ class StateReader {
   bool ok() const { return problem_.empty(); }
   const std::string& problem() const { return problem_; }
   std::size_t remaining() const { return bytes_.size(); }
-  /// Everything after this reads as zero; the first problem stays.
+  /// Fails: every later read is zero, and the first problem stays.
   void fail(std::string_view problem) {
     if (ok()) problem_ = problem;
     bytes_ = {};
   }
-  /// False, and failed, where it does not hold.
+  /// Fails and returns false where the condition does not hold.
   bool require(bool holds, std::string_view problem) {
     if (!holds) fail(problem);
     return ok();
@@ -118,7 +119,7 @@ class StateReader {
     std::memcpy(to, bytes_.data(), count);
     bytes_ = bytes_.subspan(count);
   }
-  /// To be asked before memory is taken.
+  /// Call before allocating.
   bool take_memory(std::size_t bytes) {
     if (!require(bytes <= memory_left_, "it asks for too much memory")) return false;
     memory_left_ -= bytes;
@@ -169,10 +170,10 @@ std::tuple<> left_out(T&...) {
 }
 }  // namespace archive
 
-/// The members of a plain struct, all of them, in their order: kept and hashed.
+/// Lists all members of a plain struct, in their order: kept and hashed.
 #define SEPTET_MEMBERS(Type, ...) SEPTET_MEMBER_GROUPS(Type, hashed(__VA_ARGS__))
 
-/// The same in groups, each hashed(…), kept(…) or left_out(…).
+/// Lists members in groups, each hashed(…), kept(…) or left_out(…).
 #define SEPTET_MEMBER_GROUPS(Type, ...)                                              \
   template <::septet::SameButForConst<Type> S_>                                      \
   auto members(S_& whole_) {                                                         \
@@ -185,7 +186,8 @@ std::tuple<> left_out(T&...) {
 #define SEPTET_NAMES_left_out(...) __VA_ARGS__
 #define SEPTET_NAMES_OF(group) SEPTET_NAMES_##group
 #define SEPTET_TUPLE_OF(group) ::septet::archive::group
-// macro(first), macro(second), …: a macro does not expand itself, so each round of SEPTET_EXPAND makes one more of SEPTET_AGAIN.
+// Expands to macro(first), macro(second), …: a macro does not expand itself, so each round of SEPTET_EXPAND makes one
+// more of SEPTET_AGAIN.
 #define SEPTET_EACH(macro, first, ...) macro(first) __VA_OPT__(, SEPTET_AGAIN SEPTET_PARENTHESES(macro, __VA_ARGS__))
 #define SEPTET_AGAIN() SEPTET_EACH
 #define SEPTET_PARENTHESES ()
@@ -242,7 +244,7 @@ void require_number(StateReader& reader, T& value) {
 }
 }  // namespace archive
 
-/// How many of them follow, each of at least one byte; 0 after a problem.
+/// Number of elements that follow, each of at least one byte; 0 after a problem.
 inline std::size_t transfer_count(StateReader& reader, std::size_t element_size = 1) {
   std::uint64_t count = 0;
   reader.get(&count, sizeof count);
@@ -296,7 +298,7 @@ void transfer(Archive& archive, V& value) {
       else
         for (const Element& element : value) transfer(archive, element);
     }
-  } else if constexpr (std::is_same_v<T, Random>) {  // Its state is all that it has.
+  } else if constexpr (std::is_same_v<T, Random>) {  // Its state is its only member.
     if constexpr (Archive::reads) {
       Random::State state{};
       transfer(archive, state);
@@ -372,7 +374,7 @@ void transfer(Archive& archive, V& value) {
   }
 }
 
-/// What the lists say is hashed.
+/// Hashes the members that the lists mark as hashed.
 template <class... V>
 void hash_members(StateHash& hash, const V&... values) {
   StateHasher hasher;

@@ -1,8 +1,7 @@
 #pragma once
-/// The one queue between threads: values go in one by one and come out in batches, in order. Its
-/// bound is what makes a slow reader visible to the writer: it is full once the sizes of the values
-/// in it, in whatever unit the writer counts, reach the capacity. Any number of threads may use it
-/// at once.
+/// The one queue between threads: values are pushed one by one and taken in batches, in order. Its bound makes a slow
+/// reader visible to the writer: it is full once the sizes of its values, in a unit of the writer's choice, reach the
+/// capacity. Thread-safe.
 
 #include <chrono>
 #include <condition_variable>
@@ -18,19 +17,19 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Answers false, with the value untouched, where the queue is full or closed.
+  /// Returns false, with the value untouched, where the queue is full or closed.
   bool try_push(T& value, std::size_t size = 1) {
     const std::lock_guard lock(mutex_);
     return push_if_open(value, size);
   }
-  /// Waits for room. Answers false where the queue is or gets closed.
+  /// Waits for room. Returns false where the queue is closed, before or during the wait.
   bool push(T& value, std::size_t size = 1) {
     std::unique_lock lock(mutex_);
     has_room_.wait(lock, [&] { return closed_ || !is_full(); });
     return push_if_open(value, size);
   }
-  /// Takes everything that is there into `batch` (emptied first), after waiting for `enough`
-  /// values, the deadline or the close. Answers false once the queue is closed and empty.
+  /// Takes all values into `batch` (emptied first), after waiting for `enough` values, the deadline or the close.
+  /// Returns false once the queue is closed and empty.
   bool take_all(std::vector<T>& batch, std::chrono::steady_clock::time_point deadline, std::size_t enough = 1) {
     batch.clear();
     std::unique_lock lock(mutex_);
@@ -41,7 +40,7 @@ class BoundedQueue {
     has_room_.notify_all();
     return !batch.empty() || !closed_;
   }
-  /// No value goes in any more; what is there can still be taken.
+  /// Refuses further values; those in the queue can still be taken.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
@@ -64,8 +63,8 @@ class BoundedQueue {
   std::mutex mutex_;
   std::condition_variable has_enough_, has_room_;
   std::vector<T> values_;
-  std::size_t size_ = 0;    ///< Of `values_`, in the writer's unit.
-  std::size_t enough_ = 1;  ///< What the taker waits for.
+  std::size_t size_ = 0;    ///< Sum over `values_`, in the writer's unit.
+  std::size_t enough_ = 1;  ///< Number that the taker waits for.
   bool closed_ = false;
 };
 

@@ -19,13 +19,14 @@ namespace septet {
 
 using Bytes = std::vector<std::byte>;
 
-/// Writes a varint at `at`, where there is room for ten bytes, and returns its end: seven bits a byte, least significant first.
+/// Writes a varint at `at`, where there must be room for ten bytes, and returns its end: seven bits a byte, least
+/// significant first.
 inline std::byte* write_varint(std::byte* at, std::uint64_t value) {
   for (; value >= 0x80; value >>= 7) *at++ = static_cast<std::byte>(value | 0x80);
   *at++ = static_cast<std::byte>(value);
   return at;
 }
-/// Small magnitudes of either sign as small numbers: 0, −1, 1, −2, …
+/// Maps small magnitudes of either sign to small numbers: 0, −1, 1, −2, …
 constexpr std::uint64_t zigzag(std::int64_t value) {
   return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
 }

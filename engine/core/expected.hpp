@@ -1,8 +1,8 @@
 #pragma once
 /// Errors of the outside world (a file, a packet, a device, an option) travel as values.
 ///
-/// A function that can fail because of what it was given returns `Expected<T>`. The error says what is wrong, where, and
-/// what to do about it; whoever handles it reports it exactly once. Bugs do not travel this way: see check.hpp.
+/// A function that can fail because of its input returns `Expected<T>`. The error says what is wrong, where, and what
+/// to do about it; its handler reports it exactly once. Bugs do not travel this way: see check.hpp.
 
 #include <string>
 #include <tl/expected.hpp>
@@ -11,9 +11,9 @@ namespace septet {
 
 /// One failure in the outside world, ready to be shown to a person.
 struct Error {
-  std::string what;    ///< What is wrong: "lane width is negative (-0.2 m)".
-  std::string where;   ///< Where: "motorway.xodr:120, <width>", "udp 239.7.7.7:4750", "--seed".
-  std::string remedy;  ///< What to do: "give a width of at least 0 m".
+  std::string what;    ///< Fault: "lane width is negative (-0.2 m)".
+  std::string where;   ///< Place: "motorway.xodr:120, <width>", "udp 239.7.7.7:4750", "--seed".
+  std::string remedy;  ///< Remedy: "give a width of at least 0 m".
 };
 
 template <class T>

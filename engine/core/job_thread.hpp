@@ -1,6 +1,6 @@
 #pragma once
-/// One thread that does jobs in order, so that who gives them does not wait: few and large ones, such as pictures to be written.
-/// (What comes by the thousand goes through a BoundedQueue.) Any number of threads may give jobs.
+/// One thread that does jobs in order, so that the caller does not wait: few and large ones, such as pictures to be
+/// written. (Values in thousands go through a BoundedQueue.) Any number of threads may give jobs.
 
 #include <condition_variable>
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace septet {
 template <class Job>
 class JobThread {
  public:
-  /// `work` runs on the thread; it and what it touches outlive this.
+  /// `work` runs on the thread; it and its captures must outlive this object.
   JobThread(std::size_t most_waiting, std::function<Expected<void>(Job&)> work)
       : most_waiting_(most_waiting), work_(std::move(work)), thread_([this] { run(); }) {}
-  /// Does what waits.
+  /// Completes the waiting jobs.
   ~JobThread() {
     {
       const std::lock_guard lock(mutex_);
@@ -33,7 +33,8 @@ class JobThread {
   JobThread(const JobThread&) = delete;
   JobThread& operator=(const JobThread&) = delete;
 
-  /// Waits while the most jobs that may wait are waiting. Answers the first failure of an earlier one; then this one is not done.
+  /// Waits while `most_waiting` jobs are waiting. Returns the first failure of an earlier job; then this one is not
+  /// done.
   Expected<void> give(Job job) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return jobs_.size() < most_waiting_; });
@@ -42,19 +43,19 @@ class JobThread {
     changed_.notify_all();
     return {};
   }
-  /// Only where there is nothing to do.
+  /// Gives the job only where the thread is idle; drops it otherwise.
   void give_if_idle(Job job) {
     const std::lock_guard lock(mutex_);
     if (!has_nothing()) return;
     jobs_.push_back(std::move(job));
     changed_.notify_all();
   }
-  /// Nothing waits and nothing is being done. It stays so until somebody gives a job.
+  /// True where no job is waiting or running. It stays so until a job is given.
   bool is_idle() {
     const std::lock_guard lock(mutex_);
     return has_nothing();
   }
-  /// Until everything is done. The first failure.
+  /// Waits until all jobs are done; returns the first failure.
   Expected<void> wait() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return has_nothing(); });

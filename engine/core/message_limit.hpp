@@ -1,5 +1,6 @@
 #pragma once
-/// How many messages one source may cause: ten at once, then one a second. Who sends more is told of with the next one.
+/// Limits the messages of one source: ten at once, then one a second. Messages beyond that are dropped, and counted in
+/// the next one.
 ///
 ///     if (auto said = limit.take(text, now_s)) messages.push_back(*said);
 
@@ -14,7 +15,8 @@ namespace septet {
 
 class MessageLimit {
  public:
-  /// The message as it is to be said, or nothing where it is one too many. `now_s` may be any clock that does not go back.
+  /// The message with the count of dropped ones, or nothing where it is dropped too. `now_s` may be any clock that does
+  /// not go back.
   std::optional<std::string> take(std::string text, double now_s) {
     tokens_ = std::min(at_once, tokens_ + (now_s - last_s_) * per_s);
     last_s_ = now_s;

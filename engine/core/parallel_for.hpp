@@ -1,5 +1,5 @@
 #pragma once
-/// A loop whose turns do not touch each other, over the machine's cores.
+/// A loop over independent indices, on all of the machine's cores.
 
 #include <algorithm>
 #include <atomic>

@@ -8,7 +8,7 @@
 namespace septet {
 namespace {
 
-/// Length of the UTF-8 sequence that `text` begins with and its code point; 0 where it is none (RFC 3629).
+/// Length of the UTF-8 sequence at the start of `text`, and its code point; 0 where it is invalid (RFC 3629).
 std::size_t read_character(std::string_view text, std::uint32_t& code) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t first = byte(0);

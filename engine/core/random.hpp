@@ -15,7 +15,8 @@ class Random {
   using State = std::array<std::uint64_t, 4>;
 
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
-  /// Goes on where another was. Nothing for the one state that no seed leads to, all zeros, in which every number would be zero.
+  /// Continues from a saved state. Empty for the one state that no seed leads to, all zeros, in which every number
+  /// would be zero.
   static std::optional<Random> from_state(const State& state);
 
   std::uint64_t next_bits();

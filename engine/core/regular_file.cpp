@@ -39,7 +39,7 @@ tl::unexpected<Error> unreadable(const std::filesystem::path& file, int error) {
 }  // namespace
 
 Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest_bytes) {
-  // Without waiting: to open a pipe that nobody writes would block for ever.
+  // O_NONBLOCK: opening a pipe without a writer would block for ever.
   const OpenFile opened{::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   // A socket cannot be opened at all.
   if (opened.descriptor < 0 && errno != ENXIO) return unreadable(file, errno);
@@ -53,7 +53,7 @@ Expected<std::string> read_regular_file(const std::filesystem::path& file, std::
                    "give a shorter file");
   };
   if (static_cast<std::size_t>(status.st_size) > largest_bytes) return too_long();
-  // A file may grow while it is read, and those below /proc call themselves empty: what counts is what comes.
+  // A file may grow while it is read, and those below /proc report length 0: the bytes read decide.
   std::string text(std::max(static_cast<std::size_t>(status.st_size) + 1, chunk_bytes), '\0');
   std::size_t length = 0;
   for (;;) {

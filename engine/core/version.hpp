@@ -1,5 +1,5 @@
 #pragma once
-/// Which Septet this is, as logs and every program's `--version` say.
+/// Version of this build, in logs and every program's `--version`.
 
 #include <string>
 #include <string_view>
@@ -7,7 +7,7 @@
 namespace septet {
 
 extern const std::string_view version;   ///< As in CMakeLists.txt and CHANGELOG.md.
-extern const std::string_view revision;  ///< Of git, short, when it was configured; empty outside a checkout.
+extern const std::string_view revision;  ///< Short git commit at configuration; empty outside a checkout.
 
 /// "0.1.0 (6409bab)".
 std::string version_text();

@@ -16,7 +16,7 @@ struct FileCloser {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// Into that place; a failure names the file's own path.
+/// Writes to `place`; a failure names `path`.
 Expected<void> write_bytes(const fs::path& place, const fs::path& path, std::string_view what,
                            std::span<const std::byte> bytes) {
   const auto failed = [&](const char* doing) {
@@ -30,7 +30,7 @@ Expected<void> write_bytes(const fs::path& place, const fs::path& path, std::str
   const bool written =
       std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
   if (!written) return failed("write");
-  // The last error of a full disk or a network file system may come only here.
+  // A full disk or a network file system may report its last error only here.
   if (std::fclose(file.release()) != 0) return failed("write");
   return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Writing a file that has its name only when it is whole: until then it is NAME.part.
+/// Writes a file that takes its name only when it is complete: until then it is NAME.part.
 
 #include <cstddef>
 #include <filesystem>
@@ -11,12 +11,13 @@
 
 namespace septet {
 
-/// Lets `fill` write NAME.part and gives that the name. What stood there stays until then, and a failure leaves no part.
-/// Error: that of `fill`, or why the part cannot take the name.
+/// Lets `fill` write NAME.part and renames it. An older file stays until then, and a failure leaves no part. Error:
+/// that of `fill`, or the reason why the part cannot be renamed.
 Expected<void> write_whole_file(const std::filesystem::path& path,
                                 const std::function<Expected<void>(const std::filesystem::path& part)>& fill);
 
-/// The same with these bytes, which are, in the Error's words, an `image` or the like. A device or a pipe is written to.
+/// Writes these bytes likewise; the Error calls them `what`, an "image" or the like. A device or a pipe is written to
+/// directly.
 Expected<void> write_whole_file(const std::filesystem::path& path, std::string_view what,
                                 std::span<const std::byte> bytes);
 

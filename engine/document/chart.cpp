@@ -51,7 +51,8 @@ std::string x_line(const Frame& frame, std::string_view x_label) {
          text("x-label", (frame.left + frame.right) / 2, frame.bottom + 36, x_label);
 }
 
-/// At most two points for each column of the picture that a line enters: the lowest and the highest, in their order.
+/// Thins a line to two points for each column of the picture that it enters: the lowest and the highest, in their
+/// order.
 std::vector<Point> thinned(const std::vector<Point>& line, const Axis& x) {
   if (line.size() < 2000) return line;
   std::vector<Point> result;
@@ -85,7 +86,7 @@ std::string path_of(const std::vector<Point>& line, const Axis& x, const Axis& y
   return path;
 }
 
-/// What a series is called in the style: "line", and for those after the first "line s1", "line s2", …
+/// CSS class of a series: "line", and for those after the first "line s1", "line s2", …
 std::string css_class(const Series& series, std::size_t number) {
   std::string name = series.stroke == Stroke::dots ? "dots" : "line";
   if (series.stroke == Stroke::dashed) name += " dashed";
@@ -104,7 +105,7 @@ std::string drawn(const Series& series, std::size_t number, const Axis& x, const
   return svg;
 }
 
-/// Series without a name are in no legend.
+/// Rows of the legend; series without a name have none.
 std::size_t legend_rows(const LineChart& chart) {
   const auto named = std::ranges::count_if(chart.series, [](const Series& series) { return !series.name.empty(); });
   return chart.series.size() > 1 ? (static_cast<std::size_t>(named) + 1) / 2 : 0;
@@ -129,7 +130,7 @@ std::string legend(const LineChart& chart, const Frame& frame) {
   return svg;
 }
 
-/// Over all points that can be drawn, by one of their coordinates.
+/// Range over all points that can be drawn, by one of their coordinates.
 Range range_of(const LineChart& chart, double Point::*coordinate) {
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const Series& series : chart.series)

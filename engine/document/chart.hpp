@@ -1,5 +1,6 @@
 #pragma once
-/// Charts as SVG for an HTML page that brings the style (classes `axis`, `grid`, `line`, `bar`, `mark`, …); chart_page.hpp makes a file of its own.
+/// Charts as SVG for an HTML page that brings the style (classes `axis`, `grid`, `line`, `bar`, `mark`, …);
+/// chart_page.hpp makes a stand-alone file.
 
 #include <optional>
 #include <string>
@@ -17,7 +18,7 @@ struct Point {
 enum class Stroke { line, dashed, dots };
 
 struct Series {
-  std::string name;  ///< In the legend, where there are several; an empty one is not in it.
+  std::string name;  ///< Name in the legend, where there are several; an empty one is left out.
   std::vector<Point> points;
   Stroke stroke = Stroke::line;
 };
@@ -33,10 +34,11 @@ struct LineChart {
   std::string title, x_label, y_label;
   std::vector<Series> series;
   std::vector<Mark> marks;
-  std::vector<Point> band_low, band_high;      ///< A shaded band behind the lines, edges with the same x.
-  std::optional<Range> x;                      ///< Nothing: from the first point to the last.
-  std::optional<Range> y;                      ///< Nothing: round numbers around what there is.
-  std::optional<std::vector<double>> y_ticks;  ///< Nothing: round numbers; empty: the height has no meaning of its own.
+  std::vector<Point> band_low, band_high;  ///< A shaded band behind the lines, edges with the same x.
+  std::optional<Range> x;                  ///< Empty: from the first point to the last.
+  std::optional<Range> y;                  ///< Empty: round numbers around the values.
+  /// Absent: round numbers; an empty list: the height has no meaning of its own.
+  std::optional<std::vector<double>> y_ticks;
 };
 
 struct Bar {
@@ -64,12 +66,13 @@ struct BarChart {
 std::string to_svg(const LineChart& chart);
 std::string to_svg(const BarChart& chart);
 
-/// Where a chart is drawn within a picture.
+/// Place of a chart within a picture.
 struct Place {
   double x = 0.0, y = 0.0, width = 960.0, height = 260.0;
 };
 
-/// What is inside of an `svg` element. Long lines are thinned to the lowest and highest value of each column of the picture, so that no peak is lost.
+/// Content of an `svg` element. Long lines are thinned to the lowest and highest value of each column of the picture,
+/// so that no peak is lost.
 std::string drawn(const LineChart& chart, const Place& place);
 
 }  // namespace septet::document

@@ -1,5 +1,5 @@
 #pragma once
-/// Charts as an SVG file that stands by itself.
+/// Charts as a stand-alone SVG file.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace septet::document {
 struct ChartPage {
   std::string title;
   std::vector<std::string> lines;  ///< Below the title.
-  std::vector<LineChart> charts;   ///< Two by two; one by itself is larger.
+  std::vector<LineChart> charts;   ///< Two by two; a single one is larger.
   std::vector<std::string> notes;  ///< In a column on the right.
 };
 

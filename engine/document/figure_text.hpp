@@ -1,5 +1,5 @@
 #pragma once
-/// Figures as text: what every command that measures writes.
+/// Figures as text, for every command that measures.
 
 #include <span>
 #include <string>
@@ -12,7 +12,7 @@ namespace septet::document {
 
 /// The members of `about`, then the list `figures`.
 std::string figures_json(Json about, std::span<const Figure> figures);
-/// "name: value unit", for beside a plot.
+/// "name: value unit", for notes beside a plot.
 std::vector<std::string> figure_notes(std::span<const Figure> figures);
 
 }  // namespace septet::document

@@ -1,5 +1,5 @@
 #pragma once
-/// JSON as Septet writes it: members in the order in which they were added, no number that JSON has not.
+/// JSON as Septet writes it: members in the order of addition, no number beyond JSON's.
 
 #include <string>
 
@@ -9,10 +9,10 @@ namespace septet::document {
 
 using Json = nlohmann::ordered_json;
 
-/// Numbers that are not finite become null.
+/// A number; non-finite ones become null.
 Json number(double value);
 
-/// The text of a value, and a line's end. Bytes that are no UTF-8 are replaced.
+/// Text of a value, with a newline at its end. Bytes that are not UTF-8 are replaced.
 std::string text_of(const Json& json);
 
 }  // namespace septet::document

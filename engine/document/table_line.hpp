@@ -8,13 +8,13 @@
 
 namespace septet::document {
 
-/// Without blanks, the end of a line and a byte order mark around it.
+/// Strips blanks, a line's end and a byte order mark from both ends.
 std::string_view trimmed(std::string_view text);
 
-/// What lies between the commas, trimmed; of an empty line one empty cell. Nothing is quoted in Septet's tables.
+/// Cells between the commas, trimmed; an empty line has one empty cell. Septet's tables have no quotes.
 std::vector<std::string_view> cells_of(std::string_view line);
 
-/// The number that a cell is, and nothing where it is anything else or more.
+/// The number in a cell, and empty where the cell holds anything else or more.
 template <class Number>
 std::optional<Number> number_in(std::string_view cell) {
   Number value{};

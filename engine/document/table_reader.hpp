@@ -1,6 +1,6 @@
 #pragma once
-/// Reads one TOML table key by key, with ranges, and remembers the first thing that was wrong. For .cpp files that read a TOML
-/// file: toml++ types, which it only names, stay there.
+/// Reads one TOML table key by key, with ranges, and remembers the first error. For .cpp files that read a TOML file:
+/// toml++ types, which it only names, stay there.
 
 #include <cstdint>
 #include <functional>
@@ -37,9 +37,9 @@ class TableReader {
   Vec3 get_point(std::string_view key);
   std::vector<const toml::table*> get_tables(std::string_view key);
   const toml::table* get_table(std::string_view key);
-  /// Null where the key is absent, or no list, which is reported.
+  /// Null where the key is absent, or is not a list, which is reported.
   const toml::array* get_array(std::string_view key);
-  /// Reports a key that nobody asked for; `documented_in` is the file that lists those there are.
+  /// Reports a key that was never read; `documented_in` is the file that lists the known ones.
   void finish(std::string_view documented_in);
   /// Reports with line and column of `key`, or of the table where the key is absent.
   void report(std::string_view key, std::string what, std::string remedy);

@@ -1,5 +1,5 @@
 #pragma once
-/// Writing a text file, whole or not at all; engine/core/regular_file.hpp reads one.
+/// Writes a text file, whole or not at all; engine/core/regular_file.hpp reads one.
 
 #include <filesystem>
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace septet::document {
 
-/// Writes beside the target and renames, so that a reader never meets half a file.
+/// Writes beside the target and renames, so that a reader never sees half a file.
 Expected<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// (name, text) each as a file of `folder`, which is made where it is not there.
+/// Writes (name, text) each as a file of `folder`, which is created where it does not exist.
 Expected<void> write_text_files(const std::filesystem::path& folder,
                                 const std::vector<std::pair<std::string, std::string>>& files);
 

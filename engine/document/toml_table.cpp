@@ -10,9 +10,9 @@ namespace septet::document {
 namespace {
 
 constexpr int most_parts = 16;
-constexpr std::size_t most_bytes = 1u << 20;  // Ten times the largest file that anybody writes by hand.
+constexpr std::size_t most_bytes = 1u << 20;  // Ten times the largest file written by hand.
 
-/// Steps over a string that begins at `at`; the place behind its end.
+/// Skips a string that begins at `at`; returns the place behind its end.
 std::size_t behind_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string threefold(3, quote);
@@ -32,7 +32,7 @@ std::size_t behind_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// What toml++ must not see: where it begins (npos: nowhere), and what it is.
+/// Text that toml++ must not see: its beginning (npos: there is none), and its kind.
 struct Unreadable {
   std::size_t at = std::string_view::npos;
   std::string what, remedy;
@@ -44,19 +44,19 @@ std::size_t behind_blanks(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of(" \t", at), text.size());
 }
 
-/// Whether the header of a table whose first bracket stands at `at` goes on with what toml++ takes for granted there (it asserts it): a
-/// key, or the bracket that closes an empty one, which it refuses itself.
+/// True where the header of a table whose first bracket stands at `at` continues with the text that toml++ assumes (it
+/// asserts it): a key, or the bracket that closes an empty one, which it refuses itself.
 bool begins_with_key(std::string_view text, std::size_t at) {
   at = behind_blanks(text, at + 1);
   if (at < text.size() && text[at] == '[') at = behind_blanks(text, at + 1);
   return at == text.size() || is_bare_key_character(text[at]) || text[at] == '"' || text[at] == '\'' || text[at] == ']';
 }
 
-/// The first key of more parts than anybody needs, or the first header of a table whose name does not begin as a key does. Numbers count
-/// as keys of two parts. What follows the first mistake of a text does not matter: nobody reads on.
+/// The first key of too many parts, or the first header of a table whose name does not begin as a key does. Numbers
+/// count as keys of two parts. Text after the first mistake does not matter: parsing stops there.
 Unreadable find_unreadable(std::string_view text) {
   int parts = 1;
-  int open_brackets = 0;  // Of the arrays and tables within a value: a bracket there begins no header.
+  int open_brackets = 0;  // Open arrays and tables within a value: a bracket there begins no header.
   bool line_begins = true;
   std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // A byte order mark.
   while (at < text.size()) {

@@ -26,7 +26,7 @@ namespace {
 
 constexpr float largest_half = 65504.0f;
 
-/// OpenEXR goes back to write where its parts lie.
+/// Seekable: OpenEXR goes back to write the offsets of its parts.
 class BytesStream : public Imf::OStream {
  public:
   explicit BytesStream(Bytes& bytes) : Imf::OStream("memory"), bytes_(bytes) {}
@@ -60,7 +60,7 @@ Imf::Header header_of(const Picture& picture) {
   Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709.
   Imf::addWhiteLuminance(header, picture.white_luminance_cdpm2);
   Imf::addFramesPerSecond(header, Imf::guessExactFps(picture.frames_per_second));
-  // A point is a row there, before the matrix: a column of ours is a row of theirs.
+  // A point is a row vector there, before the matrix: a column of ours is a row of theirs.
   Imath::M44f camera;
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row) camera[column][row] = static_cast<float>(picture.camera_from_world[column][row]);
@@ -76,7 +76,7 @@ Imf::Header header_of(const Picture& picture) {
   return header;
 }
 
-/// Halves of what they can hold.
+/// Clamped to the range of halves.
 std::vector<half> halves_of(const std::vector<float>& values) {
   std::vector<half> halves(values.size());
   std::transform(values.begin(), values.end(), halves.begin(), [](float value) {
@@ -109,7 +109,7 @@ Bytes encode(const Picture& picture) {
     } else {
       first = values.data();
     }
-    // OpenEXR only reads what it is given to write.
+    // OpenEXR only reads the data of this slice.
     buffer.insert(channel.name, Imf::Slice(type_of(channel), static_cast<char*>(const_cast<void*>(first)), bytes,
                                            bytes * picture.width));
   }

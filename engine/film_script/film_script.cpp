@@ -128,7 +128,8 @@ Script default_script(double from_s, double to_s, double frames_per_second) {
   if (frames < least_frames) return {{eyes}};
   Shot around{.from_s = eyes.to_s, .to_s = at(0.75), .distance_m = 8.0, .where = where};
   around.heading_rad = 150.0 * radians, around.pitch_rad = -14.0 * radians;
-  // The even part turns by 160° in half of the shot; speeding up to that rate takes 40° in a quarter of it, and so does slowing down.
+  // The even part turns by 160° in half of the shot; speeding up to that rate takes 40° in a quarter of it, and so does
+  // slowing down.
   around.turns = {{at(0.4125), 110.0 * radians, -13.0 * radians, 1.0},
                   {at(0.6375), -50.0 * radians, -9.0 * radians, 0.0},
                   {at(0.75), -90.0 * radians, -8.0 * radians, -1.0}};

@@ -54,7 +54,7 @@ void MeshBuilder::patch(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 
 void MeshBuilder::append(const PolygonMesh& part, const glm::mat4& to_builder, bool recolor) {
   const auto offset = static_cast<std::uint32_t>(mesh_.vertices_m.size());
-  // Of its own edges, or of what was there before; a builder without polygons shows neither by what it holds.
+  // Creases of its own edges, or of earlier parts; a builder without polygons shows neither by its content.
   const bool creased = !mesh_.edge_creases.empty() || !part.edge_creases.empty() ||
                        part.default_edge_crease != mesh_.default_edge_crease;
   if (creased) give_edge_creases(mesh_);
@@ -75,7 +75,7 @@ void MeshBuilder::append(const PolygonMesh& part, const glm::mat4& to_builder, b
 
 void crease_by_angle(PolygonMesh& mesh, float angle_rad) {
   give_edge_creases(mesh);
-  // The polygon and corner on each directed edge; the other side of an edge runs the other way.
+  // The polygon and corner on each directed edge; the neighbour has the edge in the opposite direction.
   std::map<Edge, std::pair<std::size_t, std::uint32_t>> sides;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const std::uint32_t count = corner_count(mesh.polygons[i]);

@@ -1,10 +1,8 @@
 #pragma once
-/// Puts a PolygonMesh together polygon by polygon: the pen that every generated shape is drawn
-/// with.
+/// Builds a PolygonMesh polygon by polygon; all generated shapes are made with it.
 ///
-/// Polygons take the builder's current material. Corners are given counter-clockwise seen from the
-/// front. Texture coordinates are optional; a mesh has them for every polygon or (0, 0) where a
-/// polygon had none. Metres.
+/// Polygons take the builder's current material. Corners are given counter-clockwise seen from the front. Texture
+/// coordinates are optional; a mesh has them for every polygon or (0, 0) where a polygon had none. Metres.
 
 #include <array>
 #include <span>
@@ -49,14 +47,13 @@ void crease_by_angle(PolygonMesh& mesh, float angle_rad);
 /// Marks the edge between two vertices in every polygon that has it.
 void crease_edge(PolygonMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t value = crease_sharp);
 
-/// Moves, turns and scales; a mirroring transform also turns the polygons round.
+/// Moves, turns and scales; a mirroring transform also reverses the polygons.
 PolygonMesh transformed(const PolygonMesh& mesh, const glm::mat4& transform);
 
 /// A copy for the other side: y becomes −y.
 PolygonMesh mirrored_y(const PolygonMesh& mesh);
 
-/// Replaces texture coordinates by the projection along the main axis of each polygon, in metres
-/// times `per_metre`.
+/// Replaces texture coordinates by the projection along the main axis of each polygon, in metres times `per_metre`.
 void project_box_uvs(PolygonMesh& mesh, float per_metre);
 
 }  // namespace septet::geometry

@@ -1,5 +1,5 @@
 #pragma once
-/// What a mesh is: finite, closed, which way out, how large, how many triangles.
+/// Properties of a mesh: finite, closed, orientation, size, number of triangles.
 
 #include <glm/vec3.hpp>
 
@@ -9,7 +9,7 @@ namespace septet::geometry {
 
 bool is_finite(const PolygonMesh& mesh);
 
-/// Every edge is run along exactly once in each direction.
+/// True where every edge occurs exactly once in each direction.
 bool is_closed(const PolygonMesh& mesh);
 
 /// Positive for a closed mesh whose polygons face outwards.

@@ -1,13 +1,12 @@
 #pragma once
-/// A mesh of triangles and quads with creases: what is modelled, before it is subdivided and
-/// triangulated.
+/// A mesh of triangles and quads with creases, as modelled, before subdivision and triangulation.
 ///
-/// The single primitive of the Verse platform (Brink, Steenberg and Svensson 2006, §2.5.1), either
-/// drawn as it is or used as the control cage of a subdivision surface. Metres, the frame of the
-/// object that will carry it. Polygons are counter-clockwise seen from the front.
+/// The single primitive of the Verse platform (Brink, Steenberg and Svensson 2006, §2.5.1), either drawn as it is or
+/// used as the control cage of a subdivision surface. Metres, the frame of the object that will carry it. Polygons are
+/// counter-clockwise seen from the front.
 ///
-/// Crease values are the Verse's: 0 is smooth, 0xFFFFFFFF is sharp, between them smoothness falls
-/// linearly (see subdivision.hpp). A border edge is always sharp.
+/// Crease values are the Verse's: 0 is smooth, 0xFFFFFFFF is sharp, between them smoothness falls linearly (see
+/// subdivision.hpp). A border edge is always sharp.
 
 #include <array>
 #include <cstdint>

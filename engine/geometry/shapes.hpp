@@ -1,6 +1,6 @@
 #pragma once
-/// The shapes that scenery is put together from. All are closed and face outwards unless said
-/// otherwise; texture coordinates are in metres times nothing (1 m = 1) unless said otherwise.
+/// Basic shapes of scenery. All are closed and face outwards unless said otherwise; texture coordinates are in metres
+/// (1 m = 1) unless said otherwise.
 
 #include <span>
 #include <vector>
@@ -28,18 +28,16 @@ PolygonMesh lathe(std::span<const LathePoint> profile, std::uint32_t sides);
 /// A cylinder along z with both ends closed.
 PolygonMesh cylinder(float radius_m, float low_m, float high_m, std::uint32_t sides);
 
-/// One cross-section on the way of an extrusion: the profile's (x, y) are placed along right and
-/// up.
+/// One cross-section along the path of an extrusion: the profile's (x, y) are placed along right and up.
 struct PathFrame {
   glm::vec3 position_m;
   glm::vec3 right, up;
   float length_m = 0.0f;  ///< Along the path so far: the texture's v.
 };
 
-/// `profile` carried along `path`. Seen along the path, its front is to the right of the profile's
-/// direction: a counter-clockwise tube (`closed` joins the last point to the first) faces outwards,
-/// a sheet from right to left faces up. `cap` closes a convex tube's ends. u is the length along
-/// the profile, v the length along the path.
+/// `profile` carried along `path`. Seen along the path, its front is to the right of the profile's direction: a
+/// counter-clockwise tube (`closed` joins the last point to the first) faces outwards, a sheet from right to left faces
+/// up. `cap` closes a convex tube's ends. u is the length along the profile, v the length along the path.
 PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFrame> path, bool closed, bool cap = false);
 
 /// An icosahedron whose triangles are split `splits` times; radius 1, 20·4^splits triangles.

@@ -16,7 +16,7 @@ namespace {
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
-/// A vector with the two functions that OpenSubdiv's refiner asks of what it interpolates.
+/// A vector with the two functions that OpenSubdiv's refiner requires of interpolated values.
 template <class Vector>
 struct Blend {
   Vector value;
@@ -61,13 +61,13 @@ std::uint32_t vertex_crease(const PolygonMesh& mesh, std::size_t vertex) {
   return mesh.vertex_creases.empty() ? mesh.default_vertex_crease : mesh.vertex_creases[vertex];
 }
 
-/// For one level: a weight below one blends, OpenSubdiv's infinity is sharp.
+/// Sharpness for one level: a weight below one blends, OpenSubdiv's infinity is sharp.
 float one_level_sharpness(std::uint32_t crease) {
   return crease == crease_sharp ? Sdc::Crease::SHARPNESS_INFINITE
                                 : std::min(static_cast<float>(sharp_weight(crease)), 0.999999f);
 }
 
-/// What OpenSubdiv is told of the mesh; the descriptor points into the vectors.
+/// OpenSubdiv's description of the mesh; the descriptor points into the vectors.
 struct Topology {
   std::vector<int> face_sizes, face_vertices, creased_pairs, creased_vertices, uv_indices;
   std::vector<float> edge_sharpness, vertex_sharpness;
@@ -123,8 +123,7 @@ std::unique_ptr<Far::TopologyRefiner> refine_once(const Topology& topology, bool
   return refiner;
 }
 
-/// Creases of the next level: a vertex's own, and an edge's on both of its halves; what lies inside
-/// a face is smooth.
+/// Creases of the next level: a vertex's own, and an edge's on both of its halves; edges inside a face are smooth.
 void inherit_creases(const PolygonMesh& mesh, const EdgeCreases& creases, const Far::TopologyLevel& parent,
                      PolygonMesh& refined) {
   if (!mesh.vertex_creases.empty() || mesh.default_vertex_crease != crease_smooth) {

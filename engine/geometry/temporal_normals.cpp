@@ -16,7 +16,7 @@ glm::vec3 unit_or_zero(const glm::vec3& v) {
   return length > 0.0f ? v / length : glm::vec3(0.0f);
 }
 
-/// What is kept of a face; as many as its method needs.
+/// Vectors kept of a face; as many as its method needs.
 using FaceVectors = std::array<glm::vec3, 4>;
 
 /// Coefficients of the polynomial through normals at equal distances of t, lowest first.
@@ -97,7 +97,7 @@ TemporalNormals::TemporalNormals(NormalMethod method, std::span<const MovingFace
     : method_(method), count_(faces.size()) {
   constexpr std::array<std::size_t, normal_method_count> plane_count{9, 6, 9, 12, 6, 12, 8};
   const std::size_t planes = plane_count[static_cast<std::size_t>(method)];
-  // Planes a multiple of 4 KiB apart would fight for the same places of the cache.
+  // Planes a multiple of 4 KiB apart would compete for the same cache sets.
   constexpr std::size_t page = 1024, apart = 80;
   stride_ = (count_ + page - 1) / page * page + apart;
   planes_.resize(planes * stride_);

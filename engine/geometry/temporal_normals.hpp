@@ -1,11 +1,12 @@
 #pragma once
 /// Face normals between two keyframes of a mesh whose vertices move along straight lines.
 ///
-/// Source: Parus, Hast and Kolingerová, "Temporal Face Normal Interpolation" (SIGRAD 2006). The t-variant cross product
-/// (eqs. 2 and 3) is exact; it is what Septet draws with. Preparing it costs a sixth of preparing linear interpolation, which
-/// needs normals at both ends; evaluating costs 1.2 to 1.45 times as much, because nine coefficients are read and multiplied where
-/// linear has six, whatever their layout (DECISIONS.md, 19). For a pair of keyframes shown in two frames it is 5.7 times cheaper.
-/// The others are here to be compared. Frame and unit are those of the vertices.
+/// Source: Parus, Hast and Kolingerová, "Temporal Face Normal Interpolation" (SIGRAD 2006). Septet draws with the
+/// t-variant cross product (eqs. 2 and 3), which is exact. Preparing it costs a sixth of preparing linear
+/// interpolation, which needs normals at both ends; evaluating costs 1.2 to 1.45 times as much, because nine
+/// coefficients are read and multiplied where linear has six, whatever their layout (DECISIONS.md, 19). For a pair of
+/// keyframes shown in two frames it is 5.7 times cheaper. The other methods are here for comparison. Frame and unit are
+/// those of the vertices.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +30,7 @@ enum class NormalMethod : std::uint8_t {
 inline constexpr int normal_method_count = 7;
 std::string_view name_of(NormalMethod method);
 
-/// One number for each face of each component: flat, so that many faces are worked on at once.
+/// One number for each face of each component: flat, so that the loops vectorise over faces.
 struct FaceNormals {
   std::vector<float> x, y, z;
 };
@@ -46,7 +47,7 @@ std::vector<MovingFace> moving_faces(std::span<const glm::vec3> from, std::span<
 /// The normal as eq. 1 gives it; zero for a face without area.
 glm::vec3 face_normal(const MovingFace& face, float t);
 
-/// Everything that does not depend on t is worked out on construction.
+/// Computes everything that does not depend on t on construction.
 class TemporalNormals {
  public:
   TemporalNormals(NormalMethod method, std::span<const MovingFace> faces);

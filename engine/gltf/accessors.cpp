@@ -45,10 +45,10 @@ T value_at(const char* bytes) {
   return value;
 }
 
-/// Where the rows lie, all of them within `bytes`.
+/// Layout of the rows, all of them within `bytes`.
 struct Layout {
   std::string_view bytes;
-  std::vector<char> owned;  ///< What `bytes` are of, where the rows stand nowhere in the file as they are.
+  std::vector<char> owned;  ///< Storage of `bytes`, where the file does not hold the rows as they are.
   std::size_t count = 0, width = 0, stride = 0;
   Component component = Component::f32;
   bool normalised = false;
@@ -63,7 +63,7 @@ struct ViewRows {
   std::size_t stride = 0;
 };
 
-/// `json`: of an accessor, or of a sparse one's indices or values; only an accessor's rows may lie apart.
+/// `json`: of an accessor, or of a sparse one's indices or values; only an accessor's rows may be strided.
 Expected<ViewRows> rows_in_view(const Container& container, const Json& json, std::size_t size, std::size_t count,
                                 bool may_lie_apart, const std::string& where) {
   const std::int64_t view = index_in(json, "bufferView"), offset = index_in(json, "byteOffset", 0);
@@ -152,7 +152,7 @@ Expected<Layout> layout_of(const Container& container, std::int64_t accessor, st
     layout.stride = rows->stride;
     if (!is_sparse) return layout;
   }
-  // Without a view the rows are zeros (3.6.2.3); what is sparse is written over a copy.
+  // Without a view the rows are zeros (3.6.2.3); sparse rows are written over a copy.
   layout.owned.assign(layout.count * size, '\0');
   if (has_view)
     for (std::size_t i = 0; i < layout.count; ++i) std::memcpy(layout.owned.data() + i * size, layout.row(i), size);

@@ -1,5 +1,5 @@
 #pragma once
-/// What accessors say: rows of numbers somewhere in a buffer (glTF 2.0, 3.6.2), those that a sparse part writes over included.
+/// Contents of accessors: rows of numbers in a buffer (glTF 2.0, 3.6.2), with those of a sparse part written over them.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,8 @@ struct Rows {
   std::vector<float> numbers;
 };
 
-/// Error: no such accessor, another width than one from `least_width` to `most_width`, a type that glTF has not, more than `most_rows`, rows beyond
-/// their view, a number that is none.
+/// Error: no such accessor, another width than one from `least_width` to `most_width`, an unknown type, more than
+/// `most_rows`, rows beyond their view, a non-finite number.
 Expected<Rows> read_rows(const Container& container, std::int64_t accessor, std::size_t least_width,
                          std::size_t most_width, std::size_t most_rows);
 

@@ -23,7 +23,7 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// How many values a JSON text can hold at most: what its tree takes is known before it is made.
+/// Upper bound of the values in a JSON text: the size of its tree is known before it is made.
 std::size_t values_in(std::string_view json) {
   std::size_t values = 0;
   bool in_text = false;
@@ -43,7 +43,7 @@ struct Chunks {
   std::string_view json, binary;
 };
 
-/// Error: it is cut off, or no glTF.
+/// Error: it is cut off, or not glTF.
 Expected<Chunks> chunks_of(std::string_view bytes, const std::string& where) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && bytes[first] == '{') return Chunks{bytes, {}};

@@ -1,5 +1,5 @@
 #pragma once
-/// The outer form of a glTF file: its JSON, and the bytes of its buffers (glTF 2.0, chapters 4 and 3.6.1).
+/// The container of a glTF file: its JSON, and the bytes of its buffers (glTF 2.0, chapters 4 and 3.6.1).
 
 #include <cstdint>
 #include <memory>
@@ -13,9 +13,9 @@
 
 namespace septet::gltf {
 
-using Json = nlohmann::json;  ///< With members by name: a file may have as many as it likes.
+using Json = nlohmann::json;  ///< Members sorted by name: a file may have any number.
 
-/// The remedy where an exporter has made a mistake.
+/// The remedy for an exporter's mistake.
 inline constexpr const char* export_anew = "export it anew as glTF 2.0 binary (.glb)";
 
 struct Container {
@@ -26,10 +26,10 @@ struct Container {
 
 Expected<Container> open_container(std::string_view bytes, std::string_view where);
 
-/// The elements of a list of the file's root, or of `json`'s; none where there is no such list.
+/// The elements of a list of the file's root, or of `json`'s; empty where there is no such list.
 const Json& list_of(const Json& json, const char* name);
 
-/// A whole number ≥ 0 of an object; `otherwise` where there is none. A number that is no such is −1, as nothing is.
+/// A whole number ≥ 0 of an object; `otherwise` where it is absent. Any other value is −1, an index to nothing.
 std::int64_t index_in(const Json& object, const char* name, std::int64_t otherwise = -1);
 
 /// A finite number of an object, or `otherwise`.
@@ -40,7 +40,7 @@ std::string text_in(const Json& object, const char* name);
 /// False where there is no such member, or one of another kind.
 bool is_true_in(const Json& object, const char* name);
 
-/// The bytes of a data: URI. Error: it is another URI, or no base64.
+/// The bytes of a data: URI. Error: another kind of URI, or invalid base64.
 Expected<std::string> bytes_of_uri(const std::string& uri, const std::string& where);
 
 /// The bytes of a buffer view. Error: there is no such view, or it reaches beyond its buffer.

@@ -31,7 +31,7 @@ constexpr std::size_t deepest_node = 256;
 /// glTF's x is left, y up, z forward; ours x forward, y left, z up.
 glm::vec3 our_axes(const glm::vec3& p) { return {p.z, p.x, p.y}; }
 
-/// Joins what has the same place and normal.
+/// Joins vertices of the same place and normal.
 struct Corner {
   std::array<float, 6> numbers;
   bool operator==(const Corner&) const = default;
@@ -44,7 +44,7 @@ struct CornerHash {
   }
 };
 
-/// A part while it is put together.
+/// A part under construction.
 struct Growing {
   Part part;
   std::unordered_map<Corner, std::uint32_t, CornerHash> known;
@@ -98,7 +98,7 @@ class Reader {
     return {};
   }
 
-  /// Of the default scene; without scenes those that are nobody's child.
+  /// Root nodes of the default scene; without scenes the nodes that are no node's child.
   Expected<std::vector<std::int64_t>> root_nodes() const {
     std::vector<std::int64_t> roots;
     const Json& scenes = list_of(*container_.json, "scenes");
@@ -127,7 +127,7 @@ class Reader {
 
   std::string node_place(std::int64_t index) const { return fmt::format("{}, node {}", container_.where, index); }
 
-  /// Nothing where there are no such `numbers` of them.
+  /// Empty where there are no such `numbers` of them.
   template <std::size_t count>
   static std::optional<std::array<float, count>> numbers_of(const Json& object, const char* name) {
     const Json& list = list_of(object, name);
@@ -207,7 +207,7 @@ class Reader {
                                Growing& growing) {
     constexpr std::int64_t triangle_list = 4, triangle_fan = 6;
     const std::int64_t mode = index_in(primitive, "mode", triangle_list);
-    if (mode < triangle_list || mode > triangle_fan) return {};  // Points and lines are nothing to be seen.
+    if (mode < triangle_list || mode > triangle_fan) return {};  // Points and lines are not drawn.
     static const Json none = Json::object();
     const Json& attributes = primitive.contains("attributes") ? primitive["attributes"] : none;
     const auto positions = read_rows(container_, index_in(attributes, "POSITION"), 3, 3, most_vertices);

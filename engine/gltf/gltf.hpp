@@ -1,15 +1,15 @@
 #pragma once
-/// A person's own glTF 2.0 file as what the scenery draws: meshes by the node that they hang at, and the numbers of their materials.
+/// A user's own glTF 2.0 file as scenery: meshes by node, and their materials' numbers.
 ///
-/// Read of a file: the default scene's nodes with their transforms; triangles, strips and fans with positions, normals, texture coordinates
-/// and the mean of the first vertex colours, sparse accessors too; of materials base colour (factor and PNG texture, which may name its set of
-/// coordinates and transform them), metallic, roughness, emissive (with
-/// KHR_materials_emissive_strength), alpha, and transmission as transparency. Skins and shapes to morph into stay as they were modelled; cameras,
-/// lights, animations and other textures are passed over.
-/// A file is whole in itself: a .glb, or a .gltf whose buffers are data: URIs. What it names outside of itself is never opened.
+/// Read from a file: the default scene's nodes with their transforms; triangles, strips and fans with positions,
+/// normals, texture coordinates and the mean of the first vertex colours, sparse accessors too; of materials base
+/// colour (factor and PNG texture, which may name its set of coordinates and transform them), metallic, roughness,
+/// emissive (with KHR_materials_emissive_strength), alpha, and transmission as transparency. Skins and morph targets
+/// stay as they were modelled; cameras, lights, animations and other textures are skipped. A file is self-contained: a
+/// .glb, or a .gltf whose buffers are data: URIs. External files that it names are never opened.
 ///
-/// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres. Vertices are joined where
-/// position and normal agree, so that edges which the file keeps sharp stay sharp.
+/// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres.
+/// Vertices are joined where position and normal agree, so that edges which the file keeps sharp stay sharp.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,20 +27,20 @@
 
 namespace septet::gltf {
 
-/// What a file may hold. A thing is drawn many times a picture, on every screen.
+/// Limits of a file. A model is drawn many times a picture, on every screen.
 inline constexpr std::size_t largest_file_bytes = 64u << 20, most_triangles = 200'000, most_vertices = 600'000,
                              most_materials = 64, most_parts = 64;
-/// Pictures are drawn in half until they are no larger than the second.
+/// Pictures are halved until they are no larger than the second.
 inline constexpr std::uint32_t largest_picture_px = 4096, drawn_picture_px = 1024;
-/// Further from its origin nothing lies; a file that says so is not in metres.
+/// Limit of distances from its origin; a file beyond it is not in metres.
 inline constexpr float furthest_m = 2000.0f;
 
-/// Which texture coordinates of a vertex a picture lies by (glTF 2.0, 3.9.2), and KHR_texture_transform on them: scaled, then turned, then moved.
+/// Selects the texture coordinates of a picture (glTF 2.0, 3.9.2), with KHR_texture_transform on them: scaled, then
+/// turned, then moved.
 struct PictureMapping {
   std::uint32_t uv_set = 0;  ///< n of TEXCOORD_n.
   glm::dvec2 scale{1.0}, offset{0.0};
-  double rotation_rad =
-      0.0;  ///< Of the coordinates about their origin, counter-clockwise as the picture is seen; v points down.
+  double rotation_rad = 0.0;  ///< About the coordinates' origin, counter-clockwise in the picture; v points down.
 
   glm::dvec2 operator()(const glm::dvec2& uv) const;
 };
@@ -50,29 +50,29 @@ struct Look {
   std::string name;
   glm::vec3 base_color{1.0f};
   std::int32_t picture = -1;  ///< Indexes Model::pictures; multiplies base_color.
-  PictureMapping mapping;     ///< Where the picture's coordinates come from.
+  PictureMapping mapping;     ///< Mapping of the picture's coordinates.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
   glm::vec3 emission{0.0f};
   bool two_sided = false;  ///< The file's `doubleSided`.
 };
 
-/// What moves or shines as one, or everything else.
+/// A part that moves or shines as one, or the rest.
 struct Part {
-  std::string name;            ///< Of the node that begins it; empty: everything that belongs to none.
+  std::string name;            ///< Name of the node that begins it; empty: everything that belongs to no part.
   glm::vec3 origin_m{0.0};     ///< The node's place in the model; the mesh is relative to it, axes as the model's.
   geometry::PolygonMesh mesh;  ///< Materials are indices of Model::looks.
 };
 
 struct Model {
-  std::vector<Part> parts;  ///< None without a triangle.
+  std::vector<Part> parts;  ///< Empty without a triangle.
   std::vector<Look> looks;
   std::vector<image::Image> pictures;
   glm::vec3 least_m{0.0f}, most_m{0.0f};  ///< Bounds of all parts.
-  std::vector<std::string> left_out;      ///< What was read past and may be missed, each a sentence.
+  std::vector<std::string> left_out;      ///< Skipped contents that may be missed, each a sentence.
 };
 
 /// `where` names the file in errors. A node whose name `begins_part` accepts starts a part, with everything below it.
-/// Error, whatever the bytes: what is wrong with which accessor, node or chunk, and what to do.
+/// Error, for any bytes: the fault, its accessor, node or chunk, and the remedy.
 Expected<Model> read_gltf(std::string_view bytes, std::string_view where,
                           const std::function<bool(std::string_view)>& begins_part);
 

@@ -47,7 +47,7 @@ glm::vec3 factor_of(const Json& object, const char* name, const glm::vec3& other
 
 float share(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
-/// Half the size, each pixel the mean of four; the last row and column of odd sizes are left away.
+/// Half the size, each pixel the mean of four; the last row and column of odd sizes are dropped.
 Image halved(const Image& picture) {
   Image half(std::max(picture.width / 2, 1u), std::max(picture.height / 2, 1u));
   for (std::uint32_t y = 0; y < half.height; ++y)
@@ -130,7 +130,7 @@ class Looks {
             .rotation_rad = number_in(transform, "rotation", 0.0)};
   }
 
-  /// Which image a texture shows.
+  /// Index of a texture's image.
   std::optional<std::int64_t> source_of(const Json& texture) const {
     const std::int64_t index = index_in(texture, "index");
     const Json& textures = list_of(*container_.json, "textures");
@@ -141,7 +141,7 @@ class Looks {
     return source;
   }
 
-  /// Nothing where the picture is of a kind that is not read, which has then been told.
+  /// Empty where the picture is of an unsupported kind, which is then reported.
   Expected<std::optional<Image>> picture_of(const Json& texture, const std::string& material) {
     const auto source = source_of(texture);
     if (!source)
@@ -185,7 +185,7 @@ class Looks {
     return glm::vec3(sum / (255.0 * static_cast<double>(pixels)));
   }
 
-  /// The picture's index among the model's; alpha cuts out only where the material says so.
+  /// The picture's index among the model's; alpha cuts out only where the material asks for it.
   std::int32_t drawn(Image picture, std::int64_t source, const std::string& mode) {
     const bool cut = mode == "MASK" || mode == "BLEND";
     const auto [known, is_new] = drawn_.try_emplace({source, cut}, static_cast<std::int32_t>(model_.pictures.size()));

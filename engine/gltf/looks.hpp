@@ -1,5 +1,5 @@
 #pragma once
-/// Materials and the pictures that they wear (glTF 2.0, 3.9 and 3.8).
+/// Materials and their pictures (glTF 2.0, 3.9 and 3.8).
 
 #include "engine/gltf/container.hpp"
 #include "engine/gltf/gltf.hpp"

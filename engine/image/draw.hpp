@@ -1,13 +1,11 @@
 #pragma once
-/// Small drawing on images. Coordinates are pixels, x to the right, y down; what falls outside is
-/// cut off.
+/// Small drawing on images. Coordinates are pixels, x to the right, y down; drawing is clipped to the image.
 
 #include "engine/image/image.hpp"
 
 namespace septet::image {
 
-/// `over` seen through to `under` by its alpha times `coverage` (0…1); the result's alpha never
-/// falls.
+/// `over` blended onto `under` by its alpha times `coverage` (0…1); the result's alpha never falls.
 Color blend(Color under, Color over, float coverage = 1.0f);
 
 /// The rectangle [x, x + width) × [y, y + height), blended.

@@ -1,8 +1,7 @@
 #pragma once
 /// Text on images, rasterised by FreeType from Debian's DejaVu Sans.
 ///
-/// A Font is not safe to share between threads: FreeType keeps the size that was asked for last in
-/// the face.
+/// A Font is not safe to share between threads: FreeType keeps the last requested size in the face.
 
 #include <memory>
 #include <string_view>
@@ -23,8 +22,7 @@ class Font {
   Font& operator=(Font&&) noexcept;
   ~Font();
 
-  /// How far `text` (UTF-8) runs to the right at `size_px` pixels an em. Broken UTF-8 is drawn as
-  /// U+FFFD.
+  /// Width of `text` (UTF-8) at `size_px` pixels an em. Broken UTF-8 is drawn as U+FFFD.
   double width_px(std::string_view text, double size_px) const;
 
   /// Height of a capital H at `size_px`.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t most_pixels_a_side = 16384;
 
-/// libjpeg ends the program at an error unless somebody jumps out of it.
+/// libjpeg ends the program at an error unless a handler jumps out of it.
 struct Failure {
   jpeg_error_mgr manager;
   std::jmp_buf back;
@@ -22,7 +22,7 @@ struct Failure {
 [[noreturn]] void fail(j_common_ptr info) { std::longjmp(reinterpret_cast<Failure*>(info->err)->back, 1); }
 void say_nothing(j_common_ptr) {}
 
-/// All that needs no destructor: a jump leaves it. Answers whether `out` holds the file.
+/// All code without destructors: a jump leaves it. Returns true where `out` holds the file.
 bool write(const Image& image, int quality, std::byte* row, unsigned char*& out, unsigned long& size) {
   jpeg_compress_struct info{};
   Failure failure{};

@@ -20,8 +20,7 @@ double unwrapped(double angle, double near) {
 
 Vec3 middle(const PanoramaScreen& screen) { return (screen.lower_right_m + screen.upper_left_m) / 2.0; }
 
-/// The row of `screens` around `centre_rad`, its size from the screens' edges; its place is left
-/// open.
+/// The row of `screens` around `centre_rad`, its size from the screens' edges; its place is left open.
 PanoramaRow measure_row(const PanoramaView& view, std::vector<std::size_t> screens, double centre_rad,
                         double pixels_per_rad) {
   double left = centre_rad, right = centre_rad, top = 0.0, bottom = 0.0;

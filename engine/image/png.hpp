@@ -1,6 +1,5 @@
 #pragma once
-/// Images as PNG files (libpng). Any PNG is read; 8-bit RGBA is written. Thread-safe: no shared
-/// state.
+/// Images as PNG files (libpng). Any PNG is read; 8-bit RGBA is written. Thread-safe: no shared state.
 
 #include <filesystem>
 #include <span>
@@ -16,12 +15,11 @@ enum class PngEffort { fast, small };
 
 Bytes encode_png(const Image& image, PngEffort effort = PngEffort::small);
 
-/// Refuses what is not a PNG and what is larger than 16,384 pixels a side. `where` names the source
-/// in errors.
+/// Error: not a PNG, or larger than 16,384 pixels a side. `where` names the source in errors.
 Expected<Image> decode_png(std::span<const std::byte> bytes, std::string_view where);
 
-/// Whole or not at all: it is written beside its place (`.part`) and renamed. Fails with the system's reason: no such folder, no
-/// permission, disk full; what stood there before stays.
+/// Whole or not at all: it is written beside its place (`.part`) and renamed. Error: the system's reason (no such
+/// folder, no permission, disk full); an older file stays.
 Expected<void> write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::small);
 
 Expected<Image> read_png(const std::filesystem::path& path);

@@ -6,10 +6,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/light/clouds.hpp"
+
 namespace septet::instant {
 namespace {
-
-constexpr float height_m = 1600.0f, tile_m = 9000.0f;
 
 /// A number in [0, 1) for a lattice point: an integer hash.
 float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
@@ -45,10 +45,6 @@ void add_octave(std::vector<float>& sum, std::uint32_t period, std::uint32_t oct
       sum[y * cloud_noise_side + x] += glm::mix(above, below, row.share);
     }
   }
-}
-
-float density(std::span<const std::uint8_t> noise, float cover, const glm::vec2& at) {
-  return glm::smoothstep(1.0f - cover - 0.08f, 1.0f - cover + 0.34f, cloud_rank(noise, at));
 }
 
 }  // namespace
@@ -88,23 +84,21 @@ std::vector<std::uint8_t> cloud_noise() {
 }
 
 glm::vec2 cloud_drift_m(const Environment& environment, double simulated_time_s) {
-  const double drift_m = std::fmod(simulated_time_s * 2.0 * environment.wind_speed_mps, double(tile_m));
+  const double drift_m = std::fmod(simulated_time_s * 2.0 * environment.wind_speed_mps, double(light::cloud_tile_m));
   return {-drift_m * std::cos(environment.wind_direction_rad), -drift_m * std::sin(environment.wind_direction_rad)};
 }
 
-CloudSeen cloud_seen(std::span<const std::uint8_t> noise, const SkyLight& light, double cloud_cover,
+CloudSeen cloud_seen(std::span<const std::uint8_t> noise, const SkyLight& sky, double cloud_cover,
                      const glm::vec2& drift_m, const glm::vec3& direction) {
   const auto cover = static_cast<float>(cloud_cover);
   if (!(cover > 0.0f) || direction.z <= 0.015f) return {};
-  const glm::vec2 at = (glm::vec2(direction) * (height_m / (direction.z + 0.12f)) + drift_m) / tile_m;
-  const float here = density(noise, cover, at);
-  const float beyond = density(noise, cover, at + glm::vec2(light.sun_direction) * 0.012f);
-  const float lit = std::exp2(-1.5f * beyond - 0.5f * here);
-  const float toward_sun = std::max(0.0f, glm::dot(direction, light.sun_direction));
-  const float forward = toward_sun * toward_sun;
-  return {light.light_irradiance * (0.46f * lit * (1.0f + 1.2f * forward * forward * forward)) +
-              light.sky_irradiance * (0.24f + 0.16f * lit),
-          here * glm::smoothstep(0.015f, 0.16f, direction.z) * (0.95f - 0.45f * light.overcast)};
+  const glm::vec2 place = light::cloud_place(direction, drift_m);
+  const float density = light::cloud_density(cloud_rank(noise, place), cover);
+  const glm::vec2 sunward = light::cloud_sunward(place, sky.sun_direction);
+  const float beyond = light::cloud_density(cloud_rank(noise, sunward), cover);
+  const float toward_sun = glm::dot(direction, sky.sun_direction);
+  return {light::cloud_radiance(density, beyond, toward_sun, sky.light_irradiance, sky.sky_irradiance),
+          light::cloud_hides(density, direction.z, sky.overcast)};
 }
 
 }  // namespace septet::instant

@@ -1,8 +1,5 @@
 #pragma once
-/// Clouds: a sheet of noise over the land, the twin of shaders/sky.frag.
-///
-/// They lie on a plane 1.6 km up, drift with the wind, twice as fast as it blows below, and repeat after 9 km. The noise holds ranks, so that a
-/// share of the sky as large as the weather's cloud cover lies above its limit.
+/// The noise that clouds are made of (engine/light/clouds.hpp), and how they drift: with the wind, twice as fast as it blows below.
 
 #include <cstdint>
 #include <span>
@@ -34,7 +31,7 @@ struct CloudSeen {
 };
 
 /// The cloud in a unit direction.
-CloudSeen cloud_seen(std::span<const std::uint8_t> noise, const SkyLight& light, double cloud_cover,
+CloudSeen cloud_seen(std::span<const std::uint8_t> noise, const SkyLight& sky, double cloud_cover,
                      const glm::vec2& drift_m, const glm::vec3& direction);
 
 }  // namespace septet::instant

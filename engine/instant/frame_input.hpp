@@ -13,7 +13,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/instant/ice_body.hpp"
 #include "engine/instant/mirror_glass.hpp"
 #include "engine/instant/view.hpp"
 #include "engine/math/rigid_transform.hpp"

@@ -1,9 +1,5 @@
 #pragma once
-/// What lies on glass at a point of it (OnGlass of engine/effects/ice/ice_body.hpp): the twin of shaders/ice_glass.frag, which also fades what
-/// is finer than a pixel.
-///
-/// Frost hides by Beer and Lambert what lies behind it, with the area that its grains have by their mass; its feathers, each a stem with barbs at
-/// 60° to it, are where that mass lies. A crack is a face that stands steep in the glass and mirrors; crushed glass is grains.
+/// Cover of glass at a point of it (OnGlass of ice_body.hpp): engine/light/frost.hpp and crack.hpp, with the noise.
 
 #include <cstdint>
 #include <span>
@@ -11,12 +7,6 @@
 #include <glm/vec3.hpp>
 
 namespace septet::instant {
-
-/// Of the light that falls on either side of frost, what leaves by both sides alike.
-inline constexpr float frost_albedo = 0.88f;
-
-/// Of a crack's face, which mirrors all light: as wide a highlight as that of shaders/ice_glass.frag.
-inline constexpr float crack_roughness = 0.4f;
 
 /// Share of what lies behind that frost hides. `rest_m`: of ice::frost_surface. `noise`: cloud_noise().
 float frost_hides(std::span<const std::uint8_t> noise, const glm::vec3& rest_m);

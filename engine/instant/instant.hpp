@@ -14,7 +14,7 @@
 /// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
 /// surfaces; water on wet roads (wet_road.hpp); what falls (environment.rain_mm_per_h) before an eye in the open; headlights by their beam; air
 /// that takes `extinction_per_m` of light and is as bright as the sky behind it, below the horizon as the sky just above it, and under a roof as
-/// the lamps there light it (`roofed_haze`).
+/// the lamps there light it (light::roofed_haze).
 
 #include <memory>
 #include <numbers>
@@ -36,19 +36,6 @@ struct LooseMesh {
   std::uint32_t material = 0;  ///< Indexes ResolvedScene::materials.
   float share_of_sky = 1.0f;
 };
-
-/// What lamps under a roof light with from all sides, irradiance; and what of it comes to a surface besides the pools that they throw. The shaders'
-/// twins: view.glsl, and surface.frag.
-inline constexpr glm::vec3 roofed_irradiance(1.5f * 0.35f, 1.3f * 0.35f, 1.0f * 0.35f);
-inline constexpr glm::vec3 irradiance_between_pools(1.5f * 0.24f, 1.3f * 0.24f, 1.0f * 0.24f);
-
-/// Radiance of haze between an eye and a surface that are both under a roof.
-inline const glm::vec3 roofed_haze = roofed_irradiance / std::numbers::pi_v<float>;
-
-/// How far such haze stands for all that lies between two places, by their shares of the sky.
-inline float roofed_between(float one_share_of_sky, float other_share_of_sky) {
-  return (1.0f - one_share_of_sky) * (1.0f - other_share_of_sky);
-}
 
 struct Instant {
   double simulated_time_s = 0.0;

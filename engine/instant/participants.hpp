@@ -21,7 +21,7 @@ struct LampGlow {
   float main_beam = 0.0f;  ///< Of a headlamp: how far its main beam is lit beside the dipped one, 0 to 1.
 };
 
-/// Where the headlights of one vehicle stand and point (headlight_beam.hpp): near the eye each lamp's beam by itself, from further away the pair's as one.
+/// Where the headlights of one vehicle stand and point (engine/light/beam.hpp): near the eye each lamp's beam by itself, from further away the pair's as one.
 struct Headlight {
   Vec3 position_m{0.0};                   ///< World; of a pair the middle between them.
   glm::vec3 direction{1.0f, 0.0f, 0.0f};  ///< Unit, world axes; the level from which the beam's angles count.

@@ -46,7 +46,7 @@ glm::vec3 direction_of(float column, float row, float columns, float rows) {
 
 }  // namespace
 
-std::array<SkyTable, roughness_steps> sky_by_roughness(const SkyLight& light) {
+std::array<SkyTable, light::roughness_steps> sky_by_roughness(const SkyLight& light) {
   constexpr std::uint32_t columns = SkyTable::columns, rows = SkyTable::rows, coarser = 2;
   const glm::vec3 ground = light.ground_irradiance / half_turn_rad;
   // The sky's own azimuths, the sun's being x.
@@ -56,11 +56,11 @@ std::array<SkyTable, roughness_steps> sky_by_roughness(const SkyLight& light) {
     return direction.z > 0.0f ? sky_radiance(from_sun, {direction.x, direction.y, std::max(direction.z, 2e-3f)})
                               : ground;
   };
-  std::array<SkyTable, roughness_steps> tables;
+  std::array<SkyTable, light::roughness_steps> tables;
   tables[0].radiance = light.table.radiance;
   std::fill_n(tables[0].radiance.begin(), std::size_t{rows / 2} * columns, ground);
-  for (std::uint32_t step = 1; step < roughness_steps; ++step) {
-    const std::vector<Lobe> lobe = lobe_of(roughness_step * static_cast<float>(step));
+  for (std::uint32_t step = 1; step < light::roughness_steps; ++step) {
+    const std::vector<Lobe> lobe = lobe_of(light::roughness_step * static_cast<float>(step));
     // Of every other direction: what is rough has no detail.
     constexpr std::uint32_t few_columns = columns / coarser, few_rows = rows / coarser;
     std::vector<glm::vec3> few(std::size_t{few_columns} * few_rows);

@@ -7,17 +7,13 @@
 /// Made once for a SkyLight, the same bit for bit each time.
 
 #include <array>
-#include <cstdint>
 
 #include "engine/instant/atmosphere.hpp"
+#include "engine/light/sky_tables.hpp"
 
 namespace septet::instant {
 
-/// Steps of roughness, from a mirror on; the last is for all that is rougher.
-inline constexpr std::uint32_t roughness_steps = 5;
-inline constexpr float roughness_step = 0.175f;
-
-/// In each the table's directions, row by row as in SkyTable.
-std::array<SkyTable, roughness_steps> sky_by_roughness(const SkyLight& light);
+/// One a step of roughness; in each the table's directions, row by row as in SkyTable.
+std::array<SkyTable, light::roughness_steps> sky_by_roughness(const SkyLight& light);
 
 }  // namespace septet::instant

@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/instant/clouds.hpp"
+#include "engine/light/wet_road.hpp"
 
 namespace septet::instant {
 namespace {
@@ -62,28 +63,25 @@ std::optional<RoadPlane> road_below(std::span<const DrawnParticipant> participan
   return plane;
 }
 
-float rut_at(float u) { return 1.0f - glm::smoothstep(0.05f, 0.12f, std::abs(std::abs(u - 0.5f) - 0.23f)); }
-
 float puddle(std::span<const std::uint8_t> noise, double x_m, double y_m, float rut, float wetness) {
-  const float share = 0.25f * std::clamp(2.0f * wetness - 1.0f, 0.0f, 1.0f);
+  const float share = light::puddle_share(wetness);
   if (share <= 0.0f) return 0.0f;
-  const glm::vec2 at(x_m / puddle_tile_m - std::floor(x_m / puddle_tile_m),
-                     y_m / puddle_tile_m - std::floor(y_m / puddle_tile_m));
-  const float hollow = cloud_rank(noise, at) + 0.12f * rut;
-  return glm::smoothstep(1.0f - share, 1.05f - share, hollow);
+  const double across = x_m / light::puddle_tile_m, along = y_m / light::puddle_tile_m;
+  const glm::vec2 at(across - std::floor(across), along - std::floor(along));
+  return light::puddle_at(cloud_rank(noise, at), rut, share);
 }
 
 std::vector<glm::vec2> ripple_slopes(double rain_mm_per_h, double simulated_time_s) {
   constexpr double life_s = 0.5, speed_mps = 0.23, wave_m = 0.03, height_m = 0.0006, train_m = 0.03;
-  constexpr double most_rain_mm_per_h = 200.0;
+  constexpr double most_rain_mm_per_h = 200.0, tile_m = light::ripple_tile_m;
   std::vector<glm::vec2> slopes(std::size_t{ripple_side} * ripple_side, glm::vec2(0.0f));
   if (!(rain_mm_per_h > 0.0) || !std::isfinite(simulated_time_s)) return slopes;
   // Drops above D fall at a rate of N0 v/Λ·exp(−ΛD) on each square metre: N0 = 8000 /(m³·mm), v about 8 m/s.
   const double rain = std::min(rain_mm_per_h, most_rain_mm_per_h), per_mm = 4.1 * std::pow(rain, -0.21);
   const double per_m2_s = 8000.0 * 8.0 / per_mm * std::exp(-2.0 * per_mm);
-  const double wanted = per_m2_s * life_s * ripple_tile_m * ripple_tile_m;
+  const double wanted = per_m2_s * life_s * tile_m * tile_m;
   const auto rings = static_cast<std::uint32_t>(std::min(400.0, std::ceil(wanted)));
-  constexpr double texel_m = ripple_tile_m / ripple_side;
+  constexpr double texel_m = tile_m / ripple_side;
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
     const double lives = simulated_time_s / life_s + chance(ring, 0, 0);
     const double whole = std::floor(lives), age_s = (lives - whole) * life_s;

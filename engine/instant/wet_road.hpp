@@ -1,9 +1,5 @@
 #pragma once
-/// Water on a road: the plane that it mirrors in, where puddles stand, and the rings of rain on them; the twin of shaders/wet_road.glsl.
-///
-/// Puddles stand still: hollows of the asphalt are a sheet of noise over the world (clouds.hpp) that repeats after `puddle_tile_m`, deeper where
-/// wheels have worn ruts. From half wetness on, water fills the deepest; at full wetness a quarter of the road lies under it. The
-/// film between covers a share of the road that grows with wetness, and its facets are as rough as the stones below it.
+/// Water on a road: the plane that it mirrors in, where puddles stand, and the rings of rain on them. How wet asphalt looks: engine/light/wet_road.hpp.
 ///
 /// Rings: of the drops above 2 mm (Marshall and Palmer 1948), each a train of waves that runs outwards at 0.23 m/s, the slowest at which
 /// waves run on water, and is gone after half a second. They lie in a tile of a metre that repeats, and are a function of rain and time alone.
@@ -32,20 +28,12 @@ struct RoadPlane {
 std::optional<RoadPlane> road_below(std::span<const DrawnParticipant> participants,
                                     std::span<const scene::Prototype> prototypes, const Vec3& eye_m);
 
-/// How much of a wet road mirrors between its puddles.
-inline constexpr float film_share = 0.36f, film_roughness = 0.12f, puddle_roughness = 0.03f;
-inline constexpr double puddle_tile_m = 48.0;
-
-/// Share of a place under water, 0 to 1. `noise`: cloud_noise(). `rut`: 1 where wheels run.
+/// Share of a place under water, 0 to 1: light::puddle_at. `noise`: cloud_noise(), over the world. `rut`: 1 where wheels run.
 float puddle(std::span<const std::uint8_t> noise, double x_m, double y_m, float rut, float wetness);
 
-/// From the middle of a lane's image (u from 0 at one edge to 1 at the other) to its ruts: 1 in them.
-float rut_at(float u);
-
 inline constexpr std::uint32_t ripple_side = 128;
-inline constexpr double ripple_tile_m = 1.0;
 
-/// Slopes of water along x and y at an instant, row after row; level without rain.
+/// Slopes of water along x and y at an instant within light::ripple_tile_m, row after row; level without rain.
 std::vector<glm::vec2> ripple_slopes(double rain_mm_per_h, double simulated_time_s);
 
 }  // namespace septet::instant

@@ -1,5 +1,5 @@
 #pragma once
-/// The acceleration of gravity that everything falls with: vehicles, debris, what a driver feels.
+/// Acceleration of gravity for all models: vehicles, debris, forces on the driver.
 
 namespace septet {
 

@@ -5,11 +5,11 @@
 /// 2006). After n of k steps the angle is θ(σ(n/k)² + (1−σ)n/k) (eqs. 7–11); a step is two complex multiplications
 /// (section 2, De Moivre). σ = 0 turns at constant rate, σ > 0 speeds up, σ < 0 slows down.
 ///
-/// Rounding: in double the vectors stay unit length to 10⁻⁹ over 10⁴ steps, and nothing is renormalised, as the paper says.
-/// In float they would leave it by 10⁻² within 10³ steps; there each factor is multiplied by (3 − |Z|²)/2, one step of
-/// Newton's iteration. Here steps must be equal, as a film's frames are (sim-client/film/camera_path.hpp); screens show
-/// instants that follow the server's clock, and wheels turn by many angles at once: they evaluate single instants with
-/// slerp_quadratic and varied_share (spherical_interpolation.hpp).
+/// Rounding: in double the vectors stay unit length to 10⁻⁹ over 10⁴ steps, and nothing is renormalised, as the paper
+/// says. In float they would leave it by 10⁻² within 10³ steps; there each factor is multiplied by (3 − |Z|²)/2, one
+/// step of Newton's iteration. Here steps must be equal, as a film's frames are (sim-client/film/camera_path.hpp);
+/// screens show instants that follow the server's clock, and wheels turn by many angles at once: they evaluate single
+/// instants with slerp_quadratic and varied_share (spherical_interpolation.hpp).
 
 #include <array>
 #include <cmath>
@@ -45,8 +45,8 @@ class IncrementalTurn {
  public:
   using Vector = UnitVector<Scalar, Dimension>;
 
-  /// From one unit vector to another in `steps` steps. Refused: |sigma| > 1, no steps, vectors that are not of unit length
-  /// (to 10⁻³), and antipodal ones, between which no way is the shortest. Equal vectors stay where they are.
+  /// Turns from one unit vector to another in `steps` steps. Error: |sigma| > 1, no steps, vectors not of unit length
+  /// (to 10⁻³), and antipodal ones, between which no path is the shortest. Equal vectors stay where they are.
   static Expected<IncrementalTurn> between(const Vector& from, const Vector& to, std::size_t steps, Scalar sigma = 0) {
     const auto refuse = [](const char* what, const char* remedy) {
       return failure(what, "turn between unit vectors", remedy);
@@ -108,7 +108,7 @@ class IncrementalTurn {
   Scalar angle_rad_ = 0;
 };
 
-/// The same for orientations, the shorter way round: q and −q are one orientation, so nothing is antipodal.
+/// Turns between orientations, by the shorter path: q and −q are one orientation, so no pair is antipodal.
 inline Expected<IncrementalTurn<double, 4>> turn_between(const Quat& from, const Quat& to, std::size_t steps,
                                                          double sigma = 0.0) {
   const double sign = glm::dot(from, to) < 0.0 ? -1.0 : 1.0;

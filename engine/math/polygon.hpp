@@ -8,7 +8,8 @@
 
 namespace septet {
 
-/// Whether p lies inside, by the even-odd rule. Corners are anything with x and y; a polygon without any holds nothing.
+/// True where p lies inside, by the even-odd rule. Corners are anything with x and y; a polygon without corners is
+/// empty.
 template <class Corner>
 bool is_inside(const std::vector<Corner>& corners, const glm::dvec2& p) {
   bool inside = false;

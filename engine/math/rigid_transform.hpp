@@ -2,9 +2,9 @@
 /// Frames and rigid transforms.
 ///
 /// World frame: that of OpenDRIVE and ISO 8855: right-handed, metres, x east, y north, z up. Vehicle frame: x forward,
-/// y left, z up, origin on the ground below the middle of the rear axle (OpenSCENARIO 1.3, "Entity"). Angles are radians,
-/// heading counter-clockwise from x. A transform `a_from_b` takes coordinates in b to coordinates in a, so that
-/// neighbouring names agree: world_from_wheel = world_from_vehicle * vehicle_from_wheel.
+/// y left, z up, origin on the ground below the middle of the rear axle (OpenSCENARIO 1.3, "Entity"). Angles are
+/// radians, heading counter-clockwise from x. A transform `a_from_b` takes coordinates in b to coordinates in a, so
+/// that neighbouring names agree: world_from_wheel = world_from_vehicle * vehicle_from_wheel.
 
 #include <cmath>
 

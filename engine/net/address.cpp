@@ -7,8 +7,7 @@
 namespace septet::net {
 namespace {
 
-/// Reads one decimal number of at most `limit` from the front of `text`; false leaves the rest
-/// undefined.
+/// Reads one decimal number of at most `limit` from the front of `text`; false leaves `value` undefined.
 bool take_number(std::string_view& text, std::uint32_t limit, std::uint32_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || value > limit) return false;

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a datagram goes to or comes from: an IPv4 address and a UDP port.
+/// Address of a datagram's sender or receiver: an IPv4 address and a UDP port.
 
 #include <compare>
 #include <cstdint>
@@ -28,8 +28,7 @@ std::string to_text(const Address& address);
 /// "239.7.7.7".
 std::string ip_text(std::uint32_t ip);
 
-/// Reads "a.b.c.d:port"; `where` names the source of the text for the error ("rig.toml:
-/// network.group").
+/// Reads "a.b.c.d:port"; `where` names the source of the text for the error ("rig.toml: network.group").
 Expected<Address> parse_address(std::string_view text, std::string_view where);
 /// Reads "a.b.c.d", in host byte order.
 Expected<std::uint32_t> parse_ip(std::string_view text, std::string_view where);

@@ -1,8 +1,8 @@
 #pragma once
-/// Notices that the list of allowed clients has changed, so that a key that is taken off it is out at once.
+/// Notices changes of the list of allowed clients, so that removing a key disconnects its client at once.
 ///
-/// It asks for the file's inode, size and time of change four times a second, and reads it when two looks in a row agree: an editor that
-/// writes it piece by piece does not throw everybody out. Time only as an argument. One thread.
+/// Checks the file's inode, size and time of change four times a second, and reads it once two successive checks agree:
+/// an editor that writes it piece by piece disconnects no client. Time only as an argument. One thread.
 
 #include <ctime>
 #include <filesystem>
@@ -17,10 +17,11 @@ namespace septet::net {
 
 class AllowedClientsWatch {
  public:
-  /// The list as it is now is the one that is known.
+  /// Takes the file as it stands now for the known list.
   explicit AllowedClientsWatch(std::filesystem::path file);
 
-  /// The new list, or why there is none: then the known one still holds. Nothing where nothing has changed.
+  /// The new list, or the reason why it cannot be read: then the known one still holds. Empty where nothing has
+  /// changed.
   std::optional<Expected<std::vector<AllowedClient>>> changed(double now_s);
 
  private:

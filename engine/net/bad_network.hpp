@@ -1,7 +1,6 @@
 #pragma once
-/// A network in one process, on simulated time, as bad as a test wants it: seeded loss, latency,
-/// jitter (hence reordering) and duplication, and bounded receive buffers. The same seed and
-/// traffic give the same faults.
+/// A simulated network in one process, on simulated time, for tests: seeded loss, latency, jitter (hence reordering)
+/// and duplication, and bounded receive buffers. The same seed and traffic give the same faults.
 ///
 ///     BadNetwork network({.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, 42);
 ///     auto server = network.open({0x0a000001, 4750});
@@ -22,11 +21,11 @@
 namespace septet::net {
 
 struct NetworkFaults {
-  double loss = 0.0;         ///< Probability that one receiver does not get one datagram.
-  double duplication = 0.0;  ///< Probability that it gets it twice.
+  double loss = 0.0;         ///< Probability that one receiver misses a datagram.
+  double duplication = 0.0;  ///< Probability that a receiver gets a datagram twice.
   double latency_s = 0.0002;
   double jitter_s = 0.0;                       ///< Added to the latency, uniform in [0, jitter_s).
-  std::size_t receive_buffer_bytes = 4 << 20;  ///< Per socket; what does not fit is lost.
+  std::size_t receive_buffer_bytes = 4 << 20;  ///< Per socket; datagrams beyond it are lost.
 };
 
 struct TrafficCount {
@@ -42,21 +41,20 @@ class BadNetwork {
   BadNetwork(const BadNetwork&) = delete;
   BadNetwork& operator=(const BadNetwork&) = delete;
 
-  /// A socket at this address (its port must not be 0 nor taken). It must not outlive the network.
+  /// Opens a socket at this address (its port must be neither 0 nor taken). The network must outlive it.
   std::unique_ptr<DatagramSocket> open(const Address& address);
-  /// A socket that hears what is sent to `group`, and sends from `own`.
+  /// Opens a socket that receives datagrams sent to `group`, and sends from `own`.
   std::unique_ptr<DatagramSocket> open_group(const Address& group, const Address& own);
 
-  /// Moves simulated time on; what is due by then can be received. Time never goes back.
+  /// Advances simulated time; datagrams due by then can be received. Time never goes back.
   void advance_to(double now_s);
   /// Applies to datagrams sent from now on.
   void set_faults(const NetworkFaults& faults) { faults_ = faults; }
-  /// From one machine to another, this way only: so many times `NetworkFaults::latency_s`.
+  /// Multiplies `NetworkFaults::latency_s` from one machine to another, in this direction only.
   void set_latency_share(std::uint32_t from_ip, std::uint32_t to_ip, double share) {
     latency_shares_[{from_ip, to_ip}] = share;
   }
-  /// What the socket at this address has sent, before any fault and once per send, however many
-  /// receive it.
+  /// Traffic sent by the socket at this address: before any fault, counted once per send, however many receive it.
   TrafficCount sent_by(const Address& address) const;
 
   struct Socket;
@@ -72,7 +70,7 @@ class BadNetwork {
   void close(Socket& socket);
 
   NetworkFaults faults_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> latency_shares_;  ///< 1 where there is none.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> latency_shares_;  ///< 1 for pairs that are absent.
   Random random_;
   double now_s_ = 0.0;
   std::uint64_t launches_ = 0;

@@ -10,7 +10,7 @@ constexpr std::size_t largest_datagram = 65507;
 constexpr std::size_t lan_datagram = 1200, loopback_datagram = 16384;
 constexpr std::size_t max_unreliable_bytes = 256 * 1024;
 constexpr std::size_t max_pongs = 8;
-/// Whatever the other end claims to bear.
+/// Upper bound on the window that the other end announces.
 constexpr std::size_t max_window_bytes = 64u << 20;
 /// Kind and length of an unreliable frame.
 constexpr std::size_t unreliable_overhead = 1 + 3;
@@ -60,8 +60,8 @@ std::optional<std::uint32_t> connection_of(std::span<const std::byte> datagram) 
 Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer, std::size_t sharers) {
   const std::size_t automatic = is_loopback(peer) ? loopback_datagram : lan_datagram;
   const std::size_t datagram = limits.max_datagram_bytes == 0 ? automatic : limits.max_datagram_bytes;
-  // Linux counts the memory that a datagram occupies, twice its length for one of 1,200 bytes; a
-  // third leaves air.
+  // Linux counts the memory that a datagram occupies, twice its length for one of 1,200 bytes; a third leaves room to
+  // spare.
   const std::size_t flight = socket.receive_buffer_bytes() / 3 / std::max<std::size_t>(sharers, 1);
   return {.max_datagram_bytes = static_cast<std::uint32_t>(std::min(datagram, largest_datagram)),
           .max_message_bytes = limits.max_message_bytes,
@@ -83,7 +83,7 @@ Channel::Channel(const Options& options, double now_s)
 Channel::Verdict Channel::accept(const ReceivedDatagram& received, double now_s,
                                  std::vector<ChannelMessage>& messages) {
   const std::span<const std::byte> datagram = received.bytes;
-  // Whoever draws or computes for a while takes what came meanwhile for later than it was.
+  // A program that drew or computed for a while reads waiting datagrams late: the system's arrival time counts.
   const double arrived_s = std::min(received.arrived_s.value_or(now_s), now_s);
   ByteReader header(datagram.subspan(scene_prefix_bytes));
   header.get<std::uint32_t>();
@@ -172,7 +172,7 @@ std::size_t Channel::emit(DatagramSocket& socket, double now_s, std::size_t budg
 
     const std::uint64_t number = next_number_;
     if (!seal_and_send(socket)) {
-      // The system takes no more: the fragments count as sent and lost, the rest stays due.
+      // The system accepts no more: the fragments count as sent and lost, the rest stays due.
       if (!fragments.empty()) sender_.packet_sent(number, now_s, text_.size() - before, std::move(fragments));
       return sent;
     }
@@ -202,7 +202,7 @@ bool Channel::seal_and_send(DatagramSocket& socket) {
   std::array<std::byte, data_header_bytes> header;
   std::copy_n(datagram_.begin(), data_header_bytes, header.begin());
   seal(options_.keys.sending, next_number_, header, text_, datagram_);
-  // The number is used up even if the datagram is not sent: no two texts are ever sealed with one.
+  // The number is used up even if the datagram is not sent: no two plaintexts are ever sealed with one number.
   ++next_number_;
   if (!socket.send(options_.peer, datagram_)) return false;
   ++counters_.datagrams_sent;

@@ -18,16 +18,15 @@
 
 namespace septet::net {
 
-/// So that a flood of datagrams cannot hold whoever pumps.
+/// Bounds one pump, so that a flood of datagrams cannot hold the calling thread.
 inline constexpr std::size_t max_datagrams_per_pump = 8192;
 inline constexpr std::size_t data_header_bytes = scene_prefix_bytes + 4 + 8;
 
-/// Connection number of a data datagram; none if it is too short to be one.
+/// Connection number of a data datagram; empty if it is too short to be one.
 std::optional<std::uint32_t> connection_of(std::span<const std::byte> datagram);
-/// What this end announces to `peer`, from its limits and its socket's buffer, which `sharers`
-/// other ends fill.
+/// Terms that this end announces to `peer`, from its limits and its socket's buffer, which `sharers` other ends fill.
 Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer, std::size_t sharers);
-/// Whether a connection can be kept on these terms at all.
+/// True if a connection can be kept on these terms.
 bool are_usable(const Terms& terms);
 
 struct ChannelMessage {
@@ -48,26 +47,25 @@ class Channel {
 
   enum class Verdict : std::uint8_t {
     good,
-    refused,  ///< Counted, nothing changed.
+    refused,  ///< Counted, state unchanged.
     broken,   ///< Authentic but against the protocol: disconnect.
     goodbye,
   };
-  /// Opens a datagram that carries this connection's number, and appends what it completes.
+  /// Opens a datagram that carries this connection's number, and appends the messages that it completes.
   Verdict accept(const ReceivedDatagram& datagram, double now_s, std::vector<ChannelMessage>& messages);
 
   SendResult send(SharedBytes message, Reliability reliability, AddressKey key);
   void ping() { ping_due_ = true; }
   void say_goodbye(std::string_view reason, DatagramSocket& socket);
 
-  /// Finds losses; once per pump, after receiving.
+  /// Detects losses; once per pump, after receiving.
   void advance_to(double now_s) { sender_.advance_to(now_s); }
-  /// Sends what is due, up to about `budget_bytes` of new or resent fragments; returns how many
-  /// bytes went out.
+  /// Sends due frames, up to about `budget_bytes` of new or resent fragments; returns the number of bytes sent.
   std::size_t emit(DatagramSocket& socket, double now_s, std::size_t budget_bytes);
   bool wants_to_send() const { return sender_.wants_to_send(); }
 
   std::uint32_t connection() const { return options_.connection; }
-  /// What the other end said with its goodbye; any bytes.
+  /// Reason in the other end's goodbye; any bytes.
   const std::string& goodbye() const { return goodbye_; }
   const Address& peer() const { return options_.peer; }
   double heard_s() const { return heard_s_; }
@@ -81,7 +79,7 @@ class Channel {
   bool seal_and_send(DatagramSocket& socket);
 
   Options options_;
-  std::size_t max_text_bytes_;  ///< Of the frames of one datagram.
+  std::size_t max_text_bytes_;  ///< Bound on the frames of one datagram.
   ReliableSender sender_;
   ReliableReceiver receiver_;
   ReceivedPackets received_;
@@ -94,7 +92,7 @@ class Channel {
   ClockEstimate clock_;
   ChannelCounters counters_;
   std::string goodbye_;
-  Bytes text_, datagram_;  ///< Of the datagram at hand; kept to spare allocations.
+  Bytes text_, datagram_;  ///< Buffers of the current datagram; kept to spare allocations.
   std::vector<Bytes> completed_;
 };
 

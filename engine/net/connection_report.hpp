@@ -1,6 +1,6 @@
 #pragma once
-/// What a client's operator is told of its connection: when it stands, when it is lost, and what keeps it from the server, once and every
-/// half minute while it does.
+/// Messages for a client's operator about its connection: when it is established, when it is lost, and the obstacle,
+/// once and then every half minute while it lasts.
 
 #include <optional>
 #include <string>
@@ -11,10 +11,10 @@ namespace septet::net {
 
 class ConnectionReport {
  public:
-  /// `who` as the server's list calls it: "ahead-2", "car".
+  /// `who` is the client's name in the server's list: "ahead-2", "car".
   ConnectionReport(Address server, PublicKey own_key, std::string who);
 
-  /// What is new, after each pump of the client. `welcome`: the server has taken it for what it says to be.
+  /// New message after a pump of the client, if any. `welcome`: the server has accepted the client's role.
   std::optional<std::string> look(const SecureClient& client, bool welcome, double now_s);
 
  private:

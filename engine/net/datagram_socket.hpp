@@ -1,10 +1,8 @@
 #pragma once
-/// The seam between Septet's protocols and the network: something that sends and receives datagrams
-/// without blocking.
+/// Interface between Septet's protocols and the network: a socket that sends and receives datagrams without blocking.
 ///
-/// `UdpSocket` is the real one; `BadNetwork` hands out simulated ones with loss, jitter, reordering
-/// and duplication. A datagram may be lost, repeated or reordered by either; nothing here reports
-/// that.
+/// `UdpSocket` is the real one; `BadNetwork` makes simulated ones with loss, jitter, reordering and duplication. A
+/// datagram may be lost, repeated or reordered by either without any report here.
 
 #include <cstddef>
 #include <optional>
@@ -17,7 +15,7 @@ namespace septet::net {
 struct ReceivedDatagram {
   Address from;
   std::span<const std::byte> bytes;  ///< Valid until the next call on the same socket.
-  /// When it arrived, by the machine's steady clock, however long it has waited since. Nothing: not known.
+  /// Arrival by the machine's steady clock, before any wait in the socket's buffer. Empty: unknown.
   std::optional<double> arrived_s{};
 };
 
@@ -25,14 +23,13 @@ class DatagramSocket {
  public:
   virtual ~DatagramSocket() = default;
 
-  /// Queues one datagram; `flush` puts the queue on the wire. False: the system takes no more now,
-  /// nothing was queued, and the caller tries again later (or, where newest wins, forgets it).
+  /// Queues one datagram; `flush` puts the queue on the wire. False: the system accepts no more now, the datagram was
+  /// not queued, and the caller tries again later (or drops it, where newest wins).
   virtual bool send(const Address& to, std::span<const std::byte> bytes) = 0;
   virtual void flush() = 0;
-  /// The next datagram that has arrived, or nothing.
+  /// The next datagram that has arrived, if any.
   virtual std::optional<ReceivedDatagram> receive() = 0;
-  /// Bytes that the system keeps for datagrams not yet received; the scene lane's window is derived
-  /// from it.
+  /// Size of the system's buffer for datagrams not yet received; the scene lane's window is derived from it.
   virtual std::size_t receive_buffer_bytes() const = 0;
 };
 

@@ -180,7 +180,7 @@ std::optional<HandshakeRefusal> ClientHandshake::accept_refusal(std::span<const 
   return static_cast<HandshakeRefusal>(reason);
 }
 
-/// The second half of the key exchange, and what was sealed at its end.
+/// Second half of the key exchange, and the text sealed at its end.
 std::optional<Transcript> ClientHandshake::open_answer(ByteReader& reader, Bytes& text) const {
   const auto echo = take_array<16>(reader);
   if (!std::equal(echo.begin(), echo.end(), ephemeral_.public_key.begin())) return std::nullopt;

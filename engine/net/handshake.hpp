@@ -1,9 +1,8 @@
 #pragma once
-/// The scene lane's handshake (PROTOCOL.md, "Handshake"): cookie, then a key exchange after Noise's
-/// pattern IK.
+/// The scene lane's handshake (PROTOCOL.md, "Handshake"): a cookie, then a key exchange after Noise's pattern IK.
 ///
-/// Pure functions of datagrams and keys: no socket, no clock. Whoever calls decides when to send
-/// and whom to allow.
+/// Pure functions of datagrams and keys: no socket, no clock. The caller decides when to send and which clients to
+/// allow.
 
 #include <cstdint>
 #include <optional>
@@ -19,14 +18,14 @@ namespace septet::net {
 enum class SceneDatagramKind : std::uint8_t { hello = 1, cookie, initiation, response, data, refusal };
 
 inline constexpr std::size_t scene_prefix_bytes = 3;
-/// Kind of a datagram of the scene lane; none if it does not begin like one.
+/// Kind of a datagram of the scene lane; empty if it does not begin like one.
 std::optional<SceneDatagramKind> scene_datagram_kind(std::span<const std::byte> datagram);
-/// Whether it begins like one, but of another version of the protocol.
+/// True if it begins like one, but of another version of the protocol.
 bool is_of_other_version(std::span<const std::byte> datagram);
-/// Appends the first three bytes.
+/// Appends the scene lane's three-byte prefix.
 void write_scene_prefix(SceneDatagramKind kind, ByteWriter& writer);
 
-/// What an end is ready to receive.
+/// Limits that an end announces for receiving.
 struct Terms {
   std::uint32_t max_datagram_bytes = 0;
   std::uint64_t max_message_bytes = 0;
@@ -40,10 +39,10 @@ struct ChannelKeys {
   Key32 sending{}, receiving{};
 };
 
-/// Why a server does not let a client in that it knows to speak with. On the wire as numbered here.
+/// Reason for which a server refuses a client whose initiation it could read. Numbers as on the wire.
 enum class HandshakeRefusal : std::uint8_t {
   key_unknown = 1,  ///< The client's key is not on the list.
-  key_in_use = 2,   ///< Another client with this key is connected and alive.
+  key_in_use = 2,   ///< Another client with this key is connected and live.
 };
 
 /// Chaining key and transcript hash of Noise's symmetric state.
@@ -54,7 +53,7 @@ class Transcript {
   void mix_key(const Key32& shared);
   void seal_text(std::span<const std::byte> text, Bytes& out);
   bool open_text(std::span<const std::byte> sealed, Bytes& out);
-  /// Client to server, then server to client.
+  /// Keys from client to server, then from server to client.
   KeyPair32 split() const;
 
  private:
@@ -63,14 +62,14 @@ class Transcript {
 
 class ClientHandshake {
  public:
-  /// None if the server's key is no point of the curve.
+  /// Empty if the server's key is not a point of the curve.
   static std::optional<ClientHandshake> start(const Identity& client, const PublicKey& server, const Terms& own);
 
   Bytes hello() const;
-  /// False: not the answer to this hello.
+  /// False: it does not belong to this hello.
   bool accept_cookie(std::span<const std::byte> datagram);
   bool has_cookie() const { return cookie_.has_value(); }
-  /// Needs the cookie.
+  /// Requires the cookie.
   Bytes initiation() const;
 
   struct Connected {
@@ -79,9 +78,9 @@ class ClientHandshake {
     Terms server;
     ChannelKeys keys;
   };
-  /// None: not from the pinned server, or not for this handshake.
+  /// Empty: not from the pinned server, or not for this handshake.
   std::optional<Connected> accept_response(std::span<const std::byte> datagram) const;
-  /// None: not from the pinned server, or not for this handshake.
+  /// Empty: not from the pinned server, or not for this handshake.
   std::optional<HandshakeRefusal> accept_refusal(std::span<const std::byte> datagram) const;
 
  private:
@@ -89,15 +88,15 @@ class ClientHandshake {
   std::optional<Transcript> open_answer(ByteReader& reader, Bytes& text) const;
   ExchangeKeys static_, ephemeral_;
   Transcript transcript_;
-  Bytes sealed_;  ///< Of the initiation: identity and terms.
+  Bytes sealed_;  ///< Ciphertext of the initiation: identity and terms.
   std::optional<Hash16> cookie_;
 };
 
-/// Makes and checks cookies; keeps nothing per client.
+/// Makes and checks cookies; keeps no state per client.
 class CookieJar {
  public:
   CookieJar() : secret_(random_key()) {}
-  /// The answer to a hello; none if it is not one.
+  /// The reply to a hello; empty if it is not one.
   std::optional<Bytes> answer(std::span<const std::byte> hello, const Address& from, double now_s) const;
   bool is_good(std::span<const std::byte> initiation, const Address& from, double now_s) const;
 
@@ -109,7 +108,7 @@ class CookieJar {
 /// The server's half, from a read initiation to the response.
 class ServerHandshake {
  public:
-  /// None: malformed, or not sealed for this server. Costs two scalar multiplications.
+  /// Empty: malformed, or not sealed for this server. Costs two scalar multiplications.
   static std::optional<ServerHandshake> accept(std::span<const std::byte> initiation, const Identity& server);
 
   const PublicKey& client() const { return client_; }
@@ -120,9 +119,9 @@ class ServerHandshake {
     Bytes response;
     ChannelKeys keys;
   };
-  /// None if the client's ephemeral key is of low order.
+  /// Empty if the client's ephemeral key is of low order.
   std::optional<Connected> respond(std::uint32_t connection, const SessionId& session, const Terms& own) const;
-  /// Sealed like a response, so that nobody else can send a client away.
+  /// A refusal, sealed like a response, so that no third party can turn a client away.
   std::optional<Bytes> refuse(HandshakeRefusal reason) const;
 
  private:

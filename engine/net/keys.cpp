@@ -43,8 +43,8 @@ std::optional<std::array<std::uint8_t, 32>> parse_hexadecimal(std::string_view t
   return bytes;
 }
 
-/// Written beside and linked into place, so that a file is whole or absent, and two programs that
-/// start at once agree.
+/// Written beside the target and linked into place, so that a file is whole or absent, and two programs that start at
+/// once agree.
 Expected<void> create_identity(const std::filesystem::path& file) {
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);

@@ -1,10 +1,8 @@
 #pragma once
-/// Identities: one Ed25519 key pair per server and per client, kept in a file that only its owner
-/// can read.
+/// Identities: one Ed25519 key pair per server and per client, kept in a file that only its owner can read.
 ///
-/// A client pins the server's public key; the server has a list of the clients that it allows. The
-/// same pair signs ticks and, mapped to X25519, proves the identity in the scene lane's key
-/// exchange. Secrets are wiped when they go.
+/// A client pins the server's public key; the server has a list of the clients that it allows. The same pair signs
+/// ticks and, mapped to X25519, proves the identity in the scene lane's key exchange. Secrets are wiped on destruction.
 
 #include <array>
 #include <cstdint>
@@ -22,8 +20,8 @@ using PublicKey = std::array<std::uint8_t, 32>;
 /// Random per server start; signed into every tick, and told to clients over the scene lane.
 using SessionId = std::array<std::uint8_t, 16>;
 
-/// The 64 bytes of a secret key in memory of their own: in no core file, not swapped out where the system allows that, between pages that nobody
-/// may touch, and overwritten at the end.
+/// The 64 bytes of a secret key in memory of their own: excluded from core files, not swapped out where the system
+/// allows that, between guard pages, and overwritten on destruction.
 class SecretKey {
  public:
   using Bytes = std::array<std::uint8_t, 64>;
@@ -60,8 +58,8 @@ SessionId random_session_id();
 std::string to_text(const PublicKey& key);
 Expected<PublicKey> parse_public_key(std::string_view text, std::string_view where);
 
-/// Reads the file; makes it (mode 0600, its folder too) with a fresh identity if it does not exist.
-/// Refuses a file that others can read.
+/// Reads the file; creates it (mode 0600, its folder too) with a fresh identity if it does not exist. Error: a file
+/// that other users can read.
 Expected<Identity> load_or_create_identity(const std::filesystem::path& file);
 Expected<Identity> load_identity(const std::filesystem::path& file);
 
@@ -70,10 +68,10 @@ Expected<PublicKey> load_public_key(const std::filesystem::path& file);
 
 struct AllowedClient {
   PublicKey key{};
-  std::string name;  ///< The screen's in the rig, or "car": what the server calls it, and all that it may be.
+  std::string name;  ///< Name of the screen in the rig, or "car"; it is also the only role allowed to this key.
 };
 
-/// A text file of lines `KEY NAME`; blank lines and lines that begin with # do not count. No key and no name stands twice.
+/// Reads lines `KEY NAME`; blank lines and lines that begin with # are skipped. Error: a key or name that stands twice.
 Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem::path& file);
 
 }  // namespace septet::net

@@ -1,6 +1,6 @@
 #pragma once
-/// Does multicast work on this machine's interface? Machines, switches and loopbacks differ, so it
-/// is tried, not assumed.
+/// Probes whether multicast works on this machine's interface; machines, switches and loopbacks differ too much to
+/// assume it.
 
 #include <string>
 
@@ -13,9 +13,9 @@ struct MulticastProbe {
   std::string reason;  ///< For a person: "multicast 239.7.7.7:4750 on 127.0.0.1 came back after 1 try".
 };
 
-/// Sends up to `tries` random probes to the group from one socket and listens on another of this
-/// machine, each for at most `wait_s`. It shows that sockets, routes and loopback work; whether a
-/// distant screen hears the group only that screen knows (PROTOCOL.md, "Choice of destination").
+/// Sends up to `tries` random probes to the group from one socket and listens on another of this machine, each for at
+/// most `wait_s`. Success shows that sockets, routes and loopback work; reception by a distant screen is known to that
+/// screen alone (PROTOCOL.md, "Choice of destination").
 MulticastProbe probe_multicast(const Address& group, std::uint32_t interface_ip, int tries = 5, double wait_s = 0.02);
 
 }  // namespace septet::net

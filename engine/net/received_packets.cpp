@@ -27,8 +27,7 @@ void ReceivedPackets::add(std::uint64_t number) {
 PacketRanges ReceivedPackets::ranges() const {
   SEPTET_CHECK(newest_.has_value(), "nothing received");
   PacketRanges result;
-  // The oldest number whose bit is still its own; one word less, because the newest word's upper
-  // bits are stale.
+  // The oldest number whose bit is still its own; one word less, because the newest word's upper bits are stale.
   const std::uint64_t kept = window - 64;
   const std::uint64_t oldest = *newest_ >= kept ? *newest_ - kept + 1 : 0;
   std::uint64_t number = *newest_;

@@ -1,6 +1,5 @@
 #pragma once
-/// Which packet numbers of the other end have been received: refuses repetitions, and says what to
-/// acknowledge.
+/// Record of the packet numbers received from the other end: rejects repetitions and supplies acknowledgements.
 
 #include <array>
 #include <cstdint>
@@ -22,9 +21,9 @@ class ReceivedPackets {
  public:
   static constexpr std::uint64_t window = 8192;
 
-  /// Not seen before and not older than the window.
+  /// True for a number not seen before and not older than the window.
   bool is_new(std::uint64_t number) const;
-  /// Only after the packet has been authenticated.
+  /// Records an authenticated packet; call it only after authentication.
   void add(std::uint64_t number);
   /// The newest ranges, as many as an acknowledgement holds. Needs at least one packet.
   PacketRanges ranges() const;

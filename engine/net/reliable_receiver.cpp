@@ -5,7 +5,7 @@
 namespace septet::net {
 
 bool ReliableReceiver::accept(const Frame& frame, std::vector<Bytes>& completed) {
-  if (frame.message < next_) return true;  // Delivered already, resent in vain.
+  if (frame.message < next_) return true;  // Delivered already: a redundant resend.
   if (frame.message - next_ > window_bytes_ / fragment_weight + 1) return false;
   const bool is_void = frame.kind == FrameKind::void_message;
   if (!is_void && frame.message_bytes > max_message_bytes_) return false;
@@ -35,8 +35,7 @@ bool ReliableReceiver::accept(const Frame& frame, std::vector<Bytes>& completed)
   return true;
 }
 
-/// Copies a fragment to its place; one that is there already changes nothing, one that overlaps is
-/// refused.
+/// Copies a fragment into place; a repeated one is a no-op, an overlapping one an error.
 bool ReliableReceiver::add(Incoming& incoming, std::size_t offset, std::span<const std::byte> bytes) {
   if (bytes.empty()) return incoming.bytes.empty();
   const std::size_t end = offset + bytes.size();

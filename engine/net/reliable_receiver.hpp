@@ -1,6 +1,5 @@
 #pragma once
-/// The receiving half of a reliable lane: puts fragments together and hands messages out in order,
-/// within bounds.
+/// The receiving half of a reliable lane: reassembles fragments and delivers messages in order, within bounds.
 
 #include <cstdint>
 #include <map>
@@ -16,11 +15,10 @@ class ReliableReceiver {
   ReliableReceiver(std::size_t max_message_bytes, std::size_t window_bytes)
       : max_message_bytes_(max_message_bytes), window_bytes_(window_bytes) {}
 
-  /// Takes a fragment or void frame and appends the messages that it completes, in order. False:
-  /// the other end broke the protocol (overlap, contradiction, more than the bounds), and nothing
-  /// more should be taken from it.
+  /// Takes a fragment or void frame and appends the messages that it completes, in order. False: the other end broke
+  /// the protocol (overlap, contradiction, beyond the bounds), and no more frames should be taken from it.
   bool accept(const Frame& frame, std::vector<Bytes>& completed);
-  /// Sum of the sizes of messages begun and not yet handed out.
+  /// Sum of the sizes of messages begun and not yet delivered.
   std::size_t bytes_held() const { return bytes_held_; }
 
  private:
@@ -28,7 +26,7 @@ class ReliableReceiver {
     Bytes bytes;
     std::size_t missing = 0;
     bool voided = false;
-    std::map<std::size_t, std::size_t> runs;  ///< Begin to end of what has arrived.
+    std::map<std::size_t, std::size_t> runs;  ///< Received ranges: begin to end.
   };
   bool add(Incoming& incoming, std::size_t offset, std::span<const std::byte> bytes);
 

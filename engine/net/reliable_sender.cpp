@@ -8,7 +8,7 @@
 namespace septet::net {
 namespace {
 
-/// A packet's last bytes are left empty rather than filled with a sliver of a message.
+/// Smallest fragment worth cutting: a packet's last bytes stay empty rather than carry a sliver of a message.
 constexpr std::size_t smallest_piece = 64;
 constexpr double longest_backoff_s = 0.25;
 
@@ -30,7 +30,7 @@ SendResult ReliableSender::enqueue(SharedBytes bytes, AddressKey key) {
   return SendResult::queued;
 }
 
-/// True: the bytes have taken the place of a message of which nothing has been sent.
+/// True: the bytes have replaced a message of which no fragment has been sent.
 bool ReliableSender::overwrite(AddressKey key, const SharedBytes& bytes) {
   const auto entry = newest_with_key_.find(key);
   if (entry == newest_with_key_.end() || message(entry->second).started) return false;
@@ -41,8 +41,7 @@ bool ReliableSender::overwrite(AddressKey key, const SharedBytes& bytes) {
   return true;
 }
 
-/// A lost fragment whose message has a newer one with its key is resent as a void, which stands for
-/// the whole message.
+/// A lost fragment whose message has a newer one with its key is resent as a void, which stands for the whole message.
 void ReliableSender::void_if_outdated(std::uint64_t fragment_id) {
   Fragment& lost = fragment(fragment_id);
   Message& source = message(lost.message);
@@ -205,8 +204,7 @@ void ReliableSender::advance_to(double now_s) {
   trim();
 }
 
-/// Once per round trip: double the window that was used, or cut it when too much was lost to be
-/// mere noise.
+/// Once per round trip: double the window that was used, or cut it when too much was lost to be mere noise.
 void ReliableSender::end_round(std::uint64_t next_number) {
   round_end_ = next_number;
   if (round_lost_ * 10 > round_acknowledged_ + round_lost_)

@@ -1,9 +1,7 @@
 #pragma once
-/// The sending half of a reliable lane: queue, fragments, acknowledgement, resend, overwriting by
-/// address, congestion.
+/// The sending half of a reliable lane: queue, fragments, acknowledgement, resend, overwriting by address, congestion.
 ///
-/// It knows neither keys nor sockets: a channel asks it to fill packets and tells it what became of
-/// them.
+/// Independent of keys and sockets: a channel asks it to fill packets and reports their fate.
 
 #include <cstdint>
 #include <deque>
@@ -19,7 +17,7 @@ namespace septet::net {
 
 struct ReliableSenderLimits {
   std::size_t max_datagram_bytes = 1200;
-  std::size_t max_message_bytes = 0;  ///< The other end's.
+  std::size_t max_message_bytes = 0;  ///< The other end's limit.
   std::size_t max_queue_bytes = 0;
   std::size_t window_bytes = 0;      ///< The other end's out-of-order window.
   std::size_t max_flight_bytes = 0;  ///< The other end's receive buffer.
@@ -31,14 +29,14 @@ class ReliableSender {
 
   SendResult enqueue(SharedBytes message, AddressKey key);
 
-  /// Something may be sent now.
+  /// True if there is something to send now.
   bool wants_to_send() const;
-  /// Writes frames into at most `room` bytes and appends the fragments' numbers to `fragments`;
-  /// nothing if none fits.
+  /// Writes frames into at most `room` bytes and appends the fragments' numbers to `fragments`; writes nothing if none
+  /// fits.
   void fill(ByteWriter& writer, std::size_t room, std::vector<std::uint64_t>& fragments);
-  /// The packet with these fragments has gone out.
+  /// Records that the packet with these fragments was sent.
   void packet_sent(std::uint64_t number, double now_s, std::size_t bytes, std::vector<std::uint64_t> fragments);
-  /// False: it acknowledges what was never sent.
+  /// False: it acknowledges a packet that was never sent.
   bool acknowledge(const PacketRanges& received, std::uint64_t next_number, double now_s);
   /// Finds packets that count as lost by now.
   void advance_to(double now_s);
@@ -98,13 +96,13 @@ class ReliableSender {
   std::size_t flight_bytes_ = 0;
   std::uint64_t newest_acknowledged_ = 0;
   bool any_acknowledged_ = false;
-  double progress_s_ = 0.0;  ///< When something was last sent into an empty flight, acknowledged or given up.
+  double progress_s_ = 0.0;  ///< Time of the last send into an empty flight, acknowledgement or loss.
   double backoff_ = 1.0;
   RoundTrip round_trip_;
 
   std::size_t congestion_window_;
   std::size_t smallest_window_;
-  bool was_full_ = false;  ///< The window has held something back in this round.
+  bool was_full_ = false;  ///< The window has limited sending in this round.
   std::uint64_t round_end_ = 0;
   std::size_t round_acknowledged_ = 0, round_lost_ = 0;
   std::uint64_t resent_ = 0, overwritten_ = 0;

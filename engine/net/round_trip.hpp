@@ -20,8 +20,7 @@ class RoundTrip {
     smoothed_s_ += (sample_s - smoothed_s_) / 8.0;
   }
   double smoothed_s() const { return smoothed_s_; }
-  /// How much older than an acknowledged packet's successor a packet must be to count as lost (RFC
-  /// 9002 §6.1.2).
+  /// Age beyond an acknowledged successor at which a packet counts as lost (RFC 9002 §6.1.2).
   double reordering_s() const { return std::max(1.125 * std::max(smoothed_s_, latest_s_), 0.001); }
   double resend_s() const { return std::max(smoothed_s_ + 4.0 * deviation_s_, 0.002); }
 

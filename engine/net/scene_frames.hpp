@@ -1,5 +1,5 @@
 #pragma once
-/// What is sealed in a data datagram of the scene lane: a run of frames (PROTOCOL.md, "Data").
+/// Plaintext of a data datagram of the scene lane: a run of frames (PROTOCOL.md, "Data").
 
 #include <cstdint>
 #include <span>
@@ -19,7 +19,7 @@ enum class FrameKind : std::uint8_t {
   goodbye = 7,
 };
 
-/// One frame; which fields count depends on the kind.
+/// One frame; its kind decides which fields count.
 struct Frame {
   FrameKind kind = FrameKind::ping;
   PacketRanges received{};             ///< acknowledge
@@ -31,16 +31,16 @@ struct Frame {
   double answered_s = 0.0;             ///< pong
 };
 
-/// The next frame; false at the end or when the reader has failed. Checks what needs no state, so
-/// offset + length never exceeds message_bytes and ranges descend.
+/// The next frame; false at the end or when the reader has failed. Makes the checks that need no state, so offset +
+/// length never exceeds message_bytes and ranges descend.
 bool read_frame(ByteReader& reader, Frame& out);
 void write_frame(const Frame& frame, ByteWriter& writer);
 
-/// What a fragment weighs at least, beside its bytes, in the sender's and the receiver's window: empty messages are bounded too.
+/// Least weight of a fragment, beside its bytes, in the sender's and the receiver's window: bounds empty messages too.
 inline constexpr std::size_t fragment_weight = 32;
 
 std::size_t varint_bytes(std::uint64_t value);
-/// Of a fragment frame without its bytes.
+/// Length of a fragment frame without its bytes.
 std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes, std::uint64_t offset,
                               std::size_t length);
 inline constexpr std::size_t max_goodbye_bytes = 200;

@@ -1,6 +1,6 @@
 #pragma once
-/// What both ends of the scene lane share: kinds of messages, limits and counters (PROTOCOL.md,
-/// "Scene lane").
+/// Definitions shared by both ends of the scene lane: kinds of messages, limits and counters (PROTOCOL.md, "Scene
+/// lane").
 
 #include <cstddef>
 #include <cstdint>
@@ -17,10 +17,9 @@ enum class Reliability : std::uint8_t {
   unreliable,  ///< At most one datagram; may be lost, repeated messages are not delivered twice.
 };
 
-/// Reliable messages with the same key are about the same thing, and the newest one is enough. One
-/// of which nothing has been sent gives its place in the order to the newer one; one that was lost
-/// is not sent again. So give keys only to commands that depend on nothing sent between the two,
-/// and never use the number of a destroyed thing anew.
+/// Names the subject of a reliable message: of several with one key the newest suffices. An unsent message is replaced
+/// in its place in the order; a lost one is not sent again. So give keys only to commands that depend on nothing sent
+/// between the two, and never reuse the number of a destroyed object.
 using AddressKey = std::uint64_t;
 inline constexpr AddressKey no_address_key = 0;
 
@@ -30,19 +29,19 @@ inline SharedBytes share(Bytes bytes) { return std::make_shared<const Bytes>(std
 
 enum class SendResult : std::uint8_t {
   queued,
-  overwrote,  ///< Took the place of an unsent message with its key.
+  overwrote,  ///< Replaced an unsent message with its key.
   not_connected,
   too_large,   ///< Over the message limit, or an unreliable one over one datagram.
   queue_full,  ///< A server drops such a client; a client may try again later.
 };
 
 struct ChannelLimits {
-  /// UDP payload; the smaller of the two ends' counts. 0: 1,200, and 16,384 over loopback.
+  /// UDP payload; the smaller of the two ends' values counts. 0: 1,200, and 16,384 over loopback.
   std::size_t max_datagram_bytes = 0;
-  std::size_t max_message_bytes = 64u << 20;  ///< Of one reliable message, both ways.
+  std::size_t max_message_bytes = 64u << 20;  ///< Bound on one reliable message, both ways.
   std::size_t max_queue_bytes = 256u << 20;   ///< Waiting to be sent or acknowledged, per connection.
-  std::size_t window_bytes = 8u << 20;        ///< What an end is ready to keep out of order.
-  std::size_t max_bytes_per_pump = 1u << 20;  ///< Sent in one pump over all connections, so that a tick is not held up.
+  std::size_t window_bytes = 8u << 20;        ///< Bytes that an end accepts out of order.
+  std::size_t max_bytes_per_pump = 1u << 20;  ///< Sent in one pump over all connections, so that a tick is not delayed.
   double timeout_s = 2.0;                     ///< Silence after which the other end counts as lost.
 };
 
@@ -54,7 +53,7 @@ struct ChannelCounters {
   std::uint64_t forged = 0;       ///< Authentication failed.
   std::uint64_t replayed = 0;     ///< Packet number seen before or too old.
   std::uint64_t malformed = 0;    ///< Not a datagram of this protocol, or broken inside.
-  std::uint64_t unknown = 0;      ///< For no connection of ours (an earlier one, usually).
+  std::uint64_t unknown = 0;      ///< For no current connection (an earlier one, usually).
   std::uint64_t not_allowed = 0;  ///< Handshakes with a key that is not on the list.
   std::uint64_t bad_cookies = 0;  ///< Handshakes from an address that did not prove itself (or too late).
 

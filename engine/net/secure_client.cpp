@@ -14,15 +14,15 @@ namespace septet::net {
 namespace {
 
 constexpr double first_retry_s = 0.05, longest_retry_s = 0.25;
-/// To a server that has been away for long, and to one that has refused us.
+/// Retry interval for a server that has been away for long, and for one that has refused us.
 constexpr double patient_after_s = 10.0, patient_retry_s = 1.0;
 constexpr double refused_retry_s = 0.1, longest_in_use_retry_s = 2.0, longest_unknown_retry_s = 5.0;
-/// Before it says what is wrong: a handshake that is lost now and then is nothing.
+/// Time before an obstacle is reported: a single lost handshake is no obstacle.
 constexpr double trial_s = 1.5;
-/// For how long what the server said counts: it speaks again sooner, if it is still there.
+/// Lifetime of the server's last refusal: a server that is still there repeats it sooner.
 constexpr double remembered_s = 8.0;
 constexpr double cookie_life_s = 4.0;
-/// Often until the clock is known well, at first and after one was set.
+/// Ping intervals: short until the clock is known well, at first and after one was set.
 constexpr double first_pings_s = 0.02, later_pings_s = 0.1;
 constexpr std::size_t first_pings = 64;
 
@@ -38,9 +38,10 @@ struct SecureClient::State {
   void lose(std::string reason, std::vector<ClientEvent>& events, double knock_after_s = 0.0);
   void knock();
   void take_refusal(std::span<const std::byte> datagram);
-  /// How long a ping has gone unanswered. Not since the server was heard: a client that was busy for seconds asked nothing.
+  /// Time for which a ping has gone unanswered; not the time since the server was heard, as a client that was busy for
+  /// seconds sent no pings.
   double silence_s() const { return channel && channel->heard_s() <= pinged_s ? now_s - pinged_s : 0.0; }
-  /// While it does, an answer to a new handshake is no longer wanted.
+  /// Obstacle to the connection; none while the server is heard, which also makes replies to a new handshake unwanted.
   Obstacle obstacle() const;
   bool hears_server() const { return channel && silence_s() <= options.knock_after_s; }
 
@@ -54,19 +55,19 @@ struct SecureClient::State {
   SessionId session{};
 
   std::optional<ClientHandshake> handshake;
-  std::optional<double> trying_since_s;  ///< Since when it has knocked without being let in.
-  std::optional<double> answered_s;      ///< When the last cookie came, since then.
-  bool has_initiated = false;            ///< It has sent an initiation since then.
-  /// A cookie came for a hello that it had sent after an initiation: the server has read that one, and did not understand it.
+  std::optional<double> trying_since_s;  ///< Start of the handshakes so far without success.
+  std::optional<double> answered_s;      ///< Time of the last cookie since then.
+  bool has_initiated = false;            ///< True if it has sent an initiation since then.
+  /// A cookie came for a hello sent after an initiation: the server has read the initiation and did not understand it.
   bool is_not_understood = false;
-  Obstacle refusal = Obstacle::none;  ///< What the server last said, since then.
-  double refused_s = 0.0;             ///< When it said so.
+  Obstacle refusal = Obstacle::none;  ///< The server's last refusal, since then.
+  double refused_s = 0.0;             ///< Time of that refusal.
   double cookie_s = 0.0;
   double next_knock_s = 0.0, retry_s = first_retry_s;
 
   double next_ping_s = 0.0;
-  double pinged_s = 0.0;  ///< When the first ping was sent since the server was last heard.
-  ChannelCounters past;   ///< Of earlier connections, and of what belongs to none.
+  double pinged_s = 0.0;  ///< Time of the first ping since the server was last heard.
+  ChannelCounters past;   ///< Counters of earlier connections, and of datagrams that belong to no connection.
   mutable ChannelCounters asked;
   ClockEstimate no_clock;
 };
@@ -130,7 +131,7 @@ void SecureClient::State::receive(std::vector<ClientEvent>& events) {
     } else if (kind == SceneDatagramKind::refusal && handshake && !hears_server()) {
       take_refusal(datagram->bytes);
     } else if (is_of_other_version(datagram->bytes) && handshake && !hears_server()) {
-      // Nobody can sign this for a version that we do not know; so it changes what is said and nothing else.
+      // A version that we do not know cannot be authenticated; so this changes the reported obstacle and nothing else.
       if (refusal == Obstacle::none) refusal = Obstacle::other_version;
       refused_s = now_s;
     } else {
@@ -206,7 +207,7 @@ void SecureClient::State::lose(std::string reason, std::vector<ClientEvent>& eve
   events.push_back({.kind = ClientEvent::Kind::lost, .reason = std::move(reason)});
 }
 
-/// Sends hello or initiation, again and again, a little slower each time.
+/// Sends hello or initiation, repeatedly, a little slower each time.
 void SecureClient::State::knock() {
   if (now_s < next_knock_s) return;
   if (!trying_since_s) trying_since_s = now_s;
@@ -214,7 +215,7 @@ void SecureClient::State::knock() {
   if (!handshake || stale)
     handshake = ClientHandshake::start(options.identity, options.server_key,
                                        terms_of(options.limits, socket, options.server, 1));
-  if (!handshake) return;  // The pinned key is none; no server can have it.
+  if (!handshake) return;  // The pinned key is invalid; no server can have it.
   socket.send(options.server, handshake->has_cookie() ? handshake->initiation() : handshake->hello());
   next_knock_s = now_s + retry_s;
   const bool refused = refusal == Obstacle::key_in_use || refusal == Obstacle::key_unknown;
@@ -227,7 +228,7 @@ Obstacle SecureClient::State::obstacle() const {
   if (refusal != Obstacle::none && now_s - refused_s < remembered_s) return refusal;
   if (now_s - *trying_since_s < trial_s) return Obstacle::none;
   if (!answered_s || now_s - *answered_s >= remembered_s) return Obstacle::no_answer;
-  // A server that is busy answers late; nothing is said of it.
+  // A busy server replies late; that is not reported.
   return is_not_understood ? Obstacle::other_server_key : Obstacle::none;
 }
 

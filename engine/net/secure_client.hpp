@@ -1,6 +1,5 @@
 #pragma once
-/// A client's end of the scene lane. It connects by itself, and again by itself when the server was
-/// lost or restarted.
+/// A client's end of the scene lane. It connects by itself, and reconnects when the server was lost or restarted.
 ///
 /// One thread; `now_s` never goes back.
 
@@ -16,10 +15,10 @@ namespace septet::net {
 
 struct SecureClientOptions {
   Address server;
-  PublicKey server_key{};  ///< Pinned: nobody else can be the server.
+  PublicKey server_key{};  ///< Pinned: no other server is accepted.
   Identity identity;
   ChannelLimits limits;
-  /// Silence after which it looks for another server in the old one's place, without giving the old one up yet.
+  /// Silence after which it looks for another server at the same address, without giving up the old connection yet.
   double knock_after_s = 1.0;
 };
 
@@ -27,8 +26,8 @@ struct ClientEvent {
   enum class Kind : std::uint8_t { connected, message, lost };
   Kind kind = Kind::message;
   Reliability reliability = Reliability::reliable;
-  Bytes bytes{};         ///< Of a message.
-  std::string reason{};  ///< Of a loss, for the log.
+  Bytes bytes{};         ///< Content of a message.
+  std::string reason{};  ///< Reason of a loss, for the log.
 };
 
 enum class ClientState : std::uint8_t {
@@ -37,13 +36,13 @@ enum class ClientState : std::uint8_t {
   lost,  ///< Was connected, trying again.
 };
 
-/// What keeps a client from its server, as far as it can know.
+/// Reason why a client has no connection, as far as the client can tell.
 enum class Obstacle : std::uint8_t {
   none,              ///< It is connected, or has not tried for long.
-  no_answer,         ///< Nobody answers at the server's address.
-  other_server_key,  ///< A server answers there that cannot read what is sealed for the pinned key.
-  other_version,     ///< What answers there speaks another version of the protocol.
-  key_unknown,       ///< The server does not have this client's key on its list.
+  no_answer,         ///< No datagram comes from the server's address.
+  other_server_key,  ///< A server there cannot read a message sealed for the pinned key.
+  other_version,     ///< The program there speaks another version of the protocol.
+  key_unknown,       ///< This client's key is not on the server's list.
   key_in_use,        ///< Another client with this key is connected.
 };
 
@@ -66,14 +65,14 @@ class SecureClient {
 
   ClientState state() const;
   Obstacle obstacle() const;
-  /// Why the last connection ended; empty before that.
+  /// Reason for the end of the last connection; empty before that.
   const std::string& loss() const;
-  /// For how long the server has owed an answer on this connection; 0 without one. Time in which nobody pumped does not
-  /// count: whoever draws for seconds has not asked.
+  /// Time for which the server has owed a reply on this connection; 0 without one. Time without pumping (a client that
+  /// draws for seconds) does not count.
   double silence_s() const;
-  /// Of the running connection; what the tick lane is to follow.
+  /// Session of the running connection; the tick lane follows it.
   const SessionId& session() const;
-  /// Of the server's `now_s` from pings on this connection; not valid before the first answer.
+  /// Estimate of the server's `now_s` from pings on this connection; not valid before the first reply.
   const ClockEstimate& clock() const;
   double round_trip_s() const;
   const ChannelCounters& counters() const;

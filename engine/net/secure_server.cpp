@@ -15,17 +15,18 @@ namespace {
 constexpr double handshakes_per_s = 50.0;
 constexpr double unconfirmed_s = 10.0;
 constexpr double refusal_report_s = 1.0, same_refusal_report_s = 30.0;
-/// Two pings: who is silent for longer may have been started anew elsewhere, unless it is usually heard more seldom.
+/// Two pings: a client silent for longer may have been restarted elsewhere, unless it is usually heard more seldom.
 constexpr double least_alive_s = 0.5;
-/// How often a client is heard is known after so many silences; a silence is longer than the datagrams of one thing to say are apart.
+/// Number of silences after which a client's usual silence is known; one counts if it is longer than the gaps within
+/// one burst of datagrams.
 constexpr int known_silences = 4;
 constexpr double silence_s = 0.05;
-/// Of one of whom that is not yet known: it may draw its first picture.
+/// Patience with a client whose usual silence is not yet known: it may be drawing its first picture.
 constexpr double unknown_alive_s = 5.0;
 constexpr double forgets_silences_s = 10.0;
-/// No answer is longer than its question.
+/// Least size of a hello: no reply is longer than its request, so that the server amplifies no traffic.
 constexpr std::size_t smallest_hello_bytes = 3 + 32;
-/// What one connection may send before the next one has its turn.
+/// Bytes that one connection may send before the next one has its turn.
 constexpr std::size_t turn_bytes = 64 * 1024;
 
 struct Connection {
@@ -35,9 +36,9 @@ struct Connection {
   double created_s = 0.0;
   Key32 client_ephemeral{};
   Bytes response{};
-  std::string drop_reason{};  ///< Not empty: to be disconnected.
+  std::string drop_reason{};  ///< Set: to be disconnected, for this reason.
   int silences = 0;
-  double usual_silence_s = 0.0;  ///< The longest of late: that of a screen at one picture a second is a second.
+  double usual_silence_s = 0.0;  ///< Longest recent silence, decaying: a screen at one picture a second has one second.
 
   void hear(double now_s, double before_s);
   double alive_s(double timeout_s) const;
@@ -49,7 +50,7 @@ void Connection::hear(double now_s, double before_s) {
   if (was_silent_s >= silence_s && silences < known_silences) ++silences;
 }
 
-/// For how long it may be silent and is still thought to be there.
+/// Silence up to which the client counts as live.
 double Connection::alive_s(double timeout_s) const {
   const double most_s = std::min(timeout_s, unknown_alive_s);
   return silences < known_silences ? most_s
@@ -80,12 +81,12 @@ struct SecureServer::State {
   CookieJar cookies;
   std::map<std::uint32_t, Connection> connections;
   double now_s = 0.0;
-  double listened_s = 0.0;  ///< When what had come was last read: later silence is the server's own.
+  double listened_s = 0.0;  ///< Time of the last receive: later silence is the server's own.
   double handshake_tokens = handshakes_per_s / 5.0;
   double refusal_reported_s = -refusal_report_s;
   PublicKey refusal_reported{};
-  std::uint32_t next_turn = 0;  ///< The connection that sends first.
-  ChannelCounters strangers;    ///< What belongs to no connection, and what past ones counted.
+  std::uint32_t next_turn = 0;  ///< Connection that sends first in the next pump.
+  ChannelCounters strangers;    ///< Counters of datagrams without a connection, and of past connections.
   mutable ClientInfo asked;
 };
 
@@ -124,7 +125,7 @@ void SecureServer::State::receive(std::vector<ServerEvent>& events) {
       take_data(*datagram, events);
     } else {
       ++strangers.malformed;
-      // It learns which version is spoken here, and nothing else.
+      // The sender learns which version is spoken here, and nothing else.
       if (is_of_other_version(datagram->bytes) && datagram->bytes.size() >= smallest_hello_bytes) {
         Bytes answer;
         ByteWriter writer(answer);
@@ -254,7 +255,7 @@ void SecureServer::State::drop_the_marked(std::vector<ServerEvent>& events) {
   }
 }
 
-/// Takes turns, so that no transfer holds up another; starts where the last pump's budget ended.
+/// Sends in turns, so that no transfer holds up another; starts where the last pump's budget ended.
 void SecureServer::State::emit() {
   std::size_t budget = options.limits.max_bytes_per_pump;
   std::vector<Connection*> turns;

@@ -1,17 +1,15 @@
 #pragma once
-/// The server's end of the scene lane: authenticated, encrypted connections to the clients on its
-/// list.
+/// The server's end of the scene lane: authenticated, encrypted connections to the clients on its list.
 ///
 ///     for (const ServerEvent& event : server.pump(now_s)) …
 ///     server.send(client, share(bytes), Reliability::reliable, key);
 ///
-/// One thread; `now_s` never goes back. A client that hangs or vanishes is dropped after the
-/// time-out, or as soon as its queue is full, and costs at most that queue. Several pumps per tick
-/// make transfers faster.
+/// One thread; `now_s` never goes back. A client that hangs or vanishes is dropped after the time-out, or as soon as
+/// its queue is full, and costs at most that queue. Several pumps per tick make transfers faster.
 ///
-/// One key is one client: while it is heard at all another one with its key is refused. A client that
-/// was started anew is let in when the old one has been silent for twice as long as it usually is, half
-/// a second at least, 5 s at most and where that is not yet known; or at once from its old address.
+/// One key is one client: while it is live, another one with its key is refused. A restarted client is accepted once
+/// the old one has been silent for twice its usual silence, at least half a second, at most 5 s and 5 s where that is
+/// not yet known; or at once from its old address.
 
 #include <cstdint>
 #include <map>
@@ -29,7 +27,7 @@ using ClientId = std::uint32_t;
 
 struct SecureServerOptions {
   Identity identity;
-  SessionId session{};  ///< The tick lane's; told to every client.
+  SessionId session{};  ///< The tick lane's; sent to every client.
   std::vector<AllowedClient> allowed;
   ChannelLimits limits;
 };
@@ -39,23 +37,23 @@ struct ServerEvent {
     connected,
     message,
     disconnected,
-    refused,  ///< A key that is not on the list, or is used twice: `reason` names it, for the
-              ///< operator; at most one event a second.
+    refused,  ///< A key that is not on the list, or is used twice: `reason` names it, for the operator; at most one
+              ///< event a second.
   };
   Kind kind = Kind::message;
   ClientId client = 0;
   Reliability reliability = Reliability::reliable;
-  Bytes bytes{};         ///< Of a message.
-  std::string name{};    ///< Of who has connected, as the list has it. A client may be gone again
-                         ///< when the event is read, so `info` may not know it.
-  std::string reason{};  ///< Of a disconnection or refusal, for the log.
+  Bytes bytes{};         ///< Content of a message.
+  std::string name{};    ///< Name of the connected client in the list. It may be gone when the event is read, so `info`
+                         ///< may not know it.
+  std::string reason{};  ///< Reason of a disconnection or refusal, for the log.
 };
 
 struct ClientInfo {
   PublicKey key{};
   std::string name;
   Address address;
-  double heard_s = 0.0;  ///< When its last datagram came.
+  double heard_s = 0.0;  ///< Arrival of its last datagram.
   double round_trip_s = 0.0;
   std::size_t queued_bytes = 0;
   ChannelCounters counters;
@@ -67,9 +65,9 @@ class SecureServer {
   SecureServer(DatagramSocket& socket, SecureServerOptions options);
   ~SecureServer();
 
-  /// Receives, acknowledges, resends and sends; returns what has happened since, in order.
+  /// Receives, acknowledges, resends and sends; returns the events since the last pump, in order.
   std::vector<ServerEvent> pump(double now_s);
-  /// More is waiting to be sent than the last pump was allowed to: pump again soon.
+  /// True if more is waiting to be sent than the last pump was allowed to: pump again soon.
   bool has_backlog() const;
 
   SendResult send(ClientId client, SharedBytes message, Reliability reliability, AddressKey key = no_address_key);
@@ -78,14 +76,14 @@ class SecureServer {
   /// Says goodbye; the event `disconnected` comes with the next pump.
   void disconnect(ClientId client, std::string reason);
 
-  /// Takes effect for new connections; connected clients that are no longer on the list, or stand
-  /// under another name there, are dropped.
+  /// Replaces the list for new connections; connected clients that are no longer on it, or stand under another name,
+  /// are dropped.
   void set_allowed(std::vector<AllowedClient> allowed);
 
   std::vector<ClientId> clients() const;
   /// Null for a client that is not connected. Valid until the next call.
   const ClientInfo* info(ClientId client) const;
-  /// Over all connections, past ones and strangers included.
+  /// Over all connections, past ones and unknown senders included.
   ChannelCounters counters() const;
 
  private:

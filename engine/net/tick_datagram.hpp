@@ -1,6 +1,5 @@
 #pragma once
-/// The bytes of one tick datagram (PROTOCOL.md, "Tick lane") and the hash tree that ties its
-/// fragment to the signature.
+/// Layout of a tick datagram (PROTOCOL.md, "Tick lane") and the hash tree that ties its fragment to the signature.
 
 #include <array>
 #include <cstdint>
@@ -14,12 +13,12 @@
 namespace septet::net {
 
 inline constexpr std::size_t max_fragments = 1024;
-/// Of a tick datagram without path and fragment.
+/// Length of a tick datagram without path and fragment.
 inline constexpr std::size_t tick_header_bytes = 127;
-/// Where the byte stands that tells a repetition.
+/// Offset of the byte that marks a repetition.
 inline constexpr std::size_t repetition_offset = 4;
 
-/// What is signed.
+/// The signed fields.
 struct TickHeader {
   SessionId session{};
   std::uint64_t sequence = 0;
@@ -39,7 +38,7 @@ struct TickDatagram {
   std::uint16_t index = 0;
   std::array<Hash16, 10> path{};
   std::size_t path_length = 0;
-  std::span<const std::byte> fragment;  ///< Of the datagram that was read.
+  std::span<const std::byte> fragment;  ///< Part of the datagram that was read.
 };
 
 enum class TickDatagramFault : std::uint8_t { none, malformed, oversized };
@@ -49,11 +48,11 @@ std::size_t path_length(std::size_t index, std::size_t fragments);
 /// Longest fragment with which a payload fits datagrams of `max_datagram_bytes`.
 std::size_t choose_fragment_bytes(std::size_t payload_bytes, std::size_t max_datagram_bytes);
 
-/// Reads without allocating; checks all that needs no key.
+/// Reads without allocating; makes every check that needs no key.
 TickDatagramFault read_tick_datagram(std::span<const std::byte> bytes, TickDatagram& out);
 void write_tick_datagram(const TickDatagram& datagram, Bytes& out);
 
-/// What the signature is made over.
+/// The text that is signed.
 std::array<std::byte, 69> signed_text(const TickHeader& header);
 
 /// All levels of the tree, leaves first; the last level holds the root.

@@ -1,7 +1,6 @@
 #pragma once
-/// The sending end of the tick lane (PROTOCOL.md, "Tick lane"): a tick's bytes become signed
-/// datagrams, each sent once to the group and once to every unicast destination, followed by those
-/// of the tick before.
+/// The sending end of the tick lane (PROTOCOL.md, "Tick lane"): a tick's bytes become signed datagrams, each sent once
+/// to the group and once to every unicast destination, followed by those of the tick before.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +12,7 @@
 
 namespace septet::net {
 
-/// Of what a tick may carry, and of its datagrams (UDP payload).
+/// Bounds on the payload of a tick, and on its datagrams (UDP payload).
 inline constexpr std::size_t max_tick_bytes = 256 * 1024;
 inline constexpr std::size_t default_max_datagram_bytes = 1200;
 inline constexpr std::size_t smallest_max_datagram_bytes = 576;
@@ -27,8 +26,8 @@ struct TickPublisherOptions {
 struct TickPublisherCounters {
   std::uint64_t ticks = 0;
   std::uint64_t datagrams = 0;  ///< Handed to the socket, counting each destination.
-  std::uint64_t bytes = 0;      ///< Of those datagrams.
-  std::uint64_t refused = 0;    ///< The socket took no more.
+  std::uint64_t bytes = 0;      ///< Bytes of those datagrams.
+  std::uint64_t refused = 0;    ///< Datagrams that the socket did not accept.
 };
 
 class TickPublisher {
@@ -37,16 +36,14 @@ class TickPublisher {
   TickPublisher(DatagramSocket& socket, const Identity& server, const SessionId& session,
                 const TickPublisherOptions& options = {});
 
-  /// A group, or a client's unicast address. Adding one twice is adding it once.
+  /// Adds a group, or a client's unicast address; a repeated one changes nothing.
   void add_destination(const Address& destination);
   void remove_destination(const Address& destination);
   const std::vector<Address>& destinations() const { return destinations_; }
 
-  /// Signs and sends. `tick` must grow from call to call, by any step; `payload` holds at most
-  /// max_tick_bytes.
+  /// Signs and sends. `tick` must grow from call to call, by any step; `payload` holds at most max_tick_bytes.
   void publish(std::uint64_t tick, std::span<const std::byte> payload);
-  /// Sends the newest tick's datagrams again, as repetitions: for a server in lockstep that lacks
-  /// acknowledgements.
+  /// Sends the newest tick's datagrams again, as repetitions: for a server in lockstep that lacks acknowledgements.
   void repeat_newest();
 
   const TickPublisherCounters& counters() const { return counters_; }

@@ -88,8 +88,7 @@ TickReceiver::Assembly& TickReceiver::start(const TickHeader& header) {
 }
 
 void TickReceiver::move_window(std::uint64_t newest) {
-  // Sequences in [begin_before, begin_after) leave the window; those that never came whole are
-  // lost.
+  // Sequences in [begin_before, begin_after) leave the window; those that never came whole are lost.
   const auto begin_of = [&](std::uint64_t last) {
     return std::max(last >= window ? last - window + 1 : 1, *first_sequence_);
   };

@@ -1,10 +1,9 @@
 #pragma once
-/// The receiving end of the tick lane: verifies, reassembles and hands out each tick at most once.
+/// The receiving end of the tick lane: verifies, reassembles and delivers each tick at most once.
 ///
-/// Ticks come out as they become complete, so a repaired tick may follow a newer one; the reader
-/// keys them by tick id. Memory is bounded whatever arrives: nothing is stored before its signature
-/// holds, and only the newest `window` ticks are under reassembly. Datagrams that are not from the
-/// followed server and session change only counters.
+/// Ticks are delivered as they become complete, so a repaired tick may follow a newer one; the reader keys them by tick
+/// id. Memory is bounded for any input: nothing is stored before its signature holds, and only the newest `window`
+/// ticks are under reassembly. Datagrams that are not from the followed server and session change only counters.
 
 #include <cstdint>
 #include <deque>
@@ -26,32 +25,32 @@ struct ReceivedTick {
 };
 
 struct TickReceiverCounters {
-  std::uint64_t datagrams = 0;      ///< All that were offered.
-  std::uint64_t ticks = 0;          ///< Complete and handed out.
-  std::uint64_t repaired = 0;       ///< Of those, completed by a repetition.
-  std::uint64_t lost = 0;           ///< Left the window incomplete, or never seen between two that were.
+  std::uint64_t datagrams = 0;      ///< All datagrams received.
+  std::uint64_t ticks = 0;          ///< Complete and delivered.
+  std::uint64_t repaired = 0;       ///< Ticks among those that a repetition completed.
+  std::uint64_t lost = 0;           ///< Left the window incomplete, or never seen between two complete ones.
   std::uint64_t forged = 0;         ///< Signature or fragment hash does not hold.
-  std::uint64_t other_session = 0;  ///< Of an earlier or unknown run of the server.
+  std::uint64_t other_session = 0;  ///< Datagrams of an earlier or unknown run of the server.
   std::uint64_t malformed = 0;      ///< Not a tick datagram, truncated, or fields that contradict each other.
   std::uint64_t oversized = 0;      ///< Claims more than max_tick_bytes.
   std::uint64_t replayed = 0;       ///< Older than the window.
-  std::uint64_t duplicates = 0;     ///< Already held or handed out (every repetition of what arrived is one).
+  std::uint64_t duplicates = 0;     ///< Already held or delivered (every repetition of a fragment that arrived is one).
 };
 
 class TickReceiver {
  public:
   static constexpr std::size_t window = 8;  ///< Publications under reassembly.
 
-  /// Before `follow` every datagram is refused: a session id comes over the authenticated scene
-  /// lane.
+  /// Refuses every datagram before `follow`: a session id comes over the authenticated scene lane.
   explicit TickReceiver(const PublicKey& server) : server_(server) {}
-  /// Forgets the earlier session and returns true, if it is another one. Of the same one, what was handed out is not again.
+  /// Forgets the earlier session and returns true, if this is another one. Of the same session, delivered ticks are not
+  /// delivered again.
   bool follow(const SessionId& session);
 
   void accept(std::span<const std::byte> datagram);
-  /// Accepts all that the socket holds.
+  /// Accepts all datagrams in the socket.
   void receive_from(DatagramSocket& socket);
-  /// The next complete tick, oldest arrival first.
+  /// The next complete tick, in order of completion.
   std::optional<ReceivedTick> next();
 
   const TickReceiverCounters& counters() const { return counters_; }
@@ -59,7 +58,7 @@ class TickReceiver {
   std::size_t bytes_held() const;
 
  private:
-  /// One publication: under reassembly, or whole and remembered so that it is not taken twice.
+  /// One publication: under reassembly, or complete and remembered, so that it is not delivered twice.
   struct Assembly {
     TickHeader header;
     Bytes payload;
@@ -77,7 +76,7 @@ class TickReceiver {
   std::optional<std::uint64_t> first_sequence_;
   std::uint64_t newest_sequence_ = 0;
   std::deque<Assembly> assemblies_;    ///< Ascending sequence.
-  std::deque<ReceivedTick> complete_;  ///< Oldest are dropped when nobody takes them.
+  std::deque<ReceivedTick> complete_;  ///< Oldest are dropped where the reader is too slow.
   TickReceiverCounters counters_;
 };
 

@@ -34,19 +34,19 @@ sockaddr_in to_sockaddr(const Address& address) {
 
 Address to_address(const sockaddr_in& from) { return {ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)}; }
 
-/// `batch` datagrams of one direction with what sendmmsg and recvmmsg want around them.
+/// `batch` datagrams of one direction with the structures that sendmmsg and recvmmsg need.
 struct Batch {
   /// Not cleared, so that pages which no datagram reaches cost nothing.
   std::unique_ptr<std::byte[]> bytes = std::make_unique_for_overwrite<std::byte[]>(batch * slot_bytes);
   std::array<sockaddr_in, batch> addresses{};
   std::array<iovec, batch> spans{};
   std::array<mmsghdr, batch> headers{};
-  /// What the system says of each received datagram besides: when it arrived.
+  /// Ancillary data of each received datagram: its arrival time.
   struct alignas(cmsghdr) Notes {
     std::array<std::byte, CMSG_SPACE(sizeof(timespec))> bytes;
   };
   std::array<Notes, batch> notes{};
-  double steady_from_wall_s = 0.0;  ///< When these slots were received.
+  double steady_from_wall_s = 0.0;  ///< Offset between the clocks when these slots were received.
   std::size_t begin = 0, end = 0;   ///< Slots in use.
 
   Batch() {
@@ -69,7 +69,7 @@ double clock_s(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// By the steady clock; the system stamps with the wall clock.
+/// Arrival by the steady clock; the system stamps with the wall clock.
 std::optional<double> arrival_s(msghdr& header, double steady_from_wall_s) {
   for (cmsghdr* note = CMSG_FIRSTHDR(&header); note != nullptr; note = CMSG_NXTHDR(&header, note)) {
     if (note->cmsg_level != SOL_SOCKET || note->cmsg_type != SCM_TIMESTAMPNS) continue;

@@ -1,8 +1,8 @@
 #pragma once
 /// A non-blocking IPv4 UDP socket that sends and receives in batches (sendmmsg, recvmmsg).
 ///
-/// One thread at a time. Errors of opening say which port or interface and what to do; once open, a
-/// socket does not fail: what the system refuses to send is a lost datagram and counted.
+/// One thread at a time. Errors of opening name the port or interface and the remedy; an open socket does not fail: a
+/// datagram that the system refuses to send is lost and counted.
 
 #include <memory>
 #include <span>
@@ -12,17 +12,17 @@
 namespace septet::net {
 
 struct UdpOptions {
-  Address bind;             ///< Port 0: any free one. A multicast address: only that group's datagrams come in.
-  bool share_port = false;  ///< Several sockets may bind it (the screens of one machine on one group).
-  std::size_t buffer_bytes = 4 << 20;  ///< Asked of the system for each direction; it may give less.
+  Address bind;             ///< Port 0: any free one. A multicast address: only that group's datagrams are received.
+  bool share_port = false;  ///< Lets several sockets bind it (the screens of one machine on one group).
+  std::size_t buffer_bytes = 4 << 20;  ///< Requested for each direction; the system may grant less.
 };
 
-/// How a socket sends to and hears groups. The interface is the IPv4 address of a local one; 0
+/// Options of a socket for sending to and receiving from groups. The interface is the IPv4 address of a local one; 0
 /// leaves it to the routes.
 struct MulticastOptions {
   std::uint32_t interface_ip = 0;
   int time_to_live = 1;  ///< 1 stays on the local network.
-  bool loopback = true;  ///< Also to sockets of this machine.
+  bool loopback = true;  ///< Delivers also to sockets of this machine.
 };
 
 class UdpSocket final : public DatagramSocket {
@@ -43,7 +43,7 @@ class UdpSocket final : public DatagramSocket {
   std::optional<ReceivedDatagram> receive() override;
   std::size_t receive_buffer_bytes() const override;
 
-  /// With the port that the system chose.
+  /// Includes the port that the system chose.
   const Address& local_address() const;
   /// Datagrams that the system refused (no route, interface down).
   std::uint64_t refused() const;
@@ -55,8 +55,8 @@ class UdpSocket final : public DatagramSocket {
   std::unique_ptr<State> state_;
 };
 
-/// Sleeps until one of the sockets has something to receive or the time has passed; true: something
-/// has arrived. A signal ends the wait early with false.
+/// Sleeps until one of the sockets has a datagram or the time has passed; true: one has arrived. A signal ends the wait
+/// early with false.
 bool wait_readable(std::span<const UdpSocket* const> sockets, double timeout_s);
 
 }  // namespace septet::net

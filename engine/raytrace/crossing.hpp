@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/raytrace/ggx.hpp"
+#include "engine/light/fresnel.hpp"
+#include "engine/light/ice_optics.hpp"
 #include "engine/raytrace/world.hpp"
 
 namespace septet::raytrace {
@@ -27,15 +28,14 @@ inline Vector beside(const Vector& position_m, const Vector& normal) {
 inline Ray enter_or_leave(const SurfacePoint& point, const Ray& ray, PathRandom& random) {
   const glm::vec3& n = point.surface.normal;
   const float cosine = std::clamp(-glm::dot(n, ray.direction), 0.0f, 1.0f);
-  const float eta = point.from_front ? point.index : 1.0f / point.index;
+  const float eta = point.from_front ? 1.0f / point.index : point.index;
   Ray next;
   next.time = ray.time;
-  if (random.uniform() < fresnel(cosine, eta)) {
-    next.direction = glm::normalize(ray.direction + 2.0f * cosine * n);
+  if (random.uniform() < light::fresnel(cosine, eta)) {
+    next.direction = glm::normalize(light::mirrored_way(ray.direction, n));
     next.origin_m = beside(point.position_m, point.flat_normal);
   } else {
-    const float behind = std::sqrt(std::max(0.0f, 1.0f - (1.0f - cosine * cosine) / (eta * eta)));
-    next.direction = glm::normalize(ray.direction / eta + (cosine / eta - behind) * n);
+    next.direction = glm::normalize(light::refracted(ray.direction, n, eta));
     next.origin_m = beside(point.position_m, -point.flat_normal);
   }
   return next;

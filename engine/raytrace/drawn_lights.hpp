@@ -61,8 +61,7 @@ inline LightSample draw_headlight(const World& world, float strengths, const glm
   const DrawnHeadlight drawn = headlights.drawn(from_m, time, random.uniform(), strengths);
   const glm::vec3 way = headlights.position_m(drawn.which, time) - from_m;
   distance_m = glm::length(way);
-  return {way / std::max(distance_m, 1e-6f), glm::vec3(1.0f, 0.93f, 0.80f) * drawn.strength,
-          drawn.strength / strengths};
+  return {way / std::max(distance_m, 1e-6f), light::headlight_color * drawn.strength, drawn.strength / strengths};
 }
 
 }  // namespace septet::raytrace

@@ -1,16 +1,11 @@
 #pragma once
-/// Rough surfaces as microfacets: the GGX distribution with Smith's masking (Walter et al., "Microfacet Models for Refraction
+/// Rough surfaces as microfacets: the GGX distribution (engine/light/microfacets.hpp) with Smith's masking (Walter et al., "Microfacet Models for Refraction
 /// through Rough Surfaces", 2007; Heitz, "Understanding the Masking-Shadowing Function", 2014). Directions are unit vectors in
 /// the surface's frame, z its normal; `alpha` is the square of the roughness.
 
 #include "engine/raytrace/directions.hpp"
 
 namespace septet::raytrace {
-
-inline float ggx_density(float cosine, float alpha) {
-  const float a2 = alpha * alpha, d = cosine * cosine * (a2 - 1.0f) + 1.0f;
-  return a2 / (pi * d * d);
-}
 
 /// Smith's Λ: masking alone is 1/(1 + Λ(v)), masking and shadowing 1/(1 + Λ(v) + Λ(l)).
 inline float smith_lambda(const glm::vec3& v, float alpha) {
@@ -33,21 +28,6 @@ inline glm::vec3 visible_normal(const glm::vec3& v, float alpha, const glm::vec2
   const float z = std::sqrt(std::max(0.0f, 1.0f - x * x - y * y));
   const glm::vec3 n = x * level + y * upward + z * stretched;
   return glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
-}
-
-inline glm::vec3 schlick(const glm::vec3& f0, float cosine) {
-  const float x = 1.0f - cosine, x2 = x * x;
-  return f0 + (1.0f - f0) * (x2 * x2 * x);
-}
-
-/// Share of unpolarised light that an interface reflects; `eta` is the index behind it over the one before it. 1 is total.
-inline float fresnel(float cosine, float eta) {
-  const float sine2 = (1.0f - cosine * cosine) / (eta * eta);
-  if (sine2 >= 1.0f) return 1.0f;
-  const float behind = std::sqrt(1.0f - sine2);
-  const float s = (cosine - eta * behind) / (cosine + eta * behind),
-              p = (eta * cosine - behind) / (eta * cosine + behind);
-  return 0.5f * (s * s + p * p);
 }
 
 }  // namespace septet::raytrace

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/core/check.hpp"
-#include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -44,7 +44,7 @@ inline HeadlightRow::Strengths HeadlightRow::strengths(std::size_t first, const 
     const float square = way.x * way.x + way.y * way.y + way.z * way.z;
     const float per_m = 1.0f / std::sqrt(std::max(square, 1e-6f));
     const glm::vec3 level(row[level_x][k], row[level_y][k], row[level_z][k]);
-    strengths[k] = row[intensity][k] * instant::beam::share(level, way * per_m, row[main_beam][k]) / (square + 1.0f);
+    strengths[k] = row[intensity][k] * light::beam_share(level, way * per_m, row[main_beam][k], square + 1.0f);
   }
   return strengths;
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// Headlights that are looked at from a place, and which of many: each by what it would give there if nothing shaded it.
 ///
-/// They are points with a beam (engine/instant/headlight_beam.hpp), as many numbers of each kind in a row, so that they are weighed eight
+/// They are points with a beam (engine/light/beam.hpp), as many numbers of each kind in a row, so that they are weighed eight
 /// at a time. Frame: that of World.
 
 #include <array>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 #include "engine/raytrace/crossing.hpp"
 #include "engine/raytrace/drawn_lights.hpp"
 #include "engine/raytrace/photon_map.hpp"
@@ -52,10 +52,10 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
                                         : scattering(point.surface, to_viewer, light.direction);
   if (kind == Kind::headlight && !point.in_smoke) {
     const float cosine = std::max(glm::dot(light.direction, point.surface.normal), 1e-3f);
-    scattered.value *= instant::beam::facing(cosine) / cosine;
+    scattered.value *= light::beam_facing(cosine) / cosine;
     // Beads and prisms send it back to the lamp, beside which the eye is; what they light elsewhere does not count.
     if (!scattered_)
-      scattered.value += point.retroreflection * instant::beam::returned(1.0f - glm::dot(light.direction, to_viewer));
+      scattered.value += point.retroreflection * light::beam_returned(1.0f - glm::dot(light.direction, to_viewer));
   }
   if (scattered.value == glm::vec3(0.0f)) return;
   const float pdf = light.pdf * chance(kind);

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <limits>
 
-#include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 #include "engine/raytrace/crossing.hpp"
 
 namespace septet::raytrace {
@@ -15,7 +15,6 @@ namespace {
 constexpr std::uint32_t longest_caustic = 24;  ///< Edges of a photon's way through clear bodies.
 constexpr float sun_starts_m = 2000.0f;        ///< Before the body: nothing higher shades it.
 constexpr float headlight_glass_m = 0.3f;      ///< It shines from before its lamp's glass, which would shade it.
-constexpr glm::vec3 headlight_color{1.0f, 0.93f, 0.80f};
 constexpr std::uint64_t photons_word = 0x70686f746f6e7321u;  ///< Other random numbers than those of pixels.
 
 /// Share of a cone's directions that lie around a sphere, as seen from outside: half-angle θ, 1 − cos θ; more than a half within.
@@ -65,7 +64,7 @@ PhotonLights::PhotonLights(const World& world, const PhotonSettings& settings, s
       const float square = std::max(glm::dot(way, way), 1e-6f);
       // Never nothing: the beam may reach its edge.
       const float share =
-          std::max(0.01f, instant::beam::share(headlight.direction, way / std::sqrt(square), headlight.main_beam));
+          std::max(0.01f, light::beam_share(headlight.direction, way / std::sqrt(square), headlight.main_beam, 1.0f));
       add(Light::headlight, light, n, headlight.intensity * share * std::min(4.0f * pi, disc_m2 / square));
     }
   }
@@ -135,8 +134,8 @@ PhotonLights::Flight PhotonLights::towards_body(PathRandom& random, float time) 
   if (found->light == Light::headlight) {
     const instant::Headlight& light = world_.instant().headlights[found->number];
     const float solid_angle_sr = aim(world_.headlights().position_m(found->number, time));
-    flight.power = headlight_color *
-                   (light.intensity * instant::beam::share(light.direction, flight.ray.direction, light.main_beam) *
+    flight.power = light::headlight_color *
+                   (light.intensity * light::beam_share(light.direction, flight.ray.direction, light.main_beam, 1.0f) *
                     solid_angle_sr * share);
     flight.ray.origin_m += headlight_glass_m * flight.ray.direction;
     return flight;

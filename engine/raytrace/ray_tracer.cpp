@@ -84,7 +84,7 @@ struct Camera {
 };
 
 ClearBody clear_body(const ice::IceBody& ice, const ice::IceBody* later) {
-  ClearBody body{ice.origin_m, {}, static_cast<float>(ice::ice_index / ice::air_index), ice.look.absorption_per_m};
+  ClearBody body{ice.origin_m, {}, light::out_of_ice, ice.look.absorption_per_m};
   for (const ice::IceVertex& vertex : ice.vertices) body.vertices.push_back({vertex.position_m, vertex.normal, {}});
   if (!later || later->vertices.size() != ice.vertices.size()) return body;
   const Vec3 way_m = later->origin_m - ice.origin_m;

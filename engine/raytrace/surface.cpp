@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/light/fresnel.hpp"
+#include "engine/light/microfacets.hpp"
+
 namespace septet::raytrace {
 namespace {
 
@@ -13,8 +16,8 @@ struct Shares {
 bool has_layer(const Surface& surface) { return surface.f0.x + surface.f0.y + surface.f0.z > 0.0f; }
 
 Shares shares_of(const Surface& surface, float viewer_z) {
-  const float coat = surface.coat * schlick(glm::vec3(surface.coat_f0), viewer_z).x;
-  const float layer = (1.0f - coat) * (has_layer(surface) ? luminance(schlick(surface.f0, viewer_z)) : 0.0f);
+  const float coat = surface.coat * light::schlick(glm::vec3(surface.coat_f0), viewer_z).x;
+  const float layer = (1.0f - coat) * (has_layer(surface) ? luminance(light::schlick(surface.f0, viewer_z)) : 0.0f);
   const float base = std::max(0.0f, 1.0f - coat - layer) * luminance(surface.diffuse);
   const float sum = std::max(coat + layer + base, 1e-6f);
   // Even an unlikely layer is drawn at times: its highlight may be what is bright.
@@ -32,7 +35,7 @@ struct Facets {
 };
 
 Facets facets(const glm::vec3& v, const glm::vec3& l, const glm::vec3& h, float alpha) {
-  const float d = ggx_density(h.z, alpha), lambda = smith_lambda(v, alpha);
+  const float d = light::ggx_density(h.z, alpha), lambda = smith_lambda(v, alpha);
   return {d / (4.0f * v.z * (1.0f + lambda + smith_lambda(l, alpha))), d / (4.0f * v.z * (1.0f + lambda))};
 }
 
@@ -46,15 +49,15 @@ Scattering in_frame(const Surface& surface, const Shares& shares, const glm::vec
   const float vh = glm::dot(v, h);
   if (has_layer(surface)) {
     const Facets layer = facets(v, l, h, surface.alpha);
-    result.value *= (1.0f - schlick(surface.f0, v.z)) * (1.0f - schlick(surface.f0, l.z));
-    result.value += schlick(surface.f0, vh) * layer.value;
+    result.value *= (1.0f - light::schlick(surface.f0, v.z)) * (1.0f - light::schlick(surface.f0, l.z));
+    result.value += light::schlick(surface.f0, vh) * (layer.value * surface.mirrors);
     result.pdf += shares.layer * layer.pdf;
   }
   if (surface.coat > 0.0f) {
     const Facets coat = facets(v, l, h, surface.coat_alpha);
-    const auto passes = [&](float z) { return 1.0f - surface.coat * schlick(glm::vec3(surface.coat_f0), z).x; };
+    const auto passes = [&](float z) { return 1.0f - surface.coat * light::schlick(glm::vec3(surface.coat_f0), z).x; };
     result.value = result.value * (passes(v.z) * passes(l.z)) +
-                   surface.coat * schlick(glm::vec3(surface.coat_f0), vh).x * coat.value;
+                   surface.coat * light::schlick(glm::vec3(surface.coat_f0), vh).x * (coat.value * surface.mirrors);
     result.pdf += shares.coat * coat.pdf;
   }
   return result;

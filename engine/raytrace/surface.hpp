@@ -17,6 +17,8 @@ struct Surface {
   float coat = 0.0f;                   ///< Share of the surface that a clear coat covers: lacquer, or water.
   float coat_f0 = 0.04f;               ///< Index 1.5; water has 0.02.
   float coat_alpha = 0.001f;
+  float mirrors =
+      1.0f;  ///< Share of what layer and coat mirror that soot on them leaves; `diffuse` has lost it already.
 };
 
 /// A diffuse base alone.

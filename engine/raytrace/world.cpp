@@ -9,23 +9,18 @@
 #include "engine/instant/glass_cover.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/instant/wet_road.hpp"
+#include "engine/light/crack.hpp"
+#include "engine/light/fresnel.hpp"
+#include "engine/light/frost.hpp"
+#include "engine/light/lamplight.hpp"
+#include "engine/light/microfacets.hpp"
+#include "engine/light/ruts.hpp"
+#include "engine/light/snow.hpp"
+#include "engine/light/soot.hpp"
+#include "engine/light/wet_road.hpp"
 
 namespace septet::raytrace {
 namespace {
-
-constexpr float opaque_from = 0.999f;  // As the rasteriser has it.
-constexpr float rough_from = 0.6f;     // Rougher than that nothing is seen to mirror.
-constexpr std::uint32_t no_material = 0xffffffffu;
-
-bool is_cut(const scene::SurfaceMaterial& material, const scene::ResolvedScene& scene) {
-  if (material.opacity < opaque_from || material.base_color_image < 0 ||
-      static_cast<std::size_t>(material.base_color_image) >= scene.images.size())
-    return false;
-  const auto& rgba = scene.images[static_cast<std::size_t>(material.base_color_image)].rgba;
-  for (std::size_t i = 3; i < rgba.size(); i += 4)
-    if (rgba[i] < 128) return true;
-  return false;
-}
 
 float linear(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
 
@@ -39,41 +34,13 @@ const std::array<float, 256>& linear_codes() {
   return codes;
 }
 
-float step_between(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3.0f - 2.0f * t);
+/// A smoothed normal may turn away from the viewer where the triangle does not: it is brought back to the edge.
+glm::vec3 facing_viewer(const glm::vec3& normal, const glm::vec3& ray_direction) {
+  const float facing = -glm::dot(normal, ray_direction);
+  return facing < 1e-3f ? glm::normalize(normal - (1e-3f - facing) * ray_direction * 1.01f) : normal;
 }
 
 }  // namespace
-
-SceneIndex::SceneIndex(const scene::ResolvedScene& scene) {
-  for (const scene::SurfaceMaterial& material : scene.materials) {
-    cut.push_back(is_cut(material, scene));
-    shows_back.push_back(material.two_sided || cut.back() || material.stripe || material.opacity < opaque_from);
-    plain.push_back(material.base_color_image < 0 && material.opacity >= opaque_from && material.metallic == 0.0f &&
-                    material.roughness >= rough_from && material.clear_coat <= 0.0f && !material.wettable &&
-                    material.retroreflection == 0.0f && material.emission == glm::vec3(0.0f));
-  }
-  const auto is_open = [&](const scene::MeshPart& part) {
-    return part.material < cut.size() && (cut[part.material] || scene.materials[part.material].opacity < opaque_from);
-  };
-  for (const scene::SurfaceMesh& mesh : scene.meshes) {
-    open.push_back(std::ranges::any_of(mesh.parts, is_open));
-    materials.push_back(triangle_materials(mesh));
-  }
-}
-
-std::vector<std::uint32_t> triangle_materials(const scene::SurfaceMesh& mesh) {
-  std::vector<std::uint32_t> of_triangles(mesh.indices.size() / 3, no_material);
-  // Where two hold a triangle the first counts.
-  for (auto part = mesh.parts.rbegin(); part != mesh.parts.rend(); ++part)
-    for (std::size_t n = part->first_index; n < std::size_t{part->first_index} + part->index_count; n += 3)
-      if (n / 3 < of_triangles.size()) of_triangles[n / 3] = part->material;
-  if (!of_triangles.empty() && std::ranges::all_of(of_triangles, [&](auto m) { return m == of_triangles[0]; }))
-    of_triangles.resize(1);
-  of_triangles.shrink_to_fit();
-  return of_triangles;
-}
 
 World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const instant::Instant& instant,
              const instant::Instant* later, std::span<const ClearBody> bodies,
@@ -156,31 +123,23 @@ glm::vec4 World::texel(const scene::SurfaceMaterial& material, const glm::vec2& 
 float World::soot(const glm::vec3& position_m) const {
   const instant::SootField& field = instant_.soot;
   const glm::vec3 at((inverse(field.world_from_field) * (origin_m_ + Vec3(position_m))) / field.cell_m - 0.5);
-  const glm::vec3 low = glm::floor(at), share = at - low;
-  const glm::vec3 end(field.nx - 1, field.ny - 1, field.nz - 1);
-  if (!glm::all(glm::greaterThanEqual(low, glm::vec3(0.0f))) || !glm::all(glm::lessThan(low, end))) return 0.0f;
-  const glm::ivec3 cell(low);
+  const glm::vec3 floored = glm::floor(at), share = at - floored;
+  const glm::ivec3 low(floored), size(field.nx, field.ny, field.nz);
+  if (!light::in_soot(low, size)) return 0.0f;
   float sum = 0.0f;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
-    const glm::vec3 weight = glm::mix(1.0f - share, share, glm::vec3(step));
-    const glm::ivec3 c = cell + step;
-    const auto index =
-        (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(field.ny) + static_cast<std::size_t>(c.y)) *
-            static_cast<std::size_t>(field.nx) +
-        static_cast<std::size_t>(c.x);
-    sum += weight.x * weight.y * weight.z * static_cast<float>(field.cover[index]) / 255.0f;
+  for (int n = 0; n < 8; ++n) {
+    const glm::ivec3 corner = light::soot_corner(n);
+    const int index = light::soot_index(low + corner, size);
+    sum +=
+        light::soot_weight(share, corner) * static_cast<float>(field.cover[static_cast<std::size_t>(index)]) / 255.0f;
   }
   return sum;
 }
 
-void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
-  const PlacedSurface& placed = placed_[hit.place];
-  const scene::SurfaceMaterial& material = material_of(placed, hit.triangle);
+/// Where the hit lies and how the surface stands there; the normal between the corners' own, towards the viewer.
+glm::vec3 World::stand(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   const Corners at = corners(placed, hit.triangle);
   const float w = 1.0f - hit.u - hit.v;
-  point = {};
-  point.place = hit.place;
   glm::vec3 a = at.a->position_m, b = at.b->position_m, c = at.c->position_m;
   glm::vec3 normal = w * at.a->normal + hit.u * at.b->normal + hit.v * at.c->normal;
   if (!placed.later.empty()) {
@@ -218,96 +177,115 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
     point.flat_normal = -point.flat_normal;
     normal = -normal;
   }
-  // A smoothed normal may turn away from the viewer where the triangle does not: it is brought back to the edge.
-  if (const float facing = -glm::dot(normal, ray.direction); facing < 1e-3f)
-    normal = glm::normalize(normal - (1e-3f - facing) * ray.direction * 1.01f);
+  return facing_viewer(normal, ray.direction);
+}
+
+void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
+  const PlacedSurface& placed = placed_[hit.place];
+  const scene::SurfaceMaterial& material = material_of(placed, hit.triangle);
+  point = {};
+  point.place = hit.place;
+  Surface& surface = point.surface;
+  surface.normal = stand(placed, ray, hit, point);
   if (placed.body) {
-    point.surface.normal = normal;
     point.dielectric = true;
     point.index = placed.body->index;
     point.absorption_per_m = placed.body->absorption_per_m;
     return;
   }
-
-  Surface& surface = point.surface;
-  surface.normal = normal;
   if (placed.on_glass) return lie_on_glass(placed, ray, hit, point);
   point.share_of_sky = material.share_of_sky * placed.share_of_sky;
   if (!point.from_front && !shows_back(material)) {
     point.opacity = 0.0f;
     return;
   }
+  glm::vec3 base = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
   if (nothing_lies_on_it_ && &material != &no_material_ &&
       index_.plain[static_cast<std::size_t>(&material - scene_.materials.data())]) {
-    surface.diffuse = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
+    surface.diffuse = base;
     return;
   }
-  const bool textured = material.base_color_image >= 0;
-  glm::vec2 uv = w * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv;
+  const Corners at = corners(placed, hit.triangle);
+  glm::vec2 uv = (1.0f - hit.u - hit.v) * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv;
   if (material.picture_columns > 1 || material.picture_rows > 1) uv = in_image(placed, material, uv);
-  glm::vec3 base = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
-  glm::vec3 image(1.0f);
   point.opacity = material.opacity;
+  const bool textured = material.base_color_image >= 0;
   if (textured) {
     const glm::vec4 read = texel(material, uv);
-    image = glm::vec3(read);
-    base *= image;
+    base *= glm::vec3(read);
     if (material.opacity < opaque_from) point.opacity *= read.a;
   }
   if (material.opacity >= opaque_from) point.opacity = 1.0f;
+  const glm::vec3 seen = -ray.direction;
+  lay_weather(placed, material, uv, base, seen, point);
+  if ((point.from_front || material.two_sided) && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f))
+    give_off(placed, material, textured ? base : glm::vec3(1.0f), hit, seen, point);
+  if (!instant_.soot.cover.empty()) blacken(1.0f - soot(point.position_m), point);
+}
 
-  const glm::vec3 color = base;
-  const float share_of_sky = point.share_of_sky;
+/// Snow, water and gloss on a surface of the colour `base`, looked at along −`seen`.
+void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
+                        const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const {
   const Environment& weather = instant_.environment;
+  Surface& surface = point.surface;
+  const glm::vec3 normal = surface.normal;
+  glm::vec3 albedo = base;
   const float snow_lies =
-      weather.snow_cover > 0.0 ? lay_snow(placed, material, uv, normal.z, share_of_sky, base) : 0.0f;
+      weather.snow_cover > 0.0 ? lay_snow(placed, material, uv, normal.z, point.share_of_sky, albedo) : 0.0f;
   const float wet =
-      material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky * (1.0f - snow_lies) : 0.0f;
-  const float under_water = wet > 0.0f ? instant::puddle(cloud_noise_, origin_m_.x + double(point.position_m.x),
-                                                         origin_m_.y + double(point.position_m.y),
-                                                         textured ? instant::rut_at(uv.x) : 0.0f, wet)
-                                       : 0.0f;
-  base *= (1.0f - 0.55f * wet) * (1.0f - 0.3f * under_water);
-  if (!instant_.soot.cover.empty()) base *= 1.0f - soot(point.position_m);
+      material.wettable ? static_cast<float>(weather.road_wetness) * point.share_of_sky * (1.0f - snow_lies) : 0.0f;
+  const Vec3 place_m = origin_m_ + Vec3(point.position_m);
+  const float rut = material.base_color_image >= 0 ? light::rut_at(uv.x) : 0.0f;
+  const float under_water = wet > 0.0f ? instant::puddle(cloud_noise_, place_m.x, place_m.y, rut, wet) : 0.0f;
+  albedo = light::wet_albedo(albedo, wet, under_water);
 
-  point.retroreflection = color * (material.retroreflection * (material.stripe ? 1.0f - 0.8f * wet : 1.0f));
-  surface.diffuse = base * (1.0f - material.metallic);
+  point.retroreflection = base * (material.retroreflection * (material.stripe ? light::wet_beads_return(wet) : 1.0f));
+  surface.diffuse = albedo * (1.0f - material.metallic);
   if (material.wettable) {
     // Water covers a share of a wet road, as in the rasteriser; the dry road between is rough.
-    surface.coat = glm::mix(instant::film_share * wet, 0.95f, under_water);
-    surface.coat_f0 = 0.02f;
-    const float roughness = glm::mix(instant::film_roughness, instant::puddle_roughness, under_water);
+    surface.coat = light::water_covers(wet, under_water);
+    surface.coat_f0 = light::water_reflectance;
+    const float roughness = light::water_roughness(under_water);
     surface.coat_alpha = roughness * roughness;
-    if (under_water > 0.0f && !ripples_.empty()) {
-      surface.normal = glm::normalize(surface.normal - glm::vec3(under_water * ripple(point.position_m), 0.0f));
-      if (const float facing = -glm::dot(surface.normal, ray.direction); facing < 1e-3f)
-        surface.normal = glm::normalize(surface.normal - (1e-3f - facing) * ray.direction * 1.01f);
-    }
+    if (under_water > 0.0f && !ripples_.empty())
+      surface.normal = facing_viewer(
+          glm::normalize(surface.normal - glm::vec3(under_water * ripple(point.position_m), 0.0f)), -seen);
   } else if (material.roughness < rough_from || material.metallic > 0.2f || point.opacity < 1.0f) {
     const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
     surface.alpha = std::max(1e-3f, material.roughness * material.roughness);
-    surface.f0 = glm::mix(glm::vec3(index * index), base, material.metallic);
+    surface.f0 = glm::mix(glm::vec3(index * index), albedo, material.metallic);
   }
   if (material.clear_coat > 0.0f && !material.wettable) {
     surface.coat = material.clear_coat;
-    surface.coat_f0 = scene::clear_coat_reflectance;
-    surface.coat_alpha = scene::clear_coat_roughness * scene::clear_coat_roughness;
+    surface.coat_f0 = light::coat_reflectance;
+    surface.coat_alpha = light::coat_roughness * light::coat_roughness;
   }
   if (point.opacity < 1.0f)  // The better it mirrors, the less is seen through it.
     point.opacity = std::clamp(
-        point.opacity + luminance(schlick(surface.f0, std::min(1.0f, -glm::dot(normal, ray.direction)))), 0.0f, 1.0f);
-  if ((point.from_front || material.two_sided) && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
-    point.emission =
-        material.emission * (placed.tint.w * instant_.emission_share) * (textured ? color : glm::vec3(1.0f));
-    point.lights_up = lights_up(placed, material, instant::looks_down(point.flat_normal));
-    const float cosine = -glm::dot(point.flat_normal, ray.direction);
-    if (cosine > 1e-6f && is_street_lamp(placed, material, instant::looks_down(point.flat_normal)))
-      point.lights_up *= street_lamp::spread(cosine) / cosine;
-    if (material.lit_by_night) point.emission *= instant_.light->night, point.lights_up = 0.0f;
-    if (!point.from_front) return;  // No lamp is looked at from behind.
-    for (const std::uint32_t lamp : placed.lamps)
-      if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
-  }
+        point.opacity + luminance(light::schlick(surface.f0, std::min(1.0f, glm::dot(normal, seen)))), 0.0f, 1.0f);
+}
+
+/// The light of what shines, `color` times as its material says.
+void World::give_off(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec3& color,
+                     const Hit& hit, const glm::vec3& seen, SurfacePoint& point) const {
+  point.emission = material.emission * (placed.tint.w * instant_.emission_share) * color;
+  point.lights_up = lights_up(placed, material, instant::looks_down(point.flat_normal));
+  const float cosine = glm::dot(point.flat_normal, seen);
+  if (cosine > 1e-6f && is_street_lamp(placed, material, instant::looks_down(point.flat_normal)))
+    point.lights_up *= street_lamp::spread(cosine) / cosine;
+  if (material.lit_by_night) point.emission *= instant_.light->night, point.lights_up = 0.0f;
+  if (!point.from_front) return;  // No lamp is looked at from behind.
+  for (const std::uint32_t lamp : placed.lamps)
+    if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
+}
+
+/// Soot leaves that share of all light that comes from a surface. What a lamp lights it lights as before: its lens is drawn as a light of its own.
+void World::blacken(float share, SurfacePoint& point) {
+  point.surface.diffuse *= share;
+  point.surface.mirrors = share;
+  point.retroreflection *= share;
+  point.emission *= share;
+  if (share > 0.0f) point.lights_up /= share;
 }
 
 void World::lie_on_glass(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const {
@@ -321,7 +299,7 @@ void World::lie_on_glass(const PlacedSurface& placed, const Ray& ray, const Hit&
   if (placed.on_glass->look.on_glass == ice::OnGlass::frost) {
     point.opacity = instant::frost_hides(cloud_noise_, rest_m);
     point.translucent = true;
-    point.surface.diffuse = glm::vec3(instant::frost_albedo);
+    point.surface.diffuse = glm::vec3(light::frost_albedo);
     return;
   }
   const instant::CrackSeen crack =
@@ -335,11 +313,11 @@ void World::lie_on_glass(const PlacedSurface& placed, const Ray& ray, const Hit&
   }
   point.surface.normal = glm::dot(crack.normal, ray.direction) > 0.0f ? -crack.normal : crack.normal;
   point.surface.f0 = glm::vec3(1.0f);
-  point.surface.alpha = instant::crack_roughness * instant::crack_roughness;
+  point.surface.alpha = light::crack_roughness * light::crack_roughness;
 }
 
 glm::vec2 World::ripple(const glm::vec3& position_m) const {
-  const Vec3 tiles = (origin_m_ + Vec3(position_m)) / instant::ripple_tile_m;
+  const Vec3 tiles = (origin_m_ + Vec3(position_m)) / double(light::ripple_tile_m);
   const auto texel = [](double tile) {
     const auto n = static_cast<std::uint32_t>((tile - std::floor(tile)) * instant::ripple_side);
     return std::size_t{std::min(n, instant::ripple_side - 1)};
@@ -348,8 +326,8 @@ glm::vec2 World::ripple(const glm::vec3& position_m) const {
 }
 
 glm::vec3 World::fog_radiance(const glm::vec3& direction, float from_share_of_sky, float to_share_of_sky) const {
-  const float roofed = instant::roofed_between(from_share_of_sky, to_share_of_sky);
-  return glm::mix(open_fog_radiance(direction), instant::roofed_haze, roofed);
+  const float roofed = light::roofed_between(from_share_of_sky, to_share_of_sky);
+  return glm::mix(open_fog_radiance(direction), light::roofed_haze, roofed);
 }
 
 glm::vec3 World::open_fog_radiance(const glm::vec3& direction) const {
@@ -359,21 +337,18 @@ glm::vec3 World::open_fog_radiance(const glm::vec3& direction) const {
   return sky_.radiance({across * direction.x / level, across * direction.y / level, up});
 }
 
-/// As in shaders/surface.frag. Leaves wither, and snow lies on twigs whichever way their picture looks. Wheels keep two tracks of a
-/// lane bare; what drives has blown it off, and one sees through what is clear. Returns the share of the place on which it lies.
+/// What drives has blown snow off, and one sees through what is clear. Returns the share of the place on which it lies.
 float World::lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
                       float up, float share_of_sky, glm::vec3& albedo) const {
   const auto cover = static_cast<float>(instant_.environment.snow_cover);
-  float snow = step_between(0.35f, 0.8f, up);
-  if (&material != &no_material_ && index_.cut[static_cast<std::size_t>(&material - scene_.materials.data())]) {
-    albedo = glm::mix(albedo, glm::vec3(0.11f, 0.09f, 0.07f) * (0.4f + 2.0f * albedo.g), 0.9f * cover);
-    snow = std::max(snow, 0.35f);
-  }
+  const bool twigs =
+      &material != &no_material_ && index_.cut[static_cast<std::size_t>(&material - scene_.materials.data())];
+  if (twigs) albedo = light::withered(albedo, cover);
   if (!placed.snowed_on || material.opacity < opaque_from) return 0.0f;
-  if (material.wettable && material.base_color_image >= 0)
-    snow *= 0.3f + 0.7f * step_between(0.07f, 0.13f, std::abs(std::abs(uv.x - 0.5f) - 0.23f));
+  float snow = twigs ? light::twigs_hold_snow(up) : light::holds_snow(up);
+  if (material.wettable && material.base_color_image >= 0) snow *= light::snow_beside_ruts(uv.x);
   const float lies = cover * share_of_sky * snow;
-  albedo = glm::mix(albedo, glm::vec3(0.85f, 0.88f, 0.92f), lies);
+  albedo = light::snowy_albedo(albedo, lies);
   return lies;
 }
 

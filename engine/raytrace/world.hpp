@@ -8,13 +8,14 @@
 
 #include <optional>
 
-#include "engine/effects/ice/ice_body.hpp"
 #include "engine/instant/clouds.hpp"
+#include "engine/instant/ice_body.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/geometry.hpp"
 #include "engine/raytrace/headlights.hpp"
 #include "engine/raytrace/lamps.hpp"
 #include "engine/raytrace/matt_faces.hpp"
+#include "engine/raytrace/scene_index.hpp"
 #include "engine/raytrace/sky.hpp"
 #include "engine/raytrace/smoke.hpp"
 #include "engine/raytrace/surface.hpp"
@@ -57,20 +58,6 @@ struct ClearBody {
   glm::vec3 absorption_per_m{0.0f};
   std::vector<scene::SurfaceVertex> later{};  ///< From the same origin at time 1; none: it does not move.
 };
-
-/// What of a scene is worked out once for all its instants.
-struct SceneIndex {
-  explicit SceneIndex(const scene::ResolvedScene& scene);
-  std::vector<bool> cut;            ///< For each material, whether its image has holes.
-  std::vector<bool> shows_back;     ///< For each material, whether it is seen from behind.
-  std::vector<std::uint8_t> plain;  ///< For each material, whether it is a matt colour and no more.
-  std::vector<bool> open;           ///< For each mesh, whether a ray may pass in places: holes, or glass.
-  /// For each mesh its triangles' materials, by their index; one number for all of them, if they are of one.
-  std::vector<std::vector<std::uint32_t>> materials;
-};
-
-/// The material of each triangle of a mesh; one number for all of them, if they are of one.
-std::vector<std::uint32_t> triangle_materials(const scene::SurfaceMesh& mesh);
 
 class World : public Openings {
  public:
@@ -175,6 +162,12 @@ class World : public Openings {
   /// Place in the material's image: of several pictures in it, that of the participant.
   static glm::vec2 in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv);
   glm::vec4 texel(const scene::SurfaceMaterial& material, const glm::vec2& at) const;
+  glm::vec3 stand(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const;
+  void lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
+                   const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const;
+  void give_off(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec3& color,
+                const Hit& hit, const glm::vec3& seen, SurfacePoint& point) const;
+  static void blacken(float share, SurfacePoint& point);
   float lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
                  float share_of_sky, glm::vec3& albedo) const;
   float soot(const glm::vec3& position_m) const;

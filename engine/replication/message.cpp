@@ -35,8 +35,7 @@ Bytes get_commands(ByteReader& in) {
   if (!in.ok() || raw_size > max_batch_bytes) return in.fail(), Bytes{};
   if (packing == plain) return {bytes.begin(), bytes.end()};
   Bytes commands(raw_size);
-  // The size that the sender claims bounds what is written; anything but exactly that many bytes is
-  // refused.
+  // The sender's stated size bounds the output; anything but exactly that many bytes is refused.
   if (ZSTD_decompress(commands.data(), commands.size(), bytes.data(), bytes.size()) != raw_size)
     return in.fail(), Bytes{};
   return commands;

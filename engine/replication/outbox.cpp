@@ -7,15 +7,15 @@
 namespace septet::replication {
 namespace {
 
-constexpr std::size_t chunk_bytes = 24 * 1024;  ///< Of a range, before it is packed.
-constexpr std::size_t most_ranges = 64;         ///< More are taken together, with what lies between.
+constexpr std::size_t chunk_bytes = 24 * 1024;  ///< Size of a range's part, before it is packed.
+constexpr std::size_t most_ranges = 64;         ///< More are merged, with the elements between them.
 
 using Ranges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 void add_range(Ranges& ranges, std::uint32_t first, std::uint32_t end) {
   auto at = std::lower_bound(ranges.begin(), ranges.end(), first,
                              [](const auto& range, std::uint32_t value) { return range.second < value; });
-  // Everything from `at` on that touches the new range is taken into it.
+  // Ranges from `at` on that touch the new one are merged into it.
   auto last = at;
   for (; last != ranges.end() && last->first <= end; ++last) {
     first = std::min(first, last->first);

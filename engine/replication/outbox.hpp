@@ -1,9 +1,9 @@
 #pragma once
-/// What one client has yet to be told: changed subjects in the order in which they first changed.
+/// Changes not yet sent to one client: subjects in the order in which they first changed.
 ///
-/// A subject waits once, however often it changes, and its commands are written from the store when
-/// they are sent: the overwrite-by-address of Brink, Steenberg and Svensson (2006, §2.3.3). Memory
-/// is bounded by the number of subjects in the world.
+/// A subject waits once, however often it changes, and its commands are written from the store when they are sent: the
+/// overwrite-by-address of Brink, Steenberg and Svensson (2006, §2.3.3). Memory is bounded by the number of subjects in
+/// the world.
 
 #include <deque>
 #include <map>
@@ -17,17 +17,16 @@ namespace septet::replication {
 class Outbox {
  public:
   void mark(const Change& change);
-  /// Nothing about the subjects from `first` to `last` needs to be said any more.
+  /// Drops waiting changes of the subjects from `first` to `last`.
   void forget(const Subject& first, const Subject& last);
   bool empty() const { return waiting_.empty(); }
 
-  /// Appends commands until `out` holds about `bytes` or nothing waits, and notes in `sent` what
-  /// they were about.
+  /// Appends commands until `out` holds about `bytes` or nothing waits, and appends their subjects to `sent`.
   void write(const scene::Store& store, std::size_t bytes, Bytes& out, std::vector<Change>& sent);
 
  private:
   struct Waiting {
-    Change change;                                                ///< Of a range subject only the subject counts.
+    Change change;                                                ///< For a range subject only the subject counts.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  ///< [first, end), rising, apart.
   };
 

@@ -32,7 +32,7 @@ struct ReplicationClient::State {
   StoreLimits limits;
 
   std::unique_ptr<Store> shown = std::make_unique<Store>();
-  std::unique_ptr<Store> filling;  ///< Where it is another than the one shown.
+  std::unique_ptr<Store> filling;  ///< Set where it is another than the one shown.
   std::uint64_t generation = 0;
   std::set<std::tuple<NodeId, PartKind, PartId>> subscribed_parts;
 
@@ -40,7 +40,7 @@ struct ReplicationClient::State {
   std::uint64_t received = 0;  ///< The server's last batch.
   std::uint64_t sent = 0;
   std::deque<SentBatch> unacknowledged;
-  std::size_t to_repeat = 0;  ///< The last so many of them are to be sent (again).
+  std::size_t to_repeat = 0;  ///< Number of the latest of them to be sent (again).
   Bytes queued;               ///< Commands that are in no batch yet.
   bool hello_due = false, welcomed = false, owes_acknowledgement = false;
 
@@ -60,7 +60,7 @@ struct ReplicationClient::State {
     ever_complete = false;
     owes_acknowledgement = false;
     filling = std::make_unique<Store>(limits);
-    if (shown->revision() == 0) show();  // Nothing to hold on to: show it as it comes.
+    if (shown->revision() == 0) show();  // There is no older mirror to keep: show this one as it fills.
     queue(NodeIndexSubscribe{policy.node_types});
   }
   void show() {
@@ -68,7 +68,7 @@ struct ReplicationClient::State {
     ++generation;
   }
 
-  // ---- what to ask for
+  // ---- subscriptions
 
   void queue(const Command& command) {
     scene::encode(command, queued);
@@ -89,7 +89,7 @@ struct ReplicationClient::State {
                            subscribed_parts.upper_bound({node, PartKind::layer, last}));
   }
 
-  /// Subscribes to what a command tells of.
+  /// Subscribes to the nodes and parts that a command announces.
   void learn_from(const Command& command) {
     if (const auto* c = std::get_if<NodeCreate>(&command)) {
       queue(NodeSubscribe{c->node, true});
@@ -149,7 +149,7 @@ struct ReplicationClient::State {
   Expected<void> operator()(const Complete& message) {
     answered = message.answered;
     revision = message.revision;
-    // Before the first batch is out nothing was asked for, so nothing can be complete.
+    // Before the first batch is sent there are no requests, so nothing can be complete.
     ever_complete = ever_complete || answered > 0;
     if (filling && complete()) show();
     return {};
@@ -203,7 +203,7 @@ Expected<void> ReplicationClient::receive(std::span<const std::byte> message) {
   if (decoded && !state_->welcomed && !std::holds_alternative<Welcome>(*decoded)) return {};
   auto done = decoded ? std::visit(*state_, *decoded) : Expected<void>(tl::unexpected(decoded.error()));
   if (!done) {
-    // A mirror that missed something is not gone on with.
+    // A mirror that missed a change is discarded.
     state_->token = 0;
     state_->welcomed = false;
     state_->hello_due = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// A client's side of replication: a mirror of what it subscribed to (REPLICATION.md).
+/// A client's side of replication: a mirror of its subscriptions (REPLICATION.md).
 ///
 ///     on a connection:  client.connected();
 ///     on a message:     client.receive(bytes);   // an error: log it
@@ -20,11 +20,10 @@
 
 namespace septet::replication {
 
-/// What a client subscribes to of what it learns of. The default, a screen's: everything.
+/// Selects a client's subscriptions among announced nodes and parts. The default, a screen's: everything.
 struct SubscriptionPolicy {
   std::uint32_t node_types = (1u << scene::node_type_count) - 1u;
-  /// Whether to subscribe to a tag group or layer of that name (base layers: "vertex", "polygon");
-  /// empty: to all.
+  /// True for a tag group or layer of that name to subscribe to (base layers: "vertex", "polygon"); empty: all.
   std::function<bool(scene::NodeType, scene::PartKind, std::string_view name)> wants_part;
 };
 
@@ -37,20 +36,18 @@ class ReplicationClient {
   void disconnected();
   /// After an error, which is to be logged, the client says hello again and fills a new mirror.
   Expected<void> receive(std::span<const std::byte> message);
-  /// Sends what there is to say: subscriptions, requests, acknowledgements.
+  /// Sends subscriptions, requests and acknowledgements that are due.
   void pump(const Send& send);
 
-  /// Asks the server for a change (its answer is the same command, or nothing) or for a
-  /// subscription beyond the policy's. Requests of a session that is not resumed are lost.
+  /// Requests a change from the server (the reply is the same command, or nothing) or a subscription beyond the
+  /// policy's. Requests of a session that is not resumed are lost.
   void request(const scene::Command& command);
-  /// What is to be shown: the mirror, or, while a new connection fills a new one, the last complete
-  /// one.
+  /// The store to be shown: the mirror, or, while a new connection fills a new one, the last complete one.
   const scene::Store& store() const;
-  /// Changes whenever `store()` is another one than before.
+  /// Changes whenever `store()` is replaced by another one.
   std::uint64_t generation() const;
 
-  /// Whether the mirror that is being kept holds all that was subscribed to, up to
-  /// `complete_revision` of the server's store.
+  /// True where the mirror being filled holds all subscriptions, up to `complete_revision` of the server's store.
   bool complete() const;
   std::uint64_t complete_revision() const;
 

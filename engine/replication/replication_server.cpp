@@ -23,7 +23,7 @@ namespace {
 constexpr int nodes_listed_at_once = 256;
 constexpr int requests_per_pump = 8192;
 
-/// A batch on its way: what to say again if it does not arrive.
+/// A batch on its way: its content, to be repeated if it does not arrive.
 struct Unacknowledged {
   std::uint64_t sequence = 0;
   std::size_t bytes = 0;
@@ -35,12 +35,12 @@ struct Session {
   std::string identity;
 
   std::uint32_t node_types = 0;
-  NodeId next_listed = no_node;  ///< From here on the index is still to be listed; no_node: nothing is.
+  NodeId next_listed = no_node;  ///< First node of the index still to be listed; no_node: all are listed.
   std::set<NodeId> announced;
   std::map<NodeId, std::set<std::pair<PartKind, PartId>>> subscriptions;
 
   Outbox outbox;
-  std::deque<Command> requests;  ///< Subscriptions that are not answered yet.
+  std::deque<Command> requests;  ///< Requests without a reply yet.
   std::uint64_t received = 0;    ///< The client's last batch.
   bool owes_acknowledgement = false;
   std::uint64_t sent = 0;
@@ -64,7 +64,7 @@ struct Session {
     }
   }
 
-  /// After a loss: what did not arrive is said again.
+  /// After a loss: repeats the batches that did not arrive.
   void rewind(std::uint64_t arrived) {
     acknowledge(arrived);
     for (const Unacknowledged& lost : unacknowledged)
@@ -80,7 +80,7 @@ struct Session {
 struct Connection {
   std::string identity;
   std::unique_ptr<Session> session;  ///< From its hello on.
-  Bytes unsent;                      ///< A message that the lane did not take.
+  Bytes unsent;                      ///< A message that the lane did not accept.
 };
 
 /// The subjects of a part's content.
@@ -144,7 +144,7 @@ struct ReplicationServer::State {
                               {subscription->node, SubjectKind::tiles, 0xFFFF, 0xFFFF});
       } else if (node) {
         session.subscriptions.try_emplace(subscription->node);
-        // Who subscribes without the index still learns of the node's end.
+        // A client that subscribes without the index still gets the node's end.
         session.announced.insert(subscription->node);
         mark_node(*node, mark);
       }
@@ -181,7 +181,7 @@ struct ReplicationServer::State {
     session.next_listed = node == store.nodes().end() ? no_node : node->first;
   }
 
-  /// Makes something to say out of what the client asked for. False when there is nothing left.
+  /// Turns a client's request into changes to send. False when there is none left.
   bool go_on(Session& session, int& requests) {
     if (session.next_listed != no_node) return list_nodes(session), true;
     if (session.requests.empty() || requests <= 0) return false;

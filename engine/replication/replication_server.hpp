@@ -1,15 +1,14 @@
 #pragma once
-/// The server's side of replication: who has subscribed to what, and what each is to be told next
+/// The server's side of replication: each client's subscriptions, and the changes to be sent to it next
 /// (REPLICATION.md).
 ///
 ///     on a connection:   server.connect(id, name_of_its_key);
-///     on a message:      requests = server.receive(id, bytes);   // changes that the client asks
-///     for; refused ones end it on every change:   store.apply(command); server.applied(command);
+///     on a message:      requests = server.receive(id, bytes);   // the client's requests; refused ones end it
+///     on every change:   store.apply(command); server.applied(command);
 ///     every tick:        for each client: server.pump(id, bytes, send);
 ///
-/// Bytes in, bytes out: no socket, no clock. A pump does work in proportion to its byte budget, so
-/// that a late joiner or a hung client does not hold up the tick. Single-threaded, on the thread
-/// that owns the store.
+/// Bytes in, bytes out: no socket, no clock. A pump does work in proportion to its byte budget, so that a late joiner
+/// or a hung client does not hold up the tick. Single-threaded, on the thread that owns the store.
 
 #include <cstdint>
 #include <functional>
@@ -24,18 +23,17 @@
 
 namespace septet::replication {
 
-/// Hands a message to the reliable, ordered lane; false where it does not take it now (it is
-/// offered again).
+/// Hands a message to the reliable, ordered lane; false where it does not accept it now (it is offered again).
 using Send = std::function<bool(std::span<const std::byte> message)>;
 
-/// Of a connection, given by the lane; a client that reconnects has a new one.
+/// Id of a connection, given by the lane; a client that reconnects has a new one.
 using ConnectionId = std::uint32_t;
 
 struct ReplicationOptions {
-  std::size_t batch_bytes = 32 * 1024;         ///< Of commands in one message, before packing.
+  std::size_t batch_bytes = 32 * 1024;         ///< Size of the commands in one message, before packing.
   std::size_t window_bytes = 4 * 1024 * 1024;  ///< Sent and not yet acknowledged, before packing.
   std::size_t lost_sessions = 32;              ///< Kept for clients that come back.
-  std::size_t waiting_requests = 1u << 20;     ///< Of one client; more end it.
+  std::size_t waiting_requests = 1u << 20;     ///< Limit of one client's; more end its connection.
 };
 
 class ReplicationServer {
@@ -45,17 +43,17 @@ class ReplicationServer {
   ReplicationServer(const scene::Store& store, std::uint64_t instance, const ReplicationOptions& options = {});
   ~ReplicationServer();
 
-  /// `identity` (its key, its name) decides whose sessions a client can resume.
+  /// `identity` (its key, its name) decides which sessions a client can resume.
   void connect(ConnectionId connection, std::string identity);
   /// Its session is kept for a while.
   void disconnect(ConnectionId connection);
   bool knows(ConnectionId connection) const;
 
-  /// Answers the changes that the client asks for, for the owner of the store to apply or not.
-  /// After an error the connection is to be dropped.
+  /// Returns the client's requested changes, for the owner of the store to apply or not. After an error the connection
+  /// is to be dropped.
   Expected<std::vector<scene::Command>> receive(ConnectionId connection, std::span<const std::byte> message);
 
-  /// To be called after every command that the store took.
+  /// Call after every command that the store accepted.
   void applied(const scene::Command& command);
 
   struct Pumped {
@@ -63,7 +61,7 @@ class ReplicationServer {
     std::size_t bytes = 0;  ///< As handed to `send`.
     bool finished = false;  ///< Nothing waits for this client but its acknowledgements.
   };
-  /// Answers requests and sends changes until about `max_bytes` (before packing) are written.
+  /// Serves requests and sends changes until about `max_bytes` (before packing) are written.
   Pumped pump(ConnectionId connection, std::size_t max_bytes, const Send& send);
 
  private:

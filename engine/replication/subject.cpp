@@ -26,7 +26,7 @@ auto find_part(const Parts& parts, typename Parts::key_type id) -> const typenam
   return found == parts.end() ? nullptr : &found->second;
 }
 
-/// Values of one element of a layer, or 1 where the layer is not there.
+/// Values of one element of a layer, or 1 where the layer does not exist.
 std::uint32_t width_of(const Store& store, NodeId node, PartId layer) {
   const auto* geometry = data_of<GeometryData>(store, node);
   const auto* found = geometry ? find_part(geometry->layers, layer) : nullptr;
@@ -99,7 +99,7 @@ struct ChangeOf {
   }
 };
 
-/// The type of node that has such subjects; nothing where every type has.
+/// The type of node that has such subjects; empty where every type has.
 std::optional<NodeType> type_of(Kind kind) {
   switch (kind) {
     case Kind::existence:
@@ -190,8 +190,7 @@ void describe_change(const Store& store, const Change& change, const std::functi
   const auto* geometry = std::get_if<GeometryData>(&node->data);
   const auto* material = std::get_if<MaterialData>(&node->data);
   const auto* bitmap = std::get_if<BitmapData>(&node->data);
-  // A change that waited for a resumed client may be of a node whose id has been given to another
-  // type since.
+  // A change that waited for a resumed client may be of a node whose id has been given to another type since.
   if (const auto type = type_of(kind); type && *type != node->type()) return;
   Change cut = change;
   if (is_range(kind)) {

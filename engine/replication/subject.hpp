@@ -1,5 +1,5 @@
 #pragma once
-/// What a change is about: the smallest thing that is sent as a whole, or a range of a layer.
+/// The subject of a change: the smallest unit that is sent as a whole, or a range of a layer.
 
 #include <compare>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace septet::replication {
 using scene::NodeId;
 using scene::PartId;
 
-/// In the order in which a node's subjects depend on each other.
+/// Listed in the order in which a node's subjects depend on each other.
 enum class SubjectKind : std::uint8_t {
   existence,
   name,
@@ -52,27 +52,27 @@ constexpr bool is_range(SubjectKind kind) {
 /// A change of a subject. Changes of one subject are merged while they wait.
 struct Change {
   Subject subject;
-  std::uint32_t first = 0, end = 0;  ///< Of a range: vertices, polygons or tiles.
+  std::uint32_t first = 0, end = 0;  ///< Range of vertices, polygons or tiles.
   bool renew = false;                ///< Was destroyed (and perhaps made again) since it was last sent.
-  /// Of a geometry's size: the smallest since it was last sent; what lay beyond is forgotten.
+  /// Smallest sizes of a geometry since it was last sent; elements beyond them are forgotten.
   std::uint32_t smallest_vertices = ~0u, smallest_polygons = ~0u;
 };
 
-/// What an applied command changed; nothing for subscriptions.
+/// Change made by an applied command; empty for subscriptions.
 std::optional<Change> change_of(const scene::Command& command, const scene::Store& store);
 
 /// The number of elements of a range subject in the store now.
 std::uint32_t element_count(const scene::Store& store, const Subject& subject);
 
-/// How many elements of a range make about `bytes` when they are sent.
+/// Number of elements of a range that make about `bytes` when they are sent.
 std::uint32_t elements_in(const scene::Store& store, const Subject& subject, std::size_t bytes);
 
-/// Writes the commands that bring a client up to what the store now holds of this change's subject.
-/// Ranges are cut to what exists.
+/// Writes the commands that bring a client up to the store's present content of this change's subject. Ranges are cut
+/// to existing elements.
 void describe_change(const scene::Store& store, const Change& change,
                      const std::function<void(const scene::Command&)>& emit);
 
-/// The changes that tell a new subscriber everything, by level of subscription.
+/// Enumerates the changes that bring a new subscriber up to date, by level of subscription.
 using Mark = std::function<void(const Change&)>;
 void mark_node(const scene::Node& node, const Mark& mark);
 void mark_part(const scene::Store& store, NodeId node, scene::PartKind kind, PartId part, const Mark& mark);

@@ -279,7 +279,7 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   return car;
 }
 
-/// What the DBC file makes of the names is found out where it is read.
+/// The DBC file's names are resolved where it is read.
 CanSignal read_can_signal(TableReader& reader, std::string_view signal, const toml::node& node) {
   CanSignal result{std::string(signal), node.value<std::string>().value_or(""), node.value<double>().value_or(0.0)};
   const auto point = signal.find('.');
@@ -320,7 +320,7 @@ Sound read_sound(const toml::table& table, std::string_view file, Error& error) 
   return sound;
 }
 
-/// Somebody's keyboard must reach the car, where the rig says that one does.
+/// A keyboard must be able to reach the car, where the rig requires one.
 void check_keyboard(const Rig& rig, TableReader& reader) {
   const std::string& name = rig.car.keyboard_screen;
   if (!name.empty() && std::ranges::find(rig.screens, name, &Screen::name) == rig.screens.end())

@@ -1,5 +1,5 @@
 #pragma once
-/// What of a rig can be meant, but most likely is a slip.
+/// Settings of a rig that are valid, but most likely a mistake.
 
 #include <string_view>
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace septet::rig {
 
-/// At most one a screen: its picture stands on its head, or its front looks away from the driver. `file` is used in messages.
+/// Doubts, at most one a screen: its picture stands on its head, or its front looks away from the driver. `file` is
+/// used in messages.
 std::vector<Error> doubts_of(const Rig& rig, std::string_view file);
 
 }  // namespace septet::rig

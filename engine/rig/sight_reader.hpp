@@ -1,5 +1,5 @@
 #pragma once
-/// What a rig file says of where the driver looks: rectangles, mirrors, the head and how far it may move.
+/// The driver's view in a rig file: rectangles, mirrors, the head and its range of movement.
 
 #include <string_view>
 
@@ -11,11 +11,11 @@ namespace septet::rig {
 inline constexpr const char* documented_in = "rigs/README.md";
 
 void read_window(document::TableReader& reader, Window& window);
-/// Without a zone of its own a look within 15° of the glass's middle counts.
+/// Reads a mirror. Without a zone of its own a look within 15° of the glass's middle counts.
 Mirror read_mirror(const toml::table& table, const Vec3& eye_point_m, std::string_view file, Error& error);
 HeadTracking read_head(const toml::table& table, std::string_view file, Error& error);
 
-/// From wherever the eyes may be, each screen and each mirror is seen from its front.
+/// Checks that from all possible eye points each screen and each mirror is seen from its front.
 void check_sight(const Rig& rig, document::TableReader& reader);
 
 }  // namespace septet::rig

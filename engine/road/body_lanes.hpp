@@ -1,5 +1,5 @@
 #pragma once
-/// The lanes that a body on the road lies over: who is in a lane, who has stopped on the hard shoulder, who is on the line.
+/// The lanes under a body on the road: in a lane, stopped on the hard shoulder, on the line.
 
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
@@ -13,7 +13,7 @@ struct BodyOutline {
   double width_m = 0.0;
 };
 
-/// OpenDRIVE ids of neighbouring lanes; empty as it comes.
+/// OpenDRIVE ids of neighbouring lanes; empty by default.
 struct LaneRange {
   int lowest = 1, highest = 0;
 
@@ -21,11 +21,11 @@ struct LaneRange {
   bool contains(int lane) const { return lowest <= lane && lane <= highest; }
 };
 
-/// From here on a body that reaches over a lane's line is in that lane, too.
+/// Overlap from which on a body across a lane's line is in that lane, too.
 inline constexpr double body_over_line_m = 0.2;
 
-/// The lanes for driving that the body lies over. One that stands on the shoulder is in none of them, unless it
-/// reaches over the edge line.
+/// The driving lanes that the body lies over. One that stands on the shoulder is in none of them, unless it reaches
+/// over the edge line.
 LaneRange drivable_lanes_under(const RoadNetwork& network, const RoadPosition& origin, const BodyOutline& body);
 
 }  // namespace septet::road

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double tolerated_length_m = 0.001, tolerated_beside_m = 0.01, tolerated_rad = 0.01;
 
-/// How long the curve is over the range of its parameter; the table runs through it at that many
-/// metres of curve per metre of road.
+/// Length of the curve over the range of its parameter; the table runs through it at that many metres of curve per
+/// metre of road.
 double curve_length_m(const PlanCurve& plan, const PlanRecord& record) {
   const double speed = std::hypot(record.cubic.u[1], record.cubic.v[1]);
   return plan.cubic_knots[record.first_knot].parameter_per_m * speed * record.length_m;

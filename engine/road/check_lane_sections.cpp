@@ -10,7 +10,7 @@
 namespace septet::road {
 namespace {
 
-/// From the centre outwards: outside a level lane there are only level lanes.
+/// Checks from the centre outwards: outside a level lane there are only level lanes.
 void check_levels(const CheckedFile& file, const LaneSection& section, LaneEnd at, int side, int count) {
   bool level = false;
   for (int i = 1; i <= count; ++i) {
@@ -25,7 +25,7 @@ void check_levels(const CheckedFile& file, const LaneSection& section, LaneEnd a
   }
 }
 
-/// The record as it stands at s, outwards of the centre line.
+/// The record's cubic at s, outwards of the centre line.
 CubicRecord outwards_at(const CubicProfile& borders, double s) {
   const CubicRecord& record = borders[record_at(borders, s)];
   const double ds = s - record.s_m, sign = record.value(s) < 0.0 ? -1.0 : 1.0;
@@ -47,7 +47,7 @@ bool overlap(const Lane& inner, const Lane& outer, const LaneSection& section) {
   return false;
 }
 
-/// A lane that is given by its border; where widths are given too, those count.
+/// True for a lane given by its border; where widths are given too, those count.
 bool by_border(const Lane& lane) { return lane.widths.empty() && !lane.borders.empty(); }
 
 void check_borders(const CheckedFile& file, const LaneSection& section, LaneEnd at, int side, int count) {
@@ -61,7 +61,7 @@ void check_borders(const CheckedFile& file, const LaneSection& section, LaneEnd 
   }
 }
 
-/// Borders are counted from the reference line, so that an offset would say the same twice.
+/// Borders are counted from the reference line, so that an offset would be redundant.
 void check_offset(const CheckedFile& file, const pugi::xml_node& road_node, const Road& road) {
   const bool borders = std::any_of(road.sections.begin(), road.sections.end(), [](const LaneSection& section) {
     return std::any_of(section.lanes.begin(), section.lanes.end(), by_border);

@@ -34,7 +34,7 @@ bool leads_back(const CheckedFile& file, const LaneEnd& from, const LaneEnd& to)
 }
 
 void check_both_ways(const CheckedFile& file, const LaneEnd& from, const LaneEnd& to) {
-  // At the ends of a connecting road it is the junction that leads on.
+  // At the ends of a connecting road the junction has the links.
   if (from.road != to.road &&
       (file.network.roads[from.road].junction != no_index || file.network.roads[to.road].junction != no_index))
     return;
@@ -45,7 +45,7 @@ void check_both_ways(const CheckedFile& file, const LaneEnd& from, const LaneEnd
       "link the lanes in both directions", "asam.net:xodr:1.4.0:road.lane.link.lanes_across_lane_sections");
 }
 
-/// Of a lane that is linked although it has no width at that end. Answers whether the link stands.
+/// Checks a lane that is linked although it has no width at that end. Returns true where the link holds.
 bool check_widths(const CheckedFile& file, const LaneEnd& from, const LaneEnd& to, const Edge& from_edge,
                   const Edge& to_edge) {
   if (from_edge.width_m < no_width_m) {
@@ -79,13 +79,13 @@ void check_gap(const CheckedFile& file, const LaneEnd& from, const LaneEnd& to, 
       "let linked lanes join", "asam.net:xodr:1.7.0:lane_smoothness.contact_point_no_horizontal_gaps");
 }
 
-/// From one section of a road to the next, where check_steps looks.
+/// True from one section of a road to the next, which check_steps covers.
 bool are_within_a_road(const LaneEnd& from, const LaneEnd& to) {
   return from.road == to.road && from.at_end != to.at_end &&
          (from.at_end ? from.section + 1 == to.section : to.section + 1 == from.section);
 }
 
-/// Lanes with heights of their own step on purpose.
+/// Steps of lanes with heights of their own are intended.
 void check_step(const CheckedFile& file, const LaneEnd& from, const LaneEnd& to, const Edge& a, const Edge& b) {
   if (are_within_a_road(from, to)) return;
   if (!lane_of(file, from).heights.empty() || !lane_of(file, to).heights.empty()) return;

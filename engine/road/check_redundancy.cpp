@@ -11,7 +11,7 @@ namespace {
 constexpr double same = 1e-6;
 constexpr std::string_view rule = "asam.net:xodr:1.7.0:performance.avoid_redundant_info";
 
-/// Whether the second record only goes on with the first one's cubic.
+/// True where the second record only continues the first one's cubic.
 bool goes_on(const CubicRecord& a, const CubicRecord& b) {
   const double ds = b.s_m - a.s_m;
   return std::abs(a.value(b.s_m) - b.a) < same && std::abs(a.slope(b.s_m) - b.b) < same &&

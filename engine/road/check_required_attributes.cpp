@@ -10,8 +10,8 @@
 namespace septet::road {
 namespace {
 
-/// What the schemas of 1.5 to 1.8 all require, as far as the reader has not asked for it already; the
-/// schema of 1.4 requires nothing. A line's parent tells those of marks from those of the plan.
+/// Attributes required by all schemas of 1.5 to 1.8, except those that the reader requires already; the schema of 1.4
+/// requires none. A line's parent tells those of marks from those of the plan.
 struct Required {
   std::string_view parent, element, attributes;
 };

@@ -12,7 +12,7 @@
 namespace septet::road {
 namespace {
 
-/// The elements of a junction's connections that the network took over, in its order.
+/// The elements of a junction's connections that the network has adopted, in its order.
 std::vector<pugi::xml_node> connection_nodes(const std::set<std::string_view>& road_ids,
                                              const pugi::xml_node& junction) {
   std::vector<pugi::xml_node> nodes;
@@ -25,7 +25,7 @@ std::vector<pugi::xml_node> connection_nodes(const std::set<std::string_view>& r
   return nodes;
 }
 
-/// Whether traffic of the lane runs into the road's end (of the incoming road), or out of it.
+/// True where traffic of the lane runs into the road's end (of the incoming road); false where it runs out of it.
 bool runs_into(const Road& road, const LaneSection& section, int lane, ContactPoint contact) {
   return runs_along_s(road, section, lane) == (contact == ContactPoint::end);
 }
@@ -75,7 +75,7 @@ void check_contact(const CheckedFile& file, const pugi::xml_node& node, const Ju
 }  // namespace
 
 void check_road_links(const CheckedFile& file) {
-  // Who claims which end of which road; connecting roads may share one.
+  // Claimant of each end of a road; connecting roads may share one.
   std::map<std::pair<RoadIndex, ContactPoint>, RoadIndex> claimed;
   for (RoadIndex index = 0; index < file.network.roads.size(); ++index) {
     const Road& road = file.network.roads[index];
@@ -124,7 +124,7 @@ void check_connections(const CheckedFile& file) {
             "name a road outside the junction",
             "asam.net:xodr:1.4.0:junctions.connection.connect_road_no_incoming_road");
       }
-      // The rule came with 1.7 and went with 1.8.
+      // The rule exists in 1.7 alone.
       const bool first = connected.insert(connection.connecting).second;
       if (!first && file.network.header.revision_minor == 7) {
         file.findings.warning(

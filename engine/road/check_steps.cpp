@@ -14,10 +14,10 @@ namespace septet::road {
 namespace {
 
 constexpr double least_step_m = 0.05;
-constexpr double beside_m = 1e-6;     ///< Before and behind a station, where one record and the next hold.
-constexpr double at_an_end_m = 1e-3;  ///< A record so near to a road's end is met by nobody.
+constexpr double beside_m = 1e-6;     ///< Before and behind a station, within one record and the next.
+constexpr double at_an_end_m = 1e-3;  ///< No vehicle meets a record so near to a road's end.
 
-/// What can step along a road, as elements of the file.
+/// Causes of steps along a road, as elements of the file.
 struct StepCause {
   const char* name;
   const char* profile;  ///< Child of the road.
@@ -83,7 +83,7 @@ Step step_at(const Road& road, double s_m) {
     for (const double share : {0.02, 0.5, 0.98}) {  // Just inside: on a border the neighbour may be the one.
       const double t = std::lerp(borders.inner_t_m, borders.outer_t_m, share);
       const LanesAt before = lanes_at(road, s_m - beside_m, t);
-      if (before.outside_m > 0.0 || before.lane != before.lane_any_type) continue;  // No way for cars leads here.
+      if (before.outside_m > 0.0 || before.lane != before.lane_any_type) continue;  // Cars cannot come here.
       const double step = world_z_m(road, s_m + beside_m, t) - world_z_m(road, s_m - beside_m, t);
       if (std::abs(step) > std::abs(highest.height_m)) highest = {step, t};
     }
@@ -91,7 +91,7 @@ Step step_at(const Road& road, double s_m) {
   return highest;
 }
 
-/// Which profile makes most of a step.
+/// The profile with the largest part of a step.
 const StepCause* cause_of(const Road& road, double s_m, double t_m) {
   const double by_elevation = std::abs(jump_of(road.elevation, s_m)),
                by_roll = std::abs(t_m * jump_of(road.superelevation, s_m)),
@@ -139,7 +139,7 @@ void check_shapes(const CheckedFile& file, RoadIndex index) {
   }
 }
 
-/// How far the lanes of a road that go on move sideways at a station: 0 where they are renumbered with the offset.
+/// Sideways shift at a station of the lanes that continue: 0 where they are renumbered with the offset.
 double sideways_m(const Road& road, double s_m) {
   const LaneSection &before = section_at(road, s_m - beside_m), &after = section_at(road, s_m + beside_m);
   double most = 0.0;

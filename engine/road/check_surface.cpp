@@ -11,11 +11,11 @@
 namespace septet::road {
 namespace {
 
-/// Of one road; what lies between them is taken on trust.
+/// Limit for one road; places between them are not examined.
 constexpr std::size_t most_stations = 1000;
 
-/// Where the surface is looked at: at both ends of each record of the plan and of each lane
-/// section, and between.
+/// Stations at which the surface is examined: at both ends of each record of the plan and of each lane section, and
+/// between.
 std::vector<double> stations_of(const Road& road) {
   constexpr int parts = 8;
   std::vector<double> stations;

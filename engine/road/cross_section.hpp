@@ -1,6 +1,5 @@
 #pragma once
-/// The cross-section of a road at one station, as a frame: the step that forward and inverse map
-/// share.
+/// The cross-section of a road at one station, as a frame: the common step of forward and inverse map.
 
 #include <cmath>
 

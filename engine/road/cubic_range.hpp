@@ -18,11 +18,11 @@ struct ValueRange {
   }
 };
 
-/// Over [from_s, to_s]; a stretch that ends before it begins is its beginning.
+/// Range over [from_s, to_s]; a stretch that ends before it begins is its beginning.
 inline ValueRange value_range(const CubicRecord& record, double from_s, double to_s) {
   ValueRange range{record.value(from_s), record.value(from_s)};
   range.include(record.value(std::max(from_s, to_s)));
-  // Where b + 2c·ds + 3d·ds² = 0; the form of the roots that loses no digits.
+  // Roots of b + 2c·ds + 3d·ds² = 0, in the form that loses no digits.
   const double discriminant = record.c * record.c - 3.0 * record.b * record.d;
   if (!(discriminant >= 0.0)) return range;
   const double q = -(record.c + std::copysign(std::sqrt(discriminant), record.c));
@@ -33,14 +33,13 @@ inline ValueRange value_range(const CubicRecord& record, double from_s, double t
   return range;
 }
 
-/// The same of the derivative by s.
+/// Range of the derivative by s.
 inline ValueRange slope_range(const CubicRecord& record, double from_s, double to_s) {
   const CubicRecord slope{record.s_m, record.b, 2.0 * record.c, 3.0 * record.d, 0.0};
   return value_range(slope, from_s, to_s);
 }
 
-/// visit(record, end) for every record and the station at which it ends, which is never before it
-/// begins.
+/// Calls visit(record, end) for every record and the station of its end, which is never before its beginning.
 template <class Visit>
 void visit_records(const CubicProfile& profile, double s_end, const Visit& visit) {
   for (std::size_t i = 0; i < profile.size(); ++i) {

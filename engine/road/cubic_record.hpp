@@ -1,10 +1,8 @@
 #pragma once
-/// One record of a piecewise cubic function of s: value(s) = a + b·ds + c·ds² + d·ds³ with ds = s −
-/// s_m.
+/// One record of a piecewise cubic function of s: value(s) = a + b·ds + c·ds² + d·ds³ with ds = s − s_m.
 ///
-/// A profile is a vector of records sorted by s_m; a record holds until the next one begins
-/// (OpenDRIVE 1.8, §8.2 and §10.4). A record's own sOffset has been turned into a station on the
-/// road when the file was read.
+/// A profile is a vector of records sorted by s_m; a record holds until the next one begins (OpenDRIVE 1.8, §8.2 and
+/// §10.4). A record's own sOffset has been turned into a station on the road when the file was read.
 
 #include <algorithm>
 #include <cstddef>
@@ -28,8 +26,7 @@ struct CubicRecord {
 
 using CubicProfile = std::vector<CubicRecord>;
 
-/// Index of the last record with s_m ≤ s, or 0 before the first one; the records are sorted and not
-/// empty.
+/// Index of the last record with s_m ≤ s, or 0 before the first one; the records are sorted and not empty.
 template <class Record>
 std::size_t record_at(const std::vector<Record>& records, double s_m) {
   if (records.size() == 1 || s_m < records[1].s_m) return 0;

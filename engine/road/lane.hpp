@@ -1,9 +1,8 @@
 #pragma once
 /// Lanes, lane sections and road marks (OpenDRIVE 1.8, §11), as plain data.
 ///
-/// Stations are metres along the reference line of the road, never relative to the section. Left
-/// lanes have ids > 0, right lanes ids < 0, the centre lane, which has no width, is 0. Everything
-/// is immutable once the network is read.
+/// Stations are metres along the reference line of the road, never relative to the section. Left lanes have ids > 0,
+/// right lanes ids < 0, the centre lane, which has no width, is 0. Immutable once the network is read.
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +41,7 @@ enum class LaneType : std::uint8_t {
   other,
 };
 
-/// Whether cars drive on it: driving, entry, exit, the ramps, slip lane and bidirectional.
+/// True for lanes of cars: driving, entry, exit, the ramps, slip lane and bidirectional.
 bool is_drivable(LaneType type);
 /// The word of the standard for a lane type, such as "onRamp"; "none" for `other`.
 const char* name_of(LaneType type);
@@ -69,14 +68,13 @@ enum class LaneChange : std::uint8_t { both, increase, decrease, none };
 struct RoadMarkLine {
   double length_m = 0.0;
   double space_m = 0.0;
-  double t_offset_m = 0.0;  ///< From the border that the mark belongs to.
+  double t_offset_m = 0.0;  ///< From the mark's border.
   double s_offset_m = 0.0;  ///< From the start of the mark.
   double width_m = 0.0;
   bool once = false;
 };
 
-/// A mark on the outer border of its lane (of the centre lane: on the centre line), from s_m to
-/// s_end_m.
+/// A mark on the outer border of its lane (of the centre lane: on the centre line), from s_m to s_end_m.
 struct RoadMark {
   double s_m = 0.0;
   double s_end_m = 0.0;
@@ -90,8 +88,7 @@ struct RoadMark {
                                     ///< filled from the type if need be.
 };
 
-/// Height of the lane's surface over the road's plane, constant along s, linear from the inner to
-/// the outer border.
+/// Height of the lane's surface over the road's plane, constant along s, linear from the inner to the outer border.
 struct LaneHeight {
   double s_m = 0.0;
   double inner_m = 0.0;
@@ -103,10 +100,9 @@ struct LaneSpeed {
   double limit_mps = 0.0;
 };
 
-/// What the surface is made of (OpenDRIVE 1.8, §11.8.1 lane material; §13.4 material of objects,
-/// for patches of the road).
+/// Material of a surface (OpenDRIVE 1.8, §11.8.1 lane material; §13.4 material of objects, for patches of the road).
 struct SurfaceMaterial {
-  std::string surface;     ///< The file's own word; Septet knows wet, snow and ice, else it is paved.
+  std::string surface;     ///< The file's own word; Septet knows wet, snow and ice, all others are paved.
   double friction = 0.0;   ///< Coefficient when dry; 0 where the file gives none.
   double roughness = 0.0;  ///< For sound and shaking; 0 where the file gives none.
 };
@@ -115,7 +111,7 @@ struct LaneMaterial {
   SurfaceMaterial material;
 };
 
-/// Which way traffic runs, beyond the rule of the road.
+/// Direction of traffic, beyond the rule of the road.
 enum class LaneDirection : std::uint8_t { standard, reversed, both };
 
 struct Lane {
@@ -133,8 +129,7 @@ struct Lane {
   std::vector<int> successors;    ///< Lane ids in the section (or linked road) after this one.
 };
 
-/// Lanes from s_m to s_end_m, sorted from the leftmost (highest id) to the rightmost; ids run
-/// without a gap through 0.
+/// Lanes from s_m to s_end_m, sorted from the leftmost (highest id) to the rightmost; ids run without a gap through 0.
 struct LaneSection {
   double s_m = 0.0;
   double s_end_m = 0.0;

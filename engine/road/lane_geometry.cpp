@@ -37,8 +37,7 @@ Border centre_border(const Road& road, double s_m) {
   return {offset.value(s_m), offset.slope(s_m)};
 }
 
-/// Walks one side outwards from the centre line; visit(lane, inner, outer) returns whether to go
-/// on.
+/// Walks one side outwards from the centre line while visit(lane, inner, outer) returns true.
 template <class Visit>
 void visit_lanes(const Road& road, const LaneSection& section, double s_m, int side, Visit visit) {
   const int count = side > 0 ? section.left_count : section.right_count;
@@ -67,7 +66,7 @@ double lane_height_m(const Road& road, double s_m, double t_m) {
   return height;
 }
 
-/// Of the profile at this station: the cubics of equal s, in the order of t.
+/// Height of the profile at this station: the cubics of equal s, in the order of t.
 double shape_profile_m(const std::vector<LateralShape>& shapes, double profile_s_m, double t_m) {
   const auto first = std::ranges::lower_bound(shapes, profile_s_m, {}, &LateralShape::s_m);
   const auto end = std::ranges::upper_bound(first, shapes.end(), profile_s_m, {}, &LateralShape::s_m);
@@ -151,8 +150,7 @@ LanesAt lanes_at(const Road& road, double s_m, double t_m) {
       const double centre = 0.5 * (low + high);
       const double outside = std::max({low - t_m, t_m - high, 0.0});
       found.outside_m = std::min(found.outside_m, outside);
-      // A lane that holds the point beats every other; among those that do not the nearest
-      // centre wins.
+      // A lane that contains the point beats every other; among the rest the nearest centre wins.
       const double distance = outside == 0.0 ? -1.0 : std::abs(t_m - centre);
       if (distance < nearest_any) {
         nearest_any = distance;

@@ -1,9 +1,7 @@
 #pragma once
-/// Look-ups in the cross-section of a road: sections, borders, widths, heights, lanes at a t,
-/// marks, limits.
+/// Look-ups in the cross-section of a road: sections, borders, widths, heights, lanes at a t, marks, limits.
 ///
-/// All take a road of the network and a station in metres; a station outside the road is taken to
-/// its nearest end.
+/// All take a road of the network and a station in metres; a station outside the road is clamped to its nearest end.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +16,7 @@ inline const LaneSection& section_at(const Road& road, double s_m) {
   return road.sections[section_index_at(road, s_m)];
 }
 
-/// t of the border on the far side of `lane` from the centre; of lane 0: of the centre line (lane
-/// offset).
+/// t of the border on the far side of `lane` from the centre; of lane 0: of the centre line (lane offset).
 double outer_border_t_m(const Road& road, const LaneSection& section, int lane, double s_m);
 
 /// t and dt/ds of both borders of a lane; `inner` is the border nearer to the centre line.
@@ -47,19 +44,17 @@ struct RoadExtent {
 };
 RoadExtent road_extent(const Road& road, double s_m);
 
-/// The lanes at (s, t). A lane that has no width there does not count; a border belongs to the
-/// first lane that holds it.
+/// The lanes at (s, t). A lane without width there does not count; a border belongs to the first lane that contains it.
 struct LanesAt {
-  int lane = 0;            ///< The drivable lane that holds the point, else the drivable lane with the
-                           ///< nearest centre; 0: none.
-  int lane_any_type = 0;   ///< The lane of any type that holds the point, else the nearest.
+  int lane = 0;  ///< The drivable lane that contains the point, else the drivable lane with the nearest centre; 0:
+                 ///< there is none.
+  int lane_any_type = 0;   ///< The lane of any type that contains the point, else the nearest.
   double offset_m = 0.0;   ///< t − centre of `lane`.
-  double outside_m = 0.0;  ///< How far the point lies outside the outermost lanes; 0 inside.
+  double outside_m = 0.0;  ///< Distance of the point outside the outermost lanes; 0 inside.
 };
 LanesAt lanes_at(const Road& road, double s_m, double t_m);
 
-/// Speed limit of a lane at a station: the lane's own, else that of the road's type; 0 where the
-/// file gives none.
+/// Speed limit of a lane at a station: the lane's own, else that of the road's type; 0 where the file gives none.
 double speed_limit_mps(const RoadNetwork& network, const LanePosition& position);
 
 /// The mark on the outer border of a lane at a station, or nullptr.

@@ -20,8 +20,7 @@ void enter_road(const RoadNetwork& network, RoadIndex index, ContactPoint contac
   found.push_back({index, section, lane, contact == ContactPoint::start});
 }
 
-/// Which end of `road` touches the junction; a road that touches it with both ends is taken by its
-/// end.
+/// The end of `road` at the junction; its end where both touch it.
 ContactPoint end_at_junction(const Road& road, JunctionIndex junction) {
   return road.successor.junction == junction ? ContactPoint::end : ContactPoint::start;
 }
@@ -34,8 +33,7 @@ void enter_junction(const RoadNetwork& network, JunctionIndex index, RoadIndex f
       if (connection.incoming == from && link.from == lane) {
         enter_road(network, connection.connecting, connection.contact, link.to, found);
       }
-      // A direct junction is passed both ways: there is no connecting road whose own links would
-      // lead back.
+      // A direct junction is passed both ways: there is no connecting road with own links back.
       if (junction.kind == Junction::Kind::direct && connection.connecting == from && link.to == lane) {
         const ContactPoint contact = end_at_junction(network.roads[connection.incoming], index);
         enter_road(network, connection.incoming, contact, link.from, found);

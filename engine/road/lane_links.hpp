@@ -1,6 +1,5 @@
 #pragma once
-/// How lanes go on: across lane sections, road links and junctions; neighbours; direction of
-/// travel.
+/// Links of lanes: across lane sections, road links and junctions; neighbours; direction of travel.
 
 #include <functional>
 #include <optional>
@@ -12,43 +11,41 @@
 
 namespace septet::road {
 
-/// Whether traffic in this lane runs towards increasing s. Right-hand traffic: lanes < 0 do;
-/// left-hand: lanes > 0 do.
+/// True where traffic in this lane runs towards increasing s. Right-hand traffic: lanes < 0 do; left-hand: lanes > 0
+/// do.
 bool runs_along_s(const Road& road, const LaneSection& section, int lane);
 bool runs_along_s(const RoadNetwork& network, const LanePosition& position);
 
-/// The lane beside this one, as seen in the direction of travel, and only if it is drivable and
-/// runs the same way.
+/// The lane beside this one, in the direction of travel, and only if it is drivable and runs in the same direction.
 std::optional<int> lane_to_the_left(const RoadNetwork& network, const LanePosition& position);
 std::optional<int> lane_to_the_right(const RoadNetwork& network, const LanePosition& position);
 
-/// Where a lane goes on, just beyond the end of its section: the lane entered and the end of the
-/// section it is entered at.
+/// Continuation of a lane just beyond the end of its section: the lane entered and the end of the section at which it
+/// is entered.
 struct LaneContinuation {
   RoadIndex road = 0;
   std::uint32_t section = 0;
   int lane = 0;
-  bool towards_increasing_s = true;  ///< How s runs from there on.
+  bool towards_increasing_s = true;  ///< Direction of s from there on.
 };
 
-/// All continuations of `lane` beyond the end (`towards_increasing_s`) or the start of `section`;
-/// none where the lane ends.
+/// All continuations of `lane` beyond the end (`towards_increasing_s`) or the start of `section`; empty where the lane
+/// ends.
 std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadIndex road, std::uint32_t section, int lane,
                                             bool towards_increasing_s);
 
-/// Chooses among two or more continuations; the answer is an index.
+/// Chooses among two or more continuations; returns an index.
 using ChooseContinuation = std::function<std::size_t(std::span<const LaneContinuation>)>;
 
 struct Advanced {
   LanePosition position;
-  bool towards_increasing_s = true;  ///< How s runs at the new position, going on the way one came.
-  double remaining_m = 0.0;          ///< What is left of the distance where the lane ended; 0 otherwise.
+  bool towards_increasing_s = true;  ///< Direction of s at the new position, in the direction of the advance.
+  double remaining_m = 0.0;          ///< Rest of the distance where the lane ended; 0 otherwise.
 };
 
-/// Goes `distance_m` along the lane, in its direction of travel if positive, backwards if negative,
-/// measured along the reference lines (divide by RoadPoint::stretch for metres in the lane). The
-/// lane's offset is kept, mirrored where the next road runs the other way. Without `choose` the
-/// first continuation is taken.
+/// Advances `distance_m` along the lane, in its direction of travel if positive, backwards if negative, measured along
+/// the reference lines (divide by RoadPoint::stretch for metres in the lane). The lane's offset is kept, mirrored where
+/// the next road runs the other way. Without `choose` the first continuation is taken.
 Advanced advance(const RoadNetwork& network, const LanePosition& from, double distance_m,
                  const ChooseContinuation& choose = {});
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "engine/road/decks.hpp"
 #include "engine/road/road_elements.hpp"
 #include "engine/road/road_limits.hpp"
 #include "engine/road/road_locate.hpp"
@@ -14,7 +15,7 @@ namespace septet::road {
 namespace {
 
 constexpr std::size_t largest_text = 512u << 20;
-/// Knots of all curves together (plan_curve.hpp), so that a small text cannot ask for much memory.
+/// Limit on the knots of all curves together (plan_curve.hpp), so that a small text cannot demand much memory.
 constexpr std::size_t most_knots = 8'000'000;
 
 bool is_whole_number(std::string_view text) {
@@ -116,7 +117,7 @@ void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderO
   if (network.roads.empty()) findings.error(root, "there is no road", "add at least one road");
 }
 
-/// Whether the checker rules are held against a file that could be read.
+/// Selects whether a readable file is checked against the checker rules.
 enum class Rules : std::uint8_t { left_alone, checked };
 
 /// The network, complete unless the findings hold an error.
@@ -148,6 +149,7 @@ RoadNetwork read_network(XmlFindings& findings, std::string_view xml, Rules rule
   check_lane_links(findings, root, network);
   if (rules == Rules::checked) check_rules(findings, root, network);
   build_spatial_index(network);
+  find_decks(network);
   return network;
 }
 

@@ -30,8 +30,8 @@ Vec2 small_turn(double phi) {
   return {cosine, sine};
 }
 
-/// From a knot `step_m` along a clothoid that has `curvature` at the knot; the heading turns by
-/// less than 1/4 rad.
+/// Advances from a knot by `step_m` along a clothoid that has `curvature` at the knot; the heading turns by less than
+/// 1/4 rad.
 ClothoidKnot walk_clothoid(const ClothoidKnot& knot, double curvature, double rate, double step_m) {
   Vec2 moved(0.0), turn(1.0, 0.0);
   if (rate == 0.0) {

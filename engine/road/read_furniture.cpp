@@ -20,7 +20,7 @@ Orientation read_orientation(const pugi::xml_node& node) {
 
 constexpr double tolerated_past_end_m = 0.01;
 
-/// A station that a thing stands at; beyond the road: a warning and the road's end.
+/// Station of an object; beyond the road: a warning and the road's end.
 double on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road, double s_m) {
   const double kept = std::clamp(s_m, 0.0, road.length_m);
   if (std::abs(s_m - kept) > tolerated_past_end_m) {
@@ -31,7 +31,7 @@ double on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& ro
   return kept;
 }
 
-/// The length of what begins at `s_m`; what reaches beyond the road is cut off there.
+/// Length of an object that begins at `s_m`, cut off at the road's end.
 double length_on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road, double s_m) {
   const double length = findings.amount_or(node, "length", 0.0);
   const double kept = std::min(length, road.length_m - s_m);

@@ -133,7 +133,7 @@ std::vector<Lane> read_side(XmlFindings& findings, const pugi::xml_node& side_no
   return lanes;
 }
 
-/// A section that gives one side only goes on with the other side of the section before it.
+/// Continues the other side of the section before, for a section that gives one side only.
 std::vector<Lane> continue_side(LaneSection& before, const LaneSection& section, int sign) {
   std::vector<Lane> lanes;
   const int count = sign > 0 ? before.left_count : before.right_count;

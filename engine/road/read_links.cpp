@@ -41,7 +41,7 @@ RoadLink read_road_link(XmlFindings& findings, const pugi::xml_node& node, const
                    "write road or junction");
     return link;
   }
-  // Maps that were cut out of larger ones are full of these.
+  // Maps cut out of larger ones are full of these.
   if (link.road == no_index && link.junction == no_index && !id.empty()) {
     findings.warning(node, fmt::format("{} {} does not exist; there is no link", type, id),
                      "link to one of the file, or remove the link");
@@ -49,7 +49,7 @@ RoadLink read_road_link(XmlFindings& findings, const pugi::xml_node& node, const
   return link;
 }
 
-/// Appended to the junction, unless it leads from or to a road that the file does not have.
+/// Appends a connection to the junction, unless it leads from or to a road missing in the file.
 void read_connection(XmlFindings& findings, const pugi::xml_node& node, const Indices& roads, Junction& junction) {
   JunctionConnection connection;
   connection.id = node.attribute("id").value();
@@ -88,7 +88,7 @@ Junction read_junction(XmlFindings& findings, const pugi::xml_node& node, const 
   return junction;
 }
 
-/// Lanes that say they go on, but whose next lane is not there.
+/// Reports lanes with a link to a lane that does not exist.
 void check_ends(XmlFindings& findings, const pugi::xml_node& road_node, const RoadNetwork& network, RoadIndex index) {
   const Road& road = network.roads[index];
   for (std::uint32_t i = 0; i < road.sections.size(); ++i) {

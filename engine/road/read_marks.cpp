@@ -11,8 +11,7 @@
 namespace septet::road {
 namespace {
 
-// Where the file gives no lines: a broken line is painted 3 m in 12, double lines lie one width
-// apart.
+// Where the file gives no lines: a broken line is painted 3 m in 12, double lines lie one width apart.
 constexpr double dash_m = 3.0, gap_m = 9.0;
 constexpr double standard_width_m = 0.12, bold_width_m = 0.25;
 
@@ -63,8 +62,7 @@ Value word_value(XmlFindings& findings, const pugi::xml_node& node, const char* 
 RoadMarkLine solid_line(double t_offset, double width) { return {0.0, 0.0, t_offset, 0.0, width}; }
 RoadMarkLine broken_line(double t_offset, double width) { return {dash_m, gap_m, t_offset, 0.0, width}; }
 
-/// The lines that a type stands for; the first word of a double line is the inner one (of the
-/// centre lane: the left one).
+/// The lines of a type; the first word of a double line is the inner one (of the centre lane: the left one).
 std::vector<RoadMarkLine> lines_of(RoadMarkType type, double width, int lane) {
   const double first = lane > 0 ? -width : width;
   switch (type) {
@@ -92,7 +90,7 @@ std::vector<RoadMarkLine> lines_of(RoadMarkType type, double width, int lane) {
   return {};
 }
 
-/// Appended to the mark's lines, unless its dashes are too short to be painted.
+/// Appends a line to the mark, unless its dashes are too short to be painted.
 void read_line(XmlFindings& findings, const pugi::xml_node& node, bool once, RoadMark& mark) {
   RoadMarkLine line;
   line.length_m = findings.amount_or(node, "length", 0.0, longest_road_m);

@@ -13,7 +13,7 @@ namespace septet::road {
 namespace {
 
 constexpr double break_m = 0.05, break_rad = 0.01;
-/// Roads of test tracks climb a metre and a half in a metre; beyond, a coefficient is wrong.
+/// Roads of test tracks climb a metre and a half in a metre; a steeper one comes from a wrong coefficient.
 constexpr double steepest_grade = 2.0;
 
 Vec2 turned(const Vec2& v, double angle_rad) {
@@ -59,11 +59,11 @@ Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometr
   return failure("the geometry has no line, arc, spiral, poly3 or paramPoly3", "", "add one of them");
 }
 
-/// Whether the last record keeps to where roads can be.
+/// True where the last record stays within the bounds of roads.
 bool is_in_the_world(const PlanCurve& plan) {
   const PlanRecord& record = plan.records.back();
   for (int i = 0; i <= 8; ++i) {
-    // Within the record, whatever s is rounded to.
+    // Within the record, whatever the rounding of s.
     const double ds = record.length_m * (1e-3 + 0.998 * i / 8.0);
     const Vec2 p = evaluate_plan(plan, record.s_m + ds).position_m;
     if (!(std::abs(p.x) <= 2.0 * farthest_m && std::abs(p.y) <= 2.0 * farthest_m)) return false;
@@ -71,9 +71,9 @@ bool is_in_the_world(const PlanCurve& plan) {
   return true;
 }
 
-/// Says where a record does not begin at the end of the one before it.
+/// Reports a record that does not begin at the end of the one before it.
 void check_joint(XmlFindings& findings, const pugi::xml_node& geometry, const PlanPoint& end, const PlanRecord& next) {
-  // A cubic begins where, and as, its own coefficients say.
+  // A cubic begins at the place and heading of its own coefficients.
   const bool cubic = next.kind == PlanKind::cubic;
   const auto placed = [&](double along, double across) {
     return along * next.direction + across * Vec2(-next.direction.y, next.direction.x);

@@ -1,9 +1,7 @@
 #pragma once
-/// What stands on, over and beside a road: objects, bridges, tunnels and signals (OpenDRIVE 1.8,
-/// §13 and §14).
+/// Objects on, over and beside a road: objects, bridges, tunnels and signals (OpenDRIVE 1.8, §13 and §14).
 ///
-/// Kept as the file gives them, in road coordinates (metres, radians), for the scenery and for
-/// traffic to read.
+/// Kept as in the file, in road coordinates (metres, radians), for the scenery and for traffic to read.
 
 #include <cstdint>
 #include <optional>
@@ -30,8 +28,7 @@ struct Outline {
   std::vector<OutlineCorner> corners;
 };
 
-/// A row of equal objects from s_m to s_m + length_m; distance_m 0 is one continuous object, such
-/// as a guard rail.
+/// A row of equal objects from s_m to s_m + length_m; distance_m 0 is one continuous object, such as a guard rail.
 struct ObjectRepeat {
   double s_m = 0.0, length_m = 0.0, distance_m = 0.0;
   double t_start_m = 0.0, t_end_m = 0.0;
@@ -48,7 +45,7 @@ struct RoadObject {
   Orientation orientation = Orientation::both;
   std::vector<ObjectRepeat> repeats;
   std::vector<Outline> outlines;
-  std::optional<SurfaceMaterial> material;  ///< A patch of the road: of what, within its outline.
+  std::optional<SurfaceMaterial> material;  ///< Material of a patch of the road, within its outline.
 };
 
 /// A bridge or a tunnel: the stretch of the road from s_m to s_m + length_m.
@@ -57,6 +54,8 @@ struct RoadStructure {
   Kind kind = Kind::bridge;
   std::string id, name, type;
   double s_m = 0.0, length_m = 0.0;
+  bool over_road = false;  ///< A bridge with lanes below it (decks.hpp).
+  bool inferred = false;   ///< The file says nothing of it.
 };
 
 struct Signal {
@@ -67,7 +66,7 @@ struct Signal {
   double heading_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   Orientation orientation = Orientation::both;
   bool dynamic = false;
-  int from_lane = 0, to_lane = 0;  ///< Lanes it is valid for; both 0 where it is valid for all.
+  int from_lane = 0, to_lane = 0;  ///< Range of its lanes; both 0 where it is valid for all.
 };
 
 }  // namespace septet::road

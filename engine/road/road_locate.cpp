@@ -14,16 +14,15 @@ namespace {
 /// Foot of a point on a road.
 struct Foot {
   double s_m = 0.0, t_m = 0.0;
-  double gap_m = 0.0;  ///< How far the point lies beyond the road's end (or off a break in its
-                       ///< geometry); else 0.
+  double gap_m = 0.0;  ///< Distance of the point beyond the road's end (or off a break in its geometry); else 0.
 };
 
-/// How far the point lies ahead of the cross-section, and its t there.
+/// Distance of the point ahead of the cross-section, and its t there.
 struct Offset {
   double ahead_m = 0.0, t_m = 0.0;
 };
 
-/// On a road whose cross-sections are upright.
+/// Offset on a road whose cross-sections are upright.
 Offset offset_from(const PlanPoint& plan, const Vec2& world_m) {
   const Vec2 d = world_m - plan.position_m;
   return {glm::dot(d, plan.direction), plan.direction.x * d.y - plan.direction.y * d.x};
@@ -41,7 +40,7 @@ Offset offset_from(const Road& road, const CrossSection& section, const Vec2& wo
   return {along - section.sin_pitch * (t * section.sin_roll + h * section.cos_roll), t};
 }
 
-/// Moves `foot` by `ahead_m / slope`, within the road; returns by how much.
+/// Moves `foot` by `ahead_m / slope`, within the road; returns the distance.
 double step_foot(const Road& road, double ahead_m, double slope, Foot& foot) {
   const double target = foot.s_m + std::clamp(ahead_m / slope, -100.0, 100.0);
   if (!std::isfinite(target)) return 0.0;
@@ -49,8 +48,8 @@ double step_foot(const Road& road, double ahead_m, double slope, Foot& foot) {
   return std::abs(foot.s_m - before);
 }
 
-/// Solves ahead(s) = 0 in the plan by Newton's method, with the slope −(1 − κt). The error that is
-/// left is the square of the last step.
+/// Solves ahead(s) = 0 in the plan by Newton's method, with the slope −(1 − κt). The remaining error is the square of
+/// the last step.
 Foot foot_on_plan(const Road& road, const Vec2& world_m, double s, double last_step_m) {
   Foot foot;
   foot.s_m = std::clamp(s, 0.0, road.length_m);
@@ -65,8 +64,8 @@ Foot foot_on_plan(const Road& road, const Vec2& world_m, double s, double last_s
   return foot;
 }
 
-/// Where banking on a changing grade moves the cross-section along the road the secant method goes
-/// on from the foot in the plan.
+/// Foot of a point: where banking on a changing grade moves the cross-section along the road, the secant method
+/// continues from the foot in the plan.
 Foot foot_on(const Road& road, const Vec2& world_m, double s) {
   const bool plane = road.flat && road.superelevation.empty();
   Foot foot = foot_on_plan(road, world_m, s, plane ? 1e-6 : 1e-3);
@@ -83,7 +82,7 @@ Foot foot_on(const Road& road, const Vec2& world_m, double s) {
     }
     s_before = foot.s_m;
     ahead_before = offset.ahead_m;
-    // The secant's error falls nearly with the square of the step: there is nothing left to gain.
+    // The secant's error falls nearly with the square of the step: further ones gain nothing.
     if (step_foot(road, offset.ahead_m, slope, foot) < 1e-6) break;
   }
   if (foot.gap_m < 1e-4) foot.gap_m = 0.0;
@@ -98,8 +97,8 @@ Location location_on(const RoadNetwork& network, RoadIndex index, const Vec2& wo
   return location;
 }
 
-/// Whether `a` answers better than `b`: it holds the point or is nearer to it; of two that hold it
-/// the one outside junctions, then the one whose lane centre is nearer.
+/// True where `a` is the better result: it contains the point or is nearer to it; of two that contain it the one
+/// outside junctions, then the one whose lane centre is nearer.
 bool better(const RoadNetwork& network, const Location& a, const Location& b) {
   if (a.lanes.outside_m != b.lanes.outside_m) return a.lanes.outside_m < b.lanes.outside_m;
   const bool a_in_junction = network.roads[a.position.road].junction != no_index;
@@ -108,7 +107,7 @@ bool better(const RoadNetwork& network, const Location& a, const Location& b) {
   return std::abs(a.lanes.offset_m) < std::abs(b.lanes.offset_m);
 }
 
-/// Where roads part they lie on one another at first: of those that hold the point equally well, the first of the file.
+/// Roads that part overlap at first: of those that contain the point equally well, the first of the file.
 constexpr double as_good_m = 0.01;
 
 /// Tries the roads linked to the end of the hint's road that the point has passed.
@@ -137,7 +136,14 @@ double distance_to(const StretchNode& box, const Vec2& world_m) {
   return glm::length(glm::max(glm::max(box.low_m - world_m, world_m - box.high_m), Vec2(0.0)));
 }
 
-std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m, double reach_m) {
+double surface_z_m(const RoadNetwork& network, const RoadPosition& at) {
+  const Road& road = network.roads[at.road];
+  return cross_section_at(road, at.s_m).place(at.t_m, surface_offset_m(road, at.s_m, at.t_m)).z;
+}
+
+/// The best of all roads, or of those whose surface lies near `level_m`.
+std::optional<Location> locate_on_level(const RoadNetwork& network, const Vec2& world_m, double reach_m,
+                                        std::optional<double> level_m) {
   std::optional<Location> best;
   double reach = reach_m;
   for (std::size_t i = 0; i < network.stretches.size();) {
@@ -149,25 +155,33 @@ std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& 
     ++i;
     if (node.road == no_index) continue;
     const double middle = node.s_m + 0.5 * node.step_m;
-    // The same foot is found from the neighbouring stretches: once is enough.
+    // Neighbouring stretches find the same foot: once is enough.
     if (best && best->position.road == node.road && best->lanes.outside_m == 0.0 &&
         std::abs(best->position.s_m - middle) < 2.0 * node.step_m) {
       continue;
     }
     const Location location = location_on(network, node.road, world_m, middle);
     if (location.lanes.outside_m > reach_m || (best && !better(network, location, *best))) continue;
+    if (level_m && !(std::abs(surface_z_m(network, location.position) - *level_m) < level_reach_m)) continue;
     best = location;
     reach = location.lanes.outside_m;
   }
   return best;
 }
 
+std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m, double reach_m,
+                                        std::optional<double> level_m) {
+  if (level_m)
+    if (const auto found = locate_on_level(network, world_m, reach_m, level_m)) return found;
+  return locate_on_level(network, world_m, reach_m, std::nullopt);
+}
+
 }  // namespace
 
 std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
-                               double reach_m) {
+                               double reach_m, std::optional<double> level_m) {
   if (!std::isfinite(world_m.x) || !std::isfinite(world_m.y)) return std::nullopt;
-  if (hint == nullptr) return locate_anywhere(network, world_m, reach_m);
+  if (hint == nullptr) return locate_anywhere(network, world_m, reach_m, level_m);
   SEPTET_CHECK(hint->road < network.roads.size(), "hint names road {} of {}", hint->road, network.roads.size());
   const Location near = location_on(network, hint->road, world_m, hint->s_m);
   if (near.lanes.outside_m == 0.0) return near;
@@ -175,8 +189,11 @@ std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, 
   if (near.position.s_m <= 0.0 || near.position.s_m >= length) {
     if (const auto beyond = locate_beyond_end(network, near, world_m)) return beyond;
   }
-  return locate_anywhere(network, world_m, reach_m);
+  return locate_anywhere(network, world_m, reach_m, level_m);
 }
+
+/// Places of one road farther apart along it are two: it turns over itself.
+constexpr double over_itself_m = 30.0;
 
 std::vector<Location> roads_holding(const RoadNetwork& network, const Vec2& world_m) {
   std::vector<Location> holding;
@@ -189,16 +206,21 @@ std::vector<Location> roads_holding(const RoadNetwork& network, const Vec2& worl
     }
     ++i;
     if (node.road == no_index) continue;
-    if (std::ranges::any_of(holding, [&](const Location& found) { return found.position.road == node.road; })) continue;
+    const auto is_found_at = [&](double s_m) {
+      return std::ranges::any_of(holding, [&](const Location& found) {
+        return found.position.road == node.road && std::abs(found.position.s_m - s_m) < over_itself_m;
+      });
+    };
+    if (is_found_at(node.s_m + 0.5 * node.step_m)) continue;
     const Location location = location_on(network, node.road, world_m, node.s_m + 0.5 * node.step_m);
-    if (location.lanes.outside_m == 0.0) holding.push_back(location);
+    if (location.lanes.outside_m == 0.0 && !is_found_at(location.position.s_m)) holding.push_back(location);
   }
   return holding;
 }
 
 std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
-                                       double reach_m) {
-  const auto location = locate(network, world_m, hint, reach_m);
+                                       double reach_m, std::optional<double> level_m) {
+  const auto location = locate(network, world_m, hint, reach_m, level_m);
   if (!location) return std::nullopt;
   const Road& road = network.roads[location->position.road];
   const double s = location->position.s_m, t = location->position.t_m;

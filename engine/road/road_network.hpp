@@ -1,10 +1,9 @@
 #pragma once
-/// A road network as plain data: what an OpenDRIVE file says, checked, linked by index and ready to
-/// be evaluated.
+/// A road network as plain data: the content of an OpenDRIVE file, checked, linked by index and ready to be evaluated.
 ///
-/// Made by read_opendrive (opendrive_reader.hpp), immutable afterwards, safe to read from many
-/// threads. World frame: see rigid_transform.hpp; the header's offset is already applied to plan
-/// and elevation. Metres and radians throughout.
+/// Made by read_opendrive (opendrive_reader.hpp), immutable afterwards, safe to read from many threads. World frame:
+/// see rigid_transform.hpp; the header's offset is already applied to plan and elevation. Metres and radians
+/// throughout.
 
 #include <cstdint>
 #include <limits>
@@ -28,11 +27,11 @@ inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::ma
 enum class TrafficRule : std::uint8_t { right_hand, left_hand };
 enum class ContactPoint : std::uint8_t { start, end };
 
-/// What a road's start or end is linked to; at most one index is set.
+/// Link of a road's start or end; at most one index is set.
 struct RoadLink {
   RoadIndex road = no_index;
   JunctionIndex junction = no_index;
-  ContactPoint contact = ContactPoint::start;  ///< Which end of `road` is met.
+  ContactPoint contact = ContactPoint::start;  ///< The end of `road` at the link.
 };
 
 struct RoadTypeRecord {
@@ -41,16 +40,14 @@ struct RoadTypeRecord {
   double speed_limit_mps = 0.0;  ///< 0 where the file gives none.
 };
 
-/// Height over the road's plane as a cubic of dt from t_m on, at station s_m (OpenDRIVE 1.8,
-/// §10.5.2, lateral shape).
+/// Height over the road's plane as a cubic of dt from t_m on, at station s_m (OpenDRIVE 1.8, §10.5.2, lateral shape).
 struct LateralShape {
   double s_m = 0.0;
   double t_m = 0.0;
   double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
 };
 
-/// A patch of other material on a road: a polygon in road coordinates (x is s, y is t) with its
-/// bounds.
+/// A patch of other material on a road: a polygon in road coordinates (x is s, y is t) with its bounds.
 struct SurfacePatch {
   SurfaceMaterial material;
   std::vector<Vec2> corners_st_m;
@@ -72,11 +69,10 @@ struct Road {
   std::vector<LateralShape> shapes;   ///< Sorted by s_m, then t_m.
   CubicProfile lane_offset;           ///< t of the centre lane.
   std::vector<LaneSection> sections;  ///< At least one, the first at 0, sorted.
-  bool flat = false;                  ///< Known to have no lane height, shape or crossfall, so that the surface is
-                                      ///< the road's plane.
-  bool has_materials = false;         ///< Some lane has one.
+  bool flat = false;  ///< True without lane height, shape or crossfall, so that the surface is the road's plane.
+  bool has_materials = false;  ///< Some lane has one.
   std::vector<RoadObject> objects;
-  std::vector<SurfacePatch> patches;  ///< Of the objects that are patches; the last one on top.
+  std::vector<SurfacePatch> patches;  ///< Patches among the objects; the last one on top.
   std::vector<RoadStructure> structures;
   std::vector<Signal> signals;
 };
@@ -103,8 +99,7 @@ struct Junction {
   std::vector<JunctionConnection> connections;
 };
 
-/// A node of the tree of bounding boxes over stretches of road; in pre-order, `skip` is the next
-/// node outside this one.
+/// A node of the tree of bounding boxes over stretches of road; in pre-order, `skip` is the next node outside this one.
 struct StretchNode {
   Vec2 low_m, high_m;
   std::uint32_t skip = 0;

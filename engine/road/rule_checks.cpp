@@ -19,7 +19,7 @@ bool exists(const CheckedFile& file, const LaneEnd& end) {
   return end.lane != 0 && section_of(file, end).has_lane(end.lane);
 }
 
-/// The elements of a road's sections; those that lie beyond its end have none in the network.
+/// The elements of a road's sections; those beyond its end have none in the network.
 std::vector<pugi::xml_node> section_nodes_of(const pugi::xml_node& road_node, const Road& road) {
   std::vector<pugi::xml_node> nodes;
   for (const auto node : road_node.child("lanes").children("laneSection"))

@@ -1,9 +1,8 @@
 #pragma once
-/// The standard's checker rules, held against a file that could be read (CHECKS.md lists them). Used
-/// by the reader only.
+/// The standard's checker rules, applied to a file that could be read (CHECKS.md lists them). Used by the reader only.
 ///
-/// A rule applies from the revision that brought it: what a file's own revision allows is silent.
-/// All that is found here is a warning; nothing of it keeps a road from being driven on.
+/// A rule applies from the revision that introduced it: uses that a file's own revision allows are silent. All findings
+/// here are warnings; none keeps a road from being driven on.
 
 #include <functional>
 #include <optional>
@@ -14,7 +13,7 @@
 
 namespace septet::road {
 
-/// What all checks look at: the elements of roads and lane sections in the order of the network's.
+/// Input of all checks: the elements of roads and lane sections in the order of the network's.
 struct CheckedFile {
   XmlFindings& findings;
   const pugi::xml_node& root;
@@ -22,7 +21,7 @@ struct CheckedFile {
   const std::vector<std::vector<pugi::xml_node>>& section_nodes;
   const RoadNetwork& network;
 
-  /// Whether the file says that it follows OpenDRIVE 1.`minor` or later.
+  /// True where the file declares OpenDRIVE 1.`minor` or later.
   bool is_at_least(int minor) const { return network.header.revision_minor >= minor; }
 };
 
@@ -31,7 +30,7 @@ struct LaneEnd {
   RoadIndex road = 0;
   std::uint32_t section = 0;
   int lane = 0;
-  bool at_end = false;  ///< Of the section; else at its start.
+  bool at_end = false;  ///< True at the section's end; false at its start.
 
   auto operator<=>(const LaneEnd&) const = default;
 };
@@ -45,13 +44,12 @@ std::string name_of(const CheckedFile& file, const LaneEnd& end);
 /// The lane's element, or that of its section.
 pugi::xml_node node_of(const CheckedFile& file, const LaneEnd& end);
 
-/// Which end of the incoming road touches a connection; nothing where its links do not tell.
+/// The end of the incoming road at a connection; empty where its links do not tell.
 std::optional<ContactPoint> incoming_contact(const RoadNetwork& network, JunctionIndex junction,
                                              const JunctionConnection& connection);
 
-/// visit(from, to, by_junction) for every lane that is linked to a lane that is there: across
-/// sections, roads and connections of junctions. A pair that is linked both ways comes twice, a
-/// connection's once.
+/// Calls visit(from, to, by_junction) for every lane that is linked to an existing lane: across sections, roads and
+/// connections of junctions. A pair that is linked both ways comes twice, a connection's once.
 void visit_lane_links(const CheckedFile& file,
                       const std::function<void(const LaneEnd& from, const LaneEnd& to, bool by_junction)>& visit);
 
@@ -62,6 +60,6 @@ void check_connections(const CheckedFile& file);
 void check_linked_lanes(const CheckedFile& file);   ///< Both ways, widths, levels, gaps.
 void check_lane_sections(const CheckedFile& file);  ///< Levels, access, borders.
 void check_redundancy(const CheckedFile& file);
-void check_steps(const CheckedFile& file);  ///< Of the surface and of the lanes within each road.
+void check_steps(const CheckedFile& file);  ///< Steps of the surface and of the lanes within each road.
 
 }  // namespace septet::road

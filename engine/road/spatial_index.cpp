@@ -11,7 +11,7 @@ namespace {
 
 constexpr double longest_stretch_m = 20.0, largest_turn_rad = 0.25;
 constexpr std::size_t most_stretches = 1'000'000, most_stretches_of_a_road = 20'000;
-// Covers what lies between the sampled points: the bulge of an arc and of a widening lane.
+// Covers the curve between the sampled points: the bulge of an arc and of a widening lane.
 constexpr double box_margin_m = 2.0;
 
 double sharpest_curvature(const PlanCurve& plan) {

@@ -19,7 +19,7 @@ int turn_through(const RoadNetwork& network, RoadIndex connecting, int lane, boo
   if (road.junction == no_index || before.road == no_index) return 0;
   const Road& incoming = network.roads[before.road];
   const bool leaves_at_end = before.contact == ContactPoint::end;
-  // The lane that one came in, and where else it leads.
+  // The lane of entry, and its other continuations.
   const LaneSection& entered = along_s ? road.sections.front() : road.sections.back();
   if (!entered.has_lane(lane)) return 0;
   const auto& from = along_s ? entered.lane(lane).predecessors : entered.lane(lane).successors;

@@ -18,7 +18,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// The whole text as a number, or nothing.
+/// The whole text as a number, or empty.
 template <class Number>
 std::optional<Number> parse(std::string_view text) {
   text = trimmed(text);
@@ -29,7 +29,7 @@ std::optional<Number> parse(std::string_view text) {
   return value;
 }
 
-/// What a person is shown of a text from the file.
+/// A text from the file, made fit for a message.
 std::string shown(std::string_view text) {
   std::string result;
   for (const char c : text.substr(0, 40)) result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;

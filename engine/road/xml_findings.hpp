@@ -1,9 +1,8 @@
 #pragma once
-/// Reading attributes of XML that may be wrong, and collecting what is wrong with them. Used by the
-/// reader only.
+/// Reads attributes of XML that may be wrong, and collects the faults. Used by the reader only.
 ///
-/// Every answer is usable: after an error the value is a harmless one, so that the reader goes on
-/// and finds the rest.
+/// Every returned value is usable: after an error it is a harmless one, so that the reader continues and finds the
+/// rest.
 
 #include <cstddef>
 #include <initializer_list>
@@ -24,14 +23,14 @@ class XmlFindings {
  public:
   XmlFindings(std::string_view text, std::string_view name);
 
-  /// `rule`: the standard's checker rule that is broken, if there is one.
+  /// `rule`: the standard's broken checker rule, if there is one.
   void error(const pugi::xml_node& node, std::string what, std::string remedy, std::string_view rule = {});
   void warning(const pugi::xml_node& node, std::string what, std::string remedy, std::string_view rule = {});
-  /// An error at a byte of the text, for what is no XML at all.
+  /// An error at a byte of the text, for text that is not XML at all.
   void error_at(std::ptrdiff_t offset, std::string what, std::string remedy, std::string_view rule = {});
   void warning_at(std::ptrdiff_t offset, std::string what, std::string remedy);
 
-  /// "name:line, <element>", as errors say it.
+  /// "name:line, <element>", as in errors.
   std::string where(const pugi::xml_node& node) const;
 
   bool has_error() const { return first_error_.has_value(); }
@@ -42,13 +41,14 @@ class XmlFindings {
   static constexpr double largest_number = 1e12;
   /// A finite number within ±most (road_limits.hpp). Missing or beyond: an error and 0.
   double number(const pugi::xml_node& node, const char* attribute, double most = largest_number);
-  /// The same; missing or empty: the fallback.
+  /// A finite number; missing or empty: the fallback.
   double number_or(const pugi::xml_node& node, const char* attribute, double fallback, double most = largest_number);
-  /// A number of at least 0; missing or empty: the fallback; "nan": a warning and the fallback; below 0: a warning and 0.
+  /// A number of at least 0; missing or empty: the fallback; "nan": a warning and the fallback; below 0: a warning and
+  /// 0.
   double amount_or(const pugi::xml_node& node, const char* attribute, double fallback, double most = largest_number);
-  /// A whole number in ±10,000 (lane ids). Missing or wrong: an error and nothing.
+  /// A whole number in ±10,000 (lane ids). Missing or wrong: an error and an empty result.
   std::optional<int> integer(const pugi::xml_node& node, const char* attribute);
-  /// A text that must be there. Missing or empty: an error.
+  /// A required text. Missing or empty: an error.
   std::string text(const pugi::xml_node& node, const char* attribute);
 
  private:

@@ -25,6 +25,8 @@ std::vector<double> stations(const RoadTile& tile, const BesideLine& line, doubl
 enum class BarrierForm : std::uint8_t { rail, jersey, railing, wall, fence, hedge };
 inline constexpr std::array barrier_forms{BarrierForm::rail, BarrierForm::jersey, BarrierForm::railing,
                                           BarrierForm::wall, BarrierForm::fence,  BarrierForm::hedge};
+/// A parapet's handrail lies on its posts and reaches so far over them.
+inline constexpr double handrail_over_posts_m = 0.02;
 /// How high one of this form is where the file gives no height.
 double usual_height_m(BarrierForm form);
 struct Barrier {
@@ -40,7 +42,8 @@ struct Barrier {
 /// (standing_objects.hpp).
 bool is_barrier(const road::RoadObject& object);
 bool runs_along(const road::RoadObject& object);
-/// The barriers of the tile's road that stand in the tile: rails end at a tunnel's mouth.
+/// The barriers of the tile's road that stand in the tile: rails end at a tunnel's mouth. A bridge that the file does not give
+/// (road/decks.hpp) has railings.
 std::vector<Barrier> barriers(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double barrier_step_m = 10.0;
 

@@ -12,6 +12,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/roadside/barrier_lines.hpp"
 #include "engine/roadside/buildings.hpp"
+#include "engine/roadside/obstacle_profile.hpp"
 #include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/plants.hpp"
 #include "engine/roadside/signals.hpp"
@@ -23,45 +24,8 @@ namespace septet::roadside {
 namespace {
 
 constexpr PlaneCells obstacle_cells{32.0};
-constexpr double endless_m = 1e6;
 constexpr double most_reach_m = 30.0;
 constexpr std::uint32_t stem_runs = 0x8000'0000u;  // Numbers of what is not in the list.
-
-/// What a kind is made of. Friction of painted sheet metal, chosen: 0.3 on steel, 0.45 on concrete and bark.
-struct Make {
-  double radius_m, height_m, friction, yielding_kg;
-};
-Make make_of(ObstacleKind kind) {
-  switch (kind) {
-    case ObstacleKind::guard_rail:
-      return {0.08, 0.75, 0.30, 0.0};
-    case ObstacleKind::concrete_barrier:
-      return {0.20, 0.90, 0.45, 0.0};
-    case ObstacleKind::parapet:
-      return {0.16, 1.20, 0.35, 0.0};
-    case ObstacleKind::noise_wall:
-      return {0.16, 3.60, 0.45, 0.0};
-    case ObstacleKind::tunnel_wall:
-      return {0.05, tunnel_shape::haunch_m, 0.45, 0.0};
-    case ObstacleKind::portal:
-      return {0.45, 9.0, 0.45, 0.0};
-    case ObstacleKind::gantry_leg:
-      return {0.28, 8.0, 0.30, 0.0};
-    case ObstacleKind::marker_post:
-      return {0.06, 1.05, 0.20, 3.0};  // A plastic tube.
-    case ObstacleKind::tree:
-      return {0.20, endless_m, 0.45, 0.0};
-    case ObstacleKind::bush:
-      return {0.80, endless_m, 0.20, 40.0};
-    case ObstacleKind::house:
-      return {0.05, endless_m, 0.45, 0.0};
-    case ObstacleKind::post:
-      return {signal_post_radius_m, 4.0, 0.30, 0.0};
-    case ObstacleKind::ground_face:
-      return {0.0, 0.0, 0.45, 0.0};  // Found under way (simulation/ground_faces.hpp).
-  }
-  return {0.1, 1.0, 0.4, 0.0};
-}
 
 class Builder {
  public:
@@ -73,7 +37,7 @@ class Builder {
   void line(ObstacleKind kind, const std::vector<Vec3>& points_m) {
     if (points_m.size() < 2) return;
     for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
-      Obstacle& stretch = add(kind, run_, points_m[i], points_m[i + 1], make_of(kind).radius_m);
+      Obstacle& stretch = add(kind, run_, points_m[i], points_m[i + 1], profile_of(kind).radius_m);
       stretch.open_from = i == 0;
       stretch.open_to = i + 2 == points_m.size();
     }
@@ -82,17 +46,17 @@ class Builder {
 
  private:
   Obstacle& add(ObstacleKind kind, std::uint32_t run, const Vec3& from_m, const Vec3& to_m, double radius_m) {
-    const Make make = make_of(kind);
+    const ObstacleProfile profile = profile_of(kind);
     Obstacle obstacle;
     obstacle.kind = kind;
     obstacle.run = run;
     obstacle.from_m = Vec2(from_m);
     obstacle.to_m = Vec2(to_m);
     obstacle.radius_m = radius_m;
-    obstacle.low_m = make.height_m < endless_m ? std::min(from_m.z, to_m.z) - 0.3 : -endless_m;
-    obstacle.high_m = std::max(from_m.z, to_m.z) + make.height_m;
-    obstacle.friction = make.friction;
-    obstacle.yielding_kg = make.yielding_kg;
+    obstacle.low_m = profile.height_m < endless_m ? std::min(from_m.z, to_m.z) - 0.3 : -endless_m;
+    obstacle.high_m = std::max(from_m.z, to_m.z) + profile.height_m;
+    obstacle.friction = profile.friction;
+    obstacle.yielding_kg = profile.yielding_kg;
     return obstacles_.emplace_back(obstacle);
   }
 
@@ -171,7 +135,7 @@ void add_walls_and_posts(const RoadShape& roads, const std::vector<RoadTile>& ti
     for (const BesideLine& line : noise_walls(roads, tile)) walls.add(points(roads, tile, line, noise_wall_step_m));
     for (const BesideLine& line : marker_posts(roads, tile))
       if (const auto foot = points(roads, tile, line, marker_post_step_m); !foot.empty())
-        builder.point(ObstacleKind::marker_post, foot.front(), make_of(ObstacleKind::marker_post).radius_m);
+        builder.point(ObstacleKind::marker_post, foot.front(), profile_of(ObstacleKind::marker_post).radius_m);
   }
 }
 
@@ -190,7 +154,7 @@ void add_tunnels(const RoadShape& roads, const std::vector<RoadTile>& tiles, Bui
       joiner.add(line);
     }
   }
-  const double half = make_of(ObstacleKind::portal).radius_m;
+  const double half = profile_of(ObstacleKind::portal).radius_m;
   for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index)
     for (const road::RoadStructure& tunnel : roads.road(index).structures) {
       if (tunnel.kind != road::RoadStructure::Kind::tunnel) continue;
@@ -212,14 +176,14 @@ void add_gantries(const RoadShape& roads, Builder& builder) {
       const Vec3 left(-std::sin(middle.heading_rad), std::cos(middle.heading_rad), 0.0);
       for (const double y : gantry_legs_m(object.width_m))
         builder.point(ObstacleKind::gantry_leg, middle.position_m + y * left,
-                      make_of(ObstacleKind::gantry_leg).radius_m);
+                      profile_of(ObstacleKind::gantry_leg).radius_m);
     }
 }
 
 void add_signals(const RoadShape& roads, Builder& builder) {
   for (const StandingSignal& standing : standing_signals(roads))
     if (standing.has_post)
-      builder.point(ObstacleKind::post, standing.world_from_signal.position_m, make_of(ObstacleKind::post).radius_m);
+      builder.point(ObstacleKind::post, standing.world_from_signal.position_m, profile_of(ObstacleKind::post).radius_m);
   for (const StreetLamp& lamp : street_lamps(roads))
     builder.point(ObstacleKind::post, lamp.world_from_lamp.position_m, 0.07);
 }
@@ -344,7 +308,7 @@ std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m) cons
   for (const std::uint32_t i : numbers) found.push_back(obstacles_[i]);
   if (may_be_wood)
     for (const Stem& stem : wood_stems(terrain_, seed_, p, reach_m)) {
-      const Make make = make_of(ObstacleKind::tree);
+      constexpr ObstacleProfile profile = profile_of(ObstacleKind::tree);
       found.push_back({.kind = ObstacleKind::tree,
                        .run = stem_runs | stem.number,
                        .from_m = stem.middle_m,
@@ -352,7 +316,7 @@ std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m) cons
                        .radius_m = stem.radius_m,
                        .low_m = -endless_m,
                        .high_m = endless_m,
-                       .friction = make.friction});
+                       .friction = profile.friction});
     }
   return found;
 }

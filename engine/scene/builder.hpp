@@ -1,10 +1,9 @@
 #pragma once
-/// Fills a store with scenery: meshes, images, materials and placed objects, in the conventions of
-/// CONVENTIONS.md.
+/// Fills a store with scenery: meshes, images, materials and placed objects, in the conventions of CONVENTIONS.md.
 ///
-/// Everything goes through commands, so that what is built can be replicated, changed and logged
-/// like any other content. A call with values that a store would refuse (not finite, index out of
-/// range, over a limit) is a bug of the caller and stops the program.
+/// Everything goes through commands, so that the scenery can be replicated, changed and logged like any other content.
+/// A call with values that a store would refuse (not finite, index out of range, over a limit) is a bug of the caller
+/// and stops the program.
 
 #include <functional>
 #include <span>
@@ -19,12 +18,10 @@
 namespace septet::scene {
 
 struct MeshOptions {
-  /// 0 draws the polygons as they are, with smooth normals except at creases; n subdivides n times
-  /// (at most 4).
+  /// 0 draws the polygons as they are, with smooth normals except at creases; n subdivides n times (at most 4).
   std::uint32_t subdivision_level = 0;
-  /// Positions are rounded to this power of two (metres) and uvs to 1/4096, which makes the
-  /// transfer compact. Zero chooses by the mesh's size: about 1/30,000 of its extent, between 2^-14
-  /// m and 2^-10 m (1 mm).
+  /// Positions are rounded to this power of two (metres) and uvs to 1/4096, which makes the transfer compact. Zero
+  /// chooses by the mesh's size: about 1/30,000 of its extent, between 2^-14 m and 2^-10 m (1 mm).
   double position_step_m = 0.0;
 };
 
@@ -49,7 +46,7 @@ struct MaterialParameters {
 };
 
 struct ObjectParameters {
-  RigidTransform parent_from_object{};  ///< Of an object without a parent: world_from_object.
+  RigidTransform parent_from_object{};  ///< Pose; of an object without a parent: world_from_object.
   glm::vec3 scale{1.0f};
   NodeId geometry = no_node;        ///< An object without geometry groups its children.
   std::vector<NodeId> materials{};  ///< Entry k is for the polygons of material index k.
@@ -61,24 +58,22 @@ struct ObjectParameters {
 
 class SceneBuilder {
  public:
-  /// `applied` (may be empty) hears every command after the store took it: the replication server's
-  /// ear.
+  /// `applied` (may be empty) is called with every command after the store has accepted it, for the replication server.
   explicit SceneBuilder(Store& store, std::function<void(const Command&)> applied = {});
 
   NodeId add_mesh(std::string_view name, const geometry::PolygonMesh& mesh, const MeshOptions& options = {});
-  /// `rgba`: width × height × 4 bytes, rows from the top. Alpha is sent only where it is not opaque
-  /// throughout.
+  /// `rgba`: width × height × 4 bytes, rows from the top. Alpha is sent only where it is not opaque throughout.
   NodeId add_bitmap(std::string_view name, std::uint32_t width, std::uint32_t height,
                     std::span<const std::uint8_t> rgba, bool srgb = true);
   NodeId add_material(std::string_view name, const MaterialParameters& parameters);
   NodeId add_object(std::string_view name, const ObjectParameters& parameters);
-  /// An object that is not drawn itself: the root of what is drawn for every participant of model
-  /// `model_name`. Give it its parts with add_child.
+  /// An object that is not drawn itself: the root of the drawing of every participant of model `model_name`. Give it
+  /// its parts with add_child.
   NodeId add_prototype(std::string_view model_name);
   /// The child's transform is then relative to the parent's.
   void add_child(NodeId parent, NodeId child);
 
-  /// One command into the store; a refused one stops the program.
+  /// Applies one command to the store; a refused one stops the program.
   void apply(const Command& command);
 
  private:

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, std::variant_size_v<Command>> command_nam
     "fragment destroy",     "bitmap size set",    "bitmap layer set",
     "bitmap layer destroy", "bitmap tiles set"};
 
-/// The opcode of T, or of the "set" whose thing T destroys.
+/// The opcode of T, or of the "set" of the object that T destroys.
 template <class T>
 std::uint64_t kind_of() {
   using Kind = std::conditional_t<

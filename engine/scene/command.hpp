@@ -1,11 +1,9 @@
 #pragma once
-/// The node commands: the only thing that changes a store, and the only thing that replication
-/// sends.
+/// The node commands: all changes of a store, and all content of replication.
 ///
-/// Symmetrical (Brink, Steenberg and Svensson 2006, §2.2.2): the same struct asks for a change and
-/// tells of it, and the first value of something looks exactly like a later change of it (§2.2.4).
-/// Their bytes are specified in COMMANDS.md and made by command_codec.hpp. "Set" creates what does
-/// not exist; "Destroy" of what does not exist does nothing.
+/// Symmetrical (Brink, Steenberg and Svensson 2006, §2.2.2): the same struct requests a change and announces it, and a
+/// first value looks exactly like a later change of it (§2.2.4). Their bytes are specified in COMMANDS.md and made by
+/// command_codec.hpp. "Set" creates an absent object; "Destroy" of an absent one does nothing.
 
 #include <array>
 #include <compare>
@@ -20,15 +18,13 @@ namespace septet::scene {
 
 // ---- subscriptions: from a client; they do not change a store
 
-/// Asks to be told which nodes of these types exist; bit k is NodeType k. Zero ends the
-/// subscription.
+/// Subscribes to the index of nodes of these types; bit k is NodeType k. Zero ends the subscription.
 struct NodeIndexSubscribe {
   std::uint32_t type_mask = 0;
   bool operator==(const NodeIndexSubscribe&) const = default;
 };
 
-/// Asks for what the node itself holds, and for the list of its subscribable parts (tag groups,
-/// layers).
+/// Subscribes to the node's own content, and to the list of its subscribable parts (tag groups, layers).
 struct NodeSubscribe {
   NodeId node = no_node;
   bool subscribe = true;
@@ -38,7 +34,7 @@ struct NodeSubscribe {
 /// Kinds of subscribable parts. Numbered as on the wire.
 enum class PartKind : std::uint8_t { tag_group, layer };
 
-/// Asks for the content of one part.
+/// Subscribes to the content of one part.
 struct PartSubscribe {
   NodeId node = no_node;
   PartKind kind = PartKind::tag_group;
@@ -120,8 +116,7 @@ struct HideSet {
 
 // ---- geometry
 
-/// Grows or cuts the arrays; what is new has vertices at the origin, polygons that are not there,
-/// layers at their default.
+/// Grows or cuts the arrays; new elements are vertices at the origin, absent polygons, layers at their default.
 struct GeometrySizeSet {
   NodeId node = no_node;
   std::uint32_t vertices = 0;
@@ -144,8 +139,7 @@ struct GeometryLayerDestroy {
   PartId layer = 0;
   bool operator==(const GeometryLayerDestroy&) const = default;
 };
-/// Runs of many values, so that a big mesh is few messages; the range must lie within the
-/// geometry's size.
+/// Runs of many values, so that a big mesh is few messages; the range must lie within the geometry's size.
 struct VerticesSet {
   NodeId node = no_node;
   std::uint32_t first = 0;
@@ -233,8 +227,7 @@ using Command = std::variant<NodeIndexSubscribe, NodeSubscribe, PartSubscribe, N
                              PolygonsSet, LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy,
                              BitmapSizeSet, BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet>;
 
-/// What a command overwrites: of two commands with equal addresses the later makes the earlier
-/// superfluous.
+/// Address that a command overwrites: of two commands with equal addresses the later makes the earlier superfluous.
 struct CommandAddress {
   std::uint64_t high = 0, low = 0;
   auto operator<=>(const CommandAddress&) const = default;

@@ -1,10 +1,9 @@
 #pragma once
 /// Commands to bytes and back, as specified in COMMANDS.md.
 ///
-/// The decoder trusts nothing: it is bounded in time and memory (COMMANDS.md), refuses
-/// what is out of range, not finite, over a limit or followed by rubbish, and never stops the
-/// program. A number of vertices, polygons or reals that all lie on a grid of 2^-k is sent as small
-/// integers, so meshes snapped to a grid are about a third of the size.
+/// The decoder trusts nothing: it is bounded in time and memory (COMMANDS.md), refuses values out of range, not finite,
+/// over a limit or followed by rubbish, and never stops the program. A number of vertices, polygons or reals that all
+/// lie on a grid of 2^-k is sent as small integers, so meshes snapped to a grid are about a third of the size.
 
 #include <cstddef>
 #include <span>
@@ -27,7 +26,7 @@ inline constexpr std::size_t max_run_bytes = 1u << 20;   ///< Bytes of tiles in 
 /// Appends one command.
 void encode(const Command& command, Bytes& out);
 
-/// Reads one command; on bad bytes the reader is in its failed state and the answer says why.
+/// Reads one command; on bad bytes the reader is in its failed state and the error gives the reason.
 Expected<Command> decode(ByteReader& in);
 
 /// The one command that fills `bytes` exactly.

@@ -1,12 +1,12 @@
 #pragma once
-/// What can be said about a command without looking at a store.
+/// Validation of a command without its store.
 
 #include "engine/core/expected.hpp"
 #include "engine/scene/command.hpp"
 
 namespace septet::scene {
 
-/// Every number is finite, every enumeration and index in range, every length within its limit
+/// Checks that every number is finite, every enumeration and index in range, every length within its limit
 /// (command_codec.hpp).
 Expected<void> validate(const Command& command);
 

@@ -1,6 +1,5 @@
 #pragma once
-/// What content is taken to weigh against StoreLimits::bytes: its arrays and texts, and a share for
-/// the containers.
+/// Weight of content against StoreLimits::bytes: its arrays and texts, and a share for the containers.
 
 #include "engine/scene/node.hpp"
 

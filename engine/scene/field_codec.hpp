@@ -1,7 +1,6 @@
 #pragma once
-/// The fields of commands in bytes (COMMANDS.md). Writer and Reader have the same functions, so
-/// that one description of each command's fields serves both ways: `fields(writer, command)` and
-/// `fields(reader, command)`.
+/// The fields of commands in bytes (COMMANDS.md). Writer and Reader have the same functions, so that one description of
+/// each command's fields serves both ways: `fields(writer, command)` and `fields(reader, command)`.
 
 #include <type_traits>
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace septet::scene {
 
-/// Appends to the bytes that it was made with.
+/// Appends to the bytes given at construction.
 struct Writer {
   static constexpr bool writes = true;
   ByteWriter out;
@@ -43,7 +42,7 @@ struct Writer {
   void corners(std::span<const PolygonCorners> polygons) { put_corners(out, polygons); }
 };
 
-/// What is out of range puts `in` into its failed state.
+/// Values out of range put `in` into its failed state.
 struct Reader {
   static constexpr bool writes = false;
   ByteReader& in;
@@ -66,7 +65,7 @@ struct Reader {
     if (byte > static_cast<std::uint8_t>(last)) return in.fail();
     value = static_cast<Enumeration>(byte);
   }
-  /// Allocates for what the sender claims only within the limit of one run.
+  /// Allocates the sender's claimed size only within the limit of one run.
   template <class T>
   std::size_t count(std::vector<T>& values, std::size_t limit) {
     values.resize(in.get_count(limit));

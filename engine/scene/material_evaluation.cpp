@@ -8,11 +8,11 @@
 namespace septet::scene {
 namespace {
 
-constexpr int deepest = 64;  ///< Of a tree; what lies deeper is black.
+constexpr int deepest = 64;  ///< Depth limit of a tree; deeper parts are black.
 
 float mean(const glm::vec3& color) { return (color.r + color.g + color.b) / 3.0f; }
 
-/// One share of what a surface sends to the eye: a colour, times an image where there is one.
+/// One share of a surface's light to the eye: a colour, times an image where there is one.
 struct Lobe {
   glm::vec3 color{0.0f};
   NodeId image = no_node;
@@ -81,7 +81,7 @@ class Evaluation {
     const auto fragment = material_.fragments.find(id);
     if (fragment == material_.fragments.end() || depth_ >= deepest) return {};
     if (const auto known = known_.find(id); known != known_.end()) return known->second;
-    known_[id] = {};  // What a loop finds when it closes.
+    known_[id] = {};  // Value that a loop finds when it closes.
     ++depth_;
     const Lobes lobes = std::visit(*this, fragment->second);
     --depth_;
@@ -180,7 +180,7 @@ T tag_or(const Node& node, const char* name, T otherwise) {
   return typed ? *typed : otherwise;
 }
 
-/// Whatever the tree came to, a renderer gets finite and moderate numbers.
+/// Finite and moderate numbers for a renderer, whatever the tree.
 glm::vec3 moderate(const glm::vec3& color, float most) {
   const auto one = [&](float value) { return value > 0.0f ? std::min(value, most) : 0.0f; };
   return {one(color.r), one(color.g), one(color.b)};

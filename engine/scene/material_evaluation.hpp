@@ -1,6 +1,5 @@
 #pragma once
-/// A material node's shading tree as the few numbers of SurfaceMaterial (CONVENTIONS.md,
-/// "Materials").
+/// A material node's shading tree as the few numbers of SurfaceMaterial (CONVENTIONS.md, "Materials").
 
 #include <functional>
 

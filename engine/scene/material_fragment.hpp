@@ -1,11 +1,10 @@
 #pragma once
 /// The sixteen kinds of fragment of which a material node's shading tree is built.
 ///
-/// Verse describes a material from scratch as a tree of simple operations (Brink, Steenberg and
-/// Svensson 2006, §2.5.2). A fragment refers to others of its node by `FragmentId`, to bitmaps by
-/// node id and to geometry layers by name. A reference may point at what does not exist (yet);
-/// evaluation then takes the neutral value that CONVENTIONS.md gives. Colours are linear Rec. 709.
-/// Every number must be finite; the store refuses others.
+/// Verse describes a material from scratch as a tree of simple operations (Brink, Steenberg and Svensson 2006, §2.5.2).
+/// A fragment refers to others of its node by `FragmentId`, to bitmaps by node id and to geometry layers by name. A
+/// reference may point at an object that does not exist (yet); evaluation then takes the neutral value that
+/// CONVENTIONS.md gives. Colours are linear Rec. 709. Every number must be finite; the store refuses others.
 
 #include <array>
 #include <cstdint>
@@ -95,7 +94,7 @@ enum class BlendKind : std::uint8_t { fade, add, subtract, multiply, divide };
 struct BlenderFragment {
   BlendKind kind = BlendKind::fade;
   FragmentId a = no_fragment, b = no_fragment;
-  FragmentId control = no_fragment;  ///< Of a fade: 0 shows a, 1 shows b.
+  FragmentId control = no_fragment;  ///< Control of a fade: 0 shows a, 1 shows b.
   bool operator==(const BlenderFragment&) const = default;
 };
 
@@ -122,18 +121,18 @@ struct RampPoint {
 struct RampFragment {
   static constexpr std::size_t max_points = 48;
   RampKind kind = RampKind::linear;
-  RampChannel channel = RampChannel::red;  ///< Of `mapping`: what runs along the ramp.
+  RampChannel channel = RampChannel::red;  ///< Channel of `mapping` that runs along the ramp.
   FragmentId mapping = no_fragment;
   std::vector<RampPoint> points;  ///< At least one; positions rise.
   bool operator==(const RampFragment&) const = default;
 };
 
 struct AnimationFragment {
-  std::string label;  ///< Of the object's link to a curve node.
+  std::string label;  ///< Label of the object's link to a curve node.
   bool operator==(const AnimationFragment&) const = default;
 };
 
-/// Either of two trees that look alike; a renderer takes the one that it can draw best.
+/// Either of two trees of equal appearance; a renderer takes the one that it can draw best.
 struct AlternativeFragment {
   FragmentId a = no_fragment, b = no_fragment;
   bool operator==(const AlternativeFragment&) const = default;

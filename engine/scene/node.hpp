@@ -1,14 +1,13 @@
 #pragma once
-/// What the store keeps: nodes of a few types, each a set of parts that can be addressed and
-/// changed one by one.
+/// Content of the store: nodes of a few types, each a set of parts that can be addressed and changed one by one.
 ///
-/// Source: Brink, Steenberg and Svensson, "The Verse Networked 3D Graphics Platform" (2006), §2.2
-/// and §2.4. A node has a 32-bit id that the server assigns and never uses twice, a name, and
-/// groups of typed tags; the rest depends on its type. Node types to come (text, curve, audio) are
-/// further alternatives of `NodeData`; nothing else of the store changes.
+/// Source: Brink, Steenberg and Svensson, "The Verse Networked 3D Graphics Platform" (2006), §2.2 and §2.4. A node has
+/// a 32-bit id that the server assigns and never uses twice, a name, and groups of typed tags; the rest depends on its
+/// type. Node types to come (text, curve, audio) are further alternatives of `NodeData`; nothing else of the store
+/// changes.
 ///
-/// Units: metres, world frame and object frames as in rigid_transform.hpp. `revision` is the
-/// store's revision of the last change of that part; a node's is the highest of its parts.
+/// Units: metres, world frame and object frames as in rigid_transform.hpp. `revision` is the store's revision of the
+/// last change of that part; a node's is the highest of its parts.
 
 #include <cstdint>
 #include <map>
@@ -30,7 +29,7 @@ using geometry::PolygonCorners;
 enum class NodeType : std::uint8_t { object, geometry, material, bitmap, text, curve, audio };
 inline constexpr int node_type_count = 7;
 
-using PartId = std::uint16_t;  ///< Of a tag group, tag, link, layer within its node.
+using PartId = std::uint16_t;  ///< Id of a tag group, tag, link, layer within its node.
 
 // ---- tags (every node)
 
@@ -66,7 +65,7 @@ struct Transform {
 struct Link {
   std::string label;            ///< "geometry", "material", "child"; see CONVENTIONS.md.
   NodeId target = no_node;      ///< May point at a node that does not exist (yet).
-  std::uint32_t target_id = 0;  ///< Which of the target's (or of this object's) parts is meant.
+  std::uint32_t target_id = 0;  ///< Id of one of the target's (or of this object's) parts.
   bool operator==(const Link&) const = default;
 };
 
@@ -120,8 +119,8 @@ struct GeometryLayer {
   std::uint64_t revision = 0;
 };
 
-/// Which layer holds the creases of vertices (a vertex_integer layer) or edges (a corner_integer
-/// layer, value k for the edge from corner k), and the value where there is no such layer.
+/// The layer with the creases of vertices (a vertex_integer layer) or edges (a corner_integer layer, value k for the
+/// edge from corner k), and the value where there is no such layer.
 struct Crease {
   std::string layer;
   std::uint32_t default_value = geometry::crease_smooth;
@@ -130,11 +129,11 @@ struct Crease {
 
 struct GeometryData {
   std::vector<glm::vec3> vertices_m;     ///< The base vertex layer.
-  std::vector<PolygonCorners> polygons;  ///< The base polygon layer; a polygon whose first corner
-                                         ///< is no_vertex is not there.
+  std::vector<PolygonCorners> polygons;  ///< The base polygon layer; a polygon whose first corner is no_vertex is
+                                         ///< absent.
   std::map<PartId, GeometryLayer> layers;
   Crease vertex_crease, edge_crease;
-  std::uint64_t shape_revision = 0;  ///< Of vertices_m and polygons.
+  std::uint64_t shape_revision = 0;  ///< Revision of vertices_m and polygons.
 };
 
 // ---- material
@@ -159,8 +158,8 @@ constexpr std::uint32_t tile_bytes(PixelType type) {
 struct BitmapLayer {
   std::string name;  ///< "color_r", "color_g", "color_b", "alpha", …
   PixelType type = PixelType::byte;
-  std::vector<std::uint8_t>
-      tiles;  ///< tile_count × tile_bytes, tiles row by row, slice by slice; edge tiles are padded.
+  /// tile_count × tile_bytes, tiles row by row, slice by slice; edge tiles are padded.
+  std::vector<std::uint8_t> tiles;
   std::uint64_t revision = 0;
 };
 
@@ -188,9 +187,9 @@ struct Node {
   NodeType type() const { return static_cast<NodeType>(data.index()); }
 };
 
-/// The value of a tag by its names, or nothing.
+/// The value of a tag by its names, or null.
 const TagValue* find_tag(const Node& node, std::string_view group, std::string_view tag);
-/// The layer of that name, or nothing; the lowest id counts where several share it.
+/// The layer of that name, or null; the lowest id counts where several share it.
 const GeometryLayer* find_layer(const GeometryData& geometry, std::string_view name);
 const BitmapLayer* find_layer(const BitmapData& bitmap, std::string_view name);
 

@@ -8,7 +8,7 @@
 namespace septet::scene {
 
 std::string_view name_of(PartRole role);
-/// `fixed` for a name that is none.
+/// `fixed` for an unknown name.
 PartRole part_role(std::string_view name);
 
 }  // namespace septet::scene

@@ -15,10 +15,11 @@ namespace septet::scene {
 namespace {
 
 constexpr int deepest_child = 32;
-constexpr std::size_t most_visits = 1u << 20;  ///< Of objects in one update: children shared again and again multiply.
+/// Limit of objects in one update: children shared again and again multiply.
+constexpr std::size_t most_visits = 1u << 20;
 constexpr std::string_view prototype_prefix = "model/";
 
-/// What an object node says, read once per change of it.
+/// Content of an object node, read once per change of it.
 struct DrawnObject {
   std::uint64_t revision = 0;
   std::string name;
@@ -39,7 +40,7 @@ using MeshKey = std::pair<NodeId, std::vector<std::pair<std::uint32_t, NodeId>>>
 struct MeshSlot {
   MeshKey key;
   std::uint64_t made_from = 0;  ///< The geometry node's revision.
-  std::uint64_t last_used = 0;  ///< The placing in which an instance had it.
+  std::uint64_t last_used = 0;  ///< The last pass of place_instances in which an instance had it.
 };
 
 template <class T>
@@ -71,11 +72,11 @@ DrawnObject read_object(const Node& node) {
   return object;
 }
 
-/// Slots of one of ResolvedScene's arrays, by what they are made from.
+/// Slots of one of ResolvedScene's arrays, by their source.
 template <class Key, class Content>
 class Slots {
  public:
-  /// The slot of `key`, made where there is none.
+  /// The slot of `key`, made where it does not exist.
   std::uint32_t of(const Key& key, std::vector<Content>& contents) {
     const auto [found, added] = by_key_.try_emplace(key, 0);
     if (!added) return found->second;
@@ -116,11 +117,11 @@ struct Resolver::State {
   std::map<NodeId, std::uint64_t> image_made_from;
   std::size_t pending = 0;
 
-  State() { scene.materials.emplace_back(); }  // Slot 0: what has no material is neutral grey.
+  State() { scene.materials.emplace_back(); }  // Slot 0: parts without a material are neutral grey.
 
   std::uint64_t next_revision() { return ++scene.revision; }
 
-  // ---- what changed
+  // ---- changes
 
   struct Changes {
     bool objects = false, materials = false, bitmaps = false, geometries = false;
@@ -241,7 +242,7 @@ struct Resolver::State {
   void make_meshes(const Store& store, std::size_t budget) {
     struct Task {
       std::uint32_t index;
-      const Node* node;                                                ///< Null: its geometry is not there.
+      const Node* node;                                                ///< Null: there is no geometry.
       std::vector<std::pair<std::uint32_t, std::uint32_t>> materials;  ///< Slots by face material index.
     };
     pending = 0;
@@ -338,7 +339,7 @@ Resolver& Resolver::operator=(Resolver&&) noexcept = default;
 bool Resolver::update(const Store& store, std::size_t mesh_budget) { return state_->update(store, mesh_budget); }
 
 void Resolver::forget() {
-  // Everything made so far stays in its slot until the next update frees or makes it again.
+  // Existing content stays in its slot until the next update frees or makes it again.
   state_->seen = state_->seen_index = 0;
   state_->objects.clear();
   state_->image_made_from.clear();

@@ -1,14 +1,12 @@
 #pragma once
-/// From nodes to what a renderer draws: subdivides, triangulates, evaluates materials, places
-/// instances.
+/// Nodes to drawable content: subdivides, triangulates, evaluates materials, places instances.
 ///
-/// Incremental: `update` looks at the revisions and redoes only what changed since its last call, so
-/// that a flood of commands costs no more than the nodes that they touched. Slots of ResolvedScene
-/// keep their index for as long as their node is in use; what is no longer there is emptied (with a
-/// new revision), and an emptied mesh slot is used again. How nodes are read is fixed in
-/// CONVENTIONS.md. Content that makes no sense (a dangling link, a polygon with a corner out of
-/// range, a loop of children or fragments) is left out or neutral, never an error: the store holds
-/// what the network brought.
+/// Incremental: `update` compares the revisions and redoes only parts that changed since its last call, so that a flood
+/// of commands costs no more than the nodes that they touched. Slots of ResolvedScene keep their index for as long as
+/// their node is in use; slots of removed content are emptied (with a new revision), and an emptied mesh slot is used
+/// again. The reading of nodes is fixed in CONVENTIONS.md. Content that makes no sense (a dangling link, a polygon with
+/// a corner out of range, a loop of children or fragments) is left out or neutral, never an error: the store holds
+/// whatever the network brought.
 
 #include <cstdint>
 #include <memory>
@@ -25,9 +23,9 @@ class Resolver {
   Resolver(Resolver&&) noexcept;
   Resolver& operator=(Resolver&&) noexcept;
 
-  /// Brings the scene up to the store's revision. True if anything changed. `mesh_budget` bounds
-  /// how many meshes are made in this call (the rest follow in the next ones; see `pending`), so
-  /// that a big change does not stop the picture.
+  /// Brings the scene up to the store's revision. Returns true if anything changed. `mesh_budget` bounds the meshes
+  /// made in this call (the rest follow in the next ones; see `pending`), so that a big change does not stop the
+  /// picture.
   bool update(const Store& store, std::size_t mesh_budget = ~std::size_t{0});
 
   /// The next update reads another store (a mirror that was filled anew). Revisions keep rising.

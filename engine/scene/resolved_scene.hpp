@@ -1,9 +1,9 @@
 #pragma once
-/// The scene as a renderer wants it: triangles, materials, images and placed parts, resolved from the node store.
+/// The scene for renderers: triangles, materials, images and placed parts, resolved from the node store.
 ///
-/// A rasteriser (engine/render) and a ray tracer can both draw this, so that neither knows the node
-/// model. Lengths are metres; meshes and parts are in their object's frame; only `world_from_object` is double. Everything
-/// carries a revision: a renderer uploads again what has a higher one than it last saw.
+/// A rasteriser (engine/render) and a ray tracer can both draw this, so that neither knows the node model. Lengths are
+/// metres; meshes and parts are in their object's frame; only `world_from_object` is double. Everything carries a
+/// revision: a renderer uploads content with a higher one than it last saw.
 
 #include <cstdint>
 #include <string>
@@ -45,15 +45,12 @@ struct TextureImage {
   std::vector<std::uint8_t> rgba;
 };
 
-/// Of a clear coat, lacquer of index 1.5. What it mirrors does not reach the base below it.
-inline constexpr float clear_coat_reflectance = 0.04f, clear_coat_roughness = 0.1f;
-
 /// Colours are linear Rec. 709.
 struct SurfaceMaterial {
   std::uint64_t revision = 0;
   glm::vec3 base_color{0.8f};
-  std::int32_t base_color_image =
-      -1;  ///< Indexes ResolvedScene::images; multiplies base_color; alpha cuts out below ½.
+  /// Indexes ResolvedScene::images; multiplies base_color; alpha cuts out below ½.
+  std::int32_t base_color_image = -1;
   float roughness = 0.7f;
   float metallic = 0.0f;
   float opacity = 1.0f;
@@ -61,28 +58,29 @@ struct SurfaceMaterial {
   glm::vec3 emission{
       0.0f};  ///< Relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
   bool takes_paint = false;  ///< base_color is multiplied by the participant's paint.
-  bool wettable = false;     ///< Darkens and mirrors with the road's wetness.
-  /// A thin stripe, whose uv.x runs from 0 at one edge to 1 at the other. A rasteriser draws it no thinner than it can sample, and as much fainter.
+  bool wettable = false;     ///< Darkens and reflects with the road's wetness.
+  /// A thin stripe, whose uv.x runs from 0 at one edge to 1 at the other. A rasteriser draws it no thinner than it can
+  /// sample, and as much fainter.
   bool stripe = false;
-  /// What retroreflective sheeting or beads send back to where light came from, white, cd per lx and m² at 0.33° (EN 12899-1);
-  /// multiplied by the base colour.
+  /// Retroreflection of sheeting or beads, white, cd per lx and m² at 0.33° (EN 12899-1); multiplied by the base
+  /// colour.
   float retroreflection = 0.0f;
-  /// The image holds so many pictures side by side and below each other, and a participant shows that of its number.
+  /// Layout of the image's pictures, side by side and below each other; a participant shows that of its number.
   std::uint32_t picture_columns = 1, picture_rows = 1;
-  /// Of the sky's light, and the sun's, that reaches it: 1 in the open, 0 in a tunnel, whose lamps then light it. The
-  /// bounds of an instance with a material below ½ dim what drives through them.
+  /// Share of the sky's light, and the sun's, that reaches it: 1 in the open, 0 in a tunnel, whose lamps then light it.
+  /// The bounds of an instance with a material below ½ dim vehicles that drive through them.
   float share_of_sky = 1.0f;
-  float clear_coat = 0.0f;  ///< Share of it that a clear coat covers, over all else that it is.
-  /// Its triangles are seen from behind, too, as they are from before; others are not there for who looks at their backs. What has holes or is seen
-  /// through always is. Light is kept off by either side of all.
+  float clear_coat = 0.0f;  ///< Share of it under a clear coat.
+  /// True: its triangles are visible from both sides; false: culled from behind. Cut-out and transparent ones are
+  /// always two-sided. Shadows are cast by either side of all.
   bool two_sided = false;
-  /// Of the sky's and the ground's light that comes to it past what stands close around, where no ray asks: 1 in the open, 0.35 on a dashboard. The
-  /// sun's is not in it, for which shadows are drawn.
+  /// Share of the sky's and the ground's light that passes close surroundings, where no ray is traced: 1 in the open,
+  /// 0.35 on a dashboard. Excludes the sun's, for which shadows are drawn.
   float ambient_share = 1.0f;
-  bool lit_by_night = false;  ///< A window: its emission comes with the night, and is seen and lights nothing.
+  bool lit_by_night = false;  ///< A window: its emission comes with the night; it is visible and lights nothing.
 };
 
-/// What moves or lights a part of a vehicle.
+/// Source of a part's motion or light on a vehicle.
 enum class PartRole : std::uint8_t {
   fixed,
   wheel_front_left,
@@ -100,7 +98,7 @@ enum class PartRole : std::uint8_t {
   signal_green,
   beacon,
   steering_wheel,
-  leg_left,  ///< Of who walks, here and below: engine/world/limbs.hpp. A leg's shin stands where its thigh does.
+  leg_left,  ///< Of a walking person, here and below: engine/world/limbs.hpp. A leg's shin stands where its thigh does.
   leg_right,
   shin_left,
   shin_right,
@@ -124,14 +122,14 @@ struct Instance {
   PartRole role = PartRole::fixed;
 };
 
-/// What is drawn for every participant of one model ("model/NAME").
+/// The drawing of every participant of one model ("model/NAME").
 struct Prototype {
   std::string name;
   std::vector<Instance> parts;
 };
 
 struct ResolvedScene {
-  std::uint64_t revision = 0;  ///< Of anything below.
+  std::uint64_t revision = 0;  ///< Highest of all parts below.
   std::vector<SurfaceMesh> meshes;
   std::vector<SurfaceMaterial> materials;
   std::vector<TextureImage> images;

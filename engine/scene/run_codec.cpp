@@ -18,7 +18,7 @@ int grid_of(float value) {
   if (value == 0.0f) return 0;
   const auto bits = std::bit_cast<std::uint32_t>(value);
   const int exponent = static_cast<int>(bits >> 23 & 0xFF);
-  if (exponent == 0 || exponent == 0xFF) return finest_grid + 1;  // Denormal, infinite, not a number.
+  if (exponent == 0 || exponent == 0xFF) return finest_grid + 1;  // Denormal, infinite, NaN.
   // The value is mantissa · 2^(exponent − 150).
   return std::max(0, 150 - exponent - std::countr_zero((bits & 0x7FFFFFu) | 0x800000u));
 }

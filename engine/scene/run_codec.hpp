@@ -9,7 +9,7 @@
 
 namespace septet::scene {
 
-/// `stride`: how far back the value lies from which the difference is taken.
+/// `stride`: distance back to the value from which the difference is taken.
 void put_reals(ByteWriter& out, std::span<const float> values, std::size_t stride);
 void get_reals(ByteReader& in, std::span<float> values, std::size_t stride);
 

@@ -1,10 +1,9 @@
 #pragma once
 /// The node store: the world's content, as the server owns it and as a screen mirrors it.
 ///
-/// All change goes through `apply`. A command may come from the network: whatever it holds, it is
-/// either applied whole or refused with a reason, and nothing is changed by a refused one. Memory
-/// is bounded by StoreLimits. Iteration is in order of id, so that equal stores give equal command
-/// streams. Not safe to share between threads while it is changed.
+/// All change goes through `apply`. A command may come from the network: whatever it holds, it is either applied whole
+/// or refused with a reason, and a refused one changes nothing. Memory is bounded by StoreLimits. Iteration is in order
+/// of id, so that equal stores give equal command streams. Not safe to share between threads while it is changed.
 
 #include <cstdint>
 #include <functional>
@@ -17,35 +16,35 @@ namespace septet::scene {
 
 struct StoreLimits {
   std::size_t nodes = 1u << 18;
-  std::uint32_t vertices = 1u << 22;  ///< Of one geometry.
+  std::uint32_t vertices = 1u << 22;  ///< Limit of one geometry.
   std::uint32_t polygons = 1u << 22;
   std::uint32_t bitmap_side = 8192;
-  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< Of all content together.
+  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< Limit of all content together.
 };
 
 class Store {
  public:
   explicit Store(const StoreLimits& limits = {}) : limits_(limits) {}
 
-  /// Applies one command. Subscriptions are not the store's business and are refused.
+  /// Applies one command. Subscriptions do not belong to the store and are refused.
   Expected<void> apply(const Command& command);
 
-  /// The next id, never one that was in use before. For whoever owns the store: a server.
+  /// The next id, never one that was in use before. For the owner of the store: a server.
   NodeId assign_id();
 
   const std::map<NodeId, Node>& nodes() const { return nodes_; }
   const Node* find(NodeId id) const;
-  /// The lowest node of that name and type, or nothing.
+  /// The lowest node of that name and type, or null.
   const Node* find(NodeType type, std::string_view name) const;
 
-  /// Counts the commands that were applied, without those that destroyed what was not there.
+  /// Counts the applied commands, without those that destroyed an absent object.
   std::uint64_t revision() const { return revision_; }
   /// The revision at which a node was last created or destroyed.
   std::uint64_t index_revision() const { return index_revision_; }
   std::uint64_t content_bytes() const { return content_bytes_; }
 
  private:
-  struct Application;  // One command's way into the store: store_apply.cpp.
+  struct Application;  // Application of one command: store_apply.cpp.
 
   StoreLimits limits_;
   std::map<NodeId, Node> nodes_;
@@ -55,12 +54,11 @@ class Store {
   std::uint64_t content_bytes_ = 0;
 };
 
-/// The commands that build this node, or the whole store, in an empty store, in runs of at most
-/// `run_values` numbers.
+/// The commands that build this node, or the whole store, in an empty store, in runs of at most `run_values` numbers.
 void describe_node(const Node& node, const std::function<void(Command)>& emit, std::size_t run_values = 65536);
 void describe_store(const Store& store, const std::function<void(Command)>& emit, std::size_t run_values = 65536);
 
-/// Whether both hold the same content; revisions do not count.
+/// True where both hold the same content; revisions do not count.
 bool same_content(const Node& a, const Node& b);
 bool same_content(const Store& a, const Store& b);
 

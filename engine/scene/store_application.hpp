@@ -1,6 +1,5 @@
 #pragma once
-/// How each command enters the store. Every function checks everything first and only then changes
-/// anything.
+/// Application of each command to the store. Every function checks everything first and only then makes changes.
 
 #include <algorithm>
 #include <utility>
@@ -13,7 +12,7 @@
 
 namespace septet::scene {
 
-/// One command's way into the store.
+/// Application of one command.
 struct Store::Application {
   Store& store;
   const Command& command;
@@ -34,7 +33,7 @@ struct Store::Application {
     if (!data) return no("the node is of another type", "name a node of the command's type");
     return std::pair{*found, data};
   }
-  /// Takes the place of `before` in the account for `after`, or refuses.
+  /// Replaces `before` in the account by `after`, or refuses.
   Expected<void> charge(std::uint64_t before, std::uint64_t after) const {
     const std::uint64_t total = store.content_bytes_ - before + after;
     if (after > before && total > store.limits_.bytes)
@@ -57,7 +56,7 @@ struct Store::Application {
     touch(owner);
     return {};
   }
-  /// Whether there was anything to destroy.
+  /// Destroys a part; false where there is none.
   template <class Key, class Part>
   bool destroy_part(Node& owner, std::map<Key, Part>& parts, Key id) const {
     const auto found = parts.find(id);
@@ -68,7 +67,7 @@ struct Store::Application {
     return true;
   }
 
-  /// Looks the object up and applies `change` to it.
+  /// Finds the object and applies `change` to it.
   template <class Change>
   Expected<void> with_object(NodeId id, Change change) const {
     const auto object = node_with<ObjectData>(id);
@@ -77,7 +76,7 @@ struct Store::Application {
     touch(*object->first);
     return {};
   }
-  /// Copies a run into an array that it must lie within; `first` and the run count single values.
+  /// Copies a run into an array that must contain it; `first` and the run count single values.
   template <class T>
   Expected<void> copy_run(const std::vector<T>& run, std::uint64_t first, std::vector<T>& into) const {
     if (first > into.size() || run.size() > into.size() - first)

@@ -6,7 +6,7 @@
 namespace septet::scene {
 namespace {
 
-/// Ids from here on are kept back, so that the next id never wraps.
+/// Ids from here on are reserved, so that the next id never wraps.
 constexpr NodeId first_reserved_id = 0xF0000000u;
 
 }  // namespace

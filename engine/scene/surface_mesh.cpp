@@ -42,8 +42,7 @@ std::array<T, 4> four(const std::vector<T>& values, std::size_t polygon) {
   return {values[polygon * 4], values[polygon * 4 + 1], values[polygon * 4 + 2], values[polygon * 4 + 3]};
 }
 
-/// Corners that share one normal: a corner is number polygon · 4 + k, a group is named by one of
-/// its corners.
+/// Corners that share one normal: a corner is number polygon · 4 + k, a group is named by one of its corners.
 class SmoothGroups {
  public:
   explicit SmoothGroups(const PolygonMesh& mesh) : group_(mesh.polygons.size() * 4) {
@@ -110,7 +109,7 @@ class SmoothGroups {
   }
 
   void join_sides(const PolygonMesh& mesh, std::uint32_t lower, const Side& a, const Side& b) {
-    if (a.rises == b.rises) return;  // Turned against each other: their normals point to opposite sides.
+    if (a.rises == b.rises) return;  // Opposite orientations: their normals point to opposite sides.
     if (std::max(edge_crease(mesh, a.polygon, a.k), edge_crease(mesh, b.polygon, b.k)) >= split_from) return;
     const auto corner = [&](const Side& side, bool at_lower) {
       const std::uint32_t count = corner_count(mesh.polygons[side.polygon]);

@@ -9,7 +9,7 @@
 namespace septet::simulation {
 namespace {
 
-/// UN R141 asks for the warning at a fifth of the pressure lost.
+/// UN R141 requires the warning at a fifth of the pressure lost.
 constexpr double warned_from_lost_air = 0.2;
 
 constexpr std::size_t wheels = vehicle::wheel_count;

@@ -18,7 +18,8 @@ double reach_m(const VehicleModel& model) { return model.length_m + model.width_
 void find_collisions(const Participant& car, const std::vector<Participant>& participants, State& state,
                      std::vector<Event>& events) {
   std::vector<ParticipantId> touching;
-  double apart_m = 0.0;  // From here on nobody can touch the car: nearly everybody is, and needs no more than that.
+  // No collision is possible from this distance on: nearly all participants are dismissed by this test alone.
+  double apart_m = 0.0;
   for (const VehicleModel& model : vehicle_models()) apart_m = std::max(apart_m, 2.0 * reach_m(model));
   for (const Participant& other : participants) {
     if (other.id == car.id) continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// Whom the driver's car touches.
+/// Collisions of the driver's car with other participants.
 
 #include <vector>
 
@@ -7,8 +7,9 @@
 
 namespace septet::simulation {
 
-/// Finds who of `participants` overlaps `car`, as boxes. A touch that begins is counted, told of, and met by the effects' next step
-/// (advance_crashes). Call it when everybody has moved, before the snapshot is taken: its hash holds what was found.
+/// Finds the participants that overlap `car`, as boxes. A touch that begins is counted, logged as an event, and handled
+/// by the effects' next step (advance_crashes). Call it once all participants have moved, before the snapshot is taken:
+/// its hash holds the result.
 void find_collisions(const Participant& car, const std::vector<Participant>& participants, State& state,
                      std::vector<Event>& events);
 

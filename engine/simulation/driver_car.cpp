@@ -17,13 +17,13 @@
 namespace septet::simulation {
 namespace {
 
-constexpr double road_reach_m = 60.0;  ///< Farther off no road is looked for.
-constexpr int car_steps = 8;           // About 1 kHz: what the wheels' spin and hop want.
+constexpr double road_reach_m = 60.0;  ///< Roads farther off are not searched for.
+constexpr int car_steps = 8;           // About 1 kHz, as the wheels' spin and hop require.
 
 constexpr std::array<const char*, vehicle::wheel_count> wheel_names{"front_left", "front_right", "rear_left",
                                                                     "rear_right"};
 
-/// A wheel that begins to touch a kerb's edge, for the log: on the way up or down.
+/// Logs a wheel that begins to touch a kerb's edge, on the way up or down.
 void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const Model& model,
                State& state, std::vector<Event>& events) {
   std::optional<KerbTouch>& kerb = state.kerbs[wheel];
@@ -38,7 +38,7 @@ void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGrou
                    kerb->height_m, glm::length(state.car.velocity_mps), kerb->closing_speed_mps)});
 }
 
-/// A wheel whose damage has grown in this tick is being struck; one whose damage grows no longer has been.
+/// Tracks strikes: a wheel whose damage grows in this tick is being struck; the strike ends once it grows no longer.
 void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double squeeze_m, State& state,
                  std::vector<Event>& events) {
   const vehicle::WheelDamage& damage = state.car.wheels[wheel].damage;
@@ -58,7 +58,7 @@ void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double s
   }
 }
 
-/// What each wheel stands on, road or land, and how slippery it is there.
+/// Ground under each wheel, road or land, and its friction.
 vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event>& events) {
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
   const Environment& sky = state.scenario.environment;
@@ -92,7 +92,7 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
                   wheel, way_m);
       note_kerb(i, centres[i], wheel, model, state, events);
     } else {
-      // A world without land: it is level, as high as the road that the car was last on.
+      // A world without land is level, as high as the road that the car was last on.
       wheel.point_m = Vec3(Vec2(centres[i]), 0.0);
       if (state.car_road) wheel.point_m.z = road::evaluate(model.roads, *state.car_road).position_m.z;
       wheel.friction = surface_friction(nullptr, weather);
@@ -104,8 +104,8 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   return ground;
 }
 
-/// A car whose wheels all lie farther below the ground than anybody drives or falls (a scenario that set it there, a road without a floor) is
-/// set onto it: forces of that depth are no numbers to reckon with. The log says so. Whether it was.
+/// Sets a car whose wheels all lie far below the ground (a scenario that put it there, a road without a floor) onto it, and logs that:
+/// forces of that depth are beyond all bounds. True where it did.
 bool set_on_ground(const Model& model, const vehicle::Ground& ground, State& state, std::vector<Event>& events) {
   constexpr double buried_m = 10.0;  // More than one level of a road below another.
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
@@ -122,8 +122,7 @@ bool set_on_ground(const Model& model, const vehicle::Ground& ground, State& sta
   return true;
 }
 
-/// Once the car has been off the roads for some seconds, and each minute from then on, the log says so; and when it is
-/// back.
+/// Logs that the car has been off the roads for some seconds, each minute from then on, and its return.
 void note_off_road(const std::optional<road::Location>& place, State& state, std::vector<Event>& events) {
   constexpr double beside_m = 2.0;  // Two wheels on the verge are not off the road.
   constexpr auto first = static_cast<std::uint32_t>(5.0 * tick_rate_hz),
@@ -144,9 +143,9 @@ void note_off_road(const std::optional<road::Location>& place, State& state, std
                    glm::length(state.car.velocity_mps))});
 }
 
-/// What the hull met, for the log and for the debris.
+/// Reports the hull's contacts to the log and the debris.
 void note_hull(const vehicle::HullReport& report, State& state, std::vector<Event>& events) {
-  constexpr double least_mps = 0.5;  // Less is leaning on it.
+  constexpr double least_mps = 0.5;  // Slower contacts are leaning.
   state.effects.crashes.struck_standing.insert(state.effects.crashes.struck_standing.end(), report.begun.begin(),
                                                report.begun.end());
   for (const vehicle::HullTouch& touch : report.over) {
@@ -159,7 +158,7 @@ void note_hull(const vehicle::HullReport& report, State& state, std::vector<Even
   }
 }
 
-/// `out`: whose bulbs have gone.
+/// `out`: lamps with failed bulbs.
 Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s, Lamps out) {
   Lamps lamps;
   const bool blink = indicator_is_lit(time_s);
@@ -221,8 +220,8 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const DrivenCar car = driven_car(model, state);
   const Vec3 origin = car.outputs.world_from_vehicle.position_m;
-  const auto place =
-      road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, road_reach_m);
+  const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr,
+                                  road_reach_m, origin.z);
   if (place) state.car_road = place->position;
   note_off_road(place, state, events);
   return car;
@@ -255,7 +254,8 @@ DriverCar driver_car(const Model& model, const State& state, const vehicle::Vehi
   car.head = state.input.head;
   // Lateral position is that of the middle of the front axle (SAE J2944, reference point 2), which the driver steers.
   const Vec3 front = outputs.world_from_vehicle * Vec3(model.car.body.wheelbase_m, 0.0, 0.0);
-  const auto place = road::locate(model.roads, {front.x, front.y}, state.car_road ? &*state.car_road : nullptr, 60.0);
+  const auto place =
+      road::locate(model.roads, {front.x, front.y}, state.car_road ? &*state.car_road : nullptr, 60.0, front.z);
   if (place && place->lanes.lane != 0 && place->lanes.outside_m <= 0.0) {
     car.road = place->position.road;
     car.lane = place->lanes.lane;

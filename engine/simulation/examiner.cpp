@@ -28,7 +28,7 @@ const char* name_of(Line::Kind kind) {
   return "";
 }
 
-/// The light at a line; null where nobody switches it.
+/// The light at a line; null where the scenario switches none there.
 const SwitchedLight* light_at(const Model& model, const Line& line) {
   const auto found = std::ranges::find_if(model.lights, [&](const SwitchedLight& light) {
     return light.head.road == line.road && light.head.along_s == line.along_s && !light.head.for_walkers &&
@@ -57,7 +57,7 @@ void note_line(const Model& model, const Line& line, std::span<const Participant
                     fmt::format("kind={} road={} margin_s={:.1f}", name_of(line.kind), road, conflict->in_s)});
 }
 
-/// The car has left a road of a junction.
+/// Logs a turn when the car has left a road of a junction.
 void note_turn(const Model& model, const ExaminerState& examiner, std::vector<Event>& events) {
   const road::RoadPosition& was = *examiner.front;
   const bool along = road::runs_along_s(model.roads, {was.road, examiner.lane, was.s_m, 0.0});

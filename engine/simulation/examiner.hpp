@@ -1,10 +1,11 @@
 #pragma once
-/// What an examiner beside the driver notes for the log: lines where others may have right of way, turns, posted limits.
+/// Examiner's notes on the drive for the log: lines where others may have right of way, turns, posted limits.
 ///
-/// "right_of_way", as the car's front passes a line: `kind` lights, give_way or crossing; `margin_s`, the time that was left until
-/// somebody with right of way would have been in the car's way, 0 at a red light; lines that nobody comes to are not told, lights always.
-/// "turn", as it leaves a junction at which the road forks: `side`, `began_s`. "speed_limit", where another one begins: `kmh`, 0 where none
-/// is posted. Logged in FORMAT.md. Where roads have no such lines nobody examines.
+/// "right_of_way", as the car's front passes a line: `kind` lights, give_way or crossing; `margin_s`, the time that was
+/// left until a participant with right of way would have been in the car's path, 0 at a red light; lines that no
+/// participant approaches are not logged, lights always. "turn", as it leaves a junction at which the road forks:
+/// `side`, `began_s`. "speed_limit", where another one begins: `kmh`, 0 where none is posted. Log format: FORMAT.md. On
+/// roads without such lines there is no examiner.
 
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// What the examiner remembers from tick to tick (examiner.hpp).
+/// The examiner's memory from tick to tick (examiner.hpp).
 
 #include <optional>
 
@@ -8,10 +8,10 @@
 namespace septet::simulation {
 
 struct ExaminerState {
-  std::optional<road::RoadPosition> front;  ///< Where the car's front was.
-  int lane = 0;                             ///< Of that.
-  double limit_mps = 0.0;                   ///< That holds there.
-  double entered_s = 0.0;                   ///< When the car came onto the road of a junction that it is on.
+  std::optional<road::RoadPosition> front;  ///< Last position of the car's front.
+  int lane = 0;                             ///< Lane of that position.
+  double limit_mps = 0.0;                   ///< Speed limit there.
+  double entered_s = 0.0;                   ///< Time at which the car entered its present road of a junction.
 };
 
 }  // namespace septet::simulation

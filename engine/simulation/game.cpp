@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 
 #include "engine/road/road_locate.hpp"
-#include "engine/scenario/start_action.hpp"
+#include "engine/scenario/run/start_action.hpp"
 #include "engine/simulation/operator_command.hpp"
 
 namespace septet::simulation {
@@ -16,9 +16,9 @@ namespace {
 
 constexpr Tick count_every_ticks = 12;
 constexpr double points_ps = 10.0, own_lane_factor = 2.0;
-constexpr double more_often = 0.12;       ///< The leader moves so much more often on each level.
-constexpr double move_lane_s = 3.5;       ///< A change by one lane; by two it is half as long again.
-constexpr std::uint64_t game_stream = 7;  ///< Of the drive's seed.
+constexpr double more_often = 0.12;       ///< Growth of the leader's rate of changes on each level.
+constexpr double move_lane_s = 3.5;       ///< Duration of a change by one lane; by two it is half as long again.
+constexpr std::uint64_t game_stream = 7;  ///< Stream of the drive's seed.
 
 const char* name_of(GameEnd end) {
   switch (end) {
@@ -62,12 +62,12 @@ void move_leader(const Model& model, const scenario::GameSettings& settings, Sta
   change.dynamics = {scenario::DynamicsShape::sinusoidal, scenario::DynamicsDimension::time,
                      move_lane_s * (std::abs(lane - leader.lane.lane) > 1 ? 1.5 : 1.0)};
   change.lane = lane;
-  scenario::StepResult nothing_asked;  // A change of lane asks nothing of others.
+  scenario::StepResult nothing_asked;  // A change of lane requests nothing of other stages.
   (void)scenario::start_action(model.scenario, model.roads, change, scenario::no_element, {settings.leader},
                                state.scenario, nothing_asked);
 }
 
-/// As many as the swarm may still grow by.
+/// Number of vehicles by which the swarm may still grow.
 std::uint32_t more_vehicles(const Model& model, const scenario::GameSettings& settings, std::uint32_t level) {
   const auto* swarm = first_swarm(model.scenario);
   const std::uint64_t there =
@@ -99,7 +99,7 @@ void count(const Model& model, const scenario::GameSettings& settings, const Par
                       fmt::format("level={} more_vehicles={} points={:.0f} survived_s={:.1f}", level, more,
                                   standing.points, standing.survived_s)});
   }
-  // Where the leader has come to the end of its road, there is nobody left to be followed.
+  // Where the leader has come to the end of its road, there is no leader left to follow.
   if (standing.away_s >= settings.lost_s)
     standing.end = GameEnd::lost;
   else if (standing.survived_s >= settings.seconds || !leader.active)

@@ -1,5 +1,5 @@
 #pragma once
-/// What changes during a game (game.hpp).
+/// State of a game (game.hpp).
 
 #include "engine/core/random.hpp"
 #include "engine/world/snapshot.hpp"
@@ -8,7 +8,7 @@ namespace septet::simulation {
 
 struct GameState {
   GameStanding standing;
-  double next_move_s = 0.0;  ///< When the leader next thinks of another lane, in seconds survived.
+  double next_move_s = 0.0;  ///< Time at which the leader next considers another lane, in seconds survived.
   Random random{1};
 };
 

@@ -13,22 +13,22 @@
 namespace septet::simulation {
 namespace {
 
-/// From here on one for each corner of the hull: how deep one has come in says nothing of the others. No listed
-/// obstacle has such a number.
+/// First run number of faces, one for each corner of the hull, as the depth of one is independent of the others. Listed
+/// obstacles never have such a number.
 constexpr std::uint32_t first_face_run = 0x7fff'fff0u;
 constexpr double surface_reach_m = 60.0;
-/// Lower than this the hull passes over it (hull.cpp) and the wheels climb.
+/// The hull passes over lower faces (hull.cpp) and the wheels climb them.
 constexpr double least_face_m = 0.22;
-/// What rises by more and belongs to a road that is not joined is overhead.
+/// A rise beyond that to a road that is not joined is overhead.
 constexpr double highest_strange_m = 3.5;
-constexpr double farthest_foot_m = 8.0;  ///< A wheel that was found farther away stands on land, far from roads.
+constexpr double farthest_foot_m = 8.0;  ///< A wheel found farther away stands on land, far from roads.
 constexpr double stretch_half_m = 0.6;   ///< Two corners' stretches never overlap.
 
 bool links_to(const road::RoadLink& link, road::RoadIndex other, const road::RoadNetwork& roads) {
   return link.road == other || (link.junction != road::no_index && roads.roads[other].junction == link.junction);
 }
 
-/// Whether one can come from one road to the other at once.
+/// True where one can come from one road to the other at once.
 bool are_joined(const road::RoadNetwork& roads, road::RoadIndex a, road::RoadIndex b) {
   if (a == b) return true;
   const road::Road &one = roads.roads[a], &other = roads.roads[b];
@@ -43,9 +43,10 @@ bool differs(const road::CubicProfile& profile, double from_s_m, double to_s_m) 
 
 /// Road or land, where a road is near.
 std::optional<road::SurfacePoint> ground_at(const Model& model, const Vec2& p, const road::RoadPosition& hint) {
-  auto surface = road::surface_at(model.roads, p, &hint, surface_reach_m);
+  const double level_m = road::evaluate(model.roads, hint).position_m.z;
+  auto surface = road::surface_at(model.roads, p, &hint, surface_reach_m, level_m);
   if (!surface || !model.obstacles || surface->outside_m <= 0.0) return surface;
-  const auto land = roadside::ground_beside(model.roads, model.obstacles->terrain(), p, &surface->position);
+  const auto land = roadside::ground_beside(model.roads, model.obstacles->terrain(), p, &surface->position, level_m);
   surface->height_m = land.height_m;
   surface->normal = land.normal;
   return surface;
@@ -56,7 +57,7 @@ double rise_over_m(const vehicle::WheelGround& floor, const Vec2& p, double heig
   return height_m - (floor.point_m.z - glm::dot(Vec2(floor.normal), away) / floor.normal.z);
 }
 
-/// How the ground rises over a plane that goes on from where a wheel stands.
+/// Rise of the ground over the plane on which a wheel stands.
 class Rise {
  public:
   Rise(const Model& model, const road::RoadPosition& place, const vehicle::WheelGround& floor)
@@ -80,7 +81,7 @@ struct Edge {
   double height_m;
 };
 
-/// Where on the way from a low place to a high one the ground rises at once.
+/// Place of the step on the path from a low place to a high one.
 std::optional<Edge> edge_between(const Rise& rise, Vec2 low_m, Vec2 high_m) {
   double low_rise_m = rise.at(low_m), high_rise_m = rise.at(high_m);
   if (low_rise_m >= least_face_m || high_rise_m < least_face_m) return std::nullopt;
@@ -107,7 +108,7 @@ vehicle::WheelGround plane_at(const Model& model, const road::RoadPosition& plac
   return wheel;
 }
 
-/// The nearest place around a point where the ground goes on from `floor`: one that slides along a face takes its
+/// The nearest place around a point where the ground continues from `floor`: a wheel that slides along a face takes its
 /// ground along.
 std::optional<road::RoadPosition> nearest_before_face(const Model& model, const Vec2& p,
                                                       const road::RoadPosition& stood,
@@ -136,8 +137,8 @@ bool stays_before_face(const Model& model, const Vec3& centre_m, const road::Roa
   constexpr double least_over_m = 0.05;  // As chassis.cpp tells edges from walls.
   if (centre_m.z - ground.point_m.z > least_over_m) return false;
   const Vec2 foot_m(road::evaluate(model.roads, stood).position_m);
-  constexpr double farthest_m =
-      3.0;  // A plane that goes on farther is nobody's ground; the chassis is lifted out of this one.
+  // A plane that continues farther is no ground; the chassis is lifted out of this one.
+  constexpr double farthest_m = 3.0;
   if (glm::distance(foot_m, Vec2(centre_m)) > farthest_m) return false;
   vehicle::WheelGround before = plane_at(model, stood, Vec2(centre_m));
   const double risen_m = ground.point_m.z - before.point_m.z;
@@ -178,7 +179,7 @@ void append_faces(const Model& model, const State& state, const vehicle::Ground&
     const Rise rise(model, place, ground[i]);
     const auto edge = edge_between(rise, foot_m, foot_m + look_m * outwards);
     if (!edge) continue;
-    // Its direction, from a second way on either side of the first: one of them may begin beyond the face.
+    // Its direction, from a second path on either side of the first: one of them may begin beyond the face.
     const Vec2 left(-outwards.y, outwards.x);
     Vec2 along = left;
     for (const double side : {1.0, -1.0}) {
@@ -192,8 +193,8 @@ void append_faces(const Model& model, const State& state, const vehicle::Ground&
     const std::uint32_t run = first_face_run + static_cast<std::uint32_t>(i);
     const bool touches =
         std::ranges::any_of(state.hull.touches, [&](const vehicle::HullTouch& touch) { return touch.run == run; });
-    if (glm::dot(velocity_mps, normal) >= 0.0 && !touches) continue;  // Who drives off a face does not meet it.
-    // Beside the corner, which on a slanted way enters somewhere else than the way crosses the face.
+    if (glm::dot(velocity_mps, normal) >= 0.0 && !touches) continue;  // A car that drives off a face does not meet it.
+    // Beside the corner, which on a slanted path enters elsewhere than the path crosses the face.
     const Vec2 beside_corner_m = edge->place_m + glm::dot(corner_m - edge->place_m, along) * along;
     const double floor_z_m = ground[i].point_m.z;
     obstacles.push_back({.kind = ObstacleKind::ground_face,

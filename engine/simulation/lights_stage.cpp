@@ -29,7 +29,7 @@ std::vector<SwitchedLight> switched_lights(const roadside::RoadShape& roads,
     light.head.s_m = standing.signal->s_m;
     light.head.along_s = roadside::direction_of(roads.road(standing.road), *standing.signal) > 0;
     light.head.for_walkers = walkers;
-    // As the scenery hangs it.
+    // Placed as the scenery hangs it.
     light.head.world_from_light =
         standing.world_from_signal * RigidTransform{Vec3(-0.06, 0.0, standing.bottom_m), Quat(1, 0, 0, 0)};
   }

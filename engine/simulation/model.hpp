@@ -1,5 +1,5 @@
 #pragma once
-/// What does not change during a drive: roads, scenario, car, what stands beside the road, seed; and the numbers of who takes part.
+/// Constants of a drive: roads, scenario, car, obstacles beside the road, seed; and the numbers of the participants.
 
 #include <cstdint>
 #include <memory>
@@ -10,7 +10,7 @@
 #include "engine/road/road_network.hpp"
 #include "engine/roadside/obstacles.hpp"
 #include "engine/roadside/raised_areas.hpp"
-#include "engine/scenario/scenario.hpp"
+#include "engine/scenario/model/scenario.hpp"
 #include "engine/traffic/yield_line.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/wire_snapshot.hpp"
@@ -36,15 +36,15 @@ struct SwitchedLight {
 struct Model {
   road::RoadNetwork roads;
   scenario::Scenario scenario;
-  scenario::EntityIndex driver_entity = scenario::no_entity;  ///< Whom the scenario calls its driver's car.
+  scenario::EntityIndex driver_entity = scenario::no_entity;  ///< The driver's car in the scenario.
   vehicle::VehicleParameters car;
-  std::shared_ptr<const roadside::Obstacles> obstacles;  ///< What stands beside the roads; nothing where empty.
-  std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; nothing where empty.
+  std::shared_ptr<const roadside::Obstacles> obstacles;  ///< Obstacles beside the roads; null: none.
+  std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; null: none.
   std::vector<SwitchedLight> lights;                     ///< In the order of the road file.
-  std::vector<traffic::YieldLine> yield_lines;           ///< None: nobody examines (examiner.hpp).
+  std::vector<traffic::YieldLine> yield_lines;           ///< Empty: no examiner (examiner.hpp).
   std::uint64_t seed = 1;
-  std::uint64_t sources_hash =
-      0;  ///< Of the texts that it was read from: models with equal ones are equal. 0: it was read from none.
+  /// Hash of the texts that it was read from: models with equal ones are equal. 0: it was not read from texts.
+  std::uint64_t sources_hash = 0;
 };
 
 }  // namespace septet::simulation

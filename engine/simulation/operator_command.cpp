@@ -20,7 +20,7 @@ namespace septet::simulation {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Within what the models and pictures are made for.
+// Within the ranges that models and pictures support.
 constexpr std::array condition_table{
     Condition{"rain_mm_per_h", 0.0, 100.0, &Environment::rain_mm_per_h},
     Condition{"road_wetness", 0.0, 1.0, &Environment::road_wetness},
@@ -44,7 +44,7 @@ tl::unexpected<Error> no_command(std::string what) {
                  "speed_mps=V\"");
 }
 
-/// All of the text is this number.
+/// The number in a text that holds nothing else.
 template <class Number>
 bool read_number(std::string_view text, Number& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -111,7 +111,7 @@ Expected<OperatorCommand> parse_put(std::string_view text) {
   return put;
 }
 
-/// Uses each act and each event of the storyboard, as whole elements.
+/// Applies `use` to each act and each event of the storyboard, as whole elements.
 template <class Use>
 void each_trigger(const scenario::Scenario& scenario, const Use& use) {
   for (const auto& story : scenario.stories)
@@ -177,7 +177,7 @@ Expected<void> apply(const Model&, const RemovePiece& remove, State& state, std:
   return {};
 }
 
-/// May be hidden: has a body that the scenario moves.
+/// True for an entity that may be hidden: it has a body that the scenario moves.
 bool can_hide(const Model& model, std::size_t entity) {
   return entity != model.driver_entity && model.scenario.entities[entity].kind != scenario::EntityKind::misc_object;
 }
@@ -204,7 +204,7 @@ Expected<void> apply(const Model&, const SetFault& set, State& state, std::vecto
   return {};
 }
 
-/// The drivable lane whose middle is nearest, among those that run that way if there are any.
+/// The drivable lane with the nearest middle, among those along the heading if there are any.
 std::optional<road::LanePosition> lane_to_put_on(const road::RoadNetwork& roads, const PutCar& put) {
   const auto place = road::locate(roads, {put.x_m, put.y_m}, nullptr, furthest_put_m);
   if (!place) return std::nullopt;

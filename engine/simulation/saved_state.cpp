@@ -13,7 +13,7 @@
 #include "engine/effects/smoke/save_smoke.hpp"
 #include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/road/position_members.hpp"
-#include "engine/scenario/save_scenario.hpp"
+#include "engine/scenario/run/save_scenario.hpp"
 #include "engine/world/world_members.hpp"
 
 namespace septet::debris {
@@ -32,7 +32,7 @@ SEPTET_MEMBERS(Frost, thickness_kgpm2, heated_s, seed, glass_k, melted_kgpm2)
 SEPTET_MEMBERS(Star, across, up, reach_m, seed)
 SEPTET_MEMBERS(Pane, vehicle, frost, stars)
 SEPTET_MEMBERS(Sheet, left_m, right_m, thickness_m)
-// Where icicles hang follows from roads and seed, and sheets from the black ice.
+// Rows of icicles follow from roads and seed, and sheets from the black ice.
 SEPTET_MEMBER_GROUPS(StillIce, hashed(slabs), kept(rows, sheets), hashed(thawed_kh))
 }  // namespace septet::ice
 
@@ -56,13 +56,14 @@ SEPTET_MEMBERS(Fire, vehicle, flames, smoke, burning_s, burning)
 SEPTET_MEMBERS(PublishedEffect, id, tick, settled)
 SEPTET_MEMBERS(PublishedEffects, keyframes, channels)
 
-// Smoke and its track have a reader of their own; what is new of them is in the effects' chained hash.
+// Smoke and its track have a reader of their own; new smoke is in the effects' chained hash.
 SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires), kept(keyframes))
-// Debris and fires have readers of their own; of debris what moved is in the chained hash. Dents follow from the crashes and are shown alone;
-// what is published follows from debris, and the rest remembers where something was found.
+// Debris and fires have readers of their own; moved debris is in the chained hash. Dents follow from the crashes and
+// are only shown; keyframes follow from debris, and the rest caches where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. What the input did is in the car. Faults, a game, and an examiner are hashed where there are any.
+// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, a game, and an
+// examiner are hashed where there are any.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull, wheel_roads, kerbs, strikes, car_road),
                      kept(off_road_ticks), left_out(scenario, traffic, effects), kept(game, examiner, input),
                      hashed(diagnostics, touching))
@@ -95,7 +96,8 @@ std::uint64_t drive_of(const Model& model) {
   return hash.value();
 }
 
-// A surface is remembered as it was looked up first, which where roads cross may hang on who came by; so it is kept, in the order of its keys.
+// A surface is remembered from its first query, which at crossing roads may depend on the order of queries; so it is
+// kept, in the order of its keys.
 void save_surface(const EffectsState& state, StateWriter& writer) {
   const std::map<std::uint64_t, debris::GroundPoint> ordered(state.surface_memory.begin(), state.surface_memory.end());
   transfer(writer, ordered);

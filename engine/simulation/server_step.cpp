@@ -21,7 +21,7 @@
 namespace septet::simulation {
 namespace {
 
-/// What came as no number counts as 0: nobody touches that control.
+/// NaN or infinite controls count as 0, i.e. released.
 std::uint32_t reset_bad_numbers(DriverInput& input) {
   std::uint32_t count = 0;
   Vec3& head_m = input.head.from_rest_m;
@@ -36,7 +36,7 @@ std::uint32_t reset_bad_numbers(DriverInput& input) {
   return count;
 }
 
-/// Everybody who takes part, ascending id, in the memory of `participants`.
+/// All participants, ascending id, in the memory of `participants`.
 std::vector<Participant> participants_now(const Model& model, const State& state, const Participant& car,
                                           std::vector<Participant> participants) {
   participants.clear();
@@ -49,7 +49,7 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   return participants;
 }
 
-/// Once a second, where there is smoke around the driver: how far he sees.
+/// Logs the driver's visibility once a second, where there is smoke around him.
 void note_visibility(const State& state, std::vector<Event>& events) {
   if (!state.effects.fires.smoke || state.tick % static_cast<Tick>(tick_rate_hz) != 0) return;
   const double extinction =

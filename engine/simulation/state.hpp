@@ -1,5 +1,5 @@
 #pragma once
-/// Everything that changes during a drive, and what a step tells the log besides its snapshot.
+/// Everything that changes during a drive, and a step's events for the log besides its snapshot.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "engine/physics/vehicle/hull.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
 #include "engine/simulation/examiner_state.hpp"
@@ -23,16 +23,16 @@
 
 namespace septet::simulation {
 
-/// A kerb's edge that a wheel touches, as it was when they met.
+/// A wheel's touch of a kerb's edge, as it began.
 struct KerbTouch {
   double height_m = 0.0;
-  double closing_speed_mps = 0.0;  ///< Of the wheel's centre towards the edge.
+  double closing_speed_mps = 0.0;  ///< Speed of the wheel's centre towards the edge.
 };
 
-/// A wheel is being damaged: for the log, which tells it once it is over.
+/// A wheel being damaged: logged once the strike is over.
 struct WheelStrike {
   std::optional<KerbTouch> kerb;
-  double squeeze_m = 0.0;  ///< Of the tyre, the most.
+  double squeeze_m = 0.0;  ///< Largest squeeze of the tyre.
 };
 
 struct State {
@@ -40,32 +40,37 @@ struct State {
   vehicle::VehicleState car;
   CarFaults faults;  ///< Hashed where there is one.
   vehicle::HullState hull;
-  std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};    ///< Where each wheel was, to find it again.
+  /// Each wheel's last position, where the next search begins.
+  std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};
   std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;      ///< One event a touch.
   std::array<std::optional<WheelStrike>, vehicle::wheel_count> strikes;  ///< One event a strike.
   std::optional<road::RoadPosition> car_road;
-  std::uint32_t off_road_ticks = 0;  ///< Since the car was last on a road or right beside it.
+  std::uint32_t off_road_ticks = 0;  ///< Time since the car was last on a road or right beside it.
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
-  std::optional<GameState> game;          ///< Where the scenario is played as one.
-  std::optional<ExaminerState> examiner;  ///< Where the roads have lines at which others may have right of way.
-  DriverInput input;                      ///< Of the last step.
+  std::optional<GameState> game;          ///< Present where the scenario is played as a game.
+  std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.
+  DriverInput input;                      ///< Input of the last step.
   Diagnostics diagnostics;
-  std::vector<ParticipantId> touching;  ///< Who overlapped the car last tick, ascending: one collision counts once.
+  /// Participants that overlapped the car last tick, ascending: one collision counts once.
+  std::vector<ParticipantId> touching;
 
   double time_s() const { return static_cast<double>(tick) / tick_rate_hz; }
 };
 
-/// Something that happened in a step, for the log.
+/// An event of a step, for the log.
 struct Event {
   std::string
-      kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "off_road", "bad_number", "traffic", "right_of_way", ….
+      /// "scenario", "collision", "game", "kerb", "wheel_damage", "off_road", "bad_number", "traffic", "right_of_way",
+      /// ….
+      kind;
   std::optional<ParticipantId> participant;
   std::string detail;
 };
 
-/// A number that has gone bad is reset where it is; this counts it and tells of it. `reset` names what was reset.
+/// Counts numbers that have become NaN or infinite and were reset in place, and logs them. `reset` names what was
+/// reset.
 void note_bad_numbers(std::uint32_t count, std::optional<ParticipantId> participant, const char* reset, State& state,
                       std::vector<Event>& events);
 

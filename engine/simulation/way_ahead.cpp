@@ -5,17 +5,17 @@
 
 #include "engine/effects/debris/piece.hpp"
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/resolve_position.hpp"
+#include "engine/scenario/run/resolve_position.hpp"
 
 namespace septet::simulation {
 namespace {
 
-constexpr double sight_m = 160.0;  // Braking from 130 km/h with 4 m/s² takes it.
+constexpr double sight_m = 160.0;  // Braking distance from 130 km/h with 4 m/s².
 constexpr double room_beside_m = 0.1;
 constexpr double over_debris_mps = 3.0, least_debris_m = 0.3;
 
-/// The way ahead, seen from the entity's rear axle along its lane: the bend is that of the lane here, the width what the body
-/// takes between where it is across the lane and where its script moves it to.
+/// The path ahead, seen from the entity's rear axle along its lane: the bend is that of the lane here, the width covers
+/// the body between its place across the lane and the one to which its script moves it.
 struct Way {
   RigidTransform world_from_way;
   double curvature_per_m = 0.0;
@@ -23,7 +23,7 @@ struct Way {
   std::optional<scenario::InTheWay> nearest;
   double nearest_needs_mps2 = 0.0;
 
-  /// Forward along the way, and to the left of it.
+  /// Forward along the path, and to the left of it.
   Vec2 along(const Vec3& world_m) const {
     const Vec3 seen = glm::conjugate(world_from_way.orientation) * (world_m - world_from_way.position_m);
     return {seen.x, seen.y - 0.5 * curvature_per_m * seen.x * seen.x};
@@ -41,7 +41,7 @@ struct Way {
   }
 };
 
-/// `moves_over`: the way leads to where the entity's lateral action takes it.
+/// `moves_over`: the path leads to the target of the entity's lateral action.
 Way way_of(const Model& model, const scenario::EntityState& entity, const VehicleModel& body, bool moves_over) {
   Way way;
   way.world_from_way = scenario::lane_pose(model.roads, entity.lane, entity.along_s, 0.0, 0.0);
@@ -56,7 +56,7 @@ Way way_of(const Model& model, const scenario::EntityState& entity, const Vehicl
   return way;
 }
 
-/// A body as a box along and across the way: its middle, and half of what it takes.
+/// A body as a box along and across the path: its middle, and half its extent.
 struct Seen {
   Vec2 middle{0.0}, half_m{0.0};
 };
@@ -73,7 +73,7 @@ Seen seen_on(const Way& way, const Participant& other, double ahead_m) {
       {0.5 * (along * body.length_m + across * body.width_m), 0.5 * (across * body.length_m + along * body.width_m)}};
 }
 
-/// Whether somebody is beside the body where the way widens to, or would have to brake for who comes there, or be braked for,
+/// True where a participant is beside the body in the widened path, or one of the two would have to brake for the other
 /// harder than people like.
 bool is_taken_beside(const std::vector<Participant>& participants, ParticipantId self, double own_mps,
                      const VehicleModel& body, const Way& way) {

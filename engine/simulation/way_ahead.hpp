@@ -1,15 +1,16 @@
 #pragma once
-/// What stands in the way of the storyboard's emergency vehicles.
+/// Obstacles in the path of the storyboard's emergency vehicles.
 ///
-/// A scripted entity drives where its script says, also into what the script does not know: traffic, the driver's car, what was
-/// broken off. Whoever has the beacon or the siren on minds all of that, as its driver would (scenario::mind_the_way); what has fallen
-/// on the road is driven over at walking pace. Everybody else stays the script's puppet, so that a scenario can stage an accident.
+/// A scripted entity drives its script's path, also into objects unknown to the script: traffic, the driver's car,
+/// debris. An entity with its beacon or siren on avoids all of them, as its driver would (scenario::mind_the_way);
+/// debris on the road is driven over at walking pace. All other entities stay the script's puppets, so that a scenario
+/// can stage an accident.
 
 #include "engine/simulation/state.hpp"
 
 namespace septet::simulation {
 
-/// Tells the storyboard's emergency vehicles what they would drive into, as everybody stands now.
+/// Passes the storyboard's emergency vehicles the obstacles ahead, from all present positions.
 void look_ahead(const Model& model, const std::vector<Participant>& participants, const EffectsState& effects,
                 scenario::ScenarioState& state);
 

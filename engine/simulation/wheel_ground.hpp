@@ -1,10 +1,9 @@
 #pragma once
-/// What a wheel of the driver's car stands on: the road's surface or what lies raised on it, and how slippery it is
-/// just there.
+/// Ground under a wheel of the driver's car: the road's surface or a raised area on it, and the friction there.
 ///
 /// Friction comes from the weather (wetness, snow and temperature of the scenario's environment), from the material of
 /// the lane, and from patches on it (OpenDRIVE; their surface "wet", "snow" or "ice" goes with temperature, any other
-/// is paved and goes with the weather, too); what is left of the black ice on a lane lies over them. RoadCondition's
+/// is paved and goes with the weather, too); remaining black ice on a lane lies over them. RoadCondition's
 /// frictionScaleFactor multiplies all of it.
 
 #include <optional>
@@ -28,20 +27,21 @@ struct RoadWeather {
   double thawed_kh = 0.0;
 };
 
-/// Under a wheel whose centre is at `centre_m`. `place` is where the wheel was (read where `has_place`) and becomes
-/// where it is. Returns how far that lies outside the lanes, where the surface goes on as it ends; nothing where no
-/// road is near. `raised` may be null: there is nothing.
+/// Finds the ground under a wheel with its centre at `centre_m`. `place` is the wheel's last place (read where
+/// `has_place`) and becomes the present one. Returns its distance outside the lanes, where the surface continues from
+/// its edge; empty where no road is near. `raised` may be null: there is nothing.
 std::optional<double> find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised,
                                         const RoadWeather& weather, const Vec3& centre_m, bool has_place,
                                         road::RoadPosition& place, vehicle::WheelGround& wheel);
 
-/// The land beside the roads under a wheel: its height, and grass in the weather. `place`: of a road near it, or null.
+/// Finds the land beside the roads under a wheel: its height, and grass in the weather. `place`: of a road near it, or
+/// null.
 void find_land(const road::RoadNetwork& roads, const roadside::Terrain& terrain, const RoadWeather& weather,
                const Vec3& centre_m, const road::RoadPosition* place, vehicle::WheelGround& wheel);
 
-/// Looks for a kerb or a step, a wheel's radius before and behind its centre, and before it the way of a tick farther:
+/// Looks for a kerb or a step, a wheel's radius before and behind its centre, and before it a tick's travel farther:
 /// sets `wheel.edge_m`. `ahead`: the car's heading, level, unit length. Costs nothing where a road does not step
-/// (ground_faces.hpp), far from what is raised.
+/// (ground_faces.hpp), far from raised areas.
 void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m,
                const Vec2& ahead, double radius_m, const road::RoadPosition& place, vehicle::WheelGround& wheel,
                double way_m = 0.0);

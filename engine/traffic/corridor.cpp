@@ -18,8 +18,7 @@ struct Step {
   bool operator==(const Step&) const = default;
 };
 
-/// The lane at the far end of the road when one runs through it, section by section; 0 where the
-/// lane ends before.
+/// Number of the lane at the far end of the road, followed section by section; 0 where the lane ends before.
 int lane_at_far_end(const road::RoadNetwork& network, Step step) {
   const road::Road& road = network.roads[step.road];
   const auto count = static_cast<int>(road.sections.size());
@@ -34,8 +33,7 @@ int lane_at_far_end(const road::RoadNetwork& network, Step step) {
   return lane;
 }
 
-/// The road after this one, as the lane goes on; the one that keeps most lanes where there is a
-/// choice.
+/// The road after this one, where the lane continues; the one that keeps most lanes where there is a choice.
 std::optional<Step> next_road(const road::RoadNetwork& network, Step step) {
   const road::Road& road = network.roads[step.road];
   const int lane = lane_at_far_end(network, step);
@@ -61,7 +59,7 @@ Step reversed(Step step) { return {step.road, step.lane, !step.along_s}; }
 Corridor build_corridor(const road::RoadNetwork& network, const road::LanePosition& through) {
   const bool along = road::runs_along_s(network, through);
   const Step start{through.road, through.lane, along};
-  // Back to where it begins (a ring comes back to the start), then forward from there.
+  // Back to its beginning (a ring comes back to the start), then forward from there.
   Step first = start;
   bool closed = false;
   for (std::size_t i = 0; i < network.roads.size(); ++i) {

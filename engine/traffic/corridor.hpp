@@ -1,11 +1,9 @@
 #pragma once
-/// One direction of a road as traffic sees it: a single coordinate x along the direction of travel,
-/// and lanes.
+/// One direction of a road for traffic: a single coordinate x along the direction of travel, and lanes.
 ///
-/// Roads that follow each other are strung together, so that the distance between two vehicles is a
-/// subtraction wherever they are. A lane is counted outwards from the middle of the road (1 is the
-/// left-most in right-hand traffic), which is the magnitude of its OpenDRIVE id. Immutable once
-/// built; pure functions.
+/// Roads that follow each other are strung together, so that the distance between two vehicles is a subtraction
+/// anywhere. A lane is counted outwards from the middle of the road (1 is the left-most in right-hand traffic), which
+/// is the magnitude of its OpenDRIVE id. Immutable once built; pure functions.
 
 #include <cmath>
 #include <optional>
@@ -18,9 +16,9 @@ namespace septet::traffic {
 
 struct CorridorPiece {
   road::RoadIndex road = 0;
-  bool along_s = true;  ///< Whether travel runs towards increasing s.
+  bool along_s = true;  ///< True where travel runs towards increasing s.
   int side = -1;        ///< Sign of the lane ids: −1 right of the reference line, +1 left of it.
-  double x_m = 0.0;     ///< Where the piece begins.
+  double x_m = 0.0;     ///< x of the piece's beginning.
   double length_m = 0.0;
 };
 
@@ -30,33 +28,31 @@ struct Corridor {
   bool closed = false;  ///< A ring: x wraps at length_m.
 };
 
-/// The corridor through a lane, from where the roads begin to where they end (or back to itself).
+/// The corridor through a lane, from the roads' beginning to their end (or back to itself).
 Corridor build_corridor(const road::RoadNetwork& network, const road::LanePosition& through);
-/// The lane that runs the other way beside this one, if there is one.
+/// The lane of the opposite direction beside this one, if there is one.
 std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network, const road::LanePosition& position);
 
-/// x taken into the ring, or as it is on an open corridor.
+/// x wrapped on a ring, or unchanged on an open corridor.
 inline double wrap_x(const Corridor& corridor, double x_m) {
   return corridor.closed ? x_m - corridor.length_m * std::floor(x_m / corridor.length_m) : x_m;
 }
-/// from → to along the direction of travel, the shorter way on a ring; negative if `to` lies
-/// behind.
+/// Distance from → to along the direction of travel, the shorter one on a ring; negative if `to_x_m` lies behind.
 inline double distance_m(const Corridor& corridor, double from_x_m, double to_x_m) {
   const double d = to_x_m - from_x_m;
   return corridor.closed ? d - corridor.length_m * std::round(d / corridor.length_m) : d;
 }
 
-/// From x on to `ahead_m` further by x (negative: back), in metres of lane `lane`'s middle.
+/// Length from x on to `ahead_m` further by x (negative: back), in metres of lane `lane`'s middle.
 double length_along_lane_m(const road::RoadNetwork& network, const Corridor& corridor, int lane, double x_m,
                            double ahead_m, double step_m);
 
 const CorridorPiece& piece_at(const Corridor& corridor, double x_m);
 /// The position of lane `lane` at x, whether or not that lane can be driven on.
 road::LanePosition position_at(const Corridor& corridor, double x_m, int lane);
-/// Whether the lane exists and is one for driving.
+/// True where the lane exists and is a driving lane.
 bool lane_open(const road::RoadNetwork& network, const Corridor& corridor, double x_m, int lane);
-/// x of a road position; nothing where its road is not of this corridor or its side of the road is
-/// the other one.
+/// x of a road position; empty where its road is not of this corridor or it is on the other side of the road.
 std::optional<double> x_of(const road::RoadNetwork& network, const Corridor& corridor,
                            const road::RoadPosition& position, int lane);
 

@@ -1,12 +1,11 @@
 #pragma once
 /// One traffic driver: car following by the Intelligent Driver Model, lane changes by MOBIL.
 ///
-/// Sources: M. Treiber, A. Hennecke, D. Helbing, "Congested traffic states in empirical
-/// observations and microscopic simulations", Phys. Rev. E 62 (2000), eqs. 2–4 (IDM); A. Kesting,
-/// M. Treiber, D. Helbing, "General lane-changing model MOBIL for car-following models", Transp.
-/// Res. Rec. 1999 (2007), eqs. 2–5; A. Kesting, M. Treiber, D. Helbing, "Enhanced intelligent driver
-/// model to access the impact of driving strategies on traffic capacity", Phil. Trans. R. Soc. A 368
-/// (2010), section 3 (whoever is cut in upon). Pure functions; SI units.
+/// Sources: M. Treiber, A. Hennecke, D. Helbing, "Congested traffic states in empirical observations and microscopic
+/// simulations", Phys. Rev. E 62 (2000), eqs. 2–4 (IDM); A. Kesting, M. Treiber, D. Helbing, "General lane-changing
+/// model MOBIL for car-following models", Transp. Res. Rec. 1999 (2007), eqs. 2–5; A. Kesting, M. Treiber, D. Helbing,
+/// "Enhanced intelligent driver model to access the impact of driving strategies on traffic capacity", Phil. Trans. R.
+/// Soc. A 368 (2010), section 3 (response to cut-ins). Pure functions; SI units.
 
 #include <limits>
 
@@ -26,7 +25,7 @@ struct LaneChangeParameters {
   double politeness = 0.2;            ///< p
   double threshold_mps2 = 0.2;        ///< Δa_th
   double keep_right_mps2 = 0.15;      ///< Δa_bias: towards the outer lanes.
-  double largest_braking_mps2 = 3.0;  ///< b_safe: that a change may force on the one behind.
+  double largest_braking_mps2 = 3.0;  ///< b_safe: limit of the braking that a change may force on the follower.
   double duration_s = 4.5;            ///< From lane to lane, at speed.
 };
 
@@ -36,33 +35,31 @@ struct Driver {
   double reaction_s = 1.0;  ///< From hearing an emergency vehicle to making way.
 };
 
-/// Between a timid (0) and an aggressive (1) driver; 0.5 is `middle` itself. Desired speed 0.9
-/// to 1.15 times, T 1.8 to 0.8 s and so on are the span that traffic-simulation practice gives;
-/// each is applied as a factor to the middle driver, geometrically, so that a lorry's driver keeps
-/// being one.
+/// Between a timid (0) and an aggressive (1) driver; 0.5 is `middle` itself. Desired speed 0.9 to 1.15 times, T 1.8 to
+/// 0.8 s and so on are the span that traffic-simulation practice gives; each is applied as a factor to the middle
+/// driver, geometrically, so that a lorry's driver keeps being one.
 Driver with_temperament(const Driver& middle, double temperament);
 
-/// The same driver with worse manners, by a step: follows closer, cuts in where others have to brake, keeps right less and makes way later.
-/// Six steps stay within what `FollowingLaw` and lane changes take.
+/// A driver with worse manners, by a step: follows closer, cuts in where others have to brake, keeps right less and
+/// makes way later. Six steps stay within the bounds of `FollowingLaw` and lane changes.
 Driver with_worse_manners(const Driver& driver);
 
 /// The hardest braking of any vehicle.
 inline constexpr double hardest_braking_mps2 = 9.0;
 inline constexpr double no_leader = std::numeric_limits<double>::infinity();
 
-/// IDM, eqs. 3 and 4: acceleration at `speed` behind a leader `gap` ahead; no leader: gap infinite.
+/// IDM, eqs. 3 and 4: acceleration at `speed_mps` behind a leader `gap_m` ahead; infinite `gap_m` without one.
 double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m);
 
 /// The speed at which this gap is kept with no acceleration: the root of eq. 3, to 1e-12 m/s.
 double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m);
 
-/// String stability of equal drivers who follow each other at this gap, in 1/s²: positive where a
-/// disturbance fades from vehicle to vehicle, negative where it grows into stop-and-go waves.
-/// (½ f_v + f_Δv) f_v − f_s of the law f(s, v, Δv) in equilibrium (Treiber and Kesting, "Traffic
-/// Flow Dynamics", 2013, section 15.4).
+/// String stability of equal drivers who follow each other at this gap, in 1/s²: positive where a disturbance fades
+/// from vehicle to vehicle, negative where it grows into stop-and-go waves. (½ f_v + f_Δv) f_v − f_s of the law f(s, v,
+/// Δv) in equilibrium (Treiber and Kesting, "Traffic Flow Dynamics", 2013, section 15.4).
 double idm_stability_margin(const FollowingParameters& driver, double gap_m);
 
-/// The same law with its constants worked out once, for the loop over all vehicles.
+/// IDM with its constants computed once, for the loop over all vehicles.
 struct FollowingLaw {
   double inverse_desired_speed = 1.0, time_gap_s = 1.0, acceleration_mps2 = 1.0;
   double standstill_gap_m = 2.0, half_inverse_root_ab = 1.0;
@@ -81,12 +78,11 @@ struct FollowingLaw {
     return a > -hardest_braking_mps2 ? a : -hardest_braking_mps2;
   }
 
-  /// How a driver brakes where the intelligent driver model's answer is `idm_mps2`: the model takes
-  /// a gap that a cut-in has shortened for an emergency. People count on the leader not to brake
-  /// harder than now, and take longer to open the gap: from what just avoids a collision (the
-  /// constant-acceleration heuristic) on, the model's braking is felt no harder than the
-  /// comfortable one. In equilibrium, and to first order about it, both are the same. Other than
-  /// the paper, nobody counts on a leader's gaining speed, and tanh is its Padé approximant, good to 0.03.
+  /// Braking of a driver for whom the intelligent driver model gives `idm_mps2`: the model takes a gap that a cut-in
+  /// has shortened for an emergency. People count on the leader not to brake harder than now, and take longer to open
+  /// the gap: from the braking that just avoids a collision (the constant-acceleration heuristic) on, the model's
+  /// braking is limited to the comfortable one. In equilibrium, and to first order about it, both are the same. Unlike
+  /// in the paper, a leader's acceleration is not counted on, and tanh is its Padé approximant, good to 0.03.
   double with_coolness(double idm_mps2, double speed_mps, double leader_speed_mps, double leader_acceleration_mps2,
                        double gap_m) const {
     if (idm_mps2 >= 0.0) return idm_mps2;

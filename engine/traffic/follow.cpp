@@ -8,8 +8,7 @@ namespace {
 
 constexpr double side_clearance_m = 0.3;
 constexpr int most_passed = 40;
-/// How much faster than those it passes an emergency vehicle drives, and how far ahead it looks at
-/// them.
+/// Excess speed of an emergency vehicle over those it passes, and its look-ahead at them.
 constexpr double passing_excess_mps = 11.0;
 constexpr double passing_look_ahead_m = 40.0;
 
@@ -17,7 +16,7 @@ bool apart(const Across& a, const Across& b) {
   return std::abs(a.middle_m - b.middle_m) > a.half_width_m + b.half_width_m + side_clearance_m;
 }
 
-/// Room now and where both are going to: who moves in front of somebody is in the way at once.
+/// Room now and at the targets of both: a vehicle that moves in front of another is in its path at once.
 bool has_room_beside(const CorridorTraffic& traffic, const LaneEntry& own, const LaneEntry& other) {
   const auto now = [](const LaneEntry& e) { return Across{e.lateral_m, e.half_width_m}; };
   const auto then = [&](const LaneEntry& e) {
@@ -26,8 +25,8 @@ bool has_room_beside(const CorridorTraffic& traffic, const LaneEntry& own, const
   return apart(now(own), now(other)) && apart(then(own), now(other)) && apart(now(own), then(other));
 }
 
-/// The next one ahead that is really in the way, in a lane where some are not in its middle. What
-/// an emergency vehicle passes bounds its speed.
+/// The next obstructing vehicle ahead, in a lane where some are not in its middle. Vehicles that an emergency vehicle
+/// passes bound its speed.
 const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, int lane_number, std::size_t k,
                                          double& speed_limit_mps) {
   const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
@@ -52,7 +51,7 @@ const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, int lan
   return nullptr;
 }
 
-/// Where somebody is not in the middle of a lane: the careful way.
+/// Follows with a test of every straddling vehicle, where some are not in the middle of a lane.
 void follow_carefully(CorridorTraffic& traffic, int lane_number) {
   const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
   for (std::size_t k = 0; k < lane.size(); ++k) {
@@ -151,7 +150,7 @@ Neighbours neighbours(const CorridorTraffic& traffic, int lane_number, double x_
   hint = static_cast<std::uint32_t>(from);
   const bool closed = traffic.corridor.closed;
   Neighbours result;
-  // The vehicle itself stands at most once in a lane, so that at most one step goes over it.
+  // The vehicle itself is at most once in a lane, so that at most one step skips it.
   std::size_t at = from;
   for (int tries = 0; tries < 2 && result.ahead == nullptr; ++tries, ++at) {
     if (at >= count) {

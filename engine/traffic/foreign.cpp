@@ -11,9 +11,9 @@ namespace septet::traffic {
 namespace {
 
 constexpr double over_the_line_m = 0.2;
-constexpr double flash_s = 0.5;  ///< An indicator that was lit so short a time ago is on.
+constexpr double flash_s = 0.5;  ///< An indicator lit within this time is on.
 
-/// Whether the left and the right indicator are on.
+/// State of the left and the right indicator.
 struct Signals {
   bool left = false, right = false;
 };
@@ -37,7 +37,7 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   LaneEntry entry;
   entry.x_m = *x + 0.5 * model.length_m;
   entry.length_m = static_cast<float>(model.length_m);
-  // Only what goes along with the traffic counts as its speed.
+  // Speed is the component along the traffic.
   entry.speed_mps = glm::length(vehicle.velocity_mps);
   entry.acceleration_mps2 = static_cast<float>(acceleration_mps2);
   entry.lateral_m = static_cast<float>(-lane * traffic.table.lane_width_m + offset_left);
@@ -47,11 +47,11 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   const double over = std::abs(offset_left) + half_width - 0.5 * width;
   entry.straddles = over > over_the_line_m;
   found.entries.push_back({lane, entry});
-  // Over the line: it is in the way in the next lane too.
+  // Over the line: it is an obstacle in the next lane too.
   const bool over_left = entry.straddles && offset_left > 0.0;
   const bool over_right = entry.straddles && !over_left;
-  // Who indicates means to be there: nobody else changes into that place. It is driven past as long as there is room.
-  const bool both = signals.left && signals.right;  // Hazard lights say nothing of a side.
+  // An indicated change claims its place: no vehicle changes into it. It is passed as long as there is room.
+  const bool both = signals.left && signals.right;  // Hazard lights indicate no side.
   entry.straddles = true;
   if (over_left || (signals.left && !both)) found.entries.push_back({lane - 1, entry});
   if (over_right || (signals.right && !both)) found.entries.push_back({lane + 1, entry});
@@ -79,7 +79,7 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std:
     hint = place->position;
     const Signals signals = signals_of(foreign[i].lamps, dt_s, state.foreign_signals_s[i]);
     const double change_mps = now_mps - before_mps;
-    // Who was put somewhere else has not braked.
+    // A vehicle put elsewhere has not braked.
     const double braking_mps2 = change_mps > -hardest_braking_mps2 * 2.0 * dt_s ? change_mps / dt_s : 0.0;
     for (std::size_t c = 0; c < state.corridors.size(); ++c) {
       place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), braking_mps2, signals, *place,

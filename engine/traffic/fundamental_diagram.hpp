@@ -1,9 +1,8 @@
 #pragma once
 /// The fundamental diagram of traffic: flow and speed over density, measured on rings.
 ///
-/// Terms as in M. Treiber and A. Kesting, "Traffic Flow Dynamics" (2013), chapters 3 and 4: density
-/// is vehicles per kilometre and lane, flow is density times the mean speed of the vehicles, which
-/// on a ring is exact.
+/// Terms as in M. Treiber and A. Kesting, "Traffic Flow Dynamics" (2013), chapters 3 and 4: density is vehicles per
+/// kilometre and lane, flow is density times the mean speed of the vehicles, which on a ring is exact.
 
 #include <cstdint>
 #include <span>
@@ -31,8 +30,7 @@ struct RingOptions {
 /// One ring for each density, per km and lane, with the motorway's mix of vehicles and drivers.
 std::vector<FlowPoint> fundamental_diagram(const RingOptions& options, std::span<const double> densities_per_km);
 
-/// Equal drivers of vehicles this long in equilibrium: what the model says without differences and
-/// waves.
+/// Equal drivers of vehicles this long in equilibrium: the model without differences and waves.
 FlowPoint equilibrium_flow(const FollowingParameters& driver, double vehicle_length_m, double density_per_km);
 
 }  // namespace septet::traffic

@@ -9,29 +9,29 @@ namespace {
 constexpr double refused = -no_leader;
 constexpr double smallest_gap_m = 2.0;
 constexpr LaneEntry standing{};  ///< The end of a lane.
-/// What making room for an emergency vehicle outweighs.
+/// Bias of making room for an emergency vehicle.
 constexpr double leave_lane_bias_mps2 = 3.0;
-/// What reaching one's exit outweighs.
+/// Bias of reaching the exit.
 constexpr double exit_bias_mps2 = 3.0;
 constexpr double rest_after_change_s = 2.0;
 
-/// The law by which somebody in the order drives; foreign ones as the one who decides.
+/// The driving law of an entry in the order; a foreign vehicle has that of the deciding driver.
 const FollowingLaw& law_of(const CorridorTraffic& traffic, const LaneEntry& entry, std::size_t decider) {
   return traffic.law[entry.vehicle >= 0 ? static_cast<std::size_t>(entry.vehicle) : decider];
 }
 
-/// One driver's thought about a change of lane.
+/// One driver's decision on a change of lane.
 struct Decision {
   const CorridorTraffic& traffic;
   std::size_t i;
   double x, v, own_now;
-  double old_follower_gain = 0.0;  ///< What the one behind gains when this one is gone.
+  double old_follower_gain = 0.0;  ///< Gain of the old follower when this vehicle leaves.
 
   double present_acceleration(const LaneEntry& entry, double otherwise) const {
     return entry.vehicle >= 0 ? traffic.acceleration_mps2[static_cast<std::size_t>(entry.vehicle)] : otherwise;
   }
 
-  /// What somebody behind makes of this where limits and bends are minded.
+  /// A follower's acceleration here within limits and bends.
   double bounded(const LaneEntry& entry, int lane, double acceleration_mps2) const {
     const bool is_own = entry.vehicle >= 0;
     const bool emergency = is_own && traffic.emergency[static_cast<std::size_t>(entry.vehicle)] != 0;
@@ -39,15 +39,14 @@ struct Decision {
                   : acceleration_mps2;
   }
 
-  /// MOBIL, eqs. 2 to 4: the gain of the driver and, politely, of those behind; refused where it is
-  /// unsafe.
+  /// MOBIL, eqs. 2 to 4: the gain of the driver and, politely, of the followers; refused where it is unsafe.
   double gain(int lane, double lane_end, std::uint32_t& hint) const {
     const LaneChangeParameters& change = traffic.driver[i].lane_change;
     const auto [ahead, behind] = neighbours(traffic, lane, x, static_cast<std::int32_t>(i), hint);
     const double gap_ahead = gap_to(traffic, lane, x, ahead);
     if (gap_ahead < smallest_gap_m) return refused;
     const double ahead_speed = ahead != nullptr ? ahead->speed_mps : 0.0;
-    // Whether it is safe is asked of the stricter law.
+    // Safety is judged by the stricter law.
     const FollowingLaw& law = traffic.law[i];
     if (law.acceleration(v, ahead_speed, gap_ahead) < -change.largest_braking_mps2) return refused;
     double own_then = within_bounds(traffic, lane, x, v, false, acceleration_behind(law, v, ahead, gap_ahead));
@@ -99,9 +98,9 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
     const bool leaves = exit != nullptr && target == exit->lane;
     double end = lane_end_m(traffic.table, target, x);
     if (leaves && end > x) end = no_leader;
-    // The lane has begun where the rear axle is, which the table knows to half a step.
+    // The lane has begun at the rear axle, which the table knows to half a step.
     if (lane_end_m(traffic.table, target, rear_x - 0.5 * LaneTable::knot_step_m) < rear_x) continue;
-    // Into a lane that ends soon goes only who would be worse off in this one.
+    // A lane that ends soon is entered only by a driver who would be worse off in this one.
     if (end < x || end - x < std::min(look_ahead_lane_end_m, traffic.lane_end_m[i] - x)) continue;
     double gain = decision.gain(target, end, hints[static_cast<std::size_t>(1 + step)]);
     gain += step * change.keep_right_mps2;
@@ -120,7 +119,7 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
   begin_change(traffic, i, here.t_m - there.t_m, here.slope - there.slope);
   const bool leaves = exit != nullptr && best == exit->lane;
   traffic.lane_end_m[i] = leaves ? no_leader : lane_end_m(traffic.table, best, x);
-  // Whoever decides next sees it.
+  // The next decisions see it.
   insert_entry(traffic.order.lanes[static_cast<std::size_t>(best)], entry_of(traffic, i));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double narrowest_m = 2.6;
 constexpr double step_m = 10.0;
-/// How far from the lane's middle a corner of it is cut.
+/// Limit of the distance by which a corner of the lane's middle is cut.
 constexpr double largest_cut_m = 0.1;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -28,7 +28,7 @@ std::vector<OpenStretch> stretches(const road::RoadNetwork& network, const Corri
   std::vector<OpenStretch> found;
   const auto steps = static_cast<int>(std::ceil(corridor.length_m / step_m));
   for (int i = 0; i < steps; ++i) {
-    // The middle of each step stands for it.
+    // The middle of each step represents it.
     const double x = std::min((i + 0.5) * step_m, corridor.length_m);
     if (!is_open(network, corridor, x, lane)) continue;
     const double begin = i * step_m, end = std::min((i + 1) * step_m, corridor.length_m);
@@ -38,7 +38,7 @@ std::vector<OpenStretch> stretches(const road::RoadNetwork& network, const Corri
       found.push_back({begin, end});
   }
   if (!found.empty() && found.back().end_m == corridor.length_m) {
-    // On a ring that is closed here the lane goes on at the beginning.
+    // On a ring that is closed here the lane continues at the beginning.
     const bool goes_on = !corridor.closed || found.front().begin_m == 0.0;
     if (goes_on) found.back().end_m = infinity;
   }
@@ -136,7 +136,7 @@ LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& c
   const double x = std::clamp(wrap_x(corridor, x_m), 0.0, corridor.length_m);
   const CorridorPiece& piece = piece_at(corridor, x);
   const LaneCentre centre = lane_centre(network, table, piece, x, lane);
-  // Against s both t and s are turned round.
+  // Against s both t and s are reversed.
   return {piece.along_s ? centre.t_m : -centre.t_m, centre.slope, centre.slope_by_s};
 }
 

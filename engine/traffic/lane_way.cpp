@@ -12,11 +12,11 @@ namespace {
 
 constexpr double boundless = std::numeric_limits<double>::infinity();
 constexpr double least_stretch = 0.05;
-/// Of a uniform lane.
+/// Tolerance of a uniform lane.
 constexpr double uniform_within = 1e-9;
-/// Nobody drives that fast: a bound above is none.
+/// Faster than any driver: a higher bound is ignored.
 constexpr double unbounded_m2ps2 = 60.0 * 60.0;
-/// Of the way to a bound's speed, and no harder than this for whom it comes as a surprise.
+/// Time of adapting to a bound's speed, and the hardest braking for a bound that comes as a surprise.
 constexpr double adapting_s = 1.0, hardest_adapting_mps2 = 3.0;
 constexpr int parts_of_step = 2;
 
@@ -40,7 +40,7 @@ LaneSpot spot_at(const road::RoadNetwork& network, const Corridor& corridor, con
   return spot;
 }
 
-/// No speed that braking with `ease_off_mps2` does not take down to the next one; twice round a ring.
+/// Lowers each speed to one from which braking with `ease_off_mps2` leads down to the next; twice round a ring.
 void lead_down(const Corridor& corridor, const LaneWay& way, std::vector<double>& squares) {
   const std::size_t count = squares.size();
   if (std::ranges::all_of(squares, [](double square) { return square >= unbounded_m2ps2; })) {
@@ -67,7 +67,7 @@ LaneWay make_lane_way(const road::RoadNetwork& network, const Corridor& corridor
   way.stretch = spot.stretch;
   bool uniform = true;
   for (std::size_t k = 0; k < steps; ++k) {
-    // Both ends of a step mind what is within it; its length by Simpson's rule.
+    // Both ends of a step take the bound within it; its length by Simpson's rule.
     const auto bound = [&] {
       const double bend = spot.curvature_per_m != 0.0 ? bend_mps2 / std::abs(spot.curvature_per_m) : boundless;
       const double limit = spot.limit_mps > 0.0 ? std::min(bend, spot.limit_mps * spot.limit_mps) : bend;
@@ -101,7 +101,7 @@ LaneWay make_lane_way(const road::RoadNetwork& network, const Corridor& corridor
   return way;
 }
 
-/// The square at x, and how it changes by a metre of x.
+/// The square at x, and its change by a metre of x.
 struct Square {
   double m2ps2 = boundless, by_x = 0.0;
 };

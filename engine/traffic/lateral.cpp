@@ -9,7 +9,7 @@ namespace {
 /// A lorry's tail sweeps out as it turns in: it takes more of the road's length.
 constexpr double shortest_change_m = 10.0, shortest_change_by_length = 3.0;
 
-/// What a slope loses a metre where the whole of a movement takes as long as before, and so more metres.
+/// Reduces a slope where a whole movement takes as long as before, and so more metres.
 double gains_speed(const CorridorTraffic& traffic, std::size_t i, double slope) {
   const double speed = traffic.speed_mps[i];
   return slope * traffic.acceleration_mps2[i] / (speed * speed);
@@ -41,7 +41,7 @@ Lateral lateral(const CorridorTraffic& traffic, std::size_t i) {
   }
   const double u = traffic.change_part[i];
   if (u >= 1.0) return lateral;
-  // Hermite: from an offset and a run (slope times length) to nothing.
+  // Hermite: from an offset and a run (slope times length) to zero.
   const double begun = traffic.change_offset_m[i], run = traffic.change_run_m[i];
   const double rest = 1.0 - u, cube = rest * rest * rest;
   const double length = change_length_m(traffic, i, speed), by_way = 1.0 / length;

@@ -1,12 +1,11 @@
 #pragma once
-/// Sideways motion: where a vehicle is across its lane, and which way it points there.
+/// Sideways motion: a vehicle's place across its lane, and its heading.
 ///
-/// All of it goes by the distance driven, as a steered wheel makes it. A change of lane is a
-/// quintic, straight at its ends, along a way that is speed times the driver's duration, and at
-/// walking speed no shorter than the vehicle can steer; making way is a critically damped shift that below
-/// `slowest_aside_mps` follows the same path more slowly. The vehicle points along its path, so
-/// that its rear axle never slips sideways. The tightest bend has a radius of about 10 m (a car
-/// that changes lanes at 6 m/s and brakes as hard as it can), the usual one at walking speed 25 m.
+/// All of it is a function of the distance driven, as of a steered wheel. A change of lane is a quintic, straight at
+/// its ends, over a distance of speed times the driver's duration, at walking speed no shorter than the vehicle can
+/// steer; making way is a critically damped shift that below `slowest_aside_mps` follows the same path more slowly. The
+/// vehicle points along its path, so that its rear axle never slips sideways. The tightest bend has a radius of about
+/// 10 m (a car that changes lanes at 6 m/s and brakes as hard as it can), the usual one at walking speed 25 m.
 
 #include "engine/traffic/traffic.hpp"
 
@@ -18,26 +17,26 @@ struct Lateral {
 };
 
 inline constexpr double slowest_aside_mps = 8.0;
-/// Time constant of moving aside: 63 % of the way in about twice of it.
+/// Time constant of moving aside: 63 % of the shift in about twice of it.
 inline constexpr double aside_time_s = 0.7;
 
-/// The way that a whole change of lane takes at this speed.
+/// Length of a whole change of lane at this speed.
 double change_length_m(const CorridorTraffic& traffic, std::size_t vehicle, double speed_mps);
 inline bool changes_lane(const CorridorTraffic& traffic, std::size_t vehicle) {
   return traffic.change_part[vehicle] < 1.0;
 }
 
-/// From where it is and points, relative to the middle of its lane, the vehicle makes for that.
+/// Begins a change of lane from the vehicle's offset and heading, relative to the middle of the target lane.
 void begin_change(CorridorTraffic& traffic, std::size_t vehicle, double offset_m, double slope);
 
 Lateral lateral(const CorridorTraffic& traffic, std::size_t vehicle);
 
-/// What a vehicle takes of the road's width, turned as it is, as `LaneEntry` has it.
+/// A vehicle's extent across the road at its heading, as in `LaneEntry`.
 struct Across {
   double middle_m = 0.0, half_width_m = 0.0;
 };
 Across across(const CorridorTraffic& traffic, std::size_t vehicle);
-/// The same when it is where it is going to.
+/// Its extent at the end of its change.
 Across across_then(const CorridorTraffic& traffic, std::size_t vehicle);
 
 }  // namespace septet::traffic

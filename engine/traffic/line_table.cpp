@@ -26,7 +26,7 @@ double station(const CorridorPiece& piece, double x_m) {
   return piece.along_s ? along : piece.length_m - along;
 }
 
-/// The frame as eight numbers; of the two quaternions that turn alike the one nearer to `near`.
+/// The frame as eight numbers; of the two quaternions of the same rotation the one nearer to `near`.
 Numbers numbers_of(const RoadLine& line, const Quat& near) {
   const Vec3& p = line.world_from_line.position_m;
   Quat q = line.world_from_line.orientation;
@@ -101,7 +101,7 @@ LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const
   }
   const CorridorPiece& piece = corridor.pieces[table.pieces[k]];
   const Numbers n = evaluate(table.cubics[k], at - static_cast<double>(k));
-  // As long as one to the tolerance: one step of Newton's method for 1/√ is exact to its square.
+  // Unit length to the tolerance: one step of Newton's method for 1/√ is exact to its square.
   const double scale = 1.5 - 0.5 * (n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6]);
   return {piece,
           station(piece, x_m),

@@ -1,6 +1,6 @@
 #pragma once
-/// The road's reference line along a corridor, looked up once: what a vehicle's pose needs of the
-/// road at every tick, without a search for records and without angles.
+/// The road's reference line along a corridor, looked up once: the road data of a vehicle's pose at every tick, without
+/// a search for records and without angles.
 
 #include <array>
 #include <cstdint>
@@ -18,9 +18,8 @@ struct RoadLine {
   double curvature_per_m = 0.0;  ///< In the plan; positive turns left of increasing s.
 };
 
-/// Every `step_m` of x a cubic of the way into the step for each number of the frame, through four
-/// stations of the road. Where that would be off by more than a micrometre (a record begins, a road
-/// ends) the road is asked.
+/// Every `step_m` of x a cubic of the part of the step for each number of the frame, through four stations of the road.
+/// Where that would be off by more than a micrometre (a record begins, a road ends) the road is queried.
 struct LineTable {
   static constexpr double step_m = 10.0;
 
@@ -28,13 +27,13 @@ struct LineTable {
   using Cubics = std::array<std::array<double, 8>, 4>;
   static constexpr std::uint32_t no_piece = 0xffffffff;
 
-  std::vector<std::uint32_t> pieces;  ///< Of the corridor, per step; no_piece: the road is asked.
+  std::vector<std::uint32_t> pieces;  ///< Piece of the corridor, per step; no_piece: the road is queried.
   std::vector<Cubics> cubics;         ///< Per step.
 };
 
 LineTable make_line_table(const road::RoadNetwork& network, const Corridor& corridor);
 
-/// The road's line at x, which lies within the corridor, and the piece it lies on.
+/// The road's line at x, which lies within the corridor, and its piece.
 struct LineAt {
   const CorridorPiece& piece;
   double s_m = 0.0;  ///< On the piece's road.

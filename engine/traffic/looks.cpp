@@ -11,7 +11,7 @@
 namespace septet::traffic {
 namespace {
 
-/// Of so many vehicles of a model one looks thus: assumed, as one sees it on a northern motorway by day.
+/// Shares of a model's appearances: assumed, as on a northern motorway by day.
 struct Share {
   std::string_view model, look;
   int percent;
@@ -56,7 +56,7 @@ std::vector<Hundred> looks_of_all() {
 
 ModelIndex look_of(ModelIndex model, ParticipantId id) {
   static const std::vector<Hundred> looks = looks_of_all();
-  // Ids come in a row: mixed so that neighbours differ (the finaliser of MurmurHash3).
+  // Ids are consecutive: mixed so that neighbours differ (the finaliser of MurmurHash3).
   std::uint32_t mixed = id;
   mixed = (mixed ^ (mixed >> 16)) * 0x85EBCA6Bu;
   mixed = (mixed ^ (mixed >> 13)) * 0xC2B2AE35u;

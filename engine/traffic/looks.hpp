@@ -1,8 +1,9 @@
 #pragma once
-/// What vehicles of traffic look like beyond what their driving depends on: models of one outline take each other's place.
+/// Appearance of traffic's vehicles beyond the data of their driving: models of one outline replace each other.
 ///
-/// Traffic drives a handful of models, of which it knows length, width and axles. Of vehicles with that outline a road shows many: among
-/// saloons taxis, among lorries tankers and coaches. Who is which is a function of its id alone, so that nothing that drives depends on it.
+/// Traffic drives a handful of models, of which it knows length, width and axles. A road shows many vehicles of one
+/// outline: among saloons taxis, among lorries tankers and coaches. The appearance is a function of the id alone, so
+/// that driving does not depend on it.
 
 #include "engine/world/snapshot.hpp"
 

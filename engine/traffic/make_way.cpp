@@ -1,7 +1,6 @@
-/// Room for emergency vehicles, as the rule of the road asks on motorways: at 300 m drivers hear
-/// and see it, indicate and move aside; those in the left-most lane to the left, all others to the
-/// right, so that a lane opens between the left-most lane and the rest. They hold it until the
-/// emergency vehicle is 80 m ahead, and close it.
+/// Room for emergency vehicles, by the rule of motorways: at 300 m drivers hear and see it, indicate and move aside;
+/// those in the left-most lane to the left, all others to the right, so that a lane opens between the left-most lane
+/// and the rest. They hold it until the emergency vehicle is 80 m ahead, and close it.
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +14,11 @@ constexpr double heard_at_m = 300.0;
 /// Behind it the lane stays open this far: another may follow, as the driver does.
 constexpr double kept_open_m = 80.0;
 constexpr double clearance_m = 0.3;
-/// How far over the lane's edge: on to the hard strip beside the left-most lane; not over the
-/// others' lines.
+/// Distance over the lane's edge: on to the hard strip beside the left-most lane; not over the others' lines.
 constexpr double on_to_hard_strip_m = 0.4;
 constexpr double others_shift_m = 0.35;
 
-/// Where in its lane somebody of this width makes room.
+/// Target place in its lane of a vehicle of this width that makes room.
 double aside_for(const CorridorTraffic& traffic, std::size_t i) {
   const int left_most = traffic.table.lowest;
   const double to_edge = std::max(0.0, 0.5 * traffic.table.lane_width_m - traffic.half_width_m[i]);

@@ -10,8 +10,7 @@
 namespace septet::traffic {
 namespace {
 
-/// Positive: to the left. A lane change is indicated until its end, making way until the vehicle is
-/// there.
+/// Positive: to the left. A lane change is indicated until its end, making way until the vehicle is there.
 double indicated_side(const CorridorTraffic& traffic, std::size_t i, double across_m) {
   if (traffic.emergency[i] != 0) return 0.0;
   if (changes_lane(traffic, i)) return across_m;
@@ -26,7 +25,7 @@ double small_angle_rad(double tangent) {
   return tangent * (1.0 - q * (1.0 / 3 - q * (1.0 / 5 - q * (1.0 / 7))));
 }
 
-/// q turned further about its own z axis, by twice the angle of (cos, sin). Number by number into the participant: an
+/// Rotates q further about its own z axis, by twice the angle of (cos, sin). Number by number into the participant: an
 /// object in between would be written in halves and read whole, for which the processor waits.
 void turn_about_up(const Quat& q, const Vec2& half, Quat& turned) {
   turned.w = q.w * half.x - q.z * half.y;
@@ -35,8 +34,8 @@ void turn_about_up(const Quat& q, const Vec2& half, Quat& turned) {
   turned.z = q.z * half.x + q.w * half.y;
 }
 
-/// Begins to fetch what `describe` will read of the road for this vehicle: the tables are larger
-/// than the nearest cache, and vehicles stand in them without an order.
+/// Prefetches the road data that `describe` will read for this vehicle: the tables are larger than the nearest cache,
+/// and vehicles stand in them without an order.
 void prefetch(const CorridorTraffic& traffic, std::size_t i) {
   static_assert(LineTable::step_m == LaneTable::knot_step_m);
   const auto k = static_cast<std::size_t>(std::max(traffic.x_m[i], 0.0) / LineTable::step_m);
@@ -46,7 +45,7 @@ void prefetch(const CorridorTraffic& traffic, std::size_t i) {
   __builtin_prefetch(&traffic.table.centres[static_cast<std::size_t>(traffic.lane[i])].knots[k]);
 }
 
-/// Fills in a blank participant; its origin is at `x`. What it is told to do is the derivative of where it is told to be.
+/// Fills in a blank participant; its origin is at `x`. Its velocities are the exact derivatives of its positions.
 void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel& model, double x,
               const road::RoadNetwork& network, double time_s, Participant& participant) {
   const PathPoint path = path_at(network, traffic, i, x);
@@ -63,7 +62,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   position_m.y = middle.y + t * left.y + above * up.y;
   position_m.z = middle.z + t * left.z + above * up.z;
   const double v = traffic.speed_mps[i];
-  // The vehicle points where it goes; against s it is turned by half a turn as well.
+  // The vehicle points along its motion; against s it is turned by half a turn as well.
   Vec2 turned = direction > 0.0 ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0);
   double pointed = 1.0;  // Cosine of the angle between the path and the line of constant t.
   if (slope != 0.0) {
@@ -75,7 +74,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   participant.model = look_of(traffic.model[i], traffic.id[i]);
   participant.paint = traffic.paint[i];
   turn_about_up(world_from_line, turned, participant.world_from_vehicle.orientation);
-  // By a metre of the line of constant t: how that turns, and how the path turns against it.
+  // By a metre of the line of constant t: its turn, and the path's turn against it.
   const double line_turns = direction * line.curvature_per_m / path.tangent.stretch;
   const double path_turns = path.curvature_per_m;
   const double turns_per_m = line_turns + path_turns * pointed * pointed;
@@ -88,7 +87,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   along_and_across(v, v * slope, participant.velocity_mps);
   along_and_across(a - v * v * slope * line_turns, a * slope + v * v * (line_turns + path_turns),
                    participant.acceleration_mps2);
-  // Beside the reference line of a bend that climbs, and where the road's tilt changes, it is steeper or less so.
+  // Beside the reference line of a bend that climbs, and where the road's tilt changes, the slope differs.
   if (path.tangent.up != 0.0) {
     const double climbs = path.tangent.up / path.tangent.stretch - forward.z;
     participant.velocity_mps.z += direction * v * climbs;
@@ -101,7 +100,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   }
   participant.angular_velocity_radps.z = turns_per_m * v;
   participant.front_steer_rad = small_angle_rad(model.wheelbase_m * turns_per_m * pointed);
-  // Rolling along its path is all that turns the wheels.
+  // The wheels turn by rolling along its path alone.
   constexpr double turn_rad = 2.0 * std::numbers::pi;
   const double radps_per_mps = 1.0 / model.wheel_radius_m;
   const double turns = std::max(traffic.rolled_m[i], 0.0) * radps_per_mps * (1.0 / turn_rad);

@@ -1,6 +1,6 @@
-/// Leaving the motorway and coming back: whoever takes an exit drives the ramp as a corridor of its
-/// own, at a ramp's pace, and comes in again by the entry lane at its end, which it has to leave
-/// before that ends, as any lane (MOBIL).
+/// Leaving the motorway and coming back: a vehicle that takes an exit drives the ramp as a corridor of its own, at a
+/// ramp's pace, and comes in again by the entry lane at its end, which it has to leave before that ends, as any lane
+/// (MOBIL).
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@ namespace {
 constexpr double ramp_speed_mps = 19.0;
 constexpr double exit_announced_m = 1500.0;
 constexpr double changing_s = 7.0;      ///< Longer than any driver's change of lane.
-constexpr double exit_shown_m = 150.0;  ///< As far as a change of lane goes on into the ramp.
+constexpr double exit_shown_m = 150.0;  ///< Reach of a change of lane into the ramp.
 
 bool has_road(const Corridor& corridor, road::RoadIndex road) {
   return std::ranges::any_of(corridor.pieces, [&](const CorridorPiece& piece) { return piece.road == road; });
 }
 
-/// What follows `lane` of a piece at its far end.
+/// Continuations of `lane` of a piece at its far end.
 std::vector<road::LaneContinuation> beyond(const road::RoadNetwork& network, const CorridorPiece& piece, int lane) {
   const auto& sections = network.roads[piece.road].sections;
   const std::size_t last = piece.along_s ? sections.size() - 1 : 0;
@@ -29,8 +29,8 @@ std::vector<road::LaneContinuation> beyond(const road::RoadNetwork& network, con
   return road::continuations(network, piece.road, static_cast<std::uint32_t>(last), piece.side * lane, piece.along_s);
 }
 
-/// The chain of roads from an exit until it comes back to the corridor; no pieces where it does
-/// not, or changes its lane's number.
+/// The chain of roads from an exit until it comes back to the corridor; empty where it does not, or where its lane's
+/// number changes.
 Corridor follow_ramp(const road::RoadNetwork& network, const Corridor& main, road::LaneContinuation at,
                      RampMouth& entry) {
   Corridor ramp;
@@ -85,7 +85,7 @@ void for_each_array(CorridorTraffic& a, CorridorTraffic& b, Visit visit) {
   visit(a.neighbour_hints, b.neighbour_hints);
 }
 
-/// From one corridor's arrays to the end of another's, in `lane` at x. A change of lane goes on.
+/// Moves a vehicle from one corridor's arrays to the end of another's, in `lane` at x. A change of lane goes on.
 void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int lane, double x_m) {
   const auto self = static_cast<std::int32_t>(i), last = static_cast<std::int32_t>(from.size()) - 1;
   for (auto& entries : from.order.lanes) {
@@ -106,8 +106,8 @@ void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int la
   insert_entry(to.order.lanes[static_cast<std::size_t>(lane)], entry_of(to, to.size() - 1));
 }
 
-/// The entry of the last vehicle in `lane` from x on, as seen `shift_m` away; for the order of
-/// those who drive towards it.
+/// The entry of the last vehicle in `lane` from x on, shifted by `shift_m`; for the order of those who drive towards
+/// it.
 void show_last(const CorridorTraffic& traffic, int lane, double from_x_m, double shift_m, int shown_lane,
                ForeignTraffic& seen) {
   for (const LaneEntry& entry : traffic.order.lanes[static_cast<std::size_t>(lane)]) {
@@ -120,7 +120,7 @@ void show_last(const CorridorTraffic& traffic, int lane, double from_x_m, double
   }
 }
 
-/// Who took the exit before its change of lane was done still stands in the lane beside the exit's.
+/// A vehicle that took the exit during its change of lane still occupies the lane beside the exit's.
 void show_unfinished(const CorridorTraffic& way, const Ramp& ramp, double lane_width_m, ForeignTraffic& seen) {
   for (std::size_t i = 0; i < way.size(); ++i) {
     if (!changes_lane(way, i) || way.x_m[i] > exit_shown_m) continue;
@@ -140,12 +140,12 @@ void add_ramps(const road::RoadNetwork& network, TrafficState& state) {
 }
 
 const RampMouth* exit_ahead(const CorridorTraffic& traffic, std::size_t i, double exit_share) {
-  // Whether somebody wants to leave is a matter of the vehicle and not of the moment.
+  // The intention to leave is a constant of the vehicle, not of the moment.
   const std::uint32_t mixed = traffic.id[i] * 2654435761u;
   if ((mixed >> 8) >= exit_share * (1u << 24)) return nullptr;
   for (const RampMouth& exit : traffic.exits) {
     const double ahead = exit.x_m - traffic.x_m[i];
-    // Whoever could not finish the change of lane before the mouth drives on.
+    // A vehicle that could not finish the change of lane before the mouth drives on.
     const bool there = traffic.lane[i] == exit.lane;
     const double least = there ? 0.0 : changing_s * traffic.speed_mps[i];
     if (traffic.lane[i] <= exit.lane && ahead > least && ahead < exit_announced_m) return &exit;

@@ -21,8 +21,8 @@ SEPTET_MEMBERS(LaneOrder, lanes, has_straddlers)
 SEPTET_MEMBERS(RampMouth, x_m, lane)
 SEPTET_MEMBERS(Ramp, main, way, exit, entry, lane)
 
-// Left out are the corridor and what is looked up of its roads. Kept is what a vehicle is for as long as it is there, drawn when it
-// came in, and what follows from the hashed or is found from it sooner.
+// Left out are the corridor and its tables of road data. Kept are a vehicle's constants, drawn when it came in, and
+// data that follows from the hashed or is searched from it.
 SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line, ways), hashed(id),
                      kept(model, paint, driver, law),
                      hashed(x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part, change_offset_m,
@@ -36,7 +36,7 @@ SEPTET_MEMBER_GROUPS(TrafficState, left_out(corridors), kept(ramps), hashed(time
 
 namespace {
 
-/// A corridor is kept as the roads that it is strung from.
+/// A corridor is saved as the list of its roads.
 struct RoadOfCorridor {
   road::RoadIndex road = 0;
   bool along_s = true, on_the_left = false;
@@ -68,7 +68,7 @@ Corridor corridor_of(const road::RoadNetwork& network, const RoadsOfCorridor& ke
   return corridor;
 }
 
-/// Every index within what it leads into, every place within reach of the corridor.
+/// Requires every index within its range, every place within reach of the corridor.
 void require_whole(const CorridorTraffic& traffic, StateReader& reader) {
   const std::size_t count = traffic.size(), lanes = traffic.table.open.size();
   constexpr auto wrong = "traffic in it does not fit together";

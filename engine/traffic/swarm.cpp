@@ -13,7 +13,7 @@ namespace {
 constexpr int outside = 0;
 constexpr double from_end_m = 30.0;
 
-/// From bumper to bumper, if all of the corridor's vehicles stood evenly in the lanes that go on.
+/// Gap from bumper to bumper, if all of the corridor's vehicles stood evenly in the lanes that continue.
 double mean_gap_m(const TrafficParameters& parameters, const CorridorTraffic& traffic) {
   constexpr double usual_length_m = 5.5;
   int lanes = 0;
@@ -24,7 +24,7 @@ double mean_gap_m(const TrafficParameters& parameters, const CorridorTraffic& tr
   return std::max(1.0, span * std::max(lanes, 1) / number - usual_length_m);
 }
 
-/// Whether somebody at x has room: by speed, where there is that much room at all.
+/// True where a vehicle at x has room: by speed, where there is that much room at all.
 bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double length_m, double speed_mps,
               double mean_gap) {
   const auto wanted = [&](double speed) { return std::min(8.0 + 0.8 * speed, 0.45 * mean_gap); };
@@ -93,7 +93,7 @@ bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, double mean_
   const double speed = std::min(
       {0.85 * following.desired_speed_mps, idm_equilibrium_speed(following, std::max(3.0, mean_gap)), allowed});
   if (!clear_at(traffic, lane, x, traffic.length_m[i], speed, mean_gap)) return false;
-  // As fast as the one ahead allows: who comes in does not have to brake at once.
+  // As fast as the one ahead allows: a vehicle that comes in does not have to brake at once.
   std::uint32_t hint = 0;
   const LaneEntry* ahead = neighbours(traffic, lane, x, -1, hint).ahead;
   traffic.speed_mps[i] = gap_to(traffic, lane, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
@@ -188,7 +188,7 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
     for (std::uint32_t k = 0; k < wanted; ++k) add_random_vehicle(parameters, traffic, next_id++, random);
     const double mean_gap = mean_gap_m(parameters, traffic);
     for (std::size_t i = 0; i < traffic.size(); ++i) {
-      // A road that is full waits outside, until `recycle` finds room.
+      // On a full road the vehicle waits outside, until `recycle` finds room.
       for (int attempt = 0; attempt < 200; ++attempt) {
         const double x = traffic.corridor.closed ? random.uniform(0.0, traffic.corridor.length_m)
                                                  : middle + random.uniform(-parameters.radius_m, parameters.radius_m);

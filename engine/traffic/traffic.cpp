@@ -95,7 +95,7 @@ std::uint32_t move(const road::RoadNetwork& network, CorridorTraffic& traffic, d
     }
     const double before = traffic.speed_mps[i], a = traffic.acceleration_mps2[i];
     const double after = before + a * dt_s;
-    // Who stops within the step stops where the braking ends.
+    // A vehicle that stops within the step stops at the end of its braking.
     const double rolled = after >= 0.0 ? 0.5 * (before + after) * dt_s : -0.5 * before * before / a;
     traffic.speed_mps[i] = after > 0.0 ? after : 0.0;
     traffic.rolled_m[i] += rolled;

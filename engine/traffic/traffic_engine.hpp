@@ -1,12 +1,12 @@
 #pragma once
-/// Whoever moves a drive's traffic: Septet's own models, or another simulator that is asked to.
+/// Interface to a drive's traffic: Septet's own models, or another simulator.
 ///
-///     engine.start(parameters, foreign)          when the scenario asks for a swarm
+///     engine.start(parameters, foreign)          when the scenario requests a swarm
 ///     engine.advance(foreign, tick_s)            each tick
 ///     engine.append_participants(participants)   each snapshot
 ///
-/// An engine answers for the network it was made with. Same network, seed and calls: same traffic;
-/// no engine looks at a clock. One thread.
+/// An engine is bound to the network with which it was made. Same network, seed and calls: same traffic; no engine
+/// reads a clock. One thread.
 
 #include <cstdint>
 #include <memory>
@@ -29,35 +29,36 @@ namespace septet::traffic {
 class TrafficEngine {
  public:
   virtual ~TrafficEngine() = default;
-  /// A swarm around the first foreign vehicle; one that was there before is gone.
+  /// Starts a swarm around the first foreign vehicle; an earlier one is removed.
   virtual void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) = 0;
-  /// Nobody is on the road any more.
+  /// Removes all vehicles.
   virtual void stop() = 0;
-  /// One tick on. `foreign` has the same vehicles in the same order each time.
+  /// Advances by one tick. `foreign` has the same vehicles in the same order each time.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
-  /// More vehicles on the driver's side, and everybody's manners worse by a step (traffic.hpp). Who cannot do that does nothing.
+  /// Adds vehicles on the driver's side, and worsens all drivers' manners by a step (traffic.hpp). An engine without
+  /// this ability ignores it.
   virtual void worsen(std::uint32_t /*more_vehicles*/) {}
   virtual void append_participants(std::vector<Participant>& participants) const = 0;
-  /// Everything that decides how the traffic goes on.
+  /// Adds all state that determines the traffic's future.
   virtual void add_to_hash(StateHash& hash) const = 0;
-  /// Whether all that decides how the traffic goes on is in here, so that `save` and `restore` (engine/core/archive.hpp) may be called.
+  /// True where that state is all here, so that `save` and `restore` (engine/core/archive.hpp) may be called.
   virtual bool can_be_saved() const { return false; }
   virtual void save(StateWriter&) const {}
-  /// Of an engine made with the same network. `reader` fails where that is not what was saved.
+  /// Restores an engine made with the same network. `reader` fails on other data than `save` wrote.
   virtual void restore(StateReader&) {}
-  /// How many numbers have gone bad and were reset since the last call.
+  /// Number of non-finite values that were reset since the last call.
   virtual std::uint32_t take_bad_numbers() { return 0; }
-  /// What there is to say of the swarm once its first second is over, as key=value pairs: `asked` and `on_road`, where fewer than 95 % or more
-  /// than 105 % of the vehicles that were asked for are there. Septet's own traffic says it again, each ten seconds at most, where a further
-  /// tenth has gone: at the ends of a road that is shorter than the swarm's radius nobody comes back.
+  /// Remark on the swarm once its first second is over, as key=value pairs: `asked` and `on_road`, where fewer than 95
+  /// % or more than 105 % of the requested vehicles are there. Returned once; by Septet's own traffic again, each ten
+  /// seconds at most, where a further tenth is gone: at the ends of a road shorter than the swarm's radius.
   virtual std::optional<std::string> take_remark() { return std::nullopt; }
-  /// What has gone wrong outside, once. From then on the engine stands still; the drive is to end.
+  /// Failure outside of Septet, once. From then on the engine stands still; the drive is to end.
   virtual std::optional<Error> take_error() { return std::nullopt; }
 };
 
-/// The remark on a swarm of so many: nothing where they are as many as asked for, within 5 %.
+/// The remark on a swarm of this size: empty within 5 % of the requested number.
 std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road);
-/// When it is made.
+/// Time of the first remark, and the least time between two.
 inline constexpr double swarm_remark_s = 1.0, swarm_remark_again_s = 10.0;
 
 /// Septet's own traffic (traffic.hpp). `network` outlives it.

@@ -1,5 +1,5 @@
 #pragma once
-/// The stages of one tick of traffic and what they share. Used by engine/traffic only.
+/// The stages of one tick of traffic and their shared data. Used by engine/traffic only.
 
 #include <cmath>
 #include <span>
@@ -11,13 +11,13 @@
 
 namespace septet::traffic {
 
-/// Somebody with beacon or siren on.
+/// A vehicle with beacon or siren on.
 struct EmergencyVehicle {
   double front_x_m = 0.0, length_m = 0.0;
   double lateral_m = 0.0, half_width_m = 0.0;
 };
 
-/// What a corridor has to know of the vehicles that others move.
+/// A corridor's view of the vehicles moved by other stages.
 struct ForeignTraffic {
   struct Entry {
     int lane = 0;
@@ -27,47 +27,47 @@ struct ForeignTraffic {
   std::vector<EmergencyVehicle> emergencies;
 };
 
-/// From where on the end of a lane matters to whoever drives in it.
+/// Distance from which on the end of a lane matters to a vehicle in it.
 inline constexpr double look_ahead_lane_end_m = 250.0;
 
-/// The `vehicle` of an entry that is shown where it is not.
+/// The `vehicle` of an entry shown away from its true place.
 inline constexpr std::int32_t nobody_here = -1'000'000;
 
-/// One per corridor. Keeps where foreign vehicles are and how fast, for the next tick.
+/// One per corridor. Stores the foreign vehicles' places and speeds for the next tick.
 std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std::span<const ForeignVehicle> foreign,
                                           double dt_s, TrafficState& state);
 
 LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t vehicle);
-/// Takes places and speeds into the order, drops who has left a lane, adds the foreign vehicles.
+/// Updates places and speeds in the order, drops vehicles that have left a lane, adds the foreign vehicles.
 void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign);
 
-/// Nearest entries around x in a lane, not counting `self` (−1: count all); null where there is
-/// none. `hint` is where the last answer was and is kept up.
+/// Nearest entries around x in a lane, not counting `self` (−1: count all); null where there is none. `hint` is the
+/// last result's index and is kept up.
 struct Neighbours {
   const LaneEntry* ahead = nullptr;
   const LaneEntry* behind = nullptr;
 };
 Neighbours neighbours(const CorridorTraffic& traffic, int lane, double x_m, std::int32_t self, std::uint32_t& hint);
 
-/// Where the vehicle frame's origin is: below the rear axle.
+/// x of the vehicle frame's origin: below the rear axle.
 inline double rear_axle_x_m(const CorridorTraffic& traffic, std::size_t vehicle) {
   return traffic.x_m[vehicle] - vehicle_models()[traffic.model[vehicle]].front_m();
 }
-/// From a front bumper at x to the rear bumper of the one ahead, along the lane; infinite if there is none.
+/// Gap from a front bumper at x to the rear bumper of the one ahead, along the lane; infinite if there is none.
 inline double gap_to(const CorridorTraffic& traffic, int lane, double x_m, const LaneEntry* ahead) {
   if (ahead == nullptr) return no_leader;
   const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
   return way_between_m(traffic.corridor, way, x_m, ahead->x_m) - ahead->length_m;
 }
-/// From x to where the lane ends, along it.
+/// Distance from x to the lane's end, along it.
 inline double to_lane_end_m(const CorridorTraffic& traffic, int lane, double x_m, double end_m) {
   const double d = end_m - x_m;
   if (traffic.ways.straight || !(d > 0.0) || d > look_ahead_lane_end_m) return d;
   const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
   return way_at_m(way, end_m) - way_at_m(way, x_m);
 }
-/// What bends and posted limits leave of an acceleration in this lane; an emergency vehicle minds the bends alone. A number that is none
-/// stays so, to be counted.
+/// An acceleration limited by bends and posted limits in this lane; an emergency vehicle observes the bends alone. NaN
+/// stays NaN, to be counted.
 inline double within_bounds(const CorridorTraffic& traffic, int lane, double x_m, double speed_mps, bool emergency,
                             double acceleration_mps2) {
   const LaneWay& way = traffic.ways.lanes[static_cast<std::size_t>(lane)];
@@ -75,19 +75,19 @@ inline double within_bounds(const CorridorTraffic& traffic, int lane, double x_m
   const double allowed = allowed_acceleration_mps2(way, x_m, speed_mps, emergency);
   return acceleration_mps2 < allowed ? acceleration_mps2 : allowed;
 }
-/// The vehicle's rear axle, which points along its path, as the road sees it.
+/// The vehicle's rear axle, which points along its path, in the road's terms.
 struct PathPoint {
   LineAt at;
   double direction = 1.0;  ///< 1 towards increasing s, −1 against it.
   double t_m = 0.0;        ///< In the road's own sense.
   LineTangent tangent;
-  /// Of the path against the line of constant t, by a metre of that, to the left of travel.
+  /// Slope of the path against the line of constant t, by a metre of that, to the left of travel.
   double slope = 0.0, curvature_per_m = 0.0;
 };
 PathPoint path_at(const road::RoadNetwork& network, const CorridorTraffic& traffic, std::size_t vehicle,
                   double rear_axle_x_m);
 
-/// As the vehicle drives behind this entry; null: nobody.
+/// The vehicle's acceleration behind this entry; null: free road.
 inline double acceleration_behind(const FollowingLaw& law, double speed_mps, const LaneEntry* ahead, double gap_m) {
   if (ahead == nullptr) return law.acceleration(speed_mps, 0.0, no_leader);
   const double idm_mps2 = law.acceleration(speed_mps, ahead->speed_mps, gap_m);
@@ -96,29 +96,29 @@ inline double acceleration_behind(const FollowingLaw& law, double speed_mps, con
   return law.with_coolness(idm_mps2, speed_mps, ahead->speed_mps, ahead->acceleration_mps2, gap_m);
 }
 
-/// Stage 1: everybody's acceleration.
+/// Stage 1: all accelerations.
 void follow(CorridorTraffic& traffic);
-/// Stage 2: who makes way for an emergency vehicle, and how far aside.
+/// Stage 2: vehicles that make way for an emergency vehicle, and their shift aside.
 void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s);
-/// Stage 3: lane changes of those whose turn it is to think.
+/// Stage 3: lane changes of the drivers whose turn it is to decide.
 void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, double time_s, double dt_s,
                   CorridorTraffic& traffic);
 /// Stage 4: speeds and places.
 std::uint32_t move(const road::RoadNetwork& network, CorridorTraffic& traffic, double dt_s);
-/// Stage 5: who left the simulation comes in again.
+/// Stage 5: vehicles that left the simulation come in again.
 void recycle(const TrafficParameters& parameters, double middle_x_m, Random& random, CorridorTraffic& traffic);
-/// A swarm is a ring that travels with its middle: beyond each rim goes on what is at the other, so
-/// that its density lasts. Whoever is there sees the other rim's nearest vehicle.
+/// A swarm is a ring that travels with its middle: beyond each rim continues the other one, so that its density lasts.
+/// A vehicle there sees the other rim's nearest vehicle.
 void show_across_rims(const TrafficParameters& parameters, double middle_x_m, const CorridorTraffic& traffic,
                       ForeignTraffic& seen);
 
-/// Ramps of the corridors that there are so far, each with a corridor of its own.
+/// Adds ramps of the existing corridors, each with a corridor of its own.
 void add_ramps(const road::RoadNetwork& network, TrafficState& state);
 /// The exit that this vehicle is about to take; null for most.
 const RampMouth* exit_ahead(const CorridorTraffic& traffic, std::size_t vehicle, double exit_share);
-/// Who drives towards a mouth sees the last one beyond it.
+/// A vehicle that drives towards a mouth sees the last one beyond it.
 void show_across_mouths(const TrafficState& state, std::vector<ForeignTraffic>& seen);
-/// Stage 6: who has driven through a mouth goes on in the other corridor.
+/// Stage 6: vehicles that have driven through a mouth go on in the other corridor.
 void take_ramps(TrafficState& state);
 
 }  // namespace septet::traffic

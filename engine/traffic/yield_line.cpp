@@ -18,7 +18,7 @@ using Kind = YieldLine::Kind;
 
 constexpr double before_crossing_m = 1.0, stop_line_near_m = 20.0;
 constexpr double over_crossing_m = 7.0, into_junction_m = 14.0;
-/// How near the middle of a walker, of a vehicle, comes to the middle of the way when they meet.
+/// Distance of the middle of a walker, of a vehicle, from the middle of the path when they meet.
 constexpr double walker_reach_m = 1.6, vehicle_reach_m = 2.4;
 constexpr double step_s = 0.1, same_way_cos = 0.77, least_mps = 0.3;
 
@@ -27,7 +27,7 @@ bool is_for_travel_along(const road::Road& road, const road::Signal& signal) {
   return (signal.t_m <= 0.0) == (road.rule == road::TrafficRule::right_hand);
 }
 
-/// Of a light: where those stop whom it is for.
+/// Station at which a light's traffic stops.
 double stop_line_s(const road::Road& road, const road::Signal& light, bool along) {
   double nearest_m = stop_line_near_m, found = light.s_m;
   for (const road::Signal& signal : road.signals) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The warning lamps of the driver's car that tell of a fault, as everybody is told of them: one EffectKeyframe, there while one is lit.
-/// Written down in SNAPSHOT.md. Threads: none of its own.
+/// Warning lamps of the driver's car for faults, as a snapshot carries them: one EffectKeyframe, present while one is
+/// lit. Written down in SNAPSHOT.md. Threads: none of its own.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@ namespace septet {
 
 struct CarWarnings {
   bool tyre_pressure = false, anti_lock = false, engine = false;
-  bool lamp = false;  ///< A bulb has gone.
+  bool lamp = false;  ///< A bulb has failed.
 
   bool any() const { return tyre_pressure || anti_lock || engine || lamp; }
   bool operator==(const CarWarnings&) const = default;
@@ -25,7 +25,7 @@ inline constexpr std::uint32_t car_warning_effect_id = 0x04000001;
 Bytes encode_car_warnings(const CarWarnings& warnings);
 /// Refuses anything that `encode_car_warnings` would not write; safe on hostile bytes.
 Expected<CarWarnings> decode_car_warnings(std::span<const std::byte> bytes);
-/// Those of a snapshot; none where it has none, or damaged ones.
+/// Those of a snapshot; all dark where it has none, or damaged ones.
 CarWarnings car_warnings_of(const Snapshot& snapshot);
 
 }  // namespace septet

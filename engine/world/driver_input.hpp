@@ -1,5 +1,5 @@
 #pragma once
-/// What the driver does with the controls in one tick, in physical units, whatever device it came from.
+/// The driver's controls in one tick, in physical units, independent of the device.
 
 #include <cstdint>
 
@@ -11,14 +11,16 @@ enum class IndicatorStalk : std::int8_t { right = -1, off = 0, left = 1 };
 /// Selector of an automatic gearbox; `manual` means that `DriverInput::gear` counts.
 enum class GearSelector : std::uint8_t { park, reverse, neutral, drive, manual };
 
-/// Where the driver's eyes are, and how far the pictures are turned for them. At rest all is 0.
+/// Position of the driver's eyes, and the turn of the pictures around them. At rest all is 0.
 struct Head {
   Vec3 from_rest_m{0.0};  ///< From the rig's eye point, along the car's axes.
   double turn_rad =
-      0.0;  ///< Of the pictures around the eyes, to the left: whoever looks aside by a key has one screen to look at.
+      /// Turn of the pictures around the eyes, to the left: a driver who looks aside by a key has one screen to look
+      /// at.
+      0.0;
   bool operator==(const Head&) const = default;
 };
-/// Further no head is moved; rigs set narrower limits.
+/// Limit of any head movement; rigs set narrower ones.
 inline constexpr double farthest_head_m = 1.0;
 
 struct DriverInput {
@@ -34,9 +36,9 @@ struct DriverInput {
   bool low_beam = true;
   bool high_beam = false;
   bool parking_brake = false;
-  /// Where the driver's head points, from the head tracker, the keys or the simulated driver; positive to the left.
+  /// Heading of the driver's head, from the head tracker, the keys or the simulated driver; positive to the left.
   double gaze_heading_rad = 0.0;
-  std::uint8_t sequence = 0;  ///< Counts the device's reports; standing still means a stale device.
+  std::uint8_t sequence = 0;  ///< Counts the device's reports; a constant value means a stale device.
   Head head;
 
   bool operator==(const DriverInput&) const = default;

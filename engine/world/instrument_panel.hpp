@@ -1,8 +1,9 @@
 #pragma once
-/// The instruments of the car whose inside is drawn (the Volvo S80): where its panel stands and what has which place on it, so that the
+/// The instruments of the car with a drawn interior (the Volvo S80): place of the panel and layout on it, so that the
 /// scenery paints the faces and a frame puts needles and lamps on them.
 ///
-/// On the panel, metres from its middle: x to the right and y up as the driver sees it. Its normal points at the driver's eyes.
+/// On the panel, metres from its middle: x to the right and y up as the driver sees it. Its normal points at the
+/// driver's eyes.
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,8 @@ struct Dial {
 inline constexpr Dial revolutions{{-0.093, 0.0}, 0.052, 8.0};  ///< Thousands a minute.
 inline constexpr Dial speed{{0.093, 0.0}, 0.052, 260.0};       ///< km/h.
 
-/// Where the needle points: radians from the panel's x, counter-clockwise. It runs by the clock from lower left to lower right and stops
-/// at both ends.
+/// Angle of the needle: radians from the panel's x, counter-clockwise. It runs by the clock from lower left to lower
+/// right and stops at both ends.
 inline double needle_rad(const Dial& dial, double reading) {
   const double share = reading > 0.0 ? std::min(reading / dial.full, 1.0) : 0.0;
   return (1.25 - 1.5 * share) * std::numbers::pi;
@@ -53,7 +54,7 @@ enum class Sign : std::uint8_t {
 };
 inline constexpr std::uint32_t columns = 8, rows = 3;
 
-/// Where a sign's picture lies: column and row, the first row on top.
+/// Cell of a sign's picture: column and row, the first row on top.
 constexpr glm::uvec2 cell_of(Sign sign) {
   const auto index = static_cast<std::uint32_t>(sign);
   return {index % columns, index / columns};
@@ -67,7 +68,7 @@ struct Place {
   double height_m;
 };
 inline constexpr Place gear{{0.0, -0.004}, 0.034}, speed_digits{{0.093, -0.030}, 0.015};
-/// Of a lamp on the panel.
+/// Place of a lamp on the panel.
 constexpr Place place_of(Sign sign) {
   constexpr double lamp_m = 0.018;
   switch (sign) {

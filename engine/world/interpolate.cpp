@@ -47,7 +47,7 @@ Participant interpolate(const Participant& before, const Participant& after, dou
   for (std::size_t i = 0; i < 4; ++i)
     result.wheel_lift_m[i] = glm::mix(before.wheel_lift_m[i], after.wheel_lift_m[i], t);
 
-  // The wheel's own angle is known only to a turn; its mean rate says how many turns lie between.
+  // The wheel's own angle is known only to a turn; its mean rate gives the number of turns between.
   const double turn = 2.0 * glm::pi<double>();
   const double expected = 0.5 * (before.wheel_spin_radps + after.wheel_spin_radps) * seconds;
   const double difference = after.wheel_spin_rad - before.wheel_spin_rad;

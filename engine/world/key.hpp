@@ -1,5 +1,5 @@
 #pragma once
-/// The keys of a keyboard that Septet reads, by where they lie on a US keyboard.
+/// The keys of a keyboard that Septet reads, by their place on a US keyboard.
 
 #include <cstdint>
 #include <string_view>
@@ -36,7 +36,7 @@ enum class Key : std::uint8_t {
 };
 inline constexpr std::size_t key_count = static_cast<std::size_t>(Key::escape) + 1;
 
-/// As people call it: "Arrow up", "Full stop", "W".
+/// Common name: "Arrow up", "Full stop", "W".
 std::string_view name_of(Key key);
 
 }  // namespace septet

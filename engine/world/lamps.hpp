@@ -1,5 +1,5 @@
 #pragma once
-/// What a vehicle shows and sounds, and a traffic light shows, one bit each.
+/// Lamps, siren and horn of a vehicle, and lamps of a traffic light, one bit each.
 
 #include <cstdint>
 

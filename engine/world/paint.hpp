@@ -8,7 +8,7 @@
 
 namespace septet {
 
-/// White, silver, greys, black, blues, reds, green, beige, yellow: about as often as they are seen on northern roads.
+/// White, silver, greys, black, blues, reds, green, beige, yellow: about as frequent as on northern roads.
 inline constexpr std::array<glm::vec3, 12> body_colors{{
     {0.80f, 0.80f, 0.79f},
     {0.50f, 0.51f, 0.53f},

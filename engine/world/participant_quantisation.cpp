@@ -21,14 +21,15 @@ constexpr double spin_rate_per_radps = 64.0;
 constexpr double spin_steps = 65536.0;                 // of one turn
 constexpr double orientation_steps = (1 << 19) - 1.0;  // of 1/√2, either sign
 
-/// Half away from zero as llround, without the call: the largest number below one half does not carry an integer over. Nothing for what is no
-/// number, or more than any field of the wire tells.
+/// Rounds half away from zero as llround, without the call: the largest number below one half does not carry an integer
+/// over. Empty for NaN, or a value beyond every field of the wire.
 std::int64_t rounded(double value) {
   if (!(std::abs(value) < 0x1p62)) return 0;
   return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value));
 }
 
-/// Where doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's last 32 bits.
+/// Magnitude at which doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's
+/// last 32 bits.
 constexpr double unit_steps = 0x1.8p52;
 
 constexpr std::int32_t limit(double value) { return static_cast<std::int32_t>(value); }
@@ -59,7 +60,7 @@ constexpr std::array<FieldLimits, participant_field_count> make_limits() {
 }
 constexpr auto limits_of_field = make_limits();
 
-/// Some fields in a row: steps per unit, and the limits as doubles.
+/// Fields in a row: steps per unit, and the limits as doubles.
 template <std::size_t count>
 struct FieldRow {
   std::array<double, count> steps, lowest, highest;
@@ -73,22 +74,22 @@ constexpr FieldRow<count> make_row(std::size_t first, const std::array<double, c
   }
   return row;
 }
-/// Four are as cheap as three: what the fourth leaves is overwritten by the field that follows.
+/// Four are as cheap as three: the fourth value is overwritten by the field that follows.
 constexpr auto position_row = make_row<4>(field_position_x, {position_per_m, position_per_m, position_per_m, 0.0});
 /// All four components, of which three travel; scaled with the sign of the largest already.
 constexpr FieldRow<4> orientation_row{
     .steps = {1.0, 1.0, 1.0, 1.0},
     .lowest = {-orientation_steps, -orientation_steps, -orientation_steps, -orientation_steps},
     .highest = {orientation_steps, orientation_steps, orientation_steps, orientation_steps}};
-/// From the velocity on; the wheels' angle is put on its own.
+/// Fields from the velocity on; the wheels' angle is written separately.
 constexpr auto motion_row = make_row<participant_field_count - field_velocity_x>(
     field_velocity_x,
     {velocity_per_mps, velocity_per_mps, velocity_per_mps, acceleration_per_mps2, acceleration_per_mps2,
      acceleration_per_mps2, angular_velocity_per_radps, angular_velocity_per_radps, angular_velocity_per_radps,
      angle_per_rad, 0.0, spin_rate_per_radps, position_per_m, position_per_m, position_per_m, position_per_m});
 
-/// Doubles that lie in a row at `numbers`. Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on,
-/// Diagnostics counts it at its source. Without a branch, so that the compiler takes several at a time.
+/// Rounds doubles in a row at `numbers`. A value out of bounds is clamped, NaN is sent as zero: the drive goes on,
+/// Diagnostics counts it at its source. Branch-free, so that the compiler vectorises it.
 template <std::size_t count>
 inline void put_fields(const std::byte* numbers, const FieldRow<count>& row, std::int32_t* fields) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -102,7 +103,7 @@ inline void put_fields(const std::byte* numbers, const FieldRow<count>& row, std
   }
 }
 
-// A participant's numbers lie in memory as their fields do on the wire. They are read where they lie: a copy made of single
+// A participant's numbers lie in memory as their fields do on the wire. They are read in place: a copy made of single
 // numbers and read as vectors would have to wait for the copy.
 static_assert(offsetof(Participant, velocity_mps) + sizeof motion_row.steps ==
               offsetof(Participant, wheel_lift_m) + sizeof(Participant::wheel_lift_m));
@@ -137,8 +138,8 @@ void quantise(const Participant& participant, WireParticipant& wire) {
 
   put_fields(bytes + offsetof(Participant, velocity_mps), motion_row, fields + field_velocity_x);
   const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
-  const double steps =
-      std::floor((turns - std::floor(turns)) * spin_steps);  // A hair below a whole turn rounds to one.
+  // A hair below a whole turn rounds to one.
+  const double steps = std::floor((turns - std::floor(turns)) * spin_steps);
   fields[field_wheel_spin] = steps < spin_steps ? static_cast<std::int32_t>(steps) : 0;
 }
 

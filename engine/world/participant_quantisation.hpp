@@ -1,5 +1,5 @@
 #pragma once
-/// One participant to the integers of the wire and back, and where it is expected to be some time later.
+/// One participant to the integers of the wire and back, and its expected state some time later.
 
 #include <cstdint>
 
@@ -13,12 +13,12 @@ struct FieldLimits {
 };
 const FieldLimits& participant_field_limits(std::size_t field);
 
-/// Every field of `wire` is written.
+/// Writes every field of `wire`.
 void quantise(const Participant& participant, WireParticipant& wire);
 Participant dequantise(const WireParticipant& wire);
 
-/// The baseline moved on by its own velocity, acceleration and wheel speed: what a difference is taken to, because most
-/// vehicles do what they did. Same integers on every machine: one rounding of a plain product per field.
+/// The baseline moved on by its own velocity, acceleration and wheel speed: the reference of a difference, because most
+/// vehicles continue their motion. Same integers on every machine: one rounding of a plain product per field.
 WireParticipant extrapolate(const WireParticipant& wire, double seconds);
 
 }  // namespace septet

@@ -2,7 +2,7 @@
 /// The snapshot: everything a screen, a log or a film needs to show one instant of the world.
 ///
 /// The server takes one per tick after its last stage; from then on it is const. Poses are in the world frame, double
-/// precision; the codec (snapshot_codec.hpp) quantises them with stated bounds.
+/// precision; the codec (wire_snapshot.hpp) quantises them with stated bounds.
 
 #include <array>
 #include <cstdint>
@@ -21,24 +21,25 @@ namespace septet {
 using ParticipantId = std::uint32_t;
 using Tick = std::uint64_t;
 
-/// The state of one rigid participant, with what is needed to draw it between two ticks.
+/// The state of one rigid participant, sufficient to draw it between two ticks.
 struct Participant {
   ParticipantId id = 0;
   ModelIndex model = 0;
   std::uint8_t paint = 0;  ///< Index into the palette of body colours.
   Lamps lamps;
   RigidTransform world_from_vehicle;
-  Vec3 velocity_mps{0.0};            ///< Of the origin, world frame.
+  Vec3 velocity_mps{0.0};            ///< Velocity of the origin, world frame.
   Vec3 acceleration_mps2{0.0};       ///< World frame.
   Vec3 angular_velocity_radps{0.0};  ///< World frame.
   double front_steer_rad = 0.0;      ///< Mean road-wheel angle of the front axle, positive to the left.
-  double wheel_spin_rad = 0.0;  ///< Rolling angle of the wheels, in [0, 2π); of who walks: of his step (limbs.hpp).
+  /// Rolling angle of the wheels, in [0, 2π); phase of the step of a walking person (limbs.hpp).
+  double wheel_spin_rad = 0.0;
   double wheel_spin_radps = 0.0;
   /// Height of each wheel's centre over its rest position (front left, front right, rear left, rear right).
   std::array<double, 4> wheel_lift_m{};
 };
 
-/// What the driver's instruments, actuators and logs need beyond the car's Participant.
+/// Data for the driver's instruments, actuators and logs beyond the car's Participant.
 struct DriverCar {
   ParticipantId participant = 0;
   double speed_mps = 0.0;  ///< Along the car's x axis.
@@ -49,7 +50,7 @@ struct DriverCar {
   double accelerator = 0.0, brake = 0.0, clutch = 0.0;
   double yaw_rate_radps = 0.0;
   double gaze_heading_rad = 0.0;
-  // Where the car is on the road; lane 0 means off every lane.
+  // Position of the car on the road; lane 0 means off every lane.
   std::uint32_t road = 0;  ///< Index in the road network.
   std::int32_t lane = 0;   ///< OpenDRIVE lane id.
   double road_s_m = 0.0;
@@ -65,7 +66,7 @@ struct Environment {
   double sun_illuminance_lux = 80000.0;
   double visibility_m = 20000.0;  ///< Meteorological range of the fog.
   double cloud_cover = 0.2;       ///< 0 to 1.
-  double rain_mm_per_h = 0.0;     ///< As water; below 274.65 K it falls as snow.
+  double rain_mm_per_h = 0.0;     ///< Rain as water; below 274.65 K it falls as snow.
   double road_wetness = 0.0;      ///< 0 dry to 1 standing water.
   double snow_cover = 0.0;        ///< 0 to 1.
   double temperature_k = 288.15;
@@ -75,17 +76,18 @@ struct Environment {
   bool operator==(const Environment&) const = default;
 };
 
-/// Keyframe of one effect (smoke, debris, …): opaque here, decoded by the effect that wrote it. It stays in the snapshots,
-/// unchanged, until the effect's next one takes its place, so that what rests costs nothing and who joins late has it.
+/// Keyframe of one effect (smoke, debris, …): opaque here, decoded by the effect that wrote it. It stays in the
+/// snapshots, unchanged, until the effect's next one replaces it, so that a resting effect costs nothing and a late
+/// joiner has it.
 struct EffectKeyframe {
   std::uint32_t id = 0;
   std::uint16_t kind = 0;
   Bytes data;
-  Tick tick = 0;  ///< The instant that it shows; effects are simulated a little ahead, so it may lie in the future.
+  Tick tick = 0;  ///< Its instant; effects are simulated a little ahead, so it may lie in the future.
   bool operator==(const EffectKeyframe&) const = default;
 };
 
-/// Numbers that went bad and were reset, since the start (design: "Errors").
+/// Numbers that became NaN or infinite and were reset, since the start.
 struct Diagnostics {
   std::uint32_t bad_numbers = 0;
   std::uint32_t collisions = 0;
@@ -95,14 +97,14 @@ struct Diagnostics {
 
 enum class GameEnd : std::uint8_t { none, lost, crash, time };
 
-/// How a game stands (engine/simulation/game.hpp).
+/// Standing of a game (engine/simulation/game.hpp).
 struct GameStanding {
   std::uint32_t level = 1;
   GameEnd end = GameEnd::none;
   double points = 0.0;
   double survived_s = 0.0;
-  double leader_m = 0.0;  ///< From the driver's car to whom it follows.
-  double away_s = 0.0;    ///< How long it has been too far away.
+  double leader_m = 0.0;  ///< Distance from the driver's car to its leader.
+  double away_s = 0.0;    ///< Time for which the leader has been too far away.
   bool operator==(const GameStanding&) const = default;
 };
 
@@ -115,7 +117,7 @@ struct Snapshot {
   std::vector<Participant> participants;  ///< Ascending id.
   std::vector<EffectKeyframe> effects;    ///< Ascending id.
   Diagnostics diagnostics;
-  std::optional<GameStanding> game;  ///< Where the scenario is played as one.
+  std::optional<GameStanding> game;  ///< Present where the scenario is played as a game.
 };
 
 /// The participant with this id, or null. Logarithmic time.

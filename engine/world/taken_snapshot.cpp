@@ -5,7 +5,7 @@
 namespace septet {
 namespace {
 
-constexpr std::size_t most_kept = 64;  ///< What a log that keeps up has in hand, and some.
+constexpr std::size_t most_kept = 64;  ///< Enough for a log that keeps up, and some.
 
 template <class Memory>
 Memory take_last(std::vector<Memory>& returned) {

@@ -1,8 +1,8 @@
 #pragma once
-/// A snapshot that has been taken: const from here on, shared by all who show, send or keep it.
+/// A taken snapshot: const from here on, shared by all its readers (screens, network, log).
 ///
-/// Its integers are worked out once, by whoever first asks for them. So where nobody but the log wants them, the log's
-/// thread does it, and a drive without screens goes on meanwhile. Any number of threads may ask at once.
+/// Its integers are computed once, at the first request. So where the log alone needs them, the log's thread does it,
+/// and a drive without screens goes on meanwhile. Thread-safe.
 
 #include <memory>
 #include <mutex>
@@ -14,10 +14,11 @@ namespace septet {
 class TakenSnapshot {
  public:
   explicit TakenSnapshot(Snapshot snapshot, WireSnapshot memory = {});
-  /// As it came from a log: its integers are all there is.
+  /// Makes one from a log: only its integers exist.
   explicit TakenSnapshot(WireSnapshot wire);
 
-  /// Tick, time, state hash and whatever else is not quantised. The participants are there only where it was simulated.
+  /// Tick, time, state hash and all else that is not quantised. The participants are present only where it was
+  /// simulated.
   const Snapshot& snapshot() const { return from_log_ ? wire_.rest : snapshot_; }
   const WireSnapshot& wire() const;
 
@@ -29,18 +30,18 @@ class TakenSnapshot {
   mutable WireSnapshot wire_;  ///< Behind `quantised_`.
 };
 
-/// The memory of snapshots that nobody holds any more, for those to come: a tick's 60 KB, allocated by one thread and freed
-/// by another 120 times a simulated second, would go back to the system and come again page by page. Any thread may let go.
+/// Memory of released snapshots, for reuse: a tick's 60 KB, allocated by one thread and freed by another 120 times a
+/// simulated second, would go back to the system and come again page by page. Any thread may release.
 class SnapshotMemory {
  public:
-  /// A snapshot to be written over; empty where none has come back.
+  /// A snapshot to be overwritten; empty where none has come back.
   Snapshot spare();
   std::shared_ptr<const TakenSnapshot> share(Snapshot snapshot);
 
  private:
   struct Returned {
     std::mutex mutex;
-    std::vector<Snapshot> snapshots;  ///< The last one was used last: it is the likeliest to be in a cache.
+    std::vector<Snapshot> snapshots;  ///< Last in, first out: the last one is the likeliest to be in a cache.
     std::vector<WireSnapshot> wires;
   };
   std::shared_ptr<Returned> returned_ = std::make_shared<Returned>();

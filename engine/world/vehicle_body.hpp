@@ -1,6 +1,6 @@
 #pragma once
-/// A vehicle's or a person's body as crashes see it: how heavy it is, where it begins above the road, how its front slopes and
-/// gives way. The values and their sources stand in bodies.toml, fronts.toml and crush.toml beside this file.
+/// A vehicle's or a person's body for crashes: its mass, its clearance above the road, the slope and crush of its
+/// front. The values and their sources stand in bodies.toml, fronts.toml and crush.toml beside this file.
 
 #include <optional>
 
@@ -14,15 +14,15 @@ struct VehicleBody {
 };
 const VehicleBody& vehicle_body(ParticipantKind kind);
 
-/// From the bonnet's edge to where the roof begins, as shares of the height and the length.
+/// Slope from the bonnet's edge to the roof's beginning, as shares of the height and the length.
 struct FrontSlope {
   double edge_height, roof_begins;
 };
-/// Nothing for what is as high in front as behind.
+/// Empty for a body as high in front as behind.
 std::optional<FrontSlope> front_slope(ParticipantKind kind);
 
-/// A passenger car crushes against a rigid wall like a spring that does not return (engine/effects/debris/crash.hpp), and harder
-/// beyond its crumple zone.
+/// A passenger car crushes against a rigid wall like a spring without return (engine/effects/debris/crash.hpp), and
+/// harder beyond its crumple zone.
 struct Crush {
   double frequency_radps;
   double crumple_m;

@@ -5,9 +5,9 @@
 namespace septet {
 namespace {
 using enum ParticipantKind;
-// Length, width, height, wheelbase, rear overhang, track, wheel radius. The S80's outer dimensions and tyre are those of
-// the 1999 model (4.822 × 1.831 × 1.435 m, wheelbase 2.791 m, 215/55 R16); the others are plain examples of their class,
-// no longer, wider or higher than 96/53/EC lets them be. Logs and sessions hold indices: new ones come last.
+// Length, width, height, wheelbase, rear overhang, track, wheel radius. The S80's outer dimensions and tyre are those
+// of the 1999 model (4.822 × 1.831 × 1.435 m, wheelbase 2.791 m, 215/55 R16); the others are plain examples of their
+// class, no longer, wider or higher than 96/53/EC lets them be. Logs and sessions hold indices: new ones come last.
 constexpr std::array<VehicleModel, 33> models{{
     {"volvo-s80", car, 4.822, 1.831, 1.435, 2.791, 1.10, 1.57, 0.321},
     {"hatchback", car, 4.05, 1.74, 1.46, 2.55, 0.68, 1.48, 0.305},
@@ -37,7 +37,7 @@ constexpr std::array<VehicleModel, 33> models{{
     {"city-articulated", lorry, 11.90, 2.55, 3.85, 6.20, 4.25, 2.05, 0.500},
     {"timber-lorry", lorry, 11.90, 2.55, 3.85, 6.20, 4.25, 2.05, 0.500},
     {"coach", bus, 11.90, 2.55, 3.85, 6.20, 4.25, 2.05, 0.500},
-    // With outlines of their own. What is articulated is drawn as one body, its origin below the last axles.
+    // With outlines of their own. Articulated vehicles are drawn as one body, their origin below the last axles.
     {"city-bus", bus, 12.00, 2.55, 3.10, 5.90, 3.40, 2.10, 0.480},
     {"articulated-lorry", lorry, 16.50, 2.55, 4.00, 11.30, 3.80, 2.05, 0.500},
     {"fire-engine", lorry, 8.20, 2.50, 3.30, 4.60, 2.20, 2.05, 0.500},

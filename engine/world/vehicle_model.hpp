@@ -1,5 +1,5 @@
 #pragma once
-/// The catalogue of vehicles (and other things) that can take part: name, kind, dimensions.
+/// The catalogue of vehicles (and other participants): name, kind, dimensions.
 ///
 /// The same index names the model in snapshots, in the scene (prototype object "model/NAME") and in traffic. Dimensions
 /// follow OpenSCENARIO's bounding box and axles; the origin is the vehicle frame's (rigid_transform.hpp).

@@ -1,5 +1,5 @@
 #pragma once
-/// The windscreen of the car whose inside is drawn (the Volvo S80), vehicle frame: what its pillars stand around.
+/// The windscreen between its pillars, of the car with a drawn interior (the Volvo S80), vehicle frame.
 
 #include "engine/math/rigid_transform.hpp"
 

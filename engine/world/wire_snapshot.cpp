@@ -4,10 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/check.hpp"
 #include "engine/world/participant_quantisation.hpp"
+#include "engine/world/world_members.hpp"
 
 namespace septet {
 namespace {
@@ -17,18 +19,8 @@ enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2, flag_ga
 
 // The doubles of the environment and of the driver's car, in the order of SNAPSHOT.md.
 template <class Env, class Visit>
-void visit_environment(Env& e, Visit visit) {
-  visit(e.sun_azimuth_rad);
-  visit(e.sun_elevation_rad);
-  visit(e.sun_illuminance_lux);
-  visit(e.visibility_m);
-  visit(e.cloud_cover);
-  visit(e.rain_mm_per_h);
-  visit(e.road_wetness);
-  visit(e.snow_cover);
-  visit(e.temperature_k);
-  visit(e.wind_speed_mps);
-  visit(e.wind_direction_rad);
+void visit_environment(Env& environment, Visit visit) {
+  std::apply([&](auto&... values) { (visit(values), ...); }, members(environment));
 }
 template <class Car, class Visit>
 void visit_driver_car(Car& c, Visit visit) {
@@ -70,7 +62,7 @@ void put_head(ByteWriter& writer, const Head& head) {
   for (const double value : {head.from_rest_m.x, head.from_rest_m.y, head.from_rest_m.z, head.turn_rad})
     writer.put(value);
 }
-/// Nearer than what no head does is not a matter of form: a picture from there would be one of nothing.
+/// A head beyond the limit fails the reader: its picture would show nothing.
 Head get_head(ByteReader& reader) {
   Head head;
   for (double* value : {&head.from_rest_m.x, &head.from_rest_m.y, &head.from_rest_m.z, &head.turn_rad})
@@ -139,12 +131,7 @@ void remove_ids(ByteReader& reader, std::vector<Item>& items, std::size_t limit)
   items = std::move(kept);
 }
 
-/// How far a receiver moves the baseline on.
-double seconds_since(const WireSnapshot& baseline, double time_s) {
-  return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0);
-}
-
-/// What a receiver expects of an instant from the baseline alone.
+/// Participants that a receiver expects at an instant from the baseline alone.
 std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline, double time_s) {
   std::vector<WireParticipant> expected;
   if (!baseline) return expected;
@@ -154,7 +141,7 @@ std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline,
   return expected;
 }
 
-/// Bit f: field f differs.
+/// Bit f is set where field f differs.
 std::uint32_t changed_fields(const WireParticipant& now, const WireParticipant& reference) {
   std::uint32_t mask = 0;
   for (std::size_t f = 0; f < participant_field_count; ++f)
@@ -287,6 +274,10 @@ auto refused(std::string what) {
 
 }  // namespace
 
+double seconds_since(const WireSnapshot& baseline, double time_s) {
+  return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0);
+}
+
 WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old) {
   SEPTET_CHECK(snapshot.participants.size() <= max_wire_participants, "{} participants", snapshot.participants.size());
   WireSnapshot wire = std::move(old);
@@ -352,7 +343,7 @@ void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants
   if (participants == Participants::told)
     put_participants(writer, baseline, wire);
   else
-    writer.put_bytes(std::array<std::byte, 2>{});  // None has gone, none has changed.
+    writer.put_bytes(std::array<std::byte, 2>{});  // No participant removed, none changed.
   static const std::vector<EffectKeyframe> no_effects;
   put_effects(writer, baseline ? baseline->rest.effects : no_effects, rest.effects, rest.tick);
 }

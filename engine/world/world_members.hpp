@@ -1,5 +1,5 @@
 #pragma once
-/// The members of the words that everybody shares, for engine/core/archive.hpp.
+/// Member lists of the shared types of engine/world, for engine/core/archive.hpp.
 
 #include "engine/core/archive.hpp"
 #include "engine/math/transform_members.hpp"
@@ -10,7 +10,7 @@ namespace septet {
 
 SEPTET_MEMBERS(Lamps, bits)
 SEPTET_MEMBERS(Head, from_rest_m, turn_rad)
-// The head moves pictures, and nothing in the world.
+// The head moves pictures alone, not the world.
 SEPTET_MEMBER_GROUPS(DriverInput,
                      hashed(steering_wheel_rad, accelerator, brake, clutch, selector, gear, indicator, hazard_lights,
                             horn, low_beam, high_beam, parking_brake, gaze_heading_rad, sequence),
@@ -19,7 +19,7 @@ SEPTET_MEMBERS(Environment, sun_azimuth_rad, sun_elevation_rad, sun_illuminance_
                rain_mm_per_h, road_wetness, snow_cover, temperature_k, wind_speed_mps, wind_direction_rad)
 SEPTET_MEMBERS(GameStanding, level, end, points, survived_s, leader_m, away_s)
 SEPTET_MEMBERS(EffectKeyframe, id, kind, data, tick)
-// How late input came is not said by the input, from which a drive is run again.
+// The lateness of input is not part of the input from which a drive is run again.
 SEPTET_MEMBER_GROUPS(Diagnostics, hashed(bad_numbers, collisions), kept(input_stale_ticks))
 
 }  // namespace septet

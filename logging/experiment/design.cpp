@@ -21,7 +21,7 @@ using document::TableReader;
 
 constexpr int most_subjects = 10'000;
 
-/// A word that may be part of a folder's name; an empty one where that is allowed.
+/// A word that may be part of a folder's name; may be empty if allowed.
 std::string read_name(TableReader& reader, std::string_view key, bool may_be_empty, std::set<std::string>& taken) {
   const std::string name = reader.get_string(key, "");
   constexpr std::string_view usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
@@ -144,7 +144,7 @@ Expected<Experiment> read_experiment(std::string_view text, std::string_view nam
 }
 
 std::vector<std::vector<std::size_t>> balanced_orders(std::size_t count) {
-  // The first row goes 0, 1, n − 1, 2, n − 2, …; each further one adds 1.
+  // The first row is 0, 1, n − 1, 2, n − 2, …; each further row adds 1.
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < count; ++i) first.push_back(i % 2 == 1 ? (i + 1) / 2 : (count - i / 2) % count);
   std::vector<std::vector<std::size_t>> orders;
@@ -179,7 +179,7 @@ std::vector<PlannedSubject> plan_of(const Experiment& experiment) {
           if (experiment.parts[part].is_free()) {
             drive.seconds = experiment.parts[part].up_to_s;
             if (kind.stops_mean_min) {
-              // To a tenth of a second, and everybody tries it for a minute.
+              // To a tenth of a second; everybody plays for at least a minute.
               const double drawn_s = 60.0 * (*kind.stops_mean_min + kind.stops_sd_min * random.normal());
               const double enough_s = std::max(60.0, std::round(drawn_s * 10.0) / 10.0);
               drive.stops = enough_s < drive.seconds;

@@ -25,13 +25,13 @@ namespace {
 
 using document::escaped;
 
-/// What was driven for too short a time has no mark, also none of a task that was seen.
+/// A lesson that was driven for too short a time has no mark for any task.
 std::string mark_text(const std::optional<double>& mark, bool taken) {
   if (!taken) return "–";
   return mark ? fmt::format("{:.1f}", *mark) : "not seen";
 }
 
-/// Why a task has no mark.
+/// Reason for a missing mark.
 std::string why_none(const LessonTask& task, const LessonMarks& marks) {
   return is_of_glances(task.measure) && !marks.head_is_known ? "not known: nothing told where the head pointed"
                                                              : "no occasion";
@@ -57,7 +57,7 @@ std::vector<std::size_t> worst_tasks(const Lesson& lesson, const LessonMarks& ma
 
 /// The route from above with a number where each task went worst.
 std::string route(const LessonMarks& marks, std::span<const Sample> samples) {
-  std::map<double, std::string> numbers;  // Of one moment together.
+  std::map<double, std::string> numbers;  // Marks of one moment share a dot.
   for (std::size_t i = 0; i < marks.tasks.size(); ++i)
     if (marks.tasks[i].severity != Severity::none)
       numbers[marks.tasks[i].worst_s] +=
@@ -73,7 +73,7 @@ std::string route(const LessonMarks& marks, std::span<const Sample> samples) {
          "speed.</figcaption></figure>\n";
 }
 
-/// What the screen ahead showed last before that moment, of the pictures that it has kept; before the first of them, that one.
+/// The last kept picture of the screen ahead before that moment; before the first one, the first.
 std::string picture(double time_s, const DebriefPlace& place) {
   if (place.picture_ticks.empty() || !(time_s >= 0.0 && time_s < 1e7)) return "";
   const auto moment = static_cast<std::int64_t>(std::llround(time_s * place.ticks_per_second));
@@ -83,7 +83,7 @@ std::string picture(double time_s, const DebriefPlace& place) {
                      escaped(place.picture_folder), tick, static_cast<double>(tick) / place.ticks_per_second);
 }
 
-/// How often, or for how long: what each sample is measured of is no occasion.
+/// Number of occasions, or duration: a measure of each sample has no occasions.
 std::string how_often(const LessonTask& task, const TaskMark& mark) {
   if (mark.faults == 0) return "kept";
   if (is_of_each_sample(task.measure))

@@ -1,5 +1,5 @@
 #pragma once
-/// debrief.html: a lesson's marks, where on the route and when each went worst, and what the driver saw at that moment.
+/// debrief.html: a lesson's marks, the place and time of each one's worst moment, and the driver's view at that moment.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,17 +14,18 @@
 
 namespace septet::logging {
 
-/// What the page shows beside the marks. Who drove it does not tell: it may be printed and left lying.
+/// Content of the page beside the marks. It never identifies the driver: it may be printed and left lying.
 struct DebriefPlace {
-  std::string picture_folder;               ///< Of the screen ahead, seen from the page, with pictures TICK.png.
-  std::vector<std::int64_t> picture_ticks;  ///< Of those that are there, ascending: about one a second.
+  std::string picture_folder;               ///< The screen ahead's, relative to the page, with pictures TICK.png.
+  std::vector<std::int64_t> picture_ticks;  ///< Ticks with a picture, ascending: about one a second.
   double ticks_per_second = 120.0;
 };
 
 std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::span<const Sample> samples,
                          const DebriefPlace& place);
 
-/// debrief.html in the folder, if the session holds a lesson; answers its marks in a line. Error: the session or the folder.
+/// Writes debrief.html into the folder, if the session holds a lesson; returns its marks in a line. Error: the session
+/// or the folder.
 Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
                                                    const std::string& picture_folder);
 

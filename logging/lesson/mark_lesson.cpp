@@ -29,13 +29,13 @@ constexpr double aside_mps = 0.2;         ///< Slower is keeping the lane.
 constexpr double around_change_s = 4.0;   ///< A lane is left and entered within this on either side of the crossing.
 constexpr double blink_s = 0.8;           ///< UN R48 asks for 60 flashes a minute at least: dark for half a second.
 
-/// One occasion: what was measured, and when.
+/// One occasion: its value and its time.
 struct Moment {
   double time_s = 0.0, value = 0.0;
-  std::string at = {};  ///< Where, in words.
+  std::string at = {};  ///< Place, in words.
 };
 
-/// What all tasks look at.
+/// Input of all tasks.
 struct DriveSeen {
   std::span<const Sample> samples;
   std::span<const Event> events;
@@ -43,10 +43,10 @@ struct DriveSeen {
   std::vector<Glance> glances;
   bool head_is_known = false;
   std::vector<double> put_s = {};                            ///< When an instructor put the car elsewhere.
-  std::vector<std::pair<double, double>> instructor_s = {};  ///< From when to when he braked.
+  std::vector<std::pair<double, double>> instructor_s = {};  ///< Intervals of the instructor's braking.
 };
 
-/// Between two times the car was put elsewhere: what changes there is nothing that was driven.
+/// True if the car was moved by an operator between two times: such a change was not driven.
 bool is_put_between(const DriveSeen& drive, double from_s, double to_s) {
   return std::ranges::any_of(drive.put_s, [&](double at_s) { return at_s >= from_s - 1e-6 && at_s < to_s; });
 }
@@ -60,7 +60,7 @@ std::vector<Moment> each_sample(const DriveSeen& drive, const Value& value) {
   return moments;
 }
 
-/// For how long a lamp had been blinking at that time.
+/// Time for which a lamp had been blinking.
 double blinked_s(const DriveSeen& drive, Lamp lamp, double time_s) {
   double first_lit_s = time_s;
   auto at = std::ranges::upper_bound(drive.samples, time_s, {}, &Sample::simulated_time_s);
@@ -72,7 +72,8 @@ double blinked_s(const DriveSeen& drive, Lamp lamp, double time_s) {
   return time_s - first_lit_s;
 }
 
-/// When the car began to move towards the line that it crossed then: since when it has gone there at `aside_mps` or more.
+/// When the car began to move towards the line that it crossed then: since when it has gone there at `aside_mps` or
+/// more.
 double began_to_move_s(const DriveSeen& drive, const LaneChange& change) {
   auto at = std::ranges::lower_bound(drive.samples, change.simulated_time_s, {}, &Sample::simulated_time_s);
   if (at != drive.samples.begin()) --at;  // The last sample in the lane that is left.
@@ -86,7 +87,7 @@ double began_to_move_s(const DriveSeen& drive, const LaneChange& change) {
   return at == drive.samples.end() ? change.simulated_time_s : std::min(at->simulated_time_s, change.simulated_time_s);
 }
 
-/// For how long the lamp of the change's side had been blinking when the car began to move.
+/// Time for which the lamp of the change's side had been blinking when the car began to move.
 std::vector<Moment> indicators(const DriveSeen& drive) {
   std::vector<Moment> moments;
   for (const LaneChange& change : drive.changes) {
@@ -97,7 +98,7 @@ std::vector<Moment> indicators(const DriveSeen& drive) {
   return moments;
 }
 
-/// The value of "name=" in an event's detail; empty where it is not told.
+/// Value of "name=" in an event's detail; empty if missing.
 std::string_view word_of(const Event& event, std::string_view name) {
   const std::string_view detail = event.detail;
   for (std::size_t at = 0; at < detail.size();) {
@@ -144,7 +145,7 @@ std::vector<Moment> turns(const DriveSeen& drive) {
   return moments;
 }
 
-/// Where no limit is posted, or none has been told of yet, nothing counts.
+/// Samples without a posted or known limit do not count.
 std::vector<Moment> limits(const DriveSeen& drive) {
   std::vector<Moment> moments;
   auto event = drive.events.begin();
@@ -162,7 +163,7 @@ std::vector<Moment> limits(const DriveSeen& drive) {
   return moments;
 }
 
-/// By speeds: what a car's body does for an instant is no braking.
+/// From speeds: a momentary pitch of the car's body is no braking.
 std::vector<Moment> brakings(const DriveSeen& drive) {
   std::vector<Moment> moments;
   std::size_t from = 0;
@@ -194,7 +195,7 @@ std::vector<Moment> mirrors(const DriveSeen& drive) {
   return moments;
 }
 
-/// Times without a glance, each told at its end. Standing still, and a gap in the samples, begin a new one.
+/// Times without a glance, each dated at its end. Standing still, and a gap in the samples, begin a new one.
 std::vector<Moment> lookouts(const DriveSeen& drive) {
   std::vector<Moment> moments;
   std::optional<double> since_s;
@@ -230,7 +231,7 @@ std::vector<Moment> hazards(const DriveSeen& drive) {
   const auto halt = first_halt(drive);
   if (!halt) return {};
   const double halt_s = drive.samples[*halt].simulated_time_s;
-  // Who has switched them on before is in time.
+  // A driver who has switched them on before is in time.
   for (const Sample& sample : drive.samples)
     if (sample.simulated_time_s > halt_s - blink_s && sample.lamps.has(Lamp::indicator_left) &&
         sample.lamps.has(Lamp::indicator_right))
@@ -288,12 +289,12 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
   return moments;
 }
 
-/// How far beyond the bound, in the measure's unit; below 0 within it.
+/// Excess over the bound, in the measure's unit; below 0 within it.
 double excess_of(const LessonTask& task, const Moment& moment) {
   return is_at_most(task.measure) ? moment.value - task.bound : task.bound - moment.value;
 }
 
-/// Of what is beyond the bound.
+/// Severity of an excess.
 Severity severity_of(const LessonTask& task, double excess) {
   if (task.measure == LessonMeasure::collision) return Severity::dangerous;
   return excess >= task.tolerance ? Severity::serious : Severity::minor;

@@ -1,8 +1,8 @@
 #pragma once
-/// How hard the driver accelerates, brakes and corners.
+/// Acceleration, braking and cornering of the driver's car.
 ///
-/// Longitudinal and lateral acceleration of the car's origin (middle of the rear axle) in the car's frame, as they are at the sample:
-/// nothing is differentiated or smoothed. A hard braking is an unbroken run of samples at or below −`hard_braking_mps2`.
+/// Longitudinal and lateral acceleration of the car's origin (middle of the rear axle) in the car's frame, as sampled:
+/// neither differentiated nor smoothed. A hard braking is an unbroken run of samples at or below −`hard_braking_mps2`.
 
 #include <span>
 
@@ -19,7 +19,7 @@ struct AccelerationMeasures {
   double strongest_mps2 = 0.0, strongest_braking_mps2 = 0.0, strongest_lateral_mps2 = 0.0;  ///< All ≥ 0.
   std::size_t hard_brakings = 0;
   std::size_t samples = 0;
-  std::size_t missing = 0;  ///< Whose acceleration is no number.
+  std::size_t missing = 0;  ///< Samples with NaN or infinite acceleration.
 };
 
 AccelerationMeasures compute_accelerations(std::span<const Sample> samples, const AccelerationSettings& settings = {});

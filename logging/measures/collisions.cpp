@@ -7,7 +7,7 @@
 namespace septet::logging {
 namespace {
 
-constexpr double beyond_everything = 1e9;  ///< In whatever unit; an event that somebody altered may say so.
+constexpr double beyond_everything = 1e9;  ///< In any unit; an altered event may exceed it.
 
 }  // namespace
 

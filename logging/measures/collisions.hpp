@@ -1,8 +1,9 @@
 #pragma once
-/// Collisions of the driver's car, with the speed at which it and the other closed in.
+/// Collisions of the driver's car, with their closing speeds.
 ///
-/// Out of the log's events `collision` (FORMAT.md): one for each contact, with a vehicle, a person, an object or what stands beside
-/// the road, when it began. The closing speed is that of the event's detail; an event that says none is counted as such.
+/// From the log's events `collision` (FORMAT.md): one for each contact, with a vehicle, a person, an object or roadside
+/// furniture, at its beginning. The closing speed is that of the event's detail; events without one are counted as
+/// such.
 
 #include <optional>
 #include <span>
@@ -14,13 +15,13 @@ namespace septet::logging {
 
 struct Collision {
   double simulated_time_s = 0.0;
-  std::optional<ParticipantId> other;  ///< Nothing: it stands beside the road.
+  std::optional<ParticipantId> other;  ///< Empty: roadside furniture.
   std::optional<double> closing_speed_mps;
 };
 
 std::vector<Collision> find_collisions(std::span<const Event> events);
 
-/// The number behind "KEY=" in an event's detail.
+/// Number after "KEY=" in an event's detail.
 std::optional<double> number_in_detail(const std::string& detail, const std::string& key);
 
 }  // namespace septet::logging

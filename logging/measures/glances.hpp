@@ -1,10 +1,10 @@
 #pragma once
-/// Glances at the mirrors, from where the head points.
+/// Glances at the mirrors, from the head's direction.
 ///
-/// A glance at an area begins with the first sample inside the area and ends with the first one
-/// outside (ISO 15007 counts likewise, with eye tracking); those shorter than `minimum_s` do not
-/// count: on its way to the right mirror the head passes through the inside mirror's area in less than a
-/// tenth of a second, which one sample of the 10 Hz can hit. A duration is known to 0.1 s.
+/// A glance at an area begins with the first sample inside the area and ends with the first one outside (ISO 15007
+/// counts likewise, with eye tracking); those shorter than `minimum_s` do not count: on its path to the right mirror
+/// the head passes through the inside mirror's area in less than a tenth of a second, which one sample of the 10 Hz can
+/// hit. A duration is known to 0.1 s.
 
 #include <optional>
 #include <span>
@@ -28,11 +28,11 @@ struct GlanceArea {
 /// eyes, so that each area reaches well towards the front.
 std::vector<GlanceArea> left_hand_drive_mirrors();
 
-/// Those of the rig's mirrors; where it names none, those of a left-hand-drive car.
+/// Areas of the rig's mirrors; for a rig without named mirrors those of a left-hand-drive car.
 std::vector<GlanceArea> glance_areas(const rig::Rig& rig);
 
 struct Glance {
-  Tick tick = 0;  ///< Of its first sample.
+  Tick tick = 0;  ///< Tick of its first sample.
   double start_s = 0.0, duration_s = 0.0;
   std::string area;
   bool operator==(const Glance&) const = default;
@@ -51,10 +51,10 @@ struct GlanceDetector {
 /// Takes the next sample; returns the glance that ended with it.
 std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample);
 
-/// Whether the head's direction was measured: where nothing told it, it never moved.
+/// True if the head's direction was measured: without a source it never moves.
 bool is_head_known(std::span<const Sample> samples);
 
-/// A glance that lasts until the last sample counts with the time it has.
+/// A glance that lasts until the last sample counts with its duration so far.
 std::vector<Glance> find_glances(std::span<const Sample> samples, const GlanceSettings& settings = {});
 
 }  // namespace septet::logging

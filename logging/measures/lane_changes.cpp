@@ -9,9 +9,8 @@
 namespace septet::logging {
 namespace {
 
-/// +1 where the step from `a` to `b` crosses a line to the left, −1 to the right, 0 otherwise.
-/// Crossing to the left, the lateral position jumps from the left edge of one lane to the right
-/// edge of the next: it falls by a lane width.
+/// +1 if the step from `a` to `b` crosses a line to the left, −1 to the right, 0 otherwise. Crossing to the left, the
+/// lateral position jumps from the left edge of one lane to the right edge of the next: it falls by a lane width.
 int crossed_line(const Sample& a, const Sample& b) {
   if (a.lane == b.lane && a.road == b.road) return 0;
   const double jump_m = b.lateral_position_m - a.lateral_position_m;
@@ -20,7 +19,7 @@ int crossed_line(const Sample& a, const Sample& b) {
   return jump_m < 0.0 ? 1 : -1;
 }
 
-/// How far the reference point is beyond the line through which it came into this lane.
+/// Distance of the reference point beyond the line through which it came into this lane.
 double depth_beyond_line_m(const Sample& sample, int came_to_left) {
   return sample.lane_width_m / 2.0 + (came_to_left > 0 ? 1.0 : -1.0) * sample.lateral_position_m;
 }

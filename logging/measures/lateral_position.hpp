@@ -1,11 +1,9 @@
 #pragma once
-/// How well the driver keeps the lane: mean and standard deviation of lateral position, and its
-/// histogram.
+/// Lane keeping of the driver: mean and standard deviation of lateral position, and its histogram.
 ///
-/// Reference point: the middle of the front axle, which the driver steers (SAE J2944:2015, 10.1.2,
-/// reference point 2). Positive is to the driver's left. The standard
-/// deviation divides by N (the samples are the drive, not a draw from it); the N−1 form stands
-/// beside it, since J2944 10.1.3 wants to know which.
+/// Reference point: the middle of the front axle, which the driver steers (SAE J2944:2015, 10.1.2, reference point 2).
+/// Positive is to the driver's left. The standard deviation divides by N (the samples are the drive, not a draw from
+/// it); the N−1 form stands beside it, since J2944 10.1.3 asks for the divisor.
 
 #include <array>
 #include <cstddef>
@@ -18,8 +16,8 @@
 namespace septet::logging {
 
 struct LateralPositionSettings {
-  /// Samples nearer than this to a lane change's line crossing are left out: a lane change is no
-  /// error of lane keeping. Zero leaves lane changes in.
+  /// Samples nearer than this to a lane change's line crossing are left out: a lane change is no error of lane keeping.
+  /// Zero keeps lane changes in.
   double exclude_around_lane_change_s = 3.0;
 };
 
@@ -42,13 +40,12 @@ LateralPositionStatistics compute_lateral_position_statistics(std::span<const Sa
 struct LateralPositionHistogram {
   static constexpr std::size_t bins = 21;
   std::array<std::size_t, bins> counts{};
-  std::size_t underflow = 0;  ///< Right of the lane.
-  std::size_t overflow = 0;   ///< On or left of the left-hand line.
-  std::size_t off_lane = 0;   ///< No lane, or no width or position.
+  std::size_t underflow = 0;  ///< Samples right of the lane.
+  std::size_t overflow = 0;   ///< Samples on or left of the left-hand line.
+  std::size_t off_lane = 0;   ///< Samples without lane, width or position.
 
   static constexpr double edge(std::size_t i) { return -0.5 + static_cast<double>(i) / bins; }
-  /// All samples that have a relative position, under- and overflow among them: the divisor of
-  /// `fraction`.
+  /// All samples with a relative position, under- and overflow among them: the divisor of `fraction`.
   std::size_t total() const;
   double fraction(std::size_t bin) const;
 };

@@ -6,8 +6,8 @@
 
 namespace septet::logging {
 
-/// The value below which a share of the numbers lies, between two of them in proportion (Hyndman and Fan 1996, type 7, as R and
-/// NumPy do by default). 0 ≤ share ≤ 1. Nothing of no number; numbers that are not finite are not counted.
+/// The value below which a share of the numbers lies, interpolated linearly (Hyndman and Fan 1996, type 7, the default
+/// of R and NumPy). 0 ≤ share ≤ 1. Non-finite numbers are skipped; empty without a number.
 std::optional<double> quantile(std::span<const double> numbers, double share);
 
 inline std::optional<double> median(std::span<const double> numbers) { return quantile(numbers, 0.5); }

@@ -1,5 +1,5 @@
 #pragma once
-/// Which samples follow each other: measures that difference or filter do so within unbroken runs, and fill nothing.
+/// Consecutive samples: measures that difference or filter do so within unbroken runs, and fill nothing.
 
 #include <span>
 #include <vector>
@@ -13,7 +13,7 @@ inline constexpr double sample_interval_s = 0.1;
 /// Ten a second at 120 ticks a second are 0.1 s apart; a sample that is missing makes 0.2 s.
 inline constexpr double longest_step_s = 0.15;
 
-/// A longer step is a gap: what was going on before it is not gone on with.
+/// A longer step is a gap: no measure continues across it.
 inline constexpr double longest_gap_s = 1.0;
 
 inline bool is_gap(const Sample& before, const Sample& after) {

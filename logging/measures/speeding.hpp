@@ -1,8 +1,9 @@
 #pragma once
-/// Driving faster than allowed.
+/// Driving above the speed limit.
 ///
-/// A sample is a violation where its speed exceeds the limit of its lane (OpenDRIVE's, of lane or road type) by more than the
-/// tolerance; an episode is an unbroken run of them. Where no limit is posted nothing is violated, and the samples are counted.
+/// A sample is a violation if its speed exceeds the limit of its lane (OpenDRIVE's, of lane or road type) by more than
+/// the tolerance; an episode is an unbroken run of them. Samples without a posted limit are counted apart and violate
+/// nothing.
 
 #include <optional>
 #include <span>
@@ -16,15 +17,15 @@ struct SpeedingSettings {
 };
 
 struct SpeedingMeasures {
-  double share = 0.0;   ///< Of the samples with a limit.
+  double share = 0.0;   ///< Share of the samples with a limit.
   double over_s = 0.0;  ///< 0.1 s a sample.
   std::size_t episodes = 0;
   double largest_excess_mps = 0.0;  ///< Over the limit, of the violations.
-  std::size_t samples = 0;          ///< With a limit.
+  std::size_t samples = 0;          ///< Samples with a limit.
   std::size_t no_limit = 0;
 };
 
-/// `limits_mps`: one for each sample; nothing where none is known.
+/// `limits_mps`: one for each sample; empty if unknown.
 SpeedingMeasures compute_speeding(std::span<const Sample> samples, std::span<const std::optional<double>> limits_mps,
                                   const SpeedingSettings& settings = {});
 

@@ -9,7 +9,7 @@
 namespace septet::logging {
 namespace {
 
-/// Direct form II transposed, begun as if the first value had always been there.
+/// Direct form II transposed, started in the steady state of the first value.
 void run(const SecondOrderFilter& f, std::vector<double>& values) {
   const double gain = (f.b0 + f.b1 + f.b2) / (1.0 + f.a1 + f.a2);
   double second = (f.b2 - f.a2 * gain) * values.front();
@@ -66,7 +66,7 @@ std::vector<double> filtered_both_ways(const SecondOrderFilter& filter, std::spa
 }
 
 std::size_t count_reversals(std::span<const double> values, double gap) {
-  // Stationary: the first value, and where what goes up goes down next, or nothing moves.
+  // Stationary points: the first value, and each change between rising and falling, or a rest.
   std::vector<double> stationary;
   int direction = 0;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {

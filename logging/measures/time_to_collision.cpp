@@ -28,7 +28,7 @@ TtcMeasures compute_time_to_collision(std::span<const Sample> samples, const Ttc
     }
     if (ttc_s && previous_s && follows(samples[i - 1], sample) &&
         samples[i - 1].leader->participant == sample.leader->participant) {
-      // Of a straight line from a to b below τ: how long, and the area between.
+      // Duration and area of a straight line from a to b below τ.
       const double a = settings.threshold_s - *previous_s, b = settings.threshold_s - *ttc_s;
       const double low = std::min(a, b), high = std::max(a, b);
       if (high >= 0.0) {

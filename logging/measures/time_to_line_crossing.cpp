@@ -41,11 +41,11 @@ std::optional<double> smaller(const std::optional<double>& one, const std::optio
 
 using Values = std::array<std::optional<double>, 4>;  ///< By TlcKind.
 
-/// Of the nearer crossing of the two lines; nothing where a side of the car is over one.
+/// For the nearer crossing of the two lines; empty if a side of the car is over one.
 std::optional<Values> tlc_of(const Sample& sample, const LateralMotion& motion, double half_width_m) {
   const double speed_mps = sample.speed_mps;
   const double heading_rad = std::asin(std::clamp(motion.speed_mps / speed_mps, -1.0, 1.0));
-  // The lane's direction turns by what of the yaw rate is not the car's turning within the lane.
+  // The lane's direction turns by the part of the yaw rate that is not the car's turning within the lane.
   const double forward_mps = speed_mps * std::cos(heading_rad);
   const double curvature_pm =
       forward_mps > 0.0 ? (sample.yaw_rate_radps - motion.acceleration_mps2 / forward_mps) / forward_mps : 0.0;
@@ -78,7 +78,7 @@ class Collector {
     if (value_s != previous_s_) is_falling_ = value_s < previous_s_;
     previous_s_ = value_s;
   }
-  /// What follows has no part in the drift before it.
+  /// Later samples do not belong to the drift before.
   void interrupt() {
     is_falling_ = false;
     previous_s_ = std::numeric_limits<double>::infinity();
@@ -126,8 +126,9 @@ std::optional<double> van_winsum_tlc_s(const LineApproach& approach) {
 std::optional<double> trigonometric_tlc_s(const PathAndLine& path) {
   if (!(path.speed_mps > 0.0)) return std::nullopt;
   const double k = path.yaw_rate_radps / path.speed_mps, kappa = path.line_curvature_pm, d = path.distance_m;
-  // A point (x, y) is on the line where κ(x² + y² + d²)/2 + d − y(1 + κd) = 0: a circle of curvature κ through (0, d), or y = d. Along
-  // the path, with σ = 2/k·tan(ks/2) for the arc s (σ = s where it is straight), that is aσ² + bσ + c = 0.
+  // A point (x, y) is on the line where κ(x² + y² + d²)/2 + d − y(1 + κd) = 0: a circle of curvature κ through (0, d),
+  // or y = d. Along the path, with σ = 2/k·tan(ks/2) for the arc s (σ = s where it is straight), that is aσ² + bσ + c =
+  // 0.
   const double c = d + kappa * d * d / 2.0;
   const double b = -(1.0 + kappa * d) * std::sin(path.heading_rad);
   const double a = (kappa - k * (1.0 + kappa * d) * std::cos(path.heading_rad)) / 2.0 + c * k * k / 4.0;
@@ -135,7 +136,7 @@ std::optional<double> trigonometric_tlc_s(const PathAndLine& path) {
   const auto consider = [&](double sigma) {
     if (!std::isfinite(sigma)) return;
     double s = std::abs(k) > 1e-12 ? 2.0 / k * std::atan(k * sigma / 2.0) : sigma;
-    if (s < 0.0 && std::abs(k) > 1e-12) s += 2.0 * std::numbers::pi / std::abs(k);  // The long way round.
+    if (s < 0.0 && std::abs(k) > 1e-12) s += 2.0 * std::numbers::pi / std::abs(k);  // The long arc.
     if (s >= 0.0) arc_m = smaller(arc_m, s);
   };
   const double discriminant = b * b - 4.0 * a * c;

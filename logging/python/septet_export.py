@@ -1,4 +1,4 @@
-"""Writes Septet sessions for other programs: tables as CSV, JSON or Parquet with their units, and everybody's motion as an ASAM OSI trace.
+"""Writes Septet sessions for other programs: tables as CSV, JSON or Parquet with their units, and all participants' motion as an ASAM OSI trace.
 
     python3 septet_export.py tables out/session.sqlite --as parquet --out tables
     python3 septet_export.py osi out/session.sqlite --out drive.mcap
@@ -19,10 +19,10 @@ import pandas
 import septet_session
 from septet_session import SessionError
 
-# What the end of a column's name says, longest first; UCUM's symbols.
+# Unit by the end of a column's name, longest first; UCUM's symbols.
 _UNITS = (("mm_per_h", "mm/h"), ("radps", "rad/s"), ("mps2", "m/s2"), ("mps", "m/s"), ("lux", "lx"), ("rad", "rad"), ("deg", "deg"),
           ("nm", "N.m"), ("m", "m"), ("s", "s"), ("k", "K"), ("percent", "%"))
-# Numbers that count or say a share have the unit one; what is text, a name or a number that is only an identity has none.
+# Counts and shares have the unit one; texts, names and numeric identities have none.
 _IDENTITIES = {"tick", "participant", "model", "paint", "lamps", "road", "lane", "leader", "gear", "selector", "indicator", "id", "sequence",
                "order", "end", "level"}
 
@@ -38,7 +38,7 @@ def unit_of(column, series):
 
 
 def tables_of(session, every=12):
-    """Everything of a session that is a table, by name. `every`: of which ticks the motion of everybody is taken."""
+    """All tables of a session, by name. `every`: interval in ticks of the participants' motion."""
     tables = {"samples": session.samples, "events": session.events, "driver_inputs": session.driver_inputs,
               "questionnaire": session.questionnaire, "meta": pandas.DataFrame(session.meta.items(), columns=["key", "value"])}
     if session.has_snapshots:
@@ -51,7 +51,7 @@ def columns_of(frame):
 
 
 def _plain(value):
-    """A cell as JSON has it; what is not finite is null."""
+    """A cell in JSON's form; NaN and infinite numbers are null."""
     if isinstance(value, (np.integer, np.bool_)):
         return value.item()
     if isinstance(value, (float, np.floating)):
@@ -113,7 +113,8 @@ def write_tables(session, folder, form="csv", every=12):
     return written
 
 
-# --- ASAM OSI ---------------------------------------------------------------------------------------------------------------------------
+# --- ASAM OSI
+# ---------------------------------------------------------------------------------------------------------------------------
 
 _VEHICLE_TYPES = {"car": "TYPE_MEDIUM_CAR", "van": "TYPE_DELIVERY_VAN", "ambulance": "TYPE_DELIVERY_VAN", "lorry": "TYPE_HEAVY_TRUCK",
                   "bus": "TYPE_BUS", "motorcycle": "TYPE_MOTORBIKE", "bicycle": "TYPE_BICYCLE"}
@@ -199,7 +200,7 @@ class _GroundTruths:
         base.orientation.roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
         base.orientation.pitch = math.asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x))))
         base.orientation.yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-        # Rates of roll, pitch and yaw from the angular velocity (intrinsic z, y, x); at 90 degrees of pitch there are none.
+        # Rates of roll, pitch and yaw from the angular velocity (intrinsic z, y, x); undefined at 90 degrees of pitch.
         pitch, yaw = base.orientation.pitch, base.orientation.yaw
         along = spin[0] * math.cos(yaw) + spin[1] * math.sin(yaw)
         across = -spin[0] * math.sin(yaw) + spin[1] * math.cos(yaw)
@@ -295,8 +296,8 @@ def main(arguments=None):
     commands = parser.add_subparsers(dest="command", required=True)
     tables = commands.add_parser("tables", help="every table of the session as a file with units")
     tables.add_argument("--as", dest="form", choices=sorted(_WRITERS), default="csv")
-    tables.add_argument("--every", type=_positive, default=12, help="of which ticks everybody's motion is taken (12: ten times a second)")
-    osi = commands.add_parser("osi", help="everybody at every tick as osi3.GroundTruth in a MCAP file")
+    tables.add_argument("--every", type=_positive, default=12, help="interval in ticks of the participants' motion (12: ten times a second)")
+    osi = commands.add_parser("osi", help="all participants at every tick as osi3.GroundTruth in a MCAP file")
     osi.add_argument("--every", type=_positive, default=1, help="only each so many-th tick")
     for command, what in ((tables, "folder for the files"), (osi, "the .mcap file")):
         command.add_argument("session", help="session.sqlite of a drive")

@@ -3,12 +3,12 @@
     import septet_session
     session = septet_session.open("out/session.sqlite")
     session.samples                      # ten rows a second, as in FORMAT.md
-    session.participants(every=12)       # everybody, every 12th tick
+    session.participants(every=12)       # all participants, every 12th tick
     session.driver_car()                 # the driver's car, every tick
 
 Units stand in the columns' names; positions are of the middle of the rear axle on the ground, world frame: x east, y north,
-z up. A session whose writer was killed, or is still writing, opens as well. The file may be somebody else's: nothing beside it is changed,
-and whatever is wrong with it is a SessionError.
+z up. A session whose writer was killed, or is still writing, opens as well. The file may be of unknown origin: nothing beside it is changed,
+and any fault of it is a SessionError.
 """
 
 import contextlib
@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 import pandas
 
-from septet_snapshot import DIAGNOSTICS, DRIVER_CAR, ENVIRONMENT, FIELDS, LAMPS, SessionError, motion_of, unpack  # noqa: F401
+# noqa: F401
+from septet_snapshot import DIAGNOSTICS, DRIVER_CAR, ENVIRONMENT, FIELDS, LAMPS, SessionError, motion_of, unpack
 from septet_untrusted import DAMAGE, UntrustedDatabase
 
 APPLICATION_ID = 0x53535444
@@ -29,7 +30,7 @@ _TEXTS = ("role", "name", "kind", "detail", "item", "question", "answer", "reaso
 
 @contextlib.contextmanager
 def _names(session):
-    """Whatever the file's bytes lead to is told of the file."""
+    """Turns any exception from the file's bytes into an error about the file."""
     try:
         yield
     except SessionError as error:
@@ -109,7 +110,7 @@ class Session:
     @property
     @_told
     def meta(self):
-        """Key to value, as text: who drove, seeds, how it ended (FORMAT.md, `meta`)."""
+        """Key to value, as text: driver, seeds, end (FORMAT.md, `meta`)."""
         return dict(self._rows("key, value", "meta").fetchall())
 
     @property
@@ -121,12 +122,12 @@ class Session:
     @property
     @_told
     def has_snapshots(self):
-        """False of a drive whose log kept samples alone."""
+        """False for a drive whose log kept samples alone."""
         return self._rows("1", "snapshots", "LIMIT 1").fetchone() is not None
 
     @_told
     def vehicle_models(self):
-        """What a participant's `model` is, by its index. Sessions of earlier builds do not say it."""
+        """Models of participants, by index. Empty for sessions of earlier builds."""
         text = self.meta.get("vehicle_models")
         if text is None:
             raise SessionError(f"{self.path}: the session does not say what its vehicles are; it is of an earlier build: drive it again")
@@ -137,7 +138,7 @@ class Session:
 
     @_told
     def who(self):
-        """Everybody who ever took part: name, what they are, and from when to when; one row a participant."""
+        """All participants: name, model, first and last time; one row a participant."""
         return self._who(_Seen().of(self.snapshots()))
 
     def _who(self, seen):
@@ -174,7 +175,7 @@ class Session:
     @property
     @_told
     def actuators(self):
-        """What fan, shaker and wheel force were told, ten rows a second; empty in sessions of earlier builds."""
+        """Commands to fan, shaker and wheel force, ten rows a second; empty in sessions of earlier builds."""
         if self._has_table("actuators"):
             return self._table("actuators")
         return pandas.DataFrame(columns=["tick", "fan", "vibration", "vibration_hz", "steering", "is_cut"])
@@ -198,27 +199,27 @@ class Session:
 
     @_told
     def participants(self, every=1):
-        """Everybody's motion: one row a participant and tick, of every `every`-th tick."""
+        """Motion of all participants: one row a participant and tick, of every `every`-th tick."""
         return _participants(self._each(every))
 
     @_told
     def driver_car(self, every=1):
-        """The driver's car as its instruments show it, and what went wrong so far; one row a tick."""
+        """The driver's car as its instruments show it, and its faults so far; one row a tick."""
         return _driver_car(self._each(every))
 
     @_told
     def head(self, every=1):
-        """Where the driver's eyes were beside the rig's eye point, and how far the pictures were turned to the left; one row a tick."""
+        """Offset of the driver's eyes from the rig's eye point, and the pictures' turn to the left; one row a tick."""
         return _head(self._each(every))
 
     @_told
     def game(self, every=12):
-        """How a game stands, ten times a second unless told otherwise; no row where the scenario is none."""
+        """Standing of a game, ten times a second by default; no row if the scenario is no game."""
         return _game(self._each(every))
 
     @_told
     def environment(self, every=120):
-        """Weather and light, once a second unless told otherwise."""
+        """Weather and light, once a second by default."""
         return _environment(self._each(every))
 
     @_told
@@ -234,7 +235,7 @@ class Session:
 
 
 class _Seen:
-    """Who has been seen: id to model, first and last time."""
+    """Participants seen: id to model, first and last time."""
 
     def __init__(self):
         self.times, self.driver = {}, None
@@ -286,5 +287,5 @@ def _environment(taken):
 
 
 def open(path):  # pylint: disable=redefined-builtin
-    """The session in a file, or a SessionError that says what is wrong."""
+    """The session in a file, or a SessionError with its fault."""
     return Session(path)

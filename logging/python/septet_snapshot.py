@@ -1,4 +1,4 @@
-"""The snapshots of a Septet session file: from a row's bytes to everybody's motion (engine/world/SNAPSHOT.md, logging/FORMAT.md).
+"""The snapshots of a Septet session file: from a row's bytes to all participants' motion (engine/world/SNAPSHOT.md, logging/FORMAT.md).
 
 Those who want a session open it with septet_session.
 """
@@ -20,7 +20,7 @@ DRIVER_CAR = ("speed_mps", "engine_radps", "steering_wheel_rad", "steering_torqu
               "yaw_rate_radps", "gaze_heading_rad", "road_s_m", "lateral_position_m", "lane_width_m")
 DIAGNOSTICS = ("bad_numbers", "collisions", "input_stale_ticks")
 
-# A participant's integers in the order of SNAPSHOT.md; what one step of each is worth.
+# A participant's integers in the order of SNAPSHOT.md, and the value of one step of each.
 _SPIN_STEPS = 1 << 16
 _UNIT_OF_FIELD = [
     ("model", 1), ("paint", 1), ("lamps", 1), ("x_m", 1 / 4096), ("y_m", 1 / 4096), ("z_m", 1 / 4096),
@@ -40,7 +40,7 @@ _VELOCITY_LIMIT = 1024 * 1024
 
 
 class SessionError(Exception):
-    """What is wrong with a file, where, and what to do."""
+    """A file's fault, its place, and the remedy."""
 
 
 class _Bytes:
@@ -100,7 +100,7 @@ def _rounded(values):
 
 
 def _moved_on(fields, seconds):
-    """Where participants are expected some time later: the reference that a difference is taken to (SNAPSHOT.md)."""
+    """Predicted participants some time later: the reference of differences (SNAPSHOT.md)."""
     moved = fields.copy()
     velocity = fields[:, _VELOCITY].astype(float)
     acceleration = fields[:, _ACCELERATION].astype(float)
@@ -160,7 +160,8 @@ def _decode(data, baseline):
     return snapshot
 
 
-# Position, and which component of the orientation is the largest, and the others: they go on going wrong as they did (FORMAT.md).
+# Position, and which component of the orientation is the largest, and the others: they go on going wrong as they did
+# (FORMAT.md).
 _LASTING = slice(3, 10)
 _LASTING_HIGH = np.array([_POSITION_LIMIT] * 3 + [3] + [int(_ORIENTATION_STEPS)] * 3)
 _LASTING_LOW = np.array([-_POSITION_LIMIT] * 3 + [0] + [-int(_ORIENTATION_STEPS)] * 3)
@@ -223,7 +224,7 @@ def _orientations(fields):
 
 
 def motion_of(fields):
-    """Everybody's motion, column to array: a row for each of `fields`, as a Snapshot has them."""
+    """Motion of all participants, column to array: a row for each of `fields`, as in a Snapshot."""
     w, x, y, z = _orientations(fields).T
     frame = {}
     for index, name in enumerate(FIELDS):

@@ -21,7 +21,7 @@ _WAL_MAGICS = (b"\x37\x7f\x06\x82", b"\x37\x7f\x06\x83")
 # Changes beside a session that are larger are not copied to be read (logging/files_beside.hpp).
 MOST_COPIED_BYTES = 4 << 30
 _ALLOWED_PRAGMAS = ("application_id", "user_version")
-# What the file's bytes can make Python, NumPy, pandas and zlib raise.
+# Exceptions that a file's bytes can make Python, NumPy, pandas and zlib raise.
 DAMAGE = (sqlite3.Error, sqlite3.Warning, ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, TypeError, ValueError, struct.error,
           zlib.error, EOFError)
 
@@ -42,7 +42,7 @@ def _found(path):
 
 
 def _has_hot_journal(path):
-    """Whether something that was cut off has to be rolled back. A journal may name a second file, which SQLite deletes."""
+    """True if an interrupted change has to be rolled back. A journal may name a second file, which SQLite deletes."""
     journal = _beside(path, "-journal")
     found = _found(journal)
     if found is None or found.st_size == 0:
@@ -62,14 +62,14 @@ def _connect(path, options):
 
 
 def _is_wal(path):
-    """Whether SQLite would read commits from it."""
+    """True where SQLite would read commits from it."""
     with open(path, "rb") as file:
         first = file.read(4)
     return first in _WAL_MAGICS
 
 
 def _of_copy(path):
-    """A copy in a private folder, in which what was cut off is rolled back and a killed drive's newest commits are folded in."""
+    """A copy in a private folder, in which interrupted changes are rolled back and a killed drive's newest commits are folded in."""
     beside = sum(found.st_size for found in (_found(_beside(path, "-journal")), _found(_beside(path, "-wal"))) if found is not None)
     if beside > MOST_COPIED_BYTES:
         raise SessionError(f"{path}: beside the session lie {beside / 1e6:.0f} MB of changes that belong to it, too many to be copied: if you trust who sent "
@@ -119,13 +119,13 @@ def _may(action, first, second, _database, view):
 
 
 class UntrustedDatabase:
-    """A connection that only reads, and whose questions end."""
+    """A read-only connection with bounded queries."""
 
     def __init__(self, path):
         self.path = path
         if not path.is_file():
             raise SessionError(f"{path}: there is no such file; a drive writes session.sqlite into its --out folder")
-        # SQLite deletes what lies beside an empty file.
+        # SQLite deletes the files beside an empty file.
         if path.stat().st_size == 0:
             raise SessionError(f"{path}: not a session file (it is empty)")
         try:
@@ -152,6 +152,6 @@ class UntrustedDatabase:
         self._database.close()
 
     def ask(self, sql, *values):
-        """A cursor; the limit counts anew from here."""
+        """A cursor; the limit restarts here."""
         self._steps_left = self._steps
         return self._database.execute(sql, values)

@@ -17,7 +17,7 @@ using document::escaped;
 
 std::string in_words(const std::string& label) { return label.empty() ? "no part" : label; }
 
-/// Of one part and condition.
+/// For one part and condition.
 std::string survival_section(const GroupReport& report, const std::string& label, const std::string& title) {
   std::vector<std::pair<std::string, std::vector<ObservedTime>>> groups;
   double longest_s = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-/// What people answered and for how long they drove, as sections of a group's page: each part and condition by itself, where there are
-/// several, for one person's answers after different drives are different answers.
+/// Answers and playing times of people, as sections of a group's page: each part and condition by itself, where there
+/// are several, since one person's answers after different drives are different answers.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace septet::logging {
 
-/// Kaplan and Meier's curves by group, and log-rank tests; empty where nobody has a playing time.
+/// Kaplan and Meier's curves by group, and log-rank tests; empty without a playing time.
 std::string survival_sections(const GroupReport& report);
-/// Empty where nothing was answered.
+/// Empty without an answer.
 std::string answers_section(const GroupReport& report);
 
 }  // namespace septet::logging

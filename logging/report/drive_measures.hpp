@@ -1,6 +1,5 @@
 #pragma once
-/// All measures of one drive, out of its samples, inputs and events: what the report prints and the summary
-/// takes from.
+/// All measures of one drive, from its samples, inputs and events: for the report and the summary.
 
 #include <optional>
 #include <vector>
@@ -22,7 +21,7 @@
 
 namespace septet::logging {
 
-/// Statistics of fewer samples (30 s) are no figure to compare with anything, and say so.
+/// Statistics of fewer samples (30 s) are not comparable, and are marked so.
 inline constexpr std::size_t few_samples = 300;
 
 struct MeasureSettings {
@@ -36,24 +35,24 @@ struct MeasureSettings {
   AccelerationSettings accelerations;
   ReversalSettings reversals_visual = visual_load_reversals, reversals_cognitive = cognitive_load_reversals;
   SteeringEntropySettings steering_entropy;
-  std::optional<NamedEvent> braking_event;  ///< What is to be braked for; without it nothing is.
+  std::optional<NamedEvent> braking_event;  ///< Event to brake for; without it there is no reaction time.
   BrakeReactionSettings brake_reaction;
 };
 
 struct DriveMeasures {
   std::size_t samples = 0;
-  ImpossibleNumbers impossible;  ///< What was left out.
+  ImpossibleNumbers impossible;  ///< Rows left out.
   double duration_s = 0.0;
   double distance_m = 0.0;                                                   ///< Speed summed over time (trapezoidal).
   double speed_mean_mps = 0.0, speed_sd_mps = 0.0, speed_largest_mps = 0.0;  ///< SD divides by N.
   LateralPositionStatistics lateral_position;
   LateralPositionHistogram histogram;
   std::vector<LaneChange> lane_changes;
-  /// Whether a lane was known at any sample: else there was none to change.
+  /// True if a lane was known at any sample: without one there are no lane changes.
   bool has_lanes() const { return histogram.total() > 0; }
   std::optional<double> between_lane_changes_s;
-  std::vector<GlanceArea> glance_areas;  ///< Whose glances were looked for.
-  bool head_is_known = false;            ///< Else nothing is known of glances.
+  std::vector<GlanceArea> glance_areas;  ///< Areas searched for glances.
+  bool head_is_known = false;            ///< If false, glances are unknown.
   std::vector<Glance> glances;
   std::optional<double> between_glances_s;  ///< Duration over their number.
   FollowingMeasures following;

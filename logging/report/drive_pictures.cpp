@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_moments = 6;
 
-/// The folder of the screen whose pictures are shown, and their ticks.
+/// Folder of the screen whose pictures are shown, and their ticks.
 std::pair<fs::path, std::vector<std::int64_t>> screen_of(const SessionInfo& info, const fs::path& session_folder) {
   std::vector<fs::path> folders;
   std::error_code error;

@@ -1,5 +1,5 @@
 #pragma once
-/// The pictures that lie beside a session, and which of them its report shows. None is copied.
+/// Pictures beside a session, and the selection that its report shows. They are linked, not copied.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,15 +13,15 @@ namespace septet::logging {
 
 struct DrivePicture {
   std::string link;  ///< From the page.
-  std::string says;  ///< What it shows; plain text.
+  std::string says;  ///< Caption; plain text.
   bool is_wide = false;
 };
 
-/// The ticks of the pictures TICK.png in a folder, ascending; none where there is no such folder.
+/// Ticks of the pictures TICK.png in a folder, ascending; empty if the folder does not exist.
 std::vector<std::int64_t> picture_ticks_in(const std::filesystem::path& folder);
 
-/// The panorama, and of the screen ahead (or, where that kept none, of the first by name that did) the first picture, the nearest to each
-/// mark and collision, not more than six of these, and the last.
+/// The panorama, and from the screen ahead (or, if that kept none, the first by name that did) the first picture, the
+/// nearest to each mark and collision, at most six of these, and the last.
 std::vector<DrivePicture> find_drive_pictures(const SessionInfo& info, std::span<const Event> events,
                                               const std::filesystem::path& session_folder,
                                               const std::filesystem::path& page_folder);

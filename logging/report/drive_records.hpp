@@ -1,5 +1,5 @@
 #pragma once
-/// Of a session what its measures are computed from.
+/// Data of a session that its measures are computed from.
 
 #include <optional>
 #include <vector>
@@ -16,20 +16,20 @@ struct DriveRecords {
   std::vector<Sample> samples;
   std::vector<InputRecord> inputs;
   std::vector<Event> events;
-  /// One for each sample, of the lane it is in; nothing where none is posted or the road is not known. Empty: of none is known.
+  /// One per sample, for its lane; empty if no limit is posted or the road is unknown. Empty vector: all unknown.
   std::vector<std::optional<double>> speed_limits_mps;
   double ticks_per_second = 120.0;
-  std::vector<GlanceArea> glance_areas;  ///< Of the rig that was sat in; empty: it is not known.
-  std::optional<double> car_width_m;     ///< Of the vehicle that was driven, without mirrors; nothing: it is not known.
-  ImpossibleNumbers impossible;          ///< What was left out of these.
+  std::vector<GlanceArea> glance_areas;  ///< Areas of the session's rig; empty: unknown.
+  std::optional<double> car_width_m;     ///< Width of the driven vehicle, without mirrors; empty: unknown.
+  ImpossibleNumbers impossible;          ///< Rows left out of these.
 };
 
 Expected<DriveRecords> read_drive_records(const SessionReader& reader);
 
-/// From the vehicle's file that the session holds; nothing where it holds none that can be read.
+/// From the session's vehicle file; empty if it has none that can be read.
 std::optional<double> car_width_of(const SessionInfo& info);
 
-/// From the road that the session holds. A session without a road that can be read has no limits.
+/// From the session's road. A session without a readable road has no limits.
 std::vector<std::optional<double>> speed_limits_of(const SessionInfo& info, const std::vector<Sample>& samples);
 
 }  // namespace septet::logging

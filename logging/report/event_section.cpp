@@ -20,7 +20,7 @@ constexpr std::size_t most_told_at_a_tick = 6;  ///< Events in the tip of one ti
 
 std::string sentence(const ToldEvent& event) { return fmt::format("{:.1f} s: {}", event.time_s, event.says); }
 
-/// Those of one row that fall on the same unit of the picture are one tick.
+/// Events of one row that fall on the same unit of the picture share a tick.
 std::string ticks_of(const std::vector<const ToldEvent*>& events, const document::Axis& x, double top) {
   std::map<long, std::vector<const ToldEvent*>> columns;
   for (const ToldEvent* event : events)
@@ -32,7 +32,7 @@ std::string ticks_of(const std::vector<const ToldEvent*>& events, const document
     for (std::size_t i = 0; i < std::min(here.size(), most_told_at_a_tick); ++i)
       tip += (i ? "\n" : "") + sentence(*here[i]);
     if (here.size() > most_told_at_a_tick) tip += fmt::format("\nand {} more", here.size() - most_told_at_a_tick);
-    // The wide one lies below, unseen, for the hand that points.
+    // The wide one lies below, invisible, as a target for the pointer.
     svg += fmt::format(
         "<g><title>{}</title><path class=\"touch\" d=\"M{} {:.0f}v14\"/><path class=\"event\" d=\"M{} "
         "{:.0f}v14\"/></g>\n",
@@ -79,7 +79,7 @@ std::string event_table(std::span<const ToldEvent> events) {
   if (events.empty()) return "";
   std::vector<const ToldEvent*> ordered;
   for (const ToldEvent& event : events) ordered.push_back(&event);
-  // What is no time is told last.
+  // Events without a valid time come last.
   std::ranges::stable_sort(ordered, {},
                            [](const ToldEvent* event) { return std::isfinite(event->time_s) ? event->time_s : 1e300; });
   std::map<const EventRow*, std::size_t> counts;

@@ -1,6 +1,6 @@
 #pragma once
-/// The events of a drive on its page: a strip of the time line for each kind, below the speed and as long as it, and a table of when
-/// and what.
+/// The events of a drive on its page: a strip of the time line for each kind, below the speed and as long as it, and a
+/// table of times and texts.
 
 #include <span>
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace septet::logging {
 
-/// More of one row are counted and not listed, so that an hour of glances stays a page.
+/// More rows of one kind are counted and not listed, so that an hour of glances stays a page.
 inline constexpr std::size_t most_listed_events = 60;
 
-/// An `svg` element whose time runs as that of a line chart over `time_s`; empty without events.
+/// An `svg` element on the time axis of a line chart over `time_s`; empty without events.
 std::string event_strip(std::span<const ToldEvent> events, document::Range time_s);
 
 /// Heading and table; empty without events.

@@ -30,12 +30,12 @@ const PooledDrive* drive_of(const PooledSubject& subject, const std::string& lab
   return found == subject.drives.end() ? nullptr : &*found;
 }
 
-/// Values of one measure by group, of those who have one.
+/// Values of one measure by group, for subjects with a value.
 using ByGroup = std::vector<std::pair<std::string, std::vector<double>>>;
 
 /// Every measure of every drive with this label: first which, then by group.
 struct MeasureColumn {
-  ListedMeasure measure;  ///< Of somebody, for title, unit and definition.
+  ListedMeasure measure;  ///< From any subject, for title, unit and definition.
   ByGroup values;
   std::size_t undefined = 0;
 };
@@ -174,7 +174,7 @@ std::string strip_chart(const MeasureColumn& column) {
                             {{*middle, row - 0.3}, {*middle, row + 0.3}, {*middle, std::nan("")}});
   }
   if (!(high > low)) return "";
-  const double margin = 0.03 * (high - low);  // No dot lies on the frame.
+  const double margin = 0.03 * (high - low);  // Keeps dots off the frame.
   chart.x = {low - margin, high + margin};
   chart.y_ticks.emplace();
   if (column.values.size() > 1)

@@ -17,8 +17,8 @@ namespace {
 
 using document::Json;
 
-/// As RFC 4180 has it. A cell that a spreadsheet would take for a formula is made a text by an apostrophe before it; so is one that
-/// begins with an apostrophe, so that taking the first one away gives every text back.
+/// As in RFC 4180. A cell that a spreadsheet would take for a formula is made a text by an apostrophe before it; so is
+/// one that begins with an apostrophe, so that removing the first one gives every text back.
 std::string cell(const std::string& text) {
   std::string value =
       !text.empty() && std::string_view("=+-@'").find(text[0]) != std::string_view::npos ? '\'' + text : text;
@@ -60,13 +60,13 @@ Json histogram_json(const LateralPositionHistogram& histogram) {
 
 namespace {
 
-/// Before a drive's answers and times; nothing where there is one label alone: then they are the person's.
+/// Prefix of a drive's answers and times; empty with a single label: then they are the person's.
 std::string answers_prefix(const std::vector<std::string>& labels, const std::string& label) {
   if (labels.size() < 2) return "";
   return (label.empty() ? "no part" : label) + '.';
 }
 
-/// Whether somebody has a playing time in a drive with this label.
+/// True if any subject has a playing time in a drive with this label.
 bool has_playing_time(const GroupReport& report, const std::string& label) {
   return std::ranges::any_of(report.subjects, [&](const PooledSubject& subject) {
     const PooledDrive* drive = find_drive(subject, label);

@@ -1,15 +1,15 @@
 #pragma once
-/// How the sections of a group's page say things.
+/// Wording of the sections of a group's page.
 
 #include <string>
 #include <vector>
 
 namespace septet::logging {
 
-/// A chart with what is to be known of it below.
+/// A chart with its notes below.
 std::string framed(const std::string& svg, const std::string& caption);
 std::string name_of_group(const std::string& group);
-/// "Mean ± SD; median [quartiles] (n)"; a dash of nothing.
+/// "Mean ± SD; median [quartiles] (n)"; a dash for no value.
 std::string spread_text(const std::vector<double>& values);
 
 }  // namespace septet::logging

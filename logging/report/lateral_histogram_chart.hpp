@@ -1,5 +1,6 @@
 #pragma once
-/// The lateral position within the lane in the form of figure 5 of Lebram, Engström and Gustavsson 2006, with what that paper prints of its own.
+/// Lateral position within the lane in the form of figure 5 of Lebram, Engström and Gustavsson 2006, with that paper's
+/// printed values.
 
 #include <string>
 #include <string_view>
@@ -8,7 +9,8 @@
 
 namespace septet::logging {
 
-/// 21 bars as an `svg` element. The paper's text gives one height alone, that of its centre bar, almost 25 % of 413 973 samples: a line.
+/// 21 bars as an `svg` element. The paper's text gives one height alone, that of its centre bar, almost 25 % of 413 973
+/// samples: a line.
 std::string lateral_histogram_svg(const LateralPositionHistogram& histogram, std::string_view title);
 
 }  // namespace septet::logging

@@ -14,14 +14,14 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 
 class List {
  public:
-  /// What the next measures are made of.
+  /// Sample counts of the next measures.
   List& of(std::size_t samples, std::size_t missing) {
     samples_ = samples;
     missing_ = missing;
     return *this;
   }
   void add(std::string key, std::string title, std::string unit, std::optional<double> value, std::string definition) {
-    // What was computed of numbers that are all possible can still be none.
+    // Possible inputs can still give an impossible figure.
     if (value && !can_be_told(*value)) value = std::nullopt;
     measures_.push_back(
         {std::move(key), std::move(title), std::move(unit), value, samples_, missing_, std::move(definition)});

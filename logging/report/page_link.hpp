@@ -1,12 +1,12 @@
 #pragma once
-/// The address of a file for a page that lies in a folder.
+/// Address of a file, from a page that lies in a folder.
 
 #include <filesystem>
 #include <string>
 
 namespace septet::logging {
 
-/// Relative, so that both can be moved together; every byte that an address has not is written as %XX.
+/// Relative, so that both can be moved together; every byte outside of an address's characters is written as %XX.
 std::string page_link(const std::filesystem::path& file, const std::filesystem::path& page_folder);
 
 }  // namespace septet::logging

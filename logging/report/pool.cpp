@@ -24,7 +24,7 @@ std::string label_of(const Subject& subject) {
   return subject.part + ' ' + subject.condition;
 }
 
-/// What was answered, and for how long they drove.
+/// Answers and playing time.
 Expected<void> take_answers(const Opened& session, PooledDrive& pooled) {
   auto answers = session.reader.questionnaire();
   if (!answers) return tl::unexpected(answers.error());
@@ -44,7 +44,7 @@ Expected<void> take_answers(const Opened& session, PooledDrive& pooled) {
   return {};
 }
 
-/// What of their drives' answers is the person's own.
+/// Answers of the drives that are the person's own.
 void take_agreed(PooledSubject& pooled) {
   if (std::ranges::adjacent_find(pooled.drives, std::ranges::not_equal_to{}, &PooledDrive::order) !=
       pooled.drives.end())
@@ -120,7 +120,7 @@ void append(DriveRecords& all, DriveRecords next) {
   all.impossible.samples += next.impossible.samples;
   all.impossible.inputs += next.impossible.inputs;
   if (all.impossible.first.empty()) all.impossible.first = std::move(next.impossible.first);
-  all.car_width_m = std::max(all.car_width_m, next.car_width_m);  // Parts of one drive are of one car.
+  all.car_width_m = std::max(all.car_width_m, next.car_width_m);  // Parts of one drive belong to one car.
 }
 
 Expected<std::vector<PooledSubject>> pool_sessions(std::span<const std::filesystem::path> sessions,

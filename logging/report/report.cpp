@@ -33,7 +33,7 @@ const SourceFile* find_file(const SessionInfo& info, std::string_view role) {
   return found == info.files.end() ? nullptr : &*found;
 }
 
-/// How the drive ended, and what whoever uses its figures has to know.
+/// The drive's end, and caveats for users of its figures.
 std::string ending(const ReportData& data) {
   std::string html;
   const auto warn = [&](const std::string& text) {
@@ -124,7 +124,7 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   return html + "</div>\n";
 }
 
-/// Where it was driven, how fast, and where something happened.
+/// Route, speeds and events.
 std::string route_chart(const ReportData& data, const std::vector<ToldEvent>& events) {
   std::vector<RouteMark> marks;
   marks.reserve(events.size());

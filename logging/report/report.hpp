@@ -1,6 +1,6 @@
 #pragma once
-/// report.html: one drive as a page: its route, time lines with events, measures and how each of them is defined, and pictures. These
-/// alone lie beside the page; all else needs nothing.
+/// report.html: one drive as a page: its route, time lines with events, measures with their definitions, and pictures.
+/// The pictures alone lie beside the page; the rest is self-contained.
 
 #include <filesystem>
 #include <optional>
@@ -18,11 +18,11 @@ namespace septet::logging {
 struct ReportData : DriveRecords {
   SessionInfo info;
   bool ended_cleanly = true;
-  std::optional<DriveOutcome> outcome;  ///< Nothing where the file does not say.
+  std::optional<DriveOutcome> outcome;  ///< Empty if the file has none.
   std::uint64_t missing_ticks = 0;
   std::vector<QuestionnaireRecord> answers;
   MeasureSettings settings;
-  std::vector<DrivePicture> pictures;  ///< Found by whoever knows where session and page lie.
+  std::vector<DrivePicture> pictures;  ///< Found by the caller, who knows the places of session and page.
 };
 
 Expected<ReportData> read_report_data(const SessionReader& reader);
@@ -30,7 +30,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader);
 /// The whole page.
 std::string to_html(const ReportData& data);
 
-/// A page beside the session. `outcome`: where the file does not hold it, because it could not be closed.
+/// Writes a page beside the session. `outcome`: for a file that lacks it, because it could not be closed.
 Expected<void> write_report(const SessionReader& reader, const std::filesystem::path& path,
                             const std::optional<DriveOutcome>& outcome = std::nullopt);
 

@@ -18,8 +18,8 @@ using document::escaped;
 
 constexpr double route_width = 960.0, route_rim = 30.0, route_head = 30.0, route_foot = 34.0, route_least_inner = 24.0,
                  route_largest_inner = 460.0;
-constexpr double route_least_step = 0.8;        ///< Of the picture's units between two points that are drawn.
-constexpr double route_shared_dot = 9.0;        ///< Moments nearer to each other than that share one.
+constexpr double route_least_step = 0.8;        ///< In the picture's units, between two drawn points.
+constexpr double route_shared_dot = 9.0;        ///< Moments nearer than this to each other share a dot.
 constexpr std::size_t most_told_at_a_dot = 12;  ///< Moments in the tip of one dot.
 constexpr double route_least_extent_m = 20.0;   ///< A car that stands is no journey.
 
@@ -68,7 +68,7 @@ std::string range_text(std::size_t speed_class, double width_kmh) {
                      width_kmh * static_cast<double>(speed_class + 1));
 }
 
-/// The way as one line for each stretch of a class; a leap, as back to the start, is not drawn.
+/// The path as one line for each stretch of a class; a leap, as back to the start, is not drawn.
 std::string stretches(std::span<const Sample> samples, const Projection& at, double width_kmh) {
   std::string svg, points;
   const Sample* last = nullptr;
@@ -161,7 +161,7 @@ std::string drawn(const Dot& dot) {
   for (std::size_t i = 0; i < dot.marks.size(); ++i) {
     const RouteMark& mark = *dot.marks[i];
     if (i < most_told_at_a_dot) tip += (i ? "\n" : "") + mark.tip;
-    // The same sign twice says nothing more.
+    // A repeated sign adds nothing.
     const bool is_new = std::none_of(dot.marks.begin(), dot.marks.begin() + static_cast<std::ptrdiff_t>(i),
                                      [&](const RouteMark* other) { return other->label == mark.label; });
     if (!mark.label.empty() && is_new && labels++ < 4) label += (label.empty() ? "" : ", ") + mark.label;

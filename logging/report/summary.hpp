@@ -22,15 +22,15 @@ inline constexpr int summary_version = 1;
 struct DriveSummary {
   std::string scenario, rig, vehicle, participant;
   Subject subject;                                ///< Beside the participant.
-  std::map<std::string, std::string> parameters;  ///< Of the scenario, where they were given from outside.
+  std::map<std::string, std::string> parameters;  ///< Scenario parameters given from outside.
   std::uint64_t seed = 0;
   DriveOutcome outcome;
-  /// What the log tells; nothing where it cannot be read.
+  /// Figures of the log; empty if it cannot be read.
   struct FromLog {
     std::uint64_t missing_ticks = 0;
     DriveMeasures measures;
     std::map<std::string, std::uint64_t> events;  ///< By kind.
-    std::vector<QuestionnaireRecord> answers;     ///< Of questionnaires, and whether the driver dropped out.
+    std::vector<QuestionnaireRecord> answers;     ///< Rows of questionnaires, and of a drop-out of the driver.
   };
   std::optional<FromLog> log;
 };

@@ -59,13 +59,13 @@ std::optional<std::string> value_of(std::string_view detail, std::string_view ke
   return std::nullopt;
 }
 
-/// What stands behind the first of these, to the end.
+/// Text behind the first of these words, to the end.
 std::optional<std::string> rest_behind(std::string_view detail, std::string_view key) {
   const auto at = detail.find(key);
   return at == detail.npos ? std::nullopt : std::optional(std::string(detail.substr(at + key.size())));
 }
 
-/// Who said it stands before " note=", " wish=" or " text=".
+/// The author stands before " note=", " wish=" or " text=".
 std::string said_by(std::string_view detail) {
   if (!detail.starts_with("by=")) return "";
   const auto end = std::min({detail.find(" note="), detail.find(" wish="), detail.find(" text=")});
@@ -116,7 +116,7 @@ std::string collision_text(const Event& event) {
   return fmt::format("collision{}{}", with, closing ? " at a closing speed of " + kmh_of(*closing) : "");
 }
 
-/// The kind, and what its `key=value` pairs say as they are.
+/// The kind, and its `key=value` pairs verbatim.
 std::string plain_text(const Event& event) {
   std::string kind = event.kind;
   std::ranges::replace(kind, '_', ' ');

@@ -1,5 +1,5 @@
 #pragma once
-/// The events of a log for people: of which row of the page they are, and in words what happened.
+/// The events of a log for people: their row on the page, and their text.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace septet::logging {
 
-/// What belongs together in one row below the speed.
+/// Events that share one row below the speed.
 struct EventRow {
   std::string_view title;  ///< "lane changes".
   std::string_view sign;   ///< On the route; empty: a dot alone.
@@ -21,7 +21,7 @@ struct ToldEvent {
   std::string says;  ///< Plain text, not escaped.
 };
 
-/// In the order of the log. Every event is told, also one whose word only the scenario knows.
+/// In the order of the log. Every event is included, also one known to the scenario alone.
 std::vector<ToldEvent> tell_events(const std::vector<Event>& events);
 
 /// All rows, from the top of the page down.

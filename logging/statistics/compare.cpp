@@ -6,53 +6,25 @@
 #include <utility>
 #include <vector>
 
+#include <boost/math/distributions/students_t.hpp>
+
 namespace septet::logging {
 namespace {
 
 constexpr double normal_95 = 1.959963984540054;
 
-/// Lentz's evaluation of the continued fraction of the incomplete beta function (Abramowitz and Stegun 26.5.8).
-double beta_fraction(double a, double b, double x) {
-  constexpr double tiny = 1e-300;
-  const auto kept_from_0 = [](double value) { return std::abs(value) < tiny ? tiny : value; };
-  double c = 1.0, d = 1.0 / kept_from_0(1.0 - (a + b) * x / (a + 1.0)), value = d;
-  for (int m = 1; m <= 500; ++m) {
-    const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
-    d = 1.0 / kept_from_0(1.0 + even * d);
-    c = kept_from_0(1.0 + even / c);
-    value *= c * d;
-    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
-    d = 1.0 / kept_from_0(1.0 + odd * d);
-    c = kept_from_0(1.0 + odd / c);
-    value *= c * d;
-    if (std::abs(c * d - 1.0) < 1e-15) break;
-  }
-  return value;
-}
+// NaN instead of an exception, as everywhere in these tables.
+using NoThrow =
+    boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
+using StudentsT = boost::math::students_t_distribution<double, NoThrow>;
 
-double incomplete_beta(double a, double b, double x) {
-  if (x <= 0.0) return 0.0;
-  if (x >= 1.0) return 1.0;
-  const double front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
-  // The fraction converges fast on this side of the mean.
-  return x < (a + 1.0) / (a + b + 2.0) ? front * beta_fraction(a, b, x) / a
-                                       : 1.0 - front * beta_fraction(b, a, 1.0 - x) / b;
-}
-
-/// t with this two-sided p, by halving.
-double t_of(double p, double degrees) {
-  double low = 0.0, high = 1e6;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = (low + high) / 2.0;
-    (t_test_p(middle, degrees) > p ? low : high) = middle;
-  }
-  return (low + high) / 2.0;
-}
+/// t with this two-sided p.
+double t_of(double p, double degrees) { return quantile(complement(StudentsT(degrees), p / 2.0)); }
 
 }  // namespace
 
-double t_test_p(double t, double degrees) { return incomplete_beta(degrees / 2.0, 0.5, degrees / (degrees + t * t)); }
+double t_test_p(double t, double degrees) { return 2.0 * cdf(complement(StudentsT(degrees), std::abs(t))); }
 
 MeanAndSpread summarise(std::span<const double> values) {
   MeanAndSpread summary{values.size(), 0.0, 0.0};

@@ -1,5 +1,5 @@
 #pragma once
-/// Two groups beside each other: size of the difference, and two tests.
+/// Comparison of two groups: size of the difference, and two tests.
 
 #include <optional>
 #include <span>
@@ -12,18 +12,18 @@ struct MeanAndSpread {
 };
 MeanAndSpread summarise(std::span<const double> values);
 
-/// Hedges' g: the difference of the means over the pooled SD, times J = 1 − 3/(4 df − 1); the interval is g ± 1.96 of its standard
-/// error, (n₁ + n₂)/(n₁n₂) + g²/(2(n₁ + n₂)) (Hedges and Olkin 1985).
+/// Hedges' g: the difference of the means over the pooled SD, times J = 1 − 3/(4 df − 1); the interval is g ± 1.96 of
+/// its standard error, (n₁ + n₂)/(n₁n₂) + g²/(2(n₁ + n₂)) (Hedges and Olkin 1985).
 struct EffectSize {
-  double g = 0.0, low = 0.0, high = 0.0;  ///< Of 95 %.
+  double g = 0.0, low = 0.0, high = 0.0;  ///< 95 % interval.
 };
-/// Nothing with fewer than two in a group, or without any spread.
+/// Empty with fewer than two in a group, or without any spread.
 std::optional<EffectSize> hedges_g(std::span<const double> first, std::span<const double> second);
 std::optional<EffectSize> hedges_g(const MeanAndSpread& first, const MeanAndSpread& second);
 
 /// Welch's test: unequal variances, Satterthwaite's degrees of freedom, two-sided.
 struct WelchTest {
-  double difference = 0.0, low = 0.0, high = 0.0;  ///< Of the means, with its 95 % interval.
+  double difference = 0.0, low = 0.0, high = 0.0;  ///< Difference of the means, with its 95 % interval.
   double t = 0.0, degrees = 0.0, p = 1.0;
 };
 std::optional<WelchTest> welch_test(std::span<const double> first, std::span<const double> second);

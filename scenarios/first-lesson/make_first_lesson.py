@@ -4,7 +4,7 @@
     make_first_lesson.py > first-lesson.xodr
 
 Roads 1 (country, with bends), 2 (village), 3 (village, behind the lights) and 4 (country) are the course; straight on at the
-lights (junction 100), the second way out of the roundabout (junctions 201 to 204, one an arm). 21 and 22 cross at the lights, 31 and
+lights (junction 100), the second exit of the roundabout (junctions 201 to 204, one an arm). 21 and 22 cross at the lights, 31 and
 32 meet the roundabout from the right and from the left. At each fork the first connection is the course's. Roads beside junctions
 begin at them, but for 1 to 3, which are driven along s. Metres and radians throughout.
 """
@@ -72,7 +72,7 @@ class Course:
 
     def road(self, number, name, start, segments, predecessor, successor, kind, limit, lanes, heights=((0, LEVEL, 0.0),), junction="-1",
              furniture=None):
-        """Answers the pose at the road's end."""
+        """Returns the pose at the road's end."""
         records, end, length = chain(start, segments)
         out = self.out
         out.begin("road", name=name, length=length, id=number, junction=junction, rule="RHT")

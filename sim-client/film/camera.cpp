@@ -9,7 +9,7 @@
 namespace septet::film {
 namespace {
 
-constexpr double least_height_m = 0.3;  ///< Of a camera over the ground below its participant.
+constexpr double least_height_m = 0.3;  ///< Of a camera above the ground below its participant.
 
 bool is_outside(const Shot& shot) { return shot.distance_m > 0.0; }
 

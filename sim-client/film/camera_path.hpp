@@ -1,10 +1,10 @@
 #pragma once
-/// Where a shot's camera looks at each of its frames, worked out without trigonometry from frame to frame.
+/// Camera directions of a shot, frame by frame, computed incrementally without trigonometry.
 ///
-/// Frames are equal steps, so that the camera turns with IncrementalTurn (engine/math/incremental_turn.hpp): the head's pan is
-/// one unit vector in the plane and its tilt another, and both follow the quadratic law angle(t) = θ(σt² + (1−σ)t). One
-/// turn of the direction in space would be a great circle, which leaves the pitch on its way: an orbit at 12° would dip to 17°
-/// within a quarter of a circle and go over the top in half of one. Pure functions.
+/// Frames are equal steps, so that the camera turns with IncrementalTurn (engine/math/incremental_turn.hpp): the head's
+/// pan is one unit vector in the plane and its tilt another, and both follow the quadratic law angle(t) = θ(σt² +
+/// (1−σ)t). One turn of the direction in space would be a great circle, along which the pitch changes: an orbit at 12°
+/// would dip to 17° within a quarter of a circle and go over the top in half of one. Pure functions.
 
 #include <vector>
 
@@ -19,12 +19,12 @@ struct Look {
 
   double heading_rad() const { return std::atan2(heading[1], heading[0]); }
   double pitch_rad() const { return std::atan2(pitch[1], pitch[0]); }
-  /// The way that it looks, in the frame that headings are counted in.
+  /// Viewing direction, in the frame that headings are counted in.
   Vec3 direction() const { return {heading[0] * pitch[0], heading[1] * pitch[0], pitch[1]}; }
 };
 
-/// One for each frame; the first looks as the shot begins, and one that turns until the end has arrived at the last. Refused: a
-/// shot shorter than a frame, a turn shorter than one or over half a circle, and |sigma| > 1.
+/// One entry per frame: the first looks as the shot begins, and a turn over the whole shot arrives at the last. Error:
+/// a shot shorter than a frame, a turn shorter than one frame or over half a circle, and |sigma| > 1.
 Expected<std::vector<Look>> camera_path(const Shot& shot, double frames_per_second);
 
 }  // namespace septet::film

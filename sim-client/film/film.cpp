@@ -47,7 +47,7 @@ Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render:
   return pictures.finish();
 }
 
-/// Each shot's stretch of what the driver heard, as long as its frames.
+/// For each shot the stretch of the session's sound that its frames show.
 Expected<bool> make_sound(const FilmOptions& options, const FilmPlan& plan, const fs::path& file,
                           const std::function<bool()>& go_on) {
   std::vector<sound::Cut> cuts;
@@ -61,7 +61,7 @@ Expected<bool> make_sound(const FilmOptions& options, const FilmPlan& plan, cons
   const auto session = logging::SessionReader::open(options.session);
   if (!session) return tl::unexpected(session.error());
   std::error_code ignored;
-  fs::remove(file, ignored);  // Of a film that was stopped.
+  fs::remove(file, ignored);  // File of a stopped film.
   auto heard = sound::write_cut_track(*session, cuts, options.frames_per_second / options.every, file, go_on);
   if (!heard) heard.error().remedy += "; or make it without: --no-sound";
   return heard;

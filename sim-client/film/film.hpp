@@ -1,8 +1,8 @@
 #pragma once
-/// A recorded session to the pictures of a film, drawn off-screen by the rasteriser or the ray tracer.
+/// Renders a recorded session to the pictures of a film, off-screen, by the rasteriser or the ray tracer.
 ///
-/// A frame depends on the session, the shot and its number in it (film_frames.hpp), and on no other frame, so that any share of a
-/// film can be drawn anywhere.
+/// A frame depends on the session, the shot and its number in it (film_frames.hpp), and on no other frame, so that any
+/// share of a film can be drawn anywhere.
 
 #include <filesystem>
 #include <functional>
@@ -21,45 +21,47 @@ class Machines;
 namespace septet::film {
 
 enum class FilmRenderer : std::uint8_t {
-  raster,  ///< engine/render, by a graphics card where there is one.
-  traced,  ///< engine/raytrace, by the processor's cores.
+  raster,  ///< engine/render, on a graphics card if there is one.
+  traced,  ///< engine/raytrace, on the processor's cores.
 };
 
-/// OpenEXR pictures beside the others, with what numbers.
+/// OpenEXR pictures beside the others, and their number format.
 enum class ExrNumbers : std::uint8_t { none, half_precision, single_precision };
 
-/// What they hold beside the light.
+/// Channels beside the light.
 enum class Layer : std::uint8_t { depth, object, participant, normal, albedo, motion, variance };
 
 struct FilmOptions {
   std::filesystem::path session;
   std::filesystem::path shots;  ///< Script; empty: the default one.
-  /// Folder for the pictures, made, or empty already; or a film (film_file.hpp), whose pictures lie in a folder beside it until it is
-  /// made of them.
+  /// Folder for the pictures: created, or empty already; or a film file (film_file.hpp), whose pictures lie in a folder
+  /// beside it until it is encoded.
   std::filesystem::path out;
-  bool sound = true;    ///< Of a film as one file: what the driver heard, with its pictures (soundtrack/cut_track.hpp).
-  bool resume = false;  ///< Goes on with the same film that was begun there: finished pictures stay (film_folder.hpp).
+  bool sound = true;    ///< For a film as one file: add the driver's sound (soundtrack/cut_track.hpp).
+  bool resume = false;  ///< Continues the same film in that folder: finished pictures stay (film_folder.hpp).
   double frames_per_second = 25.0;
   std::uint32_t width_px = 1280, height_px = 720;
-  bool software =
-      false;  ///< Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
+  /// Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
+  bool software = false;
   FilmRenderer renderer = FilmRenderer::raster;
-  std::uint32_t samples = 64;  ///< Of a pixel, of the ray tracer; the most of them where there is an `error`.
-  double error = 0.0;          ///< Enough of it: raytrace::TraceSettings::error. 0: all samples are taken.
-  /// Sent at ice by sun and lamps, of what is traced (raytrace::PhotonSettings): the light that it throws on other surfaces. 0: none.
+  std::uint32_t samples = 64;  ///< Ray tracer: samples per pixel; the maximum if there is an `error`.
+  double error = 0.0;          ///< Target error: raytrace::TraceSettings::error. 0: all samples are taken.
+  /// Ray tracer: photons sent at ice by sun and lamps (raytrace::PhotonSettings), for the light that it throws on other
+  /// surfaces. 0: off.
   std::uint32_t caustic_photons = 100'000;
-  std::uint32_t gather_photons =
-      0;                 ///< Sent by lamps for a final gather, where they alone shine. 0: paths find all light.
+  /// Photons sent by lamps for a final gather, where lamps are the only light. 0: paths find all light.
+  std::uint32_t gather_photons = 0;
   bool denoise = false;  ///< raytrace::denoised.
   raytrace::Filter filter = raytrace::Filter::quadratic;
-  ExrNumbers exr = ExrNumbers::none;  ///< Of what is traced.
+  ExrNumbers exr = ExrNumbers::none;  ///< Ray tracer only.
   std::set<Layer> layers;
-  std::uint32_t sample_sets = 1;             ///< A tile's samples are dealt in so many sets; at most `samples`.
-  raytrace::BucketScheduleOptions schedule;  ///< Of what is traced; the pictures are the same.
-  std::filesystem::path statistics;          ///< File that tells who traced what (traced/statistics.hpp); empty: none.
-  std::uint32_t every = 1;                   ///< Only the first of so many frames.
+  std::uint32_t sample_sets = 1;  ///< Number of sets that a tile's samples are split into; at most `samples`.
+  raytrace::BucketScheduleOptions schedule;  ///< Ray tracer only; the pictures do not depend on it.
+  /// File that records which worker traced which tile (traced/statistics.hpp); empty: not written.
+  std::filesystem::path statistics;
+  std::uint32_t every = 1;  ///< Draw every n-th frame only.
   std::optional<double> from_s,
-      to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
+      to_s;  ///< Draw only this interval of the film; for a film without a script, its beginning and end.
 };
 
 /// One frame of a film.
@@ -70,10 +72,10 @@ struct FilmFrame {
   double instant_s = 0.0;
 };
 
-/// A script with the way of each shot's camera and all frames, in order.
+/// A script with the camera path of each shot and all frames, in order.
 struct FilmPlan {
   Script script;
-  std::vector<std::vector<Look>> paths;  ///< By shot.
+  std::vector<std::vector<Look>> paths;  ///< Indexed by shot.
   std::vector<FilmFrame> frames;
 };
 
@@ -82,23 +84,24 @@ Expected<FilmPlan> plan_film(Script script, double frames_per_second, std::pair<
 
 struct FilmMade {
   std::size_t frames = 0, planned = 0;
-  std::size_t kept = 0;           ///< Of the frames: they were there already.
-  bool encoding = false;          ///< All pictures are there, and a film is made of them.
-  bool stopped = false;           ///< `go_on` has said no.
-  double share_of_next = 0.0;     ///< Of the frames that are being drawn together: 1 is one frame.
-  double kept_of_next = 0.0;      ///< What was there of them already.
-  std::size_t workers = 0;        ///< That trace: programs, this one too.
-  std::string notice;             ///< What was noticed last that does not stop the film: who has given up.
-  std::uint64_t bad_samples = 0;  ///< Whose light was not a number: black.
-  /// Of the pixels that were traced: the root mean square of their errors (raytrace::relative_error), samples of one.
+  std::size_t kept = 0;           ///< Frames kept: they were there already.
+  bool encoding = false;          ///< All pictures are there, and the film file is being encoded.
+  bool stopped = false;           ///< `go_on` returned false.
+  double share_of_next = 0.0;     ///< Progress of the frames being drawn together: 1 is one frame.
+  double kept_of_next = 0.0;      ///< Share of these that was there already.
+  std::size_t workers = 0;        ///< Programs that trace, including this one.
+  std::string notice;             ///< Last event that does not stop the film: a worker that has given up.
+  std::uint64_t bad_samples = 0;  ///< Samples with NaN or infinite light: counted as black.
+  /// Root mean square of the traced pixels' errors (raytrace::relative_error); samples of one pixel.
   double error = 0.0, samples = 0.0;
 };
 
 using program::Machines;
 
-/// Draws the film. `go_on` hears how far it is before each frame and while frames are traced; where it says no, the film ends there.
-/// While a frame is traced, preview.png in the folder shows what there is of it. What is finished stays whatever happens: pictures, and of
-/// frames that are traced their tiles. `others` help to trace (program/machines.hpp); null: nobody.
+/// Draws the film. `go_on` receives the progress before each frame and while frames are traced; if it returns false,
+/// the film ends there. While a frame is traced, preview.png in the folder shows its present state. Finished work
+/// survives any end: pictures, and the tiles of traced frames. `others` help to trace (program/machines.hpp); null:
+/// this program alone.
 Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on,
                              Machines* others = nullptr);
 

@@ -13,20 +13,20 @@ class App;
 
 namespace septet::film {
 
-/// What the command line says. The parser writes it, so it must stay where it is.
+/// Parsed command line. The parser holds pointers into it, so it must not move.
 struct FilmArguments {
   FilmOptions film;
   RanksOptions ranks;
-  bool by_ranks = false;      ///< Programs are to be started: `ranks` says which.
-  bool one_of_ranks = false;  ///< Said by film_by_ranks alone.
-  double within_s = 0.0;      ///< As many samples as there is time for; 0: as many as are asked for.
+  bool by_ranks = false;      ///< Programs are to be started: `ranks` holds their number.
+  bool one_of_ranks = false;  ///< Set by film_by_ranks alone.
+  double within_s = 0.0;      ///< Time for as many samples as fit into it; 0: as many as `samples`.
   std::string renderer = "raster", exr = "none", filter = "quadratic", schedule = "ours";
 };
 
-/// Tells the parser of all options of a film.
+/// Declares all options of a film to the parser.
 void add_film_options(CLI::App& app, FilmArguments& arguments);
 
-/// After the parser: what it has read as words becomes options. Error: words that are no film's.
+/// After parsing: converts words to options. Error: words that are not a film's.
 Expected<void> settle(const CLI::App& app, FilmArguments& arguments);
 
 }  // namespace septet::film

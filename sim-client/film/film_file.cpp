@@ -13,7 +13,7 @@ namespace septet::film {
 namespace fs = std::filesystem;
 namespace {
 
-/// In ffmpeg's list of files a quote ends the name: it stands outside of quotes.
+/// In ffmpeg's file list a quote ends the name: it stands outside of quotes.
 std::string quoted(const std::string& name) {
   std::string text = "'";
   for (const char c : name) text += c == '\'' ? "'\\''" : std::string(1, c);
@@ -52,7 +52,7 @@ Expected<bool> encode_film(const fs::path& ffmpeg, std::span<const fs::path> pic
   if (auto written = document::write_text_file(list, text); !written) return tl::unexpected(written.error());
   std::error_code ignored;
   fs::remove(log, ignored);
-  // Pictures are full-range sRGB; a film says so of what it holds, or players guess.
+  // Pictures are full-range sRGB; the film states its colour space, or players guess.
   std::vector<std::string> arguments{"-nostdin",
                                      "-hide_banner",
                                      "-loglevel",

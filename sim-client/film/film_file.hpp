@@ -1,5 +1,5 @@
 #pragma once
-/// A film as one file, made of its pictures by ffmpeg: a program of its own, which Septet does without until it is asked for.
+/// A film as one file, encoded from its pictures by ffmpeg: a separate program, needed only for this.
 
 #include <filesystem>
 #include <functional>
@@ -9,18 +9,20 @@
 
 namespace septet::film {
 
-/// Whether a name asks for one: .mp4 (H.264, small) or .mkv (FFV1, without loss). Error: that of a video which is neither.
+/// True for the name of a film file: .mp4 (H.264, small) or .mkv (FFV1, lossless). Error: a video format that is
+/// neither.
 Expected<bool> is_film_file(const std::filesystem::path& name);
 
-/// Where the pictures of the film of this name lie: there, or of one file beside it. Error: as is_film_file.
+/// Folder of the pictures of the film of this name: the name itself, or for a film file a folder beside it. Error: as
+/// is_film_file.
 Expected<std::filesystem::path> pictures_folder(const std::filesystem::path& name);
 
-/// ffmpeg as PATH has it. Error: it is not installed.
+/// ffmpeg found through PATH. Error: it is not installed.
 Expected<std::filesystem::path> find_ffmpeg();
 
-/// Whole or not at all: it is written beside its place and renamed. False where `go_on`, which is asked ten times a second, has said no. A
-/// `sound`: a WAV file as long as they are; empty: none. A
-/// picture of odd size is widened by one pixel, for H.264 halves colour.
+/// Atomic: written beside its place and renamed. Returns false if `go_on`, called ten times a second, returned false.
+/// `sound`: a WAV file of the same length; empty: silent. A picture of odd size is widened by one pixel, since H.264
+/// halves colour.
 Expected<bool> encode_film(const std::filesystem::path& ffmpeg, std::span<const std::filesystem::path> pictures,
                            const std::filesystem::path& sound, double frames_per_second,
                            const std::filesystem::path& film, const std::function<bool()>& go_on);

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t longest_record_bytes = 1 << 20;
-constexpr double patience_s = 60.0;  ///< For programs to end whose mpirun, or whoever else has started them, is gone.
+constexpr double patience_s = 60.0;  ///< Grace for programs to end after their mpirun, or another parent, is gone.
 
 std::string hash_of(std::string_view text) {
   StateHash hash;
@@ -36,7 +36,7 @@ std::string hash_of(std::string_view text) {
   return fmt::format("{:016x}", hash.value());
 }
 
-/// Session and, of a film without a script, the stretch of it that is shown.
+/// The session and, for a film without a script, the stretch of it that is shown.
 Expected<std::string> shots_of(const FilmOptions& options) {
   if (!options.shots.empty()) return read_regular_file(options.shots, longest_record_bytes).map(hash_of);
   const auto text = [](const std::optional<double>& time_s) { return time_s ? fmt::format("{} s", *time_s) : "end"; };
@@ -53,7 +53,7 @@ Expected<FilmRecord> read_record(const fs::path& file) {
   return record;
 }
 
-/// Names the first thing in which the film that was begun is another one.
+/// Names the first difference to the film in the folder.
 Expected<void> check_is_same(const FilmRecord& film, const fs::path& file) {
   const auto begun = read_record(file);
   if (!begun) return tl::unexpected(begun.error());
@@ -127,7 +127,7 @@ Expected<FilmFolder> FilmFolder::open(const fs::path& path, const FilmRecord& fi
   if (auto is_free = check_is_free(path, resume); !is_free) return tl::unexpected(is_free.error());
   if (fs::exists(record, error)) {
     if (auto same = check_is_same(film, record); !same) return tl::unexpected(same.error());
-    // What a program that was killed has left half written.
+    // Removes half-written files of a killed program.
     for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
       if (entry.path().extension() == ".part") fs::remove(entry.path(), error);
     fs::remove(path / "preview.png", error);

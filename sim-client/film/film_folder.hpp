@@ -1,9 +1,9 @@
 #pragma once
-/// The folder that the pictures of a film are drawn into, by one program at a time, and what film it is.
+/// The folder that a film's pictures are drawn into, by one program at a time, and the record of its film.
 ///
-/// film.json says what all pictures depend on; who goes on with a film that was begun must say the same. A picture has its name,
-/// NNNNNN.png, only once it is whole (frame/picture_writer.hpp); one that cannot be read all the same, as after a power cut, is
-/// drawn again.
+/// film.json holds everything that all pictures depend on; a program that resumes a film must have the same record. A
+/// picture gets its name, NNNNNN.png, only once it is whole (frame/picture_writer.hpp); an unreadable one, as after a
+/// power cut, is drawn again.
 
 #include <filesystem>
 #include <map>
@@ -16,20 +16,20 @@
 
 namespace septet::film {
 
-/// What all pictures of a film depend on, by name: "size" → "1280x720".
+/// Everything that all pictures of a film depend on, by name: "size" → "1280x720".
 using FilmRecord = std::map<std::string, std::string>;
-/// What film was begun in the folder; nothing where there is none.
+/// Record of the film in the folder; empty if there is none.
 std::optional<FilmRecord> begun_in(const std::filesystem::path& folder);
 Expected<FilmRecord> film_record(const FilmOptions& options, const logging::SessionInfo& session);
 
 class FilmFolder {
  public:
-  /// The folder is to be made, or empty; where `resume`, the same film may have been begun there.
+  /// Checks that the folder is absent or empty; with `resume`, it may hold the same film.
   static Expected<void> check_is_free(const std::filesystem::path& path, bool resume);
-  /// Makes the folder, or takes what was begun there. Error: it cannot be written, another film was begun there, or somebody
-  /// draws there now.
+  /// Creates the folder, or takes over its film. Error: not writable, another film lies there, or another program draws
+  /// there now.
   static Expected<FilmFolder> open(const std::filesystem::path& path, const FilmRecord& film, bool resume);
-  /// Until nobody draws there any more; not for ever, for whoever was told to end may hang.
+  /// Waits until no program draws there; bounded, since a program told to end may hang.
   static void wait_until_free(const std::filesystem::path& path);
   FilmFolder(FilmFolder&& other) noexcept;
   FilmFolder& operator=(FilmFolder&&) = delete;
@@ -38,7 +38,7 @@ class FilmFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path picture(std::uint64_t number) const;
   std::filesystem::path exr_picture(std::uint64_t number) const;
-  /// Whether the picture is there, whole, of this size; and its OpenEXR one, where the film has them.
+  /// True if the picture is there, whole and of this size; and its OpenEXR one, if the film has them.
   bool has(std::uint64_t number, const FilmOptions& options) const;
 
  private:

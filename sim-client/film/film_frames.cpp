@@ -28,7 +28,7 @@ Expected<Snapshot> world_at(const logging::SessionReader& session, double instan
   });
 }
 
-/// Where the driver's eyes were: in the rig that was driven with, which the session holds.
+/// Place of the driver's eyes: from the session's rig.
 Vec3 driver_eye_m(const logging::SessionInfo& info) {
   for (const auto& source : info.files)
     if (source.role == "rig")
@@ -36,7 +36,7 @@ Vec3 driver_eye_m(const logging::SessionInfo& info) {
   return frame::eye_in(vehicle_models().front());
 }
 
-/// What each shot's camera hangs on.
+/// Anchor of each shot's camera.
 Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
   const Vec3 eye_m = driver_eye_m(session.info());
   std::vector<Pivot> pivots;
@@ -70,7 +70,7 @@ Expected<Script> choose_script(const FilmOptions& options, const logging::Sessio
   return script;
 }
 
-/// Where the camera waits for a participant that is gone: where the last tick of the shot shows them that has them. Reads on
+/// Waiting place of the camera for a participant that is gone: from the last tick of the shot that holds them. Reads on
 /// as instants ascend.
 class LastSeen {
  public:
@@ -82,7 +82,7 @@ class LastSeen {
     return LastSeen(shot, pivot, std::move(*cursor), viewpoint_at(shot, pivot, *world, {}));
   }
 
-  /// At an instant not before the one asked for last.
+  /// At an instant not before the previous call's.
   Expected<frame::Viewpoint> at(double instant_s) {
     while (!ended_ && (!next_ || next_->simulated_time_s <= instant_s)) {
       if (next_) viewpoint_ = viewpoint_at(*shot_, pivot_, *next_, viewpoint_);
@@ -110,7 +110,7 @@ class LastSeen {
 
 namespace {
 
-/// Where a camera that turns evenly from frame to frame looks between them.
+/// Direction between two frames of a camera that turns evenly.
 Look between(const Look& from, const Look& to, double share) {
   const auto mixed = [share](const auto& a, const auto& b) {
     const double x = (1.0 - share) * a[0] + share * b[0], y = (1.0 - share) * a[1] + share * b[1],
@@ -129,7 +129,7 @@ struct FilmFrames::State {
   scene::ResolvedScene scene;
   std::uint32_t width_px, height_px;
   double frames_per_second;
-  // From here on what was read for the frame before, which spares reading it again.
+  // The previous frame's reading, reused from here on.
   std::optional<FilmFrame> last{};
   double last_instant_s = 0.0;
   std::optional<SessionInstants> instants{};
@@ -200,7 +200,7 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
   const Pivot& pivot = state.pivots[film_frame.shot];
   const bool follows = state.last && state.last->shot == film_frame.shot && state.last->number <= film_frame.number &&
                        state.last_instant_s <= instant_s + time_slack_s;
-  state.last.reset();  // Where reading fails, the next frame begins anew.
+  state.last.reset();  // After a read error the next frame starts afresh.
   if (!follows) {
     auto instants = SessionInstants::start(state.session, instant_s);
     if (!instants) return tl::unexpected(instants.error());

@@ -1,8 +1,8 @@
 #pragma once
-/// What each frame of a film shows: log → interpolate → scene → frame, for whichever renderer draws it.
+/// Content of each frame of a film: log → interpolate → scene → frame, for either renderer.
 ///
-/// A frame is a function of the session, its shot and its number in it. Any may be asked for in any order, on any machine that
-/// has the session; ascending ones are cheapest. One thread.
+/// A frame is a function of the session, its shot and its number in it. Frames may be requested in any order, on any
+/// machine that has the session; ascending order is cheapest. One thread.
 
 #include "engine/instant/frame_input.hpp"
 #include "sim-client/film/camera.hpp"
@@ -26,14 +26,14 @@ class FilmFrames {
 
   /// `frame` is one of the plan's. Error: the session cannot be read there.
   Expected<instant::FrameInput> input_of(const FilmFrame& frame);
-  /// The same as the shot's shutter closes; nothing where it is open for no time.
+  /// The same at the instant at which the shot's shutter closes; empty if the shutter is open for no time.
   Expected<std::optional<instant::FrameInput>> input_as_shutter_closes(const FilmFrame& frame);
   /// The same at the next frame's instant, or where its shot ends before.
   Expected<instant::FrameInput> input_of_next(const FilmFrame& frame);
 
  private:
   struct State;
-  /// So much of a frame's time after it.
+  /// The same, this share of a frame's time later.
   Expected<instant::FrameInput> input_after(const FilmFrame& frame, double share);
   Expected<instant::FrameInput> input_at(const FilmFrame& frame, double instant_s, const Look& look);
   explicit FilmFrames(std::unique_ptr<State> state);

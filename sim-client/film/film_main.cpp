@@ -1,4 +1,5 @@
-/// `septet-film`: a recorded session to the pictures of a film, and the queue of films that wait. `septet film` starts it.
+/// `septet-film`: a recorded session to the pictures of a film, and the queue of films that wait. `septet film` starts
+/// it.
 
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ namespace {
 
 using namespace septet;
 
-/// A film that is no film is told now, and not when its turn comes.
+/// An invalid film is reported now, and not when its turn comes.
 Expected<int> queue(const film::QueueArguments& arguments) {
   if (arguments.film.empty()) return film::queue_film(arguments, {});
   CLI::App app("", "septet film queue");

@@ -24,7 +24,7 @@ namespace septet::film {
 namespace fs = std::filesystem;
 namespace {
 
-/// Below, what a time limit allows is noisy, and the noise is taken out.
+/// Below this, a time limit gives noisy pictures, and denoising is on.
 constexpr std::uint32_t few_samples = 256;
 
 }  // namespace
@@ -51,7 +51,7 @@ std::string progress_text(const FilmMade& so_far, double elapsed_s) {
   if (so_far.bad_samples > 0) text += fmt::format(", {} samples without light that is a number", so_far.bad_samples);
   if (so_far.workers > 1) text += fmt::format(" by {} programs", so_far.workers);
   const double drawn = done - static_cast<double>(so_far.kept) - so_far.kept_of_next;
-  if (!(drawn > 1e-3)) return text;  // What is left of rounding tells no time.
+  if (!(drawn > 1e-3)) return text;  // Rounding error is no basis for a time.
   const double left_s = elapsed_s * (static_cast<double>(so_far.planned) - done) / drawn;
   return text +
          (left_s < 90.0 ? fmt::format(", {:.0f} s left", left_s) : fmt::format(", {:.0f} min left", left_s / 60.0));
@@ -104,7 +104,7 @@ std::vector<std::string> without(const std::vector<std::string>& words,
   return rest;
 }
 
-/// How many samples there is time for, on those that will make the film; of one that was begun those that it was begun with.
+/// Number of samples for the time limit, on the machines that will make the film; a resumed film keeps its number.
 Expected<void> settle_samples(FilmArguments& arguments, std::vector<std::string>& words) {
   FilmOptions& film = arguments.film;
   const auto pictures = pictures_folder(film.out);

@@ -1,5 +1,5 @@
 #pragma once
-/// What `septet-film` does with its command line.
+/// The command line of `septet-film`, carried out.
 
 #include <functional>
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace septet::film {
 
-/// Puts "1280x720" into the options. What is wrong with it, or nothing.
+/// Parses "1280x720" into the options. Returns the fault, or an empty string.
 std::string read_size(const std::string& text, FilmOptions& options);
 
 /// "3 of 25 frames and 40 % of the next, 12 min left".
 std::string progress_text(const FilmMade& so_far, double elapsed_s);
 
-/// Makes the film that the command line says, in this program or, where it says so, by several that mpirun starts; tells how far it is and
-/// at the end where it lies. The exit status: 1 where somebody stopped it. `words`: the same command line, for those others; `others`: as
-/// make_film takes them.
+/// Makes the film of the command line, in this program or by several that mpirun starts; prints progress and at the end
+/// the place. Exit status; 1 if a person stopped it. `words`: the same command line, for the other programs; `others`:
+/// as in make_film.
 Expected<int> run_film(FilmArguments arguments, std::vector<std::string> words, Machines* others);
 
-/// The program's exit status. `work` is done by one program alone: where mpirun has started several, by the first, whom the others help
-/// and whom they leave the talking; then it is given them all.
+/// Exit status of the program. `work` is called in one program only: under mpirun in the first, with the machines of
+/// the others, which help it and print nothing.
 int run_alone_or_by_mpirun(const std::function<int(Machines*)>& work);
 
 }  // namespace septet::film

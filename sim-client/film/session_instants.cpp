@@ -25,8 +25,8 @@ Expected<Snapshot> SessionInstants::at(double instant_s) {
     ended_ = !next->has_value();
     if (!ended_) history_.add({.snapshot = std::move(**next)});
   }
-  // What lies further back than `start` reads is forgotten, so that the ticks around an instant are the same ones whichever
-  // instants were asked for before it.
+  // Ticks further back than `start` reads are dropped, so that the ticks around an instant are independent of earlier
+  // calls.
   history_.forget_before(instant_s - ticks_before * tick_s_);
   if (history_.empty()) return failure("the session ends before it", "film", "choose instants within the session");
   return frame::show(history_, instant_s, tick_s_).snapshot;

@@ -1,5 +1,5 @@
 #pragma once
-/// The world of a session at any instant, whatever its ticks are: what a screen's tick lane is to a drive.
+/// The world of a session at any instant, also between ticks: the counterpart of a screen's tick lane.
 
 #include "logging/session_reader.hpp"
 #include "sim-client/frame/playout.hpp"
@@ -7,14 +7,14 @@
 
 namespace septet::film {
 
-/// Reads on as instants ascend. One thread; it must not outlive its reader.
+/// Reads forward as instants ascend. One thread; must not outlive its reader.
 class SessionInstants {
  public:
   /// For instants from `from_s` on.
   static Expected<SessionInstants> start(const logging::SessionReader& session, double from_s);
 
-  /// The world at an instant, between its two ticks; not before the one asked for last. `history()` then holds the ticks around it,
-  /// the same ones whatever was asked for before.
+  /// The world at an instant, between its two ticks; not before the previous call's instant. `history()` then holds the
+  /// ticks around it, independently of earlier calls.
   Expected<Snapshot> at(double instant_s);
   const frame::TickHistory& history() const { return history_; }
   double tick_s() const { return tick_s_; }

@@ -9,8 +9,9 @@ namespace septet::film {
 namespace {
 
 constexpr std::size_t frames_tried = 4;
-constexpr double used = 0.9;  ///< Of the time there is.
-/// More samples are tried until that takes this share of the time, and none that would take more than the second.
+constexpr double used = 0.9;  ///< Share of the time limit.
+/// More samples are tried until a trial takes the first share of the time; a trial that would take more than the second
+/// is skipped.
 constexpr double enough_tried = 0.03, most_tried = 0.1;
 
 struct Trial {
@@ -51,7 +52,8 @@ Expected<TimeChoice> choose_samples(std::size_t frames, double limit_s, std::uin
   if (!some) return tl::unexpected(some.error());
   Trial more = *some;
   while (more.samples < most && (more.samples == 1 || more.took_s - some->took_s < enough_tried * limit_s)) {
-    // At first four times as many; then as many as are foretold to be enough, so that the clock's own noise does not count.
+    // At first four times as many; then as many as are foretold to be enough, so that the clock's own noise does not
+    // count.
     const double per_sample_s = times_of(*one, *some, more).sample_s * static_cast<double>(some->frames);
     const double wanted = more.samples == 1 ? 4.0
                           : per_sample_s > 0.0

@@ -1,5 +1,5 @@
 #pragma once
-/// What sound needs to know besides the ticks: the driver's car, and where it echoes.
+/// Constant inputs of the sound: the driver's car, and the places that echo.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace septet::frame {
 /// `ear_m`: vehicle frame.
 audio::CarSound car_sound(const vehicle::VehicleParameters& vehicle, const Vec3& ear_m);
 
-/// The tunnels: boxes of the scene that see no sky.
+/// The tunnels: boxes of the scene without sky.
 std::vector<audio::EchoBox> echo_boxes(const instant::SceneSummary& scene);
 
 }  // namespace septet::frame

@@ -36,7 +36,8 @@ instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& scree
   return rectangle;
 }
 
-/// The panel of the instruments from its front, in the middle of the screen, from so far that needles do not shift against their faces.
+/// The panel of the instruments from its front, in the middle of the screen, from so far that needles do not shift
+/// against their faces.
 ScreenViews panel_views(const rig::Screen& screen) {
   namespace panel = instrument_panel;
   const double shape = double(screen.width_px) / screen.height_px;
@@ -54,11 +55,11 @@ ScreenViews panel_views(const rig::Screen& screen) {
   return result;
 }
 
-/// Where a view has the dials of the car's inside; nothing where they are not before the eyes.
+/// Rectangle of the interior's dials in a view; empty if they are not before the eyes.
 std::optional<instant::PixelRectangle> dials_in(const instant::FrameView& view) {
   namespace panel = instrument_panel;
   glm::dvec2 low(1e6), high(-1e6);
-  // One end of them may be behind the eyes while the other is seen.
+  // One end of them may be behind the eyes while the other is visible.
   for (const double across : {-0.5, -0.4, -0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5})
     for (const double upward : {-0.5, 0.5}) {
       const Vec3 at = panel::middle_m + across * panel::width_m * panel::right + upward * panel::height_m * panel::up;
@@ -84,7 +85,7 @@ bool overlap(const instant::PixelRectangle& a, const instant::PixelRectangle& b)
   return meet(a.x, a.width, b.x, b.width) && meet(a.y, a.height, b.y, b.height);
 }
 
-/// What a cluster shows does not depend on the weather, but it is dimmed at night.
+/// A cluster's display does not depend on the weather, but it is dimmed at night.
 Environment light_at_cluster(const Environment& outside) {
   Environment light;
   light.sun_azimuth_rad = outside.sun_azimuth_rad;
@@ -184,6 +185,9 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         add_instruments(frame, readings_of(shown, participant), participant, scene);
         add_windscreen(frame, shown, participant, scene);
         add_mirrors(frame, views.mirrors, scene);
+        // The cabin's frame throws the shadow of what is above the belt.
+        if (const auto shell = prototype_of(scene, fmt::format("shell/{}", vehicle_models()[participant.model].name)))
+          drawn.prototype = *shell;
       }
     }
     frame.participants.push_back(drawn);

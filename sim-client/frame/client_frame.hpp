@@ -1,7 +1,10 @@
 #pragma once
-/// From an instant of the world to what one screen, or a film's camera, draws of it: the last stage before the GPU.
+/// Frame of one screen, or of a film's camera, from an instant of the world: the last stage before the GPU.
 ///
-/// Pure: the same snapshot, views and scene give the same frame, for a live screen, a replay, a film and a test alike.
+/// Pure, as is every function of this header: the same snapshot, views and scene give the same frame, for a live
+/// screen, a replay, a film and a test alike. Effects are not part of it: debris, dents, ice, glass, smoke and soot are
+/// added by EffectsDrawing::add_to (effects_drawing.hpp), which caches decoded keyframes and what it last showed, so
+/// they depend on its latest `show` and on the keyframes at hand.
 
 #include <vector>
 
@@ -15,23 +18,25 @@
 
 namespace septet::frame {
 
-/// A screen's views with their projections from where the eyes are. Or those of a camera.
+/// A screen's views, with projections from the eyes' place; or a camera's views.
 struct ScreenViews {
   std::vector<instant::FrameView> views;
-  std::vector<SeenMirror> mirrors;  ///< In their places, where the car's inside is drawn.
+  std::vector<SeenMirror> mirrors;  ///< At their places, where the car's inside is drawn.
   bool show_interior = false;
-  bool only_instruments = false;  ///< The one view is of the instruments' panel, filling it as far as its shape allows.
+  /// The only view is of the instruments' panel, which fills it as far as its shape allows.
+  bool only_instruments = false;
 };
 
-/// The screen is a window for eyes at `head`; where that is turned, the window has gone round with them. Mirrors stay where the car has
-/// them; an inset shows one while this screen does not see it in its place, above the dials where it would lie on them. Refuses a screen that the eyes do not see from its front.
+/// The screen is a window for eyes at `head`; if the head frame is turned, the window turns with it. Mirrors stay at
+/// the car's places; an inset shows one while this screen does not see it at its place, above the dials if it would
+/// cover them. Error: a screen that the eyes do not see from its front.
 Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen, const Head& head = {});
 
 /// `shown` as seen from a viewpoint, in whose frame the views are given.
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
                                  const scene::ResolvedScene& scene);
 
-/// A line across the middle of the picture, for what the driver must know ("server lost").
+/// A line across the middle of the picture, for a message that the driver must read ("server lost").
 instant::OverlayText banner(std::string text, const rig::Screen& screen);
 
 }  // namespace septet::frame

@@ -20,7 +20,7 @@ namespace {
 namespace face = instrument_panel;
 using face::Sign;
 
-/// Draws on the panel, in its own metres; what is drawn later stands a little nearer to the driver.
+/// Draws on the panel, in its own metres; later strokes lie a little nearer to the driver.
 class PanelPen {
  public:
   /// `share` of the sign's picture across, so that digits stand close.

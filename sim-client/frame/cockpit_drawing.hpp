@@ -1,7 +1,8 @@
 #pragma once
-/// What moves and shines in the inside of a car: needles, digits and lamps of its instruments, the driver's hands on the wheel.
+/// Moving and lit parts of a car's inside: needles, digits and lamps of its instruments, the driver's hands on the
+/// wheel.
 ///
-/// Pure: of the same snapshot the same, for a live screen, a replay and a film.
+/// Pure: a function of the snapshot, for a live screen, a replay and a film.
 
 #include <vector>
 
@@ -11,12 +12,12 @@
 
 namespace septet::frame {
 
-/// What a car's instruments are told.
+/// Values shown by a car's instruments.
 struct Readings {
   double speed_mps = 0.0;  ///< Along the car, negative backwards.
   double engine_radps = 0.0;
   int gear = 0;           ///< −1 reverse, 0 neutral, 1…
-  bool has_gear = false;  ///< Of cars other than the driver's nobody knows it.
+  bool has_gear = false;  ///< Unknown for cars other than the driver's.
   bool stalled = false;
   Lamps lamps;
 };
@@ -26,15 +27,16 @@ bool is_stalled(const DriverCar& car);
 
 Readings readings_of(const Snapshot& shown, const Participant& car);
 
-/// Triangles of needles and lit signs, from the panel's middle along the vehicle's axes (engine/world/instrument_panel.hpp).
+/// Triangles of needles and lit signs, from the panel's middle along the vehicle's axes
+/// (engine/world/instrument_panel.hpp).
 std::vector<scene::SurfaceVertex> lit_on_panel(const Readings& readings);
 
-/// Into a frame in which the inside of `car` is drawn. What the scene does not have (yet) is left out.
+/// Adds to a frame in which the inside of `car` is drawn. Prototypes that the scene does not have (yet) are left out.
 void add_instruments(instant::FrameInput& frame, const Readings& readings, const Participant& car,
                      const scene::ResolvedScene& scene);
 
-/// How far the hands have turned with the hand wheel. They go with it as far as they reach and while it goes on, back to where they began: so no sleeve comes
-/// before dials and road. A function of the angle alone, continuous; 0 for an angle that is none.
+/// Angle of the hands for a hand wheel's angle. They follow it as far as they reach and, as it goes on, return to their
+/// starting place, so that no sleeve covers dials and road. A continuous function of the angle; 0 for NaN.
 inline constexpr double hands_reach_rad = 1.0, hands_back_in_rad = 0.45;
 double hands_rad(double steering_wheel_rad);
 /// With hands at an angle of hands_rad.

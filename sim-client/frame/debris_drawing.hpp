@@ -1,10 +1,10 @@
 #pragma once
 /// Debris between two keyframes: vertices interpolated, faces with the exact normals that their triangles have there.
 ///
-/// Two keyframes with the same triangles: every vertex goes straight from one to the other, and each face's normal is the
-/// t-variant cross product (engine/geometry/temporal_normals.hpp), whose coefficients are worked out once for the two; a
-/// frame only evaluates them. Where the triangles differ the piece has broken: until the later one's instant the earlier one
-/// flies on as it flew. One thread.
+/// Two keyframes with the same triangles: every vertex moves straight from one to the other, and each face's normal is
+/// the t-variant cross product (engine/geometry/temporal_normals.hpp), whose coefficients are computed once per pair; a
+/// frame only evaluates them. Different triangles mean that the piece has broken: until the later one's instant the
+/// earlier one is extrapolated. One thread.
 
 #include <map>
 #include <span>
@@ -12,30 +12,30 @@
 #include <vector>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
-#include "engine/effects/ice/ice_body.hpp"
 #include "engine/geometry/temporal_normals.hpp"
 #include "engine/instant/frame_input.hpp"
+#include "engine/instant/ice_body.hpp"
 #include "sim-client/frame/effect_playout.hpp"
 
 namespace septet::frame {
 
-/// A keyframe with the tick that it shows.
+/// A keyframe with its tick.
 struct TimedDebris {
-  const debris::Keyframe* keyframe = nullptr;  ///< Null: there is none.
+  const debris::Keyframe* keyframe = nullptr;  ///< Null: no keyframe.
   Tick tick = 0;
 };
 
-/// Between which keyframes a piece is seen, and how far on its way: 0 at `from`, 1 at `to`, more where it flies on.
+/// The keyframes around an instant, and the fraction between them: 0 at `from`, 1 at `to`, more if it is extrapolated.
 struct DebrisInstant {
   TimedDebris from, to;
   double share = 0.0;
 };
 
-/// What is seen at `tick` (a fraction lies between two ticks); nothing where there is no keyframe at all.
+/// Keyframes for `tick` (a fraction lies between two ticks); empty if there is no keyframe.
 std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const TimedDebris& before,
                                             const TimedDebris& after, double tick);
 
-/// The way of a piece between two keyframes with the same triangles: all that does not depend on the instant.
+/// Motion of a piece between two keyframes with the same triangles: everything independent of the instant.
 class DebrisWay {
  public:
   DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to);
@@ -44,26 +44,26 @@ class DebrisWay {
   instant::DynamicMesh at(double share) const;
   debris::Part part() const { return part_; }
   debris::Material material() const { return material_; }
-  /// The same triangles as ice to see through, with the cracks of the field that they lie in; nothing where they are of
-  /// something else. `mesh` is what `at` gave; `film`: ice_looks.hpp.
+  /// The same triangles as transparent ice, with the cracks of their crack field; empty for other materials. `mesh` is
+  /// the result of `at`; `film`: ice_looks.hpp.
   std::optional<ice::IceBody> ice_of(const instant::DynamicMesh& mesh, float film) const;
 
  private:
   debris::Part part_;
   debris::Material material_;
   bool both_sides_;
-  std::vector<Vec3> rest_m_;            ///< Of each vertex; only of ice.
+  std::vector<Vec3> rest_m_;            ///< Per vertex; only for ice.
   std::vector<ice::IceVertex> inside_;  ///< In the frame at rest.
   std::vector<debris::Keyframe::Crack> cracks_;
-  std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and the way to its next.
+  std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and its step to the next.
   std::vector<std::array<std::uint16_t, 3>> triangles_;
   TemporalNormals normals_;
 };
 
-/// Name of the prototype whose material a piece wears: "debris/ice".
+/// Name of the prototype that gives a piece its material: "debris/ice".
 std::string_view debris_look(debris::Part part, debris::Material material);
 
-/// Debris as a frame shows it: what is `ice` is among the meshes as well, for its shadow.
+/// Debris of a frame: bodies in `ice` are among the meshes as well, for their shadow.
 struct DrawnDebris {
   std::vector<instant::DynamicMesh> meshes;
   std::vector<ice::IceBody> ice;
@@ -76,7 +76,7 @@ class DebrisDrawing {
                    double temperature_k = 268.15);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
-  /// Pairs of keyframes whose normals were worked out so far.
+  /// Pairs of keyframes with computed normals so far.
   std::uint32_t prepared() const { return prepared_; }
 
  private:
@@ -92,8 +92,8 @@ class DebrisDrawing {
   };
   TimedDebris decoded(const EffectKeyframe* effect);
 
-  std::map<Key, Decoded> decoded_;   ///< Each keyframe is read once.
-  std::map<WayKey, Prepared> ways_;  ///< Each pair is worked out once.
+  std::map<Key, Decoded> decoded_;   ///< Cache: each keyframe is read once.
+  std::map<WayKey, Prepared> ways_;  ///< Cache: each pair is prepared once.
   std::uint32_t refused_ = 0, prepared_ = 0;
 };
 

@@ -13,7 +13,7 @@
 namespace septet::frame {
 namespace {
 
-/// Wheels, limbs and what hands hold keep their shape.
+/// Wheels, limbs and carried things keep their shape.
 bool is_sheet_metal(scene::PartRole role) {
   return role == scene::PartRole::fixed ||
          (role >= scene::PartRole::lamp_brake && role <= scene::PartRole::lamp_tail) || role == scene::PartRole::beacon;

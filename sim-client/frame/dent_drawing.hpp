@@ -1,6 +1,6 @@
 #pragma once
-/// Dents of vehicles that have crashed: the meshes that stand in for theirs, outside and, where the driver sits, inside. Made once
-/// when a dent comes, by each screen and film for itself from the one keyframe. One thread.
+/// Dents of crashed vehicles: meshes that replace theirs, outside and, for the driver's car, inside. Built once per
+/// change of the dents, by each screen and film for itself from the one keyframe. One thread.
 
 #include <cstdint>
 #include <map>
@@ -14,18 +14,18 @@ namespace septet::frame {
 
 class DentDrawing {
  public:
-  /// By the keyframe that the instant has, if it can be read.
+  /// Updates from the keyframe of the instant, if it can be read.
   void show(const Snapshot& instant, const scene::ResolvedScene& scene);
   /// For the participants that the frame has.
   void add_to(instant::FrameInput& frame) const;
 
  private:
   struct Made {
-    Bytes told;  ///< Its dents as the wire has them.
+    Bytes told;  ///< Its dents as encoded on the wire.
     std::map<std::uint32_t, std::shared_ptr<const instant::ReshapedParts>> by_prototype;
   };
-  std::map<ParticipantId, Made> made_;  ///< Made anew where they have changed.
-  Bytes data_;                          ///< Of the keyframe that they were read from.
+  std::map<ParticipantId, Made> made_;  ///< Cache: rebuilt when they change.
+  Bytes data_;                          ///< The keyframe's bytes that they were read from.
   std::uint64_t scene_revision_ = 0;
 };
 

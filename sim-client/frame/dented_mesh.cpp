@@ -19,7 +19,7 @@ using scene::SurfaceVertex;
 
 constexpr std::size_t most_vertices = 120'000;
 
-/// Of the mesh's frame into the vehicle's, and back.
+/// From the mesh's frame into the vehicle's, and back.
 struct Frame {
   const RigidTransform& vehicle_from_object;
   RigidTransform object_from_vehicle;
@@ -29,13 +29,13 @@ struct Frame {
   glm::vec3 in_object(const Vec3& p) const { return glm::vec3((object_from_vehicle * p) / scale); }
 };
 
-/// The middle of an edge, where it is to be divided: as told by its ends alone.
+/// Middle of an edge that is to be divided: a function of its ends alone.
 bool is_divided(const Frame& frame, std::span<const debris::Dent> dents, const SurfaceVertex& a,
                 const SurfaceVertex& b) {
   const Vec3 from = frame.in_vehicle(a.position_m), to = frame.in_vehicle(b.position_m);
   const double length_m = glm::length(to - from);
   if (!(length_m > longest_bent_edge_m)) return false;
-  // Long ones are looked at in several places: a dent in the middle of a lorry's side reaches neither end.
+  // Long edges are sampled in several places: a dent in the middle of a lorry's side reaches neither end.
   const int places = static_cast<int>(std::clamp(length_m / longest_bent_edge_m, 2.0, 64.0));
   for (int k = 0; k <= places; ++k)
     if (debris::reaches(dents, glm::mix(from, to, static_cast<double>(k) / places))) return true;
@@ -66,7 +66,7 @@ class Division {
   Division(const Frame& frame, std::span<const debris::Dent> dents, scene::SurfaceMesh& mesh)
       : frame_(frame), dents_(dents), mesh_(mesh) {}
 
-  /// Divides every edge that is to be once. False: none was.
+  /// Divides every edge that needs it once. Returns false if no edge did.
   bool once() {
     middles_.clear();
     std::vector<std::uint32_t> indices;
@@ -117,7 +117,7 @@ class Division {
       put(m[0], m[1], m[2]);
       return true;
     }
-    // Turned so that the first edge is divided, and with two of them the second one too.
+    // Rotated so that the first edge is divided, and with two of them the second one too.
     std::size_t k = 0;
     while (m[k] == none || (count == 2 && m[(k + 1) % 3] == none)) ++k;
     const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], ab = m[k], bc = m[(k + 1) % 3];

@@ -1,6 +1,6 @@
 #pragma once
-/// A vehicle's mesh with its dents: triangles where they reach are divided until they can bend with the sheet metal, then every corner
-/// and its normal go where the dents put them (engine/effects/debris/dent.hpp).
+/// A vehicle's mesh with its dents: triangles in their reach are divided until they can bend with the sheet metal, then
+/// every corner and normal is displaced by the dents (engine/effects/debris/dent.hpp).
 
 #include <optional>
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace septet::frame {
 
-/// No edge that a dent bends is left longer, m: a skin and its lining, two centimetres behind it, bend alike then.
+/// Longest edge that a dent may bend, m: a skin and its lining, two centimetres behind it, then bend alike.
 inline constexpr double longest_bent_edge_m = 0.06;
 
-/// Nothing where no dent reaches the mesh. Two triangles that share an edge share what it is divided into, whatever mesh they are of.
+/// Empty if no dent reaches the mesh. Two triangles that share an edge share its subdivision, across meshes too.
 std::optional<scene::SurfaceMesh> dented_mesh(const scene::SurfaceMesh& mesh, const RigidTransform& vehicle_from_object,
                                               const glm::vec3& scale, std::span<const debris::Dent> dents);
 

@@ -25,7 +25,7 @@ EffectMoment moment_of(const std::deque<HistoryTick>& ticks, std::uint32_t id, d
       moment.after = keyframe;
     } else if (!moment.before) {
       moment.before = keyframe;
-      if (!moment.after) break;  // At rest, or nothing newer: no other is needed.
+      if (!moment.after) break;  // At rest, or no newer one: no other is needed.
     } else {
       moment.earlier = keyframe;
       break;

@@ -1,8 +1,8 @@
 #pragma once
-/// Which keyframes of an effect lie around the instant that a screen shows.
+/// Keyframes of an effect around the instant that a screen shows.
 ///
-/// A keyframe stays in the snapshots until the next one replaces it, so the ticks that a screen has kept hold all it needs:
-/// the newest keyframe at or before the instant, and the first one after it. Pure functions over the history.
+/// A keyframe stays in the snapshots until the next one replaces it, so the ticks that a screen keeps suffice: the
+/// newest keyframe at or before the instant, and the first one after it. Pure functions over the history.
 
 #include <vector>
 
@@ -12,9 +12,9 @@ namespace septet::frame {
 
 /// One effect at an instant. The pointers lead into the history.
 struct EffectMoment {
-  const EffectKeyframe* earlier = nullptr;  ///< The one before `before`; null where it is not kept.
+  const EffectKeyframe* earlier = nullptr;  ///< The one before `before`; null if it is not kept.
   const EffectKeyframe* before = nullptr;   ///< Null: the effect begins after the instant.
-  const EffectKeyframe* after = nullptr;    ///< Null: nothing newer has come.
+  const EffectKeyframe* after = nullptr;    ///< Null: no newer one has come.
 };
 
 /// The effects that exist at a simulated time, ascending id.

@@ -1,5 +1,6 @@
 #pragma once
-/// Debris, dents, still ice, smoke and soot of an instant, as a screen or a film draws them. One thread.
+/// Debris, dents, still ice, smoke and soot of an instant, as a screen or a film draws them. Holds caches of decoded
+/// keyframes: for the same keyframes the same drawing. One thread.
 
 #include "sim-client/frame/debris_drawing.hpp"
 #include "sim-client/frame/dent_drawing.hpp"
@@ -12,9 +13,10 @@ namespace septet::frame {
 
 class EffectsDrawing {
  public:
-  /// What `instant` shows, by the keyframes around it in `history`.
+  /// Takes the effects of `instant`, by the keyframes around it in `history`.
   void show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene);
-  /// What was shown last, also where its ticks have gone with a lost server; of still ice what is near the frame's eye.
+  /// Adds the effects of the last `show`, also after its ticks have gone with a lost server; of still ice only pieces
+  /// near the frame's eye.
   void add_to(instant::FrameInput& frame) const;
 
  private:

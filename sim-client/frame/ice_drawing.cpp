@@ -102,7 +102,8 @@ std::vector<ice::IceBody> sheet_bodies(const ice::Sheet& sheet, double thawed_kh
       quad({vertex(a, false, false, -left), vertex(b, false, false, -left), vertex(b, false, true, -left),
             vertex(a, false, true, -left)});
     }
-    // Its cracks lie in the frame of its middle row; the bend of a road within eight metres is less than the ice is uneven.
+    // Its cracks lie in the frame of its middle row; the bend of a road within eight metres is less than the ice is
+    // uneven.
     const Row& middle = rows[rows.size() / 2];
     const Vec3 y = glm::length(middle.left - middle.right) > 1e-6 ? glm::normalize(middle.left - middle.right)
                                                                   : Vec3(0.0, 1.0, 0.0);

@@ -1,6 +1,6 @@
 #pragma once
-/// Still ice as a screen draws it: slabs go with the vehicle that they lie on; icicles and sheets are made once a keyframe, and
-/// those near the eye are drawn. One thread.
+/// Still ice as a screen draws it: slabs move with the vehicle that they lie on; icicles and sheets are built once per
+/// keyframe, and those near the eye are drawn. One thread.
 
 #include <optional>
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace septet::frame {
 
-/// A slab of ice as it lies on its vehicle, as thick as it is now: like the piece of debris that it will be, with the same cracks
-/// in the same places.
+/// A slab of ice on its vehicle, at its present thickness: like the piece of debris that it will become, with the same
+/// cracks in the same places.
 ice::IceBody slab_body(const ice::LyingSlab& slab, double thawed_kh, const RigidTransform& world_from_vehicle,
                        float film);
-/// All icicles of a row in one body; one without vertices where none is left.
+/// All icicles of a row in one body; without vertices if no icicle is left.
 ice::IceBody row_body(const ice::IcicleRow& row, double thawed_kh, float film);
 /// A sheet in bodies of some metres each.
 std::vector<ice::IceBody> sheet_bodies(const ice::Sheet& sheet, double thawed_kh, float film);
@@ -30,14 +30,14 @@ class IceDrawing {
  private:
   struct Standing {
     ice::IceBody body;
-    double reach_m = 0.0;  ///< From how far it is worth drawing.
+    double reach_m = 0.0;  ///< Distance up to which it is drawn.
   };
-  Tick tick_ = 0;  ///< Of the keyframe that was read last.
+  Tick tick_ = 0;  ///< Tick of the latest keyframe.
   float film_ = 0.0f;
   std::optional<ice::StillIce> ice_;
   std::vector<Standing> standing_;
   std::vector<ice::IceBody> slabs_;
-  std::vector<instant::DynamicMesh> shadows_;  ///< Of the slabs.
+  std::vector<instant::DynamicMesh> shadows_;  ///< Shadow meshes of the slabs.
   std::uint32_t refused_ = 0;
 };
 

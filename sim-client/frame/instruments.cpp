@@ -29,7 +29,7 @@ instant::OverlayText line(std::string text, double x_px, double y_px, double hei
           .color = color};
 }
 
-/// A text's lines, those after the first broken between words where they would be wider than the screen; nothing where there is no text.
+/// A text's lines, wrapped between words to the screen's width; empty for an empty text.
 std::vector<std::string> lines_of(const std::string& text, const rig::Screen& screen, double height_px) {
   constexpr double letter = 0.45;  // Its width over a line's height, in the mean.
   const auto most = static_cast<std::size_t>(std::max(20.0, 0.9 * screen.width_px / (letter * height_px)));
@@ -47,7 +47,7 @@ std::vector<std::string> lines_of(const std::string& text, const rig::Screen& sc
   return lines;
 }
 
-/// The warning lamps that are lit, in words; empty where none is.
+/// The lit warning lamps, in words; empty if none is lit.
 std::string warning_text(const CarWarnings& warnings) {
   std::string text;
   const auto add = [&](bool is_lit, const char* words) {

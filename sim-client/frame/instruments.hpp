@@ -1,5 +1,6 @@
 #pragma once
-/// What the driver reads on a screen where no real car shows it: speed, gear, indicators; and which keys drive.
+/// Text that the driver reads on a screen where no real car shows it: speed, gear, indicators; and the table of driving
+/// keys.
 ///
 /// Pure: lines of text for a frame's overlay, in pixels of the screen.
 
@@ -12,18 +13,19 @@
 
 namespace septet::frame {
 
-/// Speed and gear below the driver's look ahead and indicators at both sides, unless the screen shows a cockpit with dials of its own; a
-/// stalled engine underneath. Nothing on a screen whose rig does not ask for it.
+/// Speed and gear below the driver's look ahead and indicators at both sides, unless the screen shows a cockpit with
+/// dials of its own; a stalled engine underneath. Nothing on a screen whose rig does not ask for it.
 std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
-/// How a game stands, high on the screen ahead: level, points, time; that the leader gets away; how it ended. Nothing where the
-/// scenario is no game.
+/// Standing of a game, high on the screen ahead: level, points, time; a leader who gets away; the outcome. Empty if the
+/// scenario is not a game.
 std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
-/// What the driver is to read, in the middle of the screen: its first line large, the others below it, broken where they are too long.
+/// A notice to the driver, in the middle of the screen: its first line large, the others below it, wrapped where too
+/// long.
 std::vector<instant::OverlayText> notice(const std::string& text, const rig::Screen& screen);
 
-/// The table of keys in the middle of the screen, under such a notice ("Press any key to start"; empty: none).
+/// The table of keys in the middle of the screen, under such a notice ("Press any key to start"; empty: no notice).
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
 
 /// A modest line near the lower left corner of the screen: below mirrors and dials.

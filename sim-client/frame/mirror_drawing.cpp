@@ -113,7 +113,7 @@ std::vector<scene::SurfaceVertex> mirror_housing(const rig::Mirror& mirror) {
           {at(sections[i], side), at(sections[i + 1], side), at(sections[i + 1], side + 1), at(sections[i], side + 1)});
   const Vec3 behind = -0.7 * deep_m * glass.back;
   if (inside) {
-    // To its foot on the glass of the windscreen, above it.
+    // To its foot on the windscreen's glass, above it.
     const Vec3 &foot = windscreen::foot_left_m, &head = windscreen::head_left_m;
     const double z_m = glass.middle_m.z + glass.half_m.y + 0.045;
     const double x_m = foot.x + (head.x - foot.x) * (z_m - foot.z) / (head.z - foot.z);

@@ -1,5 +1,5 @@
 #pragma once
-/// The mirrors of a car whose inside is drawn, in their places: glass, frame around it, and the stem or arm that holds it.
+/// The mirrors of a car whose inside is drawn, in their places: glass, frame around it, and its stem or arm.
 
 #include <vector>
 
@@ -15,16 +15,17 @@ struct SeenMirror {
   instant::MirrorGlass glass;
 };
 
-/// Those that `through`, the screen's view of this viewport, sees; of which it has insets only those that it sees wholly. What is in them lies
-/// one below the other in one picture.
+/// Mirrors that `through`, the screen's view of this viewport, sees; insets only if wholly visible. Their pictures lie
+/// one below the other in one texture.
 std::vector<SeenMirror> seen_mirrors(const rig::Rig& rig, const rig::Screen& screen,
                                      const instant::OffAxisView& through, const instant::PixelRectangle& viewport);
 
-/// Triangles of frame and holder, from the glass's middle along the car's axes: an inside mirror hangs from the head of the windscreen,
-/// one outside stands on the door beside it.
+/// Triangles of frame and holder, from the glass's middle along the car's axes: an inside mirror hangs from the head of
+/// the windscreen, one outside stands on the door beside it.
 std::vector<scene::SurfaceVertex> mirror_housing(const rig::Mirror& mirror);
 
-/// Into a frame in which the inside of the car is drawn, for eyes that move as the first view's do. Without the scene's signs there is no housing.
+/// Adds to a frame in which the inside of the car is drawn, for eyes that move as the first view's do. Without the
+/// scene's signs there is no housing.
 void add_mirrors(instant::FrameInput& frame, const std::vector<SeenMirror>& mirrors, const scene::ResolvedScene& scene);
 
 }  // namespace septet::frame

@@ -1,5 +1,5 @@
 #pragma once
-/// Writes pictures to disk on a thread of its own, so that the frame after the one that is kept does not wait for it. A picture has its name
+/// Writes pictures to disk on a thread of its own, so that the next frame does not wait for it. A picture gets its name
 /// only when it is whole: until then it is NAME.part.
 
 #include <filesystem>
@@ -12,9 +12,9 @@ namespace septet::frame {
 
 class PictureWriter {
  public:
-  PictureWriter();  ///< Its end writes what is queued.
+  PictureWriter();  ///< The destructor writes the rest of the queue.
 
-  /// Queues one picture; waits while four are queued already. Answers the first failure of an earlier one.
+  /// Queues one picture; waits while four are queued already. Returns the first failure of an earlier one.
   Expected<void> write(std::filesystem::path file, image::Image picture);
   /// Waits until everything is written; returns the first failure.
   Expected<void> finish();

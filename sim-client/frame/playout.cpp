@@ -23,11 +23,12 @@ PlayedOut show(const TickHistory& history, double simulated_time_s, double tick_
   PlayedOut shown;
   if (!before) {  // Older than all that is kept: a screen that has just joined.
     shown.snapshot = after->snapshot;
-  } else if (!after) {  // Nothing newer: the last tick, held.
+  } else if (!after) {  // No newer one: the last tick is held.
     shown.snapshot = before->snapshot;
     shown.on_tick = simulated_time_s - before->snapshot.simulated_time_s < 1e-6;
   } else {
-    // Motion goes on through the gap where a tick is missing: the quintic from tick to tick reaches over several of them.
+    // Motion goes on through the gap where a tick is missing: the quintic from tick to tick reaches over several of
+    // them.
     shown.snapshot = interpolate(before->snapshot, after->snapshot, simulated_time_s);
     shown.on_tick = true;
   }

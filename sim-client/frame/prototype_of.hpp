@@ -1,5 +1,5 @@
 #pragma once
-/// Which prototype of a scene has a name; nothing while the scene does not have it (yet).
+/// Index of a scene's prototype by name; empty while the scene does not have it (yet).
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
-/// What one screen of a rig draws, frame by frame: the world through its window, the car around the eyes, effects, what the driver reads.
+/// Frames of one screen of a rig: the world through its window, the car around the eyes, effects, the driver's text.
 ///
-/// septet-screen draws these frames, and so do the golden pictures: what is compared is what a client shows.
+/// septet-screen draws these frames, and so do the golden pictures: the comparison covers the client's own frames.
 
 #include <optional>
 #include <string>
@@ -13,13 +13,14 @@ namespace septet::frame {
 
 class ScreenFrames {
  public:
-  /// From now on of this screen; both outlive that. Refuses a screen that the eyes do not see from its front.
+  /// Selects this screen from now on; both must outlive its use. Error: a screen that the eyes do not see from its
+  /// front.
   Expected<void> look_through(const rig::Rig& rig, const rig::Screen& screen);
-  /// Takes the effects that an instant shows, by the keyframes around it in `history`.
+  /// Takes the effects of an instant, by the keyframes around it in `history`.
   void show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene) {
     effects_.show(instant, history, tick_s, scene);
   }
-  /// Of a screen that is looked through. The effects are those that were shown last. `message`: across the middle, instead of instruments.
+  /// For a selected screen. Effects are those of the last `show`. `message`: across the middle, instead of instruments.
   instant::FrameInput frame(const Snapshot& shown, const scene::ResolvedScene& scene,
                             std::optional<std::string> message = std::nullopt);
 
@@ -27,7 +28,7 @@ class ScreenFrames {
   const rig::Rig* rig_ = nullptr;
   const rig::Screen* screen_ = nullptr;
   ScreenViews views_;
-  Head head_;  ///< For which the views are.
+  Head head_;  ///< The head that the views were computed for.
   EffectsDrawing effects_;
 };
 

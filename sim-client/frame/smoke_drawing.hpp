@@ -24,7 +24,7 @@ class SmokeDrawing {
     bool readable = false, used = false;
     smoke::Keyframe keyframe;
   };
-  std::map<std::uint32_t, Decoded> decoded_;  ///< By effect: each keyframe is read once.
+  std::map<std::uint32_t, Decoded> decoded_;  ///< Cache by effect: each keyframe is read once.
   std::uint32_t refused_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Soot as a screen draws it: how much of what a surface reflects is covered, cell by cell. One thread.
+/// Soot as a screen draws it: the share of a surface's reflection that is covered, cell by cell. One thread.
 
 #include <span>
 
@@ -8,21 +8,22 @@
 
 namespace septet::frame {
 
-/// A surface lies up to a cell beside the cells whose soot it carries, so each cell shows the most of its neighbourhood.
+/// A surface lies up to a cell beside the cells that hold its soot, so each cell takes the maximum of its
+/// neighbourhood.
 instant::SootField soot_field(const smoke::SootKeyframe& keyframe);
 
 class SootDrawing {
  public:
-  /// The soot of a snapshot; an empty field where there is none.
+  /// The soot of a snapshot; an empty field if there is none.
   const instant::SootField& draw(std::span<const EffectKeyframe> effects);
-  /// What was drawn last.
+  /// Last field drawn.
   const instant::SootField& field() const { return field_; }
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
 
  private:
   Tick tick_ = 0;
-  instant::SootField field_;  ///< Of the keyframe of that tick: each is read once.
+  instant::SootField field_;  ///< Field of the keyframe of that tick: each is read once.
   std::uint32_t refused_ = 0;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
-/// The ticks that a screen has received, or a film has read, decoded: baselines for the next ones, and what interpolation
-/// picks from.
+/// Decoded ticks that a screen has received, or a film has read: baselines for the next ones, and the source of
+/// interpolation.
 ///
-/// Free of sockets and clocks, so that tests can feed it from a bad network on simulated time. One thread.
+/// Independent of sockets and clocks, so that tests can feed it from a bad network on simulated time. One thread.
 
 #include <deque>
 #include <optional>
@@ -25,14 +25,14 @@ class TickHistory {
   static constexpr std::size_t kept = 96;  ///< At least what net::BaselineOptions remembers.
 
   enum class Outcome : std::uint8_t { stored, lost_baseline, refused };
-  /// One tick's payload as it came over the tick lane; `error()` says why it was refused.
+  /// One tick's payload as received on the tick lane; `error()` holds the reason of a refusal.
   Outcome add(std::span<const std::byte> payload);
   const Error& error() const { return error_; }
-  /// One tick that is decoded already, such as a session's.
+  /// One tick that is decoded already, as a session's is.
   void add(HistoryTick entry);
-  /// Forgets what is older than the last tick at or before this simulated time.
+  /// Drops ticks older than the last one at or before this simulated time.
   void forget_before(double simulated_time_s);
-  /// Forgets everything: the server was restarted.
+  /// Drops everything: the server was restarted.
   void clear() { ticks_.clear(); }
 
   bool empty() const { return ticks_.empty(); }
@@ -40,7 +40,8 @@ class TickHistory {
   const HistoryTick* find(Tick tick) const;
   const std::deque<HistoryTick>& ticks() const { return ticks_; }  ///< Ascending.
 
-  /// The two ticks around a simulated time: the last one at or before it and the first one after it (either may be null).
+  /// The two ticks around a simulated time: the last one at or before it and the first one after it (either may be
+  /// null).
   struct Neighbours {
     const HistoryTick* before = nullptr;
     const HistoryTick* after = nullptr;

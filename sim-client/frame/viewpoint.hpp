@@ -1,5 +1,5 @@
 #pragma once
-/// Through whose eyes an instant is seen, or from which place beside them.
+/// Viewpoint of an instant: a participant's eyes, or a place beside them.
 
 #include <optional>
 
@@ -8,15 +8,14 @@
 namespace septet::frame {
 
 struct Viewpoint {
-  RigidTransform world_from_views;  ///< The frame of the views' eyes and axes: a vehicle's, or that of any place.
-  std::optional<ParticipantId>
-      inside;  ///< Whose eyes they are: of that vehicle its inside is drawn, its shadow and its light.
+  RigidTransform world_from_views;      ///< The frame of the views' eyes and axes: a vehicle's, or that of any place.
+  std::optional<ParticipantId> inside;  ///< Vehicle of the eyes: its inside, shadow and light are drawn.
 };
 
-/// The driver's, in the frame of his car; where the snapshot has none, those of the first participant.
+/// The driver's, in the frame of his car; the first participant's if the snapshot has no driver.
 Viewpoint driver_viewpoint(const Snapshot& shown);
 
-/// Where who drives such a vehicle has the eyes, vehicle frame. The seats are on the left.
+/// Eye point of the driver of such a vehicle, vehicle frame. The seats are on the left.
 Vec3 eye_in(const VehicleModel& model);
 
 }  // namespace septet::frame

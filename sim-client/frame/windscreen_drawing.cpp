@@ -120,7 +120,7 @@ std::vector<GlassDrop> drops_on_glass(const Environment& environment, double tim
   const double rain = environment.rain_mm_per_h;
   if (!(rain > 0.0) || environment.temperature_k < freezing_rain_k) return drops;
   constexpr int places = 900;
-  // At each place one falls every so often; places that no wiper clears are always taken.
+  // One falls at each place at a fixed interval; places that no wiper clears are always wet.
   const double every_s = std::clamp(14.0 / rain, 1.2, 30.0);
   const Glass on = glass();
   Random random(7);
@@ -157,7 +157,7 @@ void add_windscreen(instant::FrameInput& frame, const Snapshot& shown, const Par
   const std::vector<GlassDrop> drops = drops_on_glass(environment, shown.simulated_time_s);
   if (drops.empty()) return;
   GlassPen pen(car, *water);
-  // A drop turns what lies beyond it upside down: the sky is seen in its lower half.
+  // A drop inverts the picture behind it: the sky appears in its lower half.
   constexpr std::size_t sides = 6;
   std::array<glm::dvec2, sides> rim{};
   for (std::size_t k = 0; k < sides; ++k) {

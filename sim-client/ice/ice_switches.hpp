@@ -1,5 +1,5 @@
 #pragma once
-/// What the keys of septet-ice's window do: each part of the drawing on and off. Pure.
+/// Keys of septet-ice's window: each part of the drawing on and off. Pure.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace septet::ice_viewer {
 
-/// Applies a key that has been pressed; false for one that changes nothing.
+/// Applies a pressed key; returns false if it changes nothing.
 bool press(IceOptions& options, Key key);
 
-/// One line a switch: its key, its name, and how it stands.
+/// One line per switch: its key, its name, and its state.
 std::vector<std::string> switches(const IceOptions& options);
 
 }  // namespace septet::ice_viewer

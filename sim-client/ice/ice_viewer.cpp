@@ -38,7 +38,7 @@ ice::IceBody body_of(const ice::Surface& surface, const IceOptions& options, dou
   body.vertices = surface;
   const ice::Box box = bounds(surface);
   const ice::InsideKind kind = options.mark_cracks ? ice::InsideKind::mark : ice::InsideKind::crack;
-  // Where there are very many, nobody sees that they are flat.
+  // With very many cracks their flatness is invisible.
   const std::uint32_t cells = options.cracks > 200 ? 1 : 6;
   for (const ice::Crack& crack : generic_cracks(box, options.cracks, options.seed))
     append_crack(body.inside, crack, kind, cells);

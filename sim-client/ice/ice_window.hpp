@@ -6,7 +6,7 @@
 
 namespace septet::ice_viewer {
 
-/// The exit status.
+/// Returns the exit status.
 Expected<int> show_in_window(const ice::Surface& surface, IceOptions options);
 
 }  // namespace septet::ice_viewer

@@ -1,13 +1,13 @@
 #pragma once
-/// What a path tracer needs to draw the same picture: the object as an OBJ file, the panorama around it as a PFM image, the
-/// camera as JSON. tests/benchmarks/peers/ice_reference.py reads them.
+/// Input for a path tracer to draw the same picture: the object as an OBJ file, the panorama around it as a PFM image,
+/// the camera as JSON. tests/benchmarks/peers/ice_reference.py reads them.
 
 #include "engine/core/expected.hpp"
 #include "sim-client/ice/ice_viewer.hpp"
 
 namespace septet::ice_viewer {
 
-/// Where the camera stands: it looks at the origin.
+/// The camera's place: it looks at the origin.
 struct Seat {
   Vec3 eye_m{0.0};
   double pitch_rad = 0.0, horizontal_rad = 0.0, vertical_rad = 0.0;

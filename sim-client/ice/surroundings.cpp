@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/instant/instant.hpp"
+#include "engine/light/lamplight.hpp"
 
 namespace septet::ice_viewer {
 namespace {
@@ -81,7 +82,7 @@ void add_mesh(scene::ResolvedScene& scene, scene::SurfaceMesh mesh, std::vector<
 }
 
 void add_room(scene::ResolvedScene& scene) {
-  // One mesh, so that what stands in it stands under a roof.
+  // One mesh, so that its contents stand under a roof.
   scene::SurfaceMesh mesh;
   std::vector<scene::SurfaceMaterial> materials;
   for (const Wall& wall : walls) {
@@ -91,9 +92,9 @@ void add_room(scene::ResolvedScene& scene) {
     material.base_color = glm::vec3(1.0f);
     material.base_color_image = static_cast<std::int32_t>(scene.images.size());
     material.roughness = 1.0f;
-    // Of a roofed place: what its lamps give is taken off, so that the walls have one brightness.
+    // Under a roof: the light of its lamps is subtracted, so that the walls have one brightness.
     material.share_of_sky = 0.0f;
-    material.emission = glm::vec3(room_radiance) - instant::irradiance_between_pools / std::numbers::pi_v<float>;
+    material.emission = glm::vec3(room_radiance) - light::irradiance_between_pools / light::pi;
     scene.images.push_back(wall_picture(wall));
     materials.push_back(material);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// What stands around a lone object of ice: a panorama on the walls of a wide room, or a field under the sky.
+/// Surroundings of a lone object of ice: a panorama on the walls of a wide room, or a field under the sky.
 
 #include <glm/vec3.hpp>
 
@@ -8,15 +8,15 @@
 namespace septet::ice_viewer {
 
 enum class Surroundings : std::uint8_t {
-  room,      ///< The panorama and nothing else: the same from every place, as the references have it.
+  room,      ///< The panorama alone: the same from every place, as in the references.
   outdoors,  ///< Sun, sky, a field and coloured columns.
 };
 
-/// The panorama's colour in a direction (unit; z is up), linear Rec. 709, each from 0 to 1: a chequered floor, coloured columns
-/// and bright windows.
+/// The panorama's colour in a direction (unit; z is up), linear Rec. 709, each from 0 to 1: a chequered floor, coloured
+/// columns and bright windows.
 glm::vec3 panorama(const glm::vec3& direction);
 
-/// Of the panorama's colour, the radiance of the room's walls.
+/// Radiance of the room's walls, as a share of the panorama's colour.
 inline constexpr float room_radiance = 0.5f;
 
 scene::ResolvedScene scene_around(Surroundings surroundings);

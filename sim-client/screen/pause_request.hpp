@@ -1,6 +1,6 @@
 #pragma once
-/// The person at a screen wants the world to stand still, or to go on: the server is told, on each new connection again, until its notice
-/// says that it is so.
+/// Request of the person at a screen to pause or resume the world: sent to the server, again on each new connection,
+/// until its notice confirms it.
 
 #include <cstdint>
 #include <optional>
@@ -11,12 +11,12 @@ namespace septet::screen {
 
 class PauseRequest {
  public:
-  /// The other way round from how it is.
+  /// Requests the opposite of the present state.
   void toggle(const ScreenLink& link) {
     wanted_ = !link.notice().paused;
     told_welcome_.reset();
   }
-  /// It has been asked for, and may not be so yet.
+  /// It has been requested, and may not be in effect yet.
   bool is_pausing() const { return wanted_.value_or(false); }
   /// To be called after each pump of the link.
   void tell(ScreenLink& link) {
@@ -29,7 +29,7 @@ class PauseRequest {
 
  private:
   std::optional<bool> wanted_;
-  std::optional<std::uint32_t> told_welcome_;  ///< Of which connection the server has been told.
+  std::optional<std::uint32_t> told_welcome_;  ///< The connection on which the server has received it.
 };
 
 }  // namespace septet::screen

@@ -6,12 +6,12 @@ namespace septet::screen {
 namespace {
 constexpr double span_s = 2.0;
 constexpr std::size_t least_pictures = 3;
-constexpr double enough_per_s = 25.0;  ///< Below it a driver steers at what was, not at what is.
+constexpr double enough_per_s = 25.0;  ///< Below it a driver steers by the past.
 }  // namespace
 
 void PictureRate::add(double now_s) {
   shown_s_.push_back(now_s);
-  // The oldest one that is kept begins the span.
+  // The oldest kept one begins the span.
   while (shown_s_.size() > least_pictures && shown_s_[1] <= now_s - span_s) shown_s_.pop_front();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How many pictures a second a screen has shown lately, and what to tell a driver for whom they are too few.
+/// Pictures a second of a screen in the recent past, and advice to a driver if they are too few.
 
 #include <deque>
 #include <optional>
@@ -11,14 +11,14 @@ class PictureRate {
  public:
   /// A picture was shown at this instant of the caller's clock.
   void add(double now_s);
-  /// Over the last two seconds and at least three pictures; nothing before there are as many.
+  /// Over the last two seconds and at least three pictures; empty before that.
   std::optional<double> per_second() const;
 
  private:
   std::deque<double> shown_s_;  ///< Ascending.
 };
 
-/// One line, or nothing where the rate will do.
+/// One line; empty if the rate is sufficient.
 std::optional<std::string> slowness(const PictureRate& rate, bool drawn_in_software);
 
 }  // namespace septet::screen

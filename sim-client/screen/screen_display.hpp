@@ -1,5 +1,5 @@
 #pragma once
-/// Where a screen's picture goes: a window, a whole monitor, or nowhere but memory. And the keys pressed on it.
+/// Output of a screen's picture: a window, a whole monitor, or memory alone. And the keys pressed on it.
 
 #include <cstdint>
 #include <memory>
@@ -31,20 +31,21 @@ class Display {
     std::uint32_t width_px = 0, height_px = 0;
     bool operator==(const Size&) const = default;
   };
-  /// Of the window; nothing for an off-screen display, and while a window has no area.
+  /// Size of the window; empty for an off-screen display, and while a window has no area.
   virtual std::optional<Size> window_size() const = 0;
-  /// Takes what the window system has to say: often enough that keys are read while a picture is drawn in another thread.
+  /// Handles the window system's events: often enough that keys are read while a picture is drawn in another thread.
   virtual void attend() = 0;
-  /// The same; whether the person wants to leave, or to pause, by what: a key once when it is pressed.
+  /// The same; the person's request to leave or pause, by its cause: a key once per press.
   enum class Leaving : std::uint8_t { no, closed, escape, restart, enter };
   virtual Leaving poll_leaving() = 0;
-  /// What keyboard or gamepad say, for a rig whose car is one; nothing before they are touched, and for an off-screen display.
+  /// Driver input from keyboard or gamepad, for a rig whose car is one; empty before they are touched, and for an
+  /// off-screen display.
   virtual std::optional<DriverInput> controls(double now_s, double speed_mps) = 0;
-  /// Whether keyboard or gamepad have been touched since the display opened.
+  /// True if keyboard or gamepad have been touched since the display opened.
   virtual bool is_touched() const = 0;
-  /// Whether the person has asked for the table of keys (F1) since the last call.
+  /// True if the person has requested the table of keys (F1) since the last call.
   virtual bool take_keys_request() = 0;
-  /// Presenting waits for the display's refresh.
+  /// True if presenting waits for the display's refresh.
   virtual bool paces_itself() const = 0;
 };
 

@@ -51,7 +51,7 @@ void ScreenLink::pump(double now_s) {
   tell_of_forgeries(now_s);
 }
 
-/// Somebody on the network pretends to be the server, or floods the tick lane.
+/// Forged packets: a sender on the network imitates the server, or floods the tick lane.
 void ScreenLink::tell_of_forgeries(double now_s) {
   constexpr double every_s = 10.0;
   if (now_s - told_s_ < every_s) return;
@@ -64,7 +64,7 @@ void ScreenLink::tell_of_forgeries(double now_s) {
 }
 
 void ScreenLink::on_connected() {
-  // Back at the same server its ticks still hold, and one that is repeated while the world waits does not come out anew.
+  // After reconnecting to the same server its ticks still hold, and a tick repeated while the world waits is not new.
   if (ticks_.follow(lane_.session())) history_.clear();
   scene_.connected();
   scene_arrived_ = false;

@@ -33,7 +33,7 @@
 namespace septet::screen {
 namespace {
 
-/// What stays from one welcome of the server to the next.
+/// State that outlives a welcome of the server.
 class Session {
  public:
   Session(const ScreenOptions& options, net::UdpSocket lane_socket, net::UdpSocket tick_socket, ScreenLinkOptions link)
@@ -58,24 +58,25 @@ class Session {
   Expected<void> draw_lockstep();
   Expected<void> draw_real_time(double now_s);
   Expected<void> draw_lost(double now_s);
-  /// A screen whose place nobody has measured is seen in the window's own pixels, whatever its shape is by now.
+  /// A screen without a measured place is drawn in the window's own pixels, whatever its present shape.
   Expected<void> take_window_shape();
   Expected<void> draw(const Snapshot& snapshot, const std::optional<std::string>& message);
-  /// Does the renderer's `work` in a thread of its own: meanwhile keys are read and the server hears that this screen is there,
-  /// however long a picture or a scene takes. `work` leaves the link alone; after it the link may belong to another drive.
+  /// Runs the renderer's `work` in a thread of its own: meanwhile keys are read and the server gets signs of life,
+  /// however long a picture or a scene takes. `work` leaves the link alone; after it the link may belong to another
+  /// drive.
   Expected<void> beside_lane(const std::function<Expected<void>()>& work);
   void send_controls();
-  /// The server was started again beside the renderer's work: what was drawn before is not to be gone on with.
+  /// The server was restarted during the renderer's work: its result is to be discarded.
   bool has_begun_anew() const { return link_.welcomes() != welcomes_ || link_.history().empty(); }
   void count_frame();
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
-  /// Of what is shown, if somebody looks closely and the next picture is due.
+  /// Sends the picture shown, if an operator watches closely and the next one is due.
   Expected<void> show_closely(Tick tick, double now_s);
   void send_pictures();
   void say_goodbye();
-  /// That pictures come slowly, and on the screen ahead what the driver is to read; in no kept picture.
+  /// Notice of a low picture rate, and on the screen ahead the driver's text; absent from kept pictures.
   std::vector<instant::OverlayText> driver_texts(const Snapshot& snapshot);
   void wait(double seconds);
 
@@ -88,7 +89,7 @@ class Session {
   std::uint32_t welcomes_ = 0;
   rig::Rig rig_;
   rig::Screen* screen_ = nullptr;
-  rig::Screen screen_of_rig_;  ///< As the rig has it, whatever shape its window has.
+  rig::Screen screen_of_rig_;  ///< As in the rig, whatever shape its window has.
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_, large_pictures_{large_picture};
@@ -103,7 +104,7 @@ class Session {
   double lost_drawn_s_ = 0.0;
   static constexpr std::chrono::milliseconds keys_every{8};
   static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
-  std::optional<bool> keys_shown_;                  ///< By the driver's keys; nothing: none has been pressed.
+  std::optional<bool> keys_shown_;                  ///< Chosen by the driver's keys; empty: no key was pressed yet.
   bool was_touched_ = false;
   float last_submit_ms_ = 0.0f;
 };
@@ -196,7 +197,7 @@ void Session::send_controls() {
     link_.send(control::Controls{*controls}, net::Reliability::unreliable);
 }
 
-/// After each picture. Whoever started this program hears of the first.
+/// Called after each picture. The parent program is notified of the first.
 void Session::count_frame() {
   const double now_s = program::monotonic_s();
   if (last_picture_s_) frame_times_.add(1e3 * (now_s - *last_picture_s_));
@@ -258,7 +259,7 @@ Expected<void> Session::show_closely(Tick tick, double now_s) {
   return {};
 }
 
-/// One that would wait in a queue is left out.
+/// A picture that would wait in a queue is dropped.
 void Session::send_pictures() {
   if (auto small = thumbnails_.finished(); small && !link_.has_backlog())
     link_.send(control::Thumbnail{small->tick, std::move(small->picture)}, net::Reliability::reliable);
@@ -313,7 +314,7 @@ Expected<void> Session::draw_real_time(double now_s) {
 
 Expected<void> Session::draw_lost(double now_s) {
   last_picture_s_.reset();
-  // The last picture is held, and says what has happened; ten times a second is enough for a still picture.
+  // The last picture is held, with a line on the cause; ten times a second is enough for a still picture.
   if (!last_shown_ || now_s - lost_drawn_s_ < 0.1) {
     wait(0.01);
     return {};
@@ -371,7 +372,7 @@ Expected<void> Session::run() {
       return pictures_.finish();
     }
     if (departure) {
-      // Nothing is drawn meanwhile: a server that had dropped this screen is to hear of it as soon as it is back.
+      // Drawing pauses: a server that had dropped this screen is to get the request as soon as it is back.
       if (departure->is_in_vain(link_, now_s)) break;
       wait(0.005);
       continue;

@@ -15,14 +15,14 @@ struct ScreenOptions {
   std::string name;  ///< In the rig.
   net::Address server;
   std::filesystem::path keys;            ///< Folder with NAME.key and server.public.
-  std::filesystem::path pictures;        ///< Where pictures of whole ticks go (TICK.png); empty: none are kept.
+  std::filesystem::path pictures;        ///< Folder for pictures of whole ticks (TICK.png); empty: not kept.
   bool is_virtual = false;               ///< Off-screen, on the software rasteriser.
-  bool full_screen = false;              ///< Also where the rig does not say so.
-  std::optional<std::uint32_t> monitor;  ///< Instead of the rig's.
+  bool full_screen = false;              ///< Full screen even without the rig's `full_screen`.
+  std::optional<std::uint32_t> monitor;  ///< Overrides the rig's.
   bool validation = false;
 };
 
-/// Runs until the server says that the drive is over, the window is closed or `SIGTERM` comes.
+/// Runs until the server ends the drive, the window is closed or `SIGTERM` comes.
 Expected<void> run_screen(const ScreenOptions& options);
 
 }  // namespace septet::screen

@@ -24,7 +24,7 @@ image::Image thumbnail_of(const image::Image& picture, const PictureLimits& limi
     return std::clamp(static_cast<std::uint32_t>(std::lround(pixels / scale)), 1u, most);
   };
   image::Image small(side(picture.width, limits.width), side(picture.height, limits.height));
-  // Of the stretch that a pixel stands for, evenly spread places.
+  // Evenly spread samples of the stretch that a pixel covers.
   const auto place = [](std::uint32_t pixel, std::uint32_t sample, std::uint32_t from, std::uint32_t to) {
     const std::uint64_t part = std::uint64_t{pixel} * samples_a_side + sample;
     return static_cast<std::uint32_t>((2 * part + 1) * from / (std::uint64_t{2} * samples_a_side * to));

@@ -1,8 +1,8 @@
 #pragma once
-/// Pictures of what a screen shows, for the operator's page: small ones always, large ones while somebody looks.
+/// Pictures of a screen for the operator's page: small ones always, large ones while an operator watches closely.
 ///
-/// A picture that was read back anyway is copied (1 ms), and made smaller and packed on a thread of its own: a frame never waits for that. One
-/// that comes while the last is being packed is left out.
+/// A picture that was read back anyway is copied (1 ms), and scaled and compressed on a thread of its own: a frame
+/// never waits for it. One that comes while the last is being compressed is dropped.
 
 #include <cstdint>
 #include <mutex>
@@ -16,14 +16,15 @@
 
 namespace septet::screen {
 
-/// How large a picture may be.
+/// Largest size of a picture.
 struct PictureLimits {
   std::uint32_t width = 320, height = 240;
   std::size_t bytes = control::most_thumbnail_bytes;
 };
 inline constexpr PictureLimits large_picture{960, 720, control::most_picture_bytes};
 
-/// The picture within the limits, its sides' ratio kept: each pixel the mean of up to 4 × 4 of those that it stands for. A smaller one as it is.
+/// The picture within the limits, aspect ratio kept: each pixel the mean of up to 4 × 4 pixels. A smaller one is
+/// returned unchanged.
 image::Image thumbnail_of(const image::Image& picture, const PictureLimits& limits = {});
 
 class ThumbnailMaker {
@@ -34,9 +35,9 @@ class ThumbnailMaker {
   }
   struct Made {
     Tick tick = 0;
-    std::string picture;  ///< A JPEG file.
+    std::string picture;  ///< JPEG file.
   };
-  /// The newest that is ready, once.
+  /// The newest finished picture, once.
   std::optional<Made> finished();
 
  private:
@@ -46,7 +47,7 @@ class ThumbnailMaker {
   };
   std::mutex mutex_;
   std::optional<Made> finished_;
-  JobThread<Job> thread_;  ///< Last: it is gone before the rest.
+  JobThread<Job> thread_;  ///< Last member: its thread ends before the rest is destroyed.
 };
 
 }  // namespace septet::screen

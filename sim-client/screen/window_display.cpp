@@ -22,7 +22,7 @@ car_io::GamepadState gamepad_of(const render::Gamepad& pad) {
   return state;
 }
 
-/// Whether a hand is on the gamepad.
+/// True if a hand is on the gamepad.
 bool is_held(const render::Gamepad& pad) {
   constexpr float clearly = 0.3f;
   return std::abs(pad.left_x) > clearly || std::abs(pad.right_x) > clearly || pad.left_trigger > clearly ||
@@ -68,7 +68,8 @@ class WindowDisplay final : public Display {
     const auto keys = car_io::key_states([&](Key key) { return window_->is_down(key); });
     if (keys != car_io::KeyStates{}) used_s_ = now_s;
     const DriverInput input = car_io::advance(keyboard_, keys, speed_mps, dt_s);
-    // Of a rig's windows the one that is typed into drives; the others are silent, once what they held has been let go.
+    // Of a rig's windows the one with the keyboard drives; the others are silent, once their held keys have been let
+    // go.
     return now_s - used_s_ < let_go_after_s ? std::optional(input) : std::nullopt;
   }
   bool is_touched() const override { return touched_; }

@@ -8,7 +8,7 @@
 namespace septet::screen {
 namespace {
 
-/// How far the sides go apart: `across` times as wide and `upward` times as high, around the middle.
+/// Moves the sides apart: `across` times as wide and `upward` times as high, about the middle.
 void stretch(rig::Window& window, double across, double upward) {
   const Vec3 middle = 0.5 * (window.lower_right_m + window.upper_left_m),
              half_right = 0.5 * across * (window.lower_right_m - window.lower_left_m),
@@ -16,7 +16,7 @@ void stretch(rig::Window& window, double across, double upward) {
   window = {middle - half_right - half_up, middle + half_right - half_up, middle - half_right + half_up};
 }
 
-/// Where a part as long as `was` of a side, now `now`, begins: at the edge near which it was, or around its middle.
+/// Beginning of a part as long as `was` of a side, now `now`: at the edge near which it was, or about its middle.
 double begins(double from, double was, double now) {
   const double middle = from + 0.5 * was;
   if (middle < 0.35) return from;

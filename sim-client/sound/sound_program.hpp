@@ -1,5 +1,5 @@
 #pragma once
-/// What `septet-sound` does with its command line: the sound of a recorded session as a file.
+/// The command line of `septet-sound`, carried out: the sound of a recorded session as a file.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,10 +15,10 @@ struct SoundOptions {
   std::filesystem::path out;  ///< Empty: drive.wav beside the session.
   std::optional<double> from_s, to_s;
   audio::StageOptions stage;
-  std::uint64_t seed = 1;  ///< Of noises.
+  std::uint64_t seed = 1;  ///< Seed of the noises.
 };
 
-/// Makes the file and says where it lies. The exit status: 1 where somebody stopped it.
+/// Makes the file and prints its place. Exit status; 1 if a person stopped it.
 Expected<int> run_sound(SoundOptions options);
 
 }  // namespace septet::sound

@@ -27,7 +27,7 @@ class Tape {
   bool is_full() const { return made_ >= count_; }
   std::uint64_t made() const { return made_; }
 
-  /// Appends what this block has of it.
+  /// Appends this block's share.
   void take(std::span<const float> samples, double tick_s, std::vector<float>& out) {
     if (!start_s_) start_s_ = tick_s;
     for (std::size_t i = 0; i + channels <= samples.size() && !is_full(); i += channels, ++read_) {
@@ -80,7 +80,7 @@ Expected<bool> write_cut_track(const logging::SessionReader& session, const std:
   std::vector<float> out;
   std::uint64_t frames = 0, samples = 0;
   for (const Cut& cut : cuts) {
-    // Counted from the film's beginning, so that nothing drifts.
+    // Counted from the film's beginning, so that it does not drift.
     frames += cut.frames;
     const auto until = static_cast<std::uint64_t>(
         std::llround(static_cast<double>(frames) / frames_per_second * audio::sample_rate_hz));

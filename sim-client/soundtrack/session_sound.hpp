@@ -1,5 +1,5 @@
 #pragma once
-/// What a session says of its sound besides the ticks: the car, and where it echoes.
+/// Constant inputs of a session's sound, beside the ticks: the car, and the places that echo.
 
 #include <vector>
 
@@ -9,13 +9,13 @@
 
 namespace septet::sound {
 
-/// Of the vehicle and the rig that were driven with; what the session lacks is as in a Volvo S80.
+/// Sound of the session's vehicle and rig; missing values are those of a Volvo S80.
 audio::CarSound car_sound_of(const logging::SessionInfo& info);
 
-/// The road that was driven on; none where the session has none that can be read.
+/// The session's road; empty if it has none that can be read.
 road::RoadNetwork roads_of(const logging::SessionInfo& info);
 
-/// The tunnels: boxes of the scene that see no sky.
+/// The tunnels: boxes of the scene without sky.
 Expected<std::vector<audio::EchoBox>> echo_boxes_of(const logging::SessionReader& session);
 
 }  // namespace septet::sound

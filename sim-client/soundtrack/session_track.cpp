@@ -14,7 +14,7 @@ namespace septet::sound {
 namespace {
 
 constexpr double time_slack_s = 1e-6;
-constexpr Tick longest_gap = 10 * 120;  // So that what follows keeps its time.
+constexpr Tick longest_gap = 10 * 120;  // Filled, so that later sound keeps its time.
 
 }  // namespace
 
@@ -42,7 +42,7 @@ Expected<TrackMade> render_track(const logging::SessionReader& session, const Se
   std::optional<double> first_s;
   TrackMade made;
   std::uint64_t rendered = 0;
-  // The stage is a block late: the first one it gives is left out.
+  // The audio output is a block late: its first block is dropped.
   const auto render = [&](const audio::Heard& heard) -> Expected<bool> {
     audio::render(state, heard, voices);
     stage->put(voices, heard.car.tunnel);

@@ -1,5 +1,6 @@
 #pragma once
-/// What a session sounds like, block for block: its ticks through the synthesis and OpenAL's loopback device, as the driver heard them.
+/// The sound of a session, block by block: its ticks through the synthesis and OpenAL's loopback device, as the driver
+/// heard them.
 ///
 /// The same session gives the same samples. Clock and output are the caller's; one thread.
 
@@ -16,19 +17,19 @@ namespace septet::sound {
 
 inline constexpr double ticks_per_second = audio::sample_rate_hz / double(audio::block_samples);
 
-/// What of a session's sound does not change.
+/// Constant part of a session's sound.
 struct SessionSound {
   audio::CarSound car;
   std::vector<audio::EchoBox> boxes;
   road::RoadNetwork roads;
 };
-/// Error: its ticks are not those that sound is made of, or its scene cannot be read.
+/// Error: its ticks lack the data for sound, or its scene cannot be read.
 Expected<SessionSound> sound_of(const logging::SessionReader& session);
 
 struct TrackOptions {
   double from_s = 0.0, to_s = 0.0;  ///< Simulated time; both within the session.
   audio::StageOptions stage;
-  std::uint64_t seed = 1;  ///< Of noises.
+  std::uint64_t seed = 1;  ///< Seed of the noises.
 };
 
 struct TrackMade {
@@ -36,10 +37,10 @@ struct TrackMade {
   bool stopped = false;
 };
 
-/// One block, interleaved, of the tick at this simulated time; false: no more.
+/// One block, interleaved, of the tick at this simulated time; return false to stop.
 using TakeBlock = std::function<Expected<bool>(std::span<const float> samples, double tick_s)>;
 
-/// A block for each tick from `from_s` to before `to_s`. Ticks that the log lacks are heard as the one before them.
+/// One block per tick from `from_s` to before `to_s`. A tick missing from the log repeats the sound of the one before.
 Expected<TrackMade> render_track(const logging::SessionReader& session, const SessionSound& sound,
                                  const TrackOptions& options, const TakeBlock& take);
 

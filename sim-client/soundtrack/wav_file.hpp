@@ -1,7 +1,8 @@
 #pragma once
-/// A sound file: WAV, 16 bits, 48 kHz, two or six channels (front left and right, centre, low frequencies, back left and right).
+/// A sound file: WAV, 16 bits, 48 kHz, two or six channels (front left and right, centre, low frequencies, back left
+/// and right).
 ///
-/// It is written beside its place as NAME.part and renamed when it is whole; who gives up leaves nothing. One thread.
+/// Written beside its place as NAME.part and renamed when it is whole; an aborted write leaves no file. One thread.
 
 #include <cstdint>
 #include <cstdio>
@@ -13,12 +14,12 @@
 
 namespace septet::sound {
 
-/// Frames (one sample of each channel) that a WAV file can hold, whose lengths have 32 bits.
+/// Most frames (one sample of each channel) in a WAV file, whose lengths have 32 bits.
 std::uint64_t most_frames(std::size_t channels);
 
 class WavFile {
  public:
-  /// Error: it is there already, or its folder cannot be written.
+  /// Error: the file exists already, or its folder cannot be written.
   static Expected<WavFile> create(const std::filesystem::path& path, std::size_t channels);
   WavFile(WavFile&&) noexcept = default;
   WavFile& operator=(WavFile&&) = delete;

@@ -10,7 +10,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/opendrive_reader.hpp"
-#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenery/world/road_world.hpp"
 #include "engine/simulation/lights_stage.hpp"
 #include "logging/lesson/lesson.hpp"

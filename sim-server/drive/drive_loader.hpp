@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/rig/rig.hpp"
-#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/simulation/model.hpp"
 #include "logging/records.hpp"
 

@@ -5,29 +5,20 @@
 #include <optional>
 #include <utility>
 
-#include "car-io/actuator_writer.hpp"
 #include "car-io/joystick/joystick_controls.hpp"
-#include "car-io/simulated_driver/simulated_driver.hpp"
 #include "car-io/usb_device.hpp"
+#include "sim-server/drive/seat/device_actuators.hpp"
+#include "sim-server/drive/seat/far_actuators.hpp"
+#include "sim-server/drive/seat/simulated_person.hpp"
 #include "sim-server/host/remote_car.hpp"
 
 namespace septet::server {
 namespace {
 
-/// Output reports to a device here, within the seat's limits. Where time is simulated the clock on the wall tells nothing of a fault: what is
-/// written fades while a tick takes long, and comes back by itself.
-void move_actuators(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarLayout& layout, bool sticky) {
-  sticky = sticky && seat.is_real_time;
-  const auto writer = std::make_shared<car_io::ActuatorWriter>(
-      open, car_io::ActuatorWriterOptions{.layout = &layout,
-                                          .has_steering_force = seat.actuators.steering_most > 0.0,
-                                          .sticky = sticky,
-                                          .rise_s = sticky ? 1.0 : 0.0});
-  seat.actuate = [writer](Tick, const car_io::Actuators& actuators) {
-    writer->set(actuators);
-    return writer->take_error();
-  };
-  if (seat.is_real_time) seat.actuators_are_cut = [writer] { return writer->is_cut(); };
+/// Output reports to a device here, within the seat's limits.
+void add_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarLayout& layout, bool sticky) {
+  seat.devices.push_back(
+      std::make_unique<DeviceActuators>(open, layout, seat.actuators.steering_most > 0.0, seat.is_real_time, sticky));
 }
 
 /// Fan and shaker beside a car whose controls come from a bus: the HID device that the rig names.
@@ -42,7 +33,7 @@ Expected<void> add_actuators(DriverSeat& seat, const rig::Car& car) {
   }
   seat.actuators = car.actuators;
   seat.steering_lock_rad = car.calibration.steering_lock_rad;
-  move_actuators(seat, open, **layout, true);
+  add_device(seat, open, **layout, true);
   return {};
 }
 
@@ -54,7 +45,7 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
   DriverSeat seat;
   seat.is_real_time = is_real_time;
   if (car.source == rig::CarSource::simulated_driver) {
-    auto parameters = car_io::find_driver(car.driver);
+    auto parameters = driver::find_driver(car.driver);
     if (!parameters) return tl::unexpected(parameters.error());
     const vehicle::PowertrainParameters& powertrain = model->car.powertrain;
     parameters->car.has_clutch = powertrain.transmission == vehicle::Transmission::manual;
@@ -62,11 +53,10 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
     for (int gear = 0; gear < powertrain.gear_count; ++gear)
       parameters->car.engine_radps_per_mps[gear] =
           powertrain.gear_ratio[gear] * powertrain.final_ratio / model->car.tyre.radius_m;
-    // The driver keeps the model alive: the road in it is what they see.
-    const auto person = std::make_shared<car_io::SimulatedDriverCar>(*parameters, seed, model->roads);
+    auto person = std::make_unique<SimulatedPerson>(*parameters, seed, model);
     // Its device is read as a real one is, and has nothing that moves.
     seat.car = std::make_unique<car_io::CarConnection>(person->opener(), car_io::CarConnectionOptions{});
-    seat.look = [person, model](const Snapshot& snapshot) { person->drive(snapshot, 1.0 / simulation::tick_rate_hz); };
+    seat.devices.push_back(std::move(person));
     return seat;
   }
   if (car.source == rig::CarSource::keyboard) return seat;
@@ -93,12 +83,7 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
     options.repeats = true;
     options.retry_s = 0.0;  // Asking the relay costs nothing.
     seat.car = std::make_unique<car_io::CarConnection>(seat.remote->device.opener(), options);
-    seat.actuate = [remote = seat.remote](Tick tick, const car_io::Actuators& actuators) -> std::optional<Error> {
-      remote->feedback =
-          control::CarFeedback{tick, static_cast<float>(actuators.fan), static_cast<float>(actuators.vibration),
-                               static_cast<float>(actuators.vibration_hz), static_cast<float>(actuators.steering)};
-      return std::nullopt;
-    };
+    seat.devices.push_back(std::make_unique<FarActuators>(seat.remote));
     return seat;
   }
   const auto open = car_io::car_opener(car);
@@ -116,7 +101,7 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
 void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options,
                    bool sticky) {
   seat.car = std::make_unique<car_io::CarConnection>(open, options);
-  move_actuators(seat, open, *options.layout, sticky);
+  add_device(seat, open, *options.layout, sticky);
 }
 
 }  // namespace septet::server

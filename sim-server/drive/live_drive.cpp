@@ -92,7 +92,7 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
 bool LiveDrive::driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) {
   if (controls) held_ = *controls;
   show_instruments(held_);
-  if (controls || seat_.look) return true;
+  if (controls || seat_.is_driven_by_a_device()) return true;
   if (!seat_.car) return false;
   waited_s_ = waited_s;
   const auto reading = seat_.car->poll(waited_s);
@@ -138,10 +138,10 @@ void LiveDrive::watch_switches(const car_io::CarSwitches& switches) {
 }
 
 std::optional<std::string> LiveDrive::rearm_actuators(const std::string& by) {
-  if (!seat_.actuate && !cut_why_) return "this drive moves no actuators";
+  if (!seat_.has_actuators() && !cut_why_) return "this drive moves no actuators";
   if (stop_is_pressed_) return "the emergency stop is still pressed";
   if (is_stale_) return "the controls are still silent";
-  if (seat_.bus_is_lost && seat_.bus_is_lost()) return "the CAN bus is still lost";
+  if (seat_.is_bus_lost()) return "the CAN bus is still lost";
   is_stopped_ = false;
   cut_why_.reset();
   guard_.rearm();
@@ -160,9 +160,9 @@ std::string LiveDrive::alarm() const {
 /// What has stopped beside the simulation since the last tick.
 void LiveDrive::watch_faults() {
   if (is_stale_) cut_actuators("the controls have stopped");
-  if (seat_.bus_is_lost && seat_.bus_is_lost()) cut_actuators("the CAN bus is lost");
+  if (seat_.is_bus_lost()) cut_actuators("the CAN bus is lost");
   // It has said so itself.
-  if (!cut_why_ && resting_ticks_ == 0 && seat_.actuators_are_cut && seat_.actuators_are_cut()) {
+  if (!cut_why_ && resting_ticks_ == 0 && seat_.has_cut_itself()) {
     cut_why_ = "the simulation was silent";
     guard_.trip(true);
   }
@@ -186,7 +186,7 @@ void LiveDrive::feel(const Snapshot& before, car_io::CarMotion& motion) {
 void LiveDrive::move_actuators(const Snapshot& before) {
   watch_faults();
   constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
-  if (!seat_.actuate) {
+  if (!seat_.has_actuators()) {
     guard_.pass({}, tick_s);  // What shakes by sound goes by it.
     return;
   }
@@ -206,15 +206,22 @@ void LiveDrive::move_actuators(const Snapshot& before) {
   if (log_ && logging::is_sample_due(state_.tick, simulation::tick_rate_hz))
     log_->record_actuators(
         {state_.tick, done.fan, done.vibration, done.vibration_hz, done.steering, cut_why_.has_value()});
-  if (const auto error = seat_.actuate(state_.tick, done)) tell(describe(*error));
+  actuate(done);
+}
+
+void LiveDrive::actuate(const car_io::Actuators& actuators) {
+  for (const auto& device : seat_.devices)
+    if (const auto error = device->actuate(state_.tick, actuators)) tell(describe(*error));
 }
 
 void LiveDrive::show_instruments(const DriverInput& input) {
-  if (!seat_.show) return;
   const bool is_lost = seat_.car && (!car_was_there_ || is_stale_);
-  if (const auto error =
-          seat_.show(car_io::instruments_of(newest_->snapshot(), input, car_motion(*model_, state_), is_lost)))
-    tell(describe(*error));
+  for (const auto& device : seat_.devices) {
+    if (!device->shows()) continue;
+    if (const auto error =
+            device->show(car_io::instruments_of(newest_->snapshot(), input, car_motion(*model_, state_), is_lost)))
+      tell(describe(*error));
+  }
 }
 
 /// Where another program moves the traffic there is none to be kept.
@@ -238,21 +245,21 @@ Expected<void> LiveDrive::command(const simulation::OperatorCommand& command) {
 void LiveDrive::stand_still() {
   // Nobody takes ticks, and yet somebody may press the emergency stop.
   if (seat_.car) watch_switches(seat_.car->poll(waited_s_ + state_.time_s()).switches);
-  if (!seat_.actuate) return;
+  if (!seat_.has_actuators()) return;
   if (!is_stopped_) {
     guard_.rearm();
     cut_why_.reset();
   }
-  if (const auto error = seat_.actuate(state_.tick, {})) tell(describe(*error));
+  actuate({});
 }
 
 Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
   if (end_) return std::shared_ptr<const TakenSnapshot>();
-  if (seat_.look) seat_.look(newest_->snapshot());
+  for (const auto& device : seat_.devices) device->see(newest_->snapshot());
   logging::InputRecord input = read_input(controls);
-  if (seat_.head) {
-    seat_.head->move(input.input, 1.0 / simulation::tick_rate_hz);
-    if (const auto message = seat_.head->take_message()) tell(*message);
+  for (const auto& device : seat_.devices) {
+    device->add_to(input.input);
+    if (const auto message = device->take_message()) tell(*message);
   }
   if (instructor_brake_ > 0.0) {
     if (!(input.input.brake >= instructor_brake_)) input.input.brake = instructor_brake_;

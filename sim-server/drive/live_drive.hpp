@@ -1,6 +1,7 @@
 #pragma once
 /// A drive that is being simulated: the car's device, the simulation and the session log, one tick after the other.
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,9 +11,7 @@
 
 #include "car-io/actuator_guard.hpp"
 #include "car-io/actuators.hpp"
-#include "car-io/can/can_plan.hpp"
 #include "car-io/car_connection.hpp"
-#include "car-io/head/head_tracker.hpp"
 #include "car-io/vibration_dose.hpp"
 #include "car-io/wheel_torque.hpp"
 #include "engine/core/message_limit.hpp"
@@ -20,6 +19,7 @@
 #include "engine/simulation/operator_command.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "sim-server/drive/driver_word.hpp"
+#include "sim-server/drive/seat/seat_device.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "sim-server/host/remote_car.hpp"
 #include "sim-server/host/tick_source.hpp"
@@ -28,22 +28,22 @@ namespace septet::server {
 
 /// Where the driver's input comes from, and where the car's feedback goes.
 struct DriverSeat {
-  /// A simulated driver looks at the world before each tick and moves the controls of its device; empty: a person drives.
-  std::function<void(const Snapshot&)> look;
-  std::unique_ptr<car_io::CarConnection> car;  ///< Null: only a screen's keyboard or gamepad.
-  /// Moves fan, shaker and hand wheel; empty: there are none. Never waits for the device. Answers what is wrong with them, once.
-  std::function<std::optional<Error>(Tick, const car_io::Actuators&)> actuate;
-  rig::CarActuators actuators;      ///< Their limits.
-  bool shakes_by_sound = false;     ///< The sound has a channel of low frequencies, on which a shaker may hang.
-  double steering_lock_rad = 7.85;  ///< Where the hand wheel ends.
-  /// Shows speed, revolutions and lamps on a cluster that is no screen's; empty: there is none. Never waits. Answers what is wrong, once.
-  std::function<std::optional<Error>(const car_io::Instruments&)> show;
-  std::function<bool()> bus_is_lost;  ///< Of the CAN bus of that cluster, which was there. Empty: there is none.
-  std::function<bool()>
-      actuators_are_cut;              ///< By what writes to them, for the drive was silent. Empty: it never does that.
+  std::vector<std::unique_ptr<SeatDevice>> devices;  ///< Called in this order.
+  std::unique_ptr<car_io::CarConnection> car;        ///< Null: only a screen's keyboard or gamepad.
+  rig::CarActuators actuators;                       ///< Limits of the devices that move.
+  bool shakes_by_sound = false;       ///< The sound has a channel of low frequencies, on which a shaker may hang.
+  double steering_lock_rad = 7.85;    ///< Where the hand wheel ends.
   bool is_real_time = true;           ///< Only then is silence on the wall clock a fault.
   std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
-  std::optional<car_io::HeadTracker> head;  ///< Nothing: the rig has no head tracker, or nobody's head to track.
+
+  /// Whether a simulated driver drives, and not a person.
+  bool is_driven_by_a_device() const { return any(&SeatDevice::drives); }
+  bool has_actuators() const { return any(&SeatDevice::moves); }
+  bool is_bus_lost() const { return any(&SeatDevice::is_lost); }
+  bool has_cut_itself() const { return any(&SeatDevice::has_cut); }
+  bool any(bool (SeatDevice::*says)() const) const {
+    return std::ranges::any_of(devices, [says](const auto& device) { return (*device.*says)(); });
+  }
 };
 
 class LiveDrive final : public TickSource {
@@ -66,7 +66,7 @@ class LiveDrive final : public TickSource {
   std::optional<std::string> rearm_actuators(const std::string& by);
   /// Why they are at 0; nothing while they run.
   const std::optional<std::string>& actuators_cut() const { return cut_why_; }
-  bool has_actuators() const { return seat_.actuate != nullptr || seat_.shakes_by_sound; }
+  bool has_actuators() const { return seat_.has_actuators() || seat_.shakes_by_sound; }
   /// Whom to tell of what happens, beside the log, with the simulated time.
   void watch_events(std::function<void(const simulation::Event&, double)> told) { told_ = std::move(told); }
 
@@ -78,7 +78,7 @@ class LiveDrive final : public TickSource {
   bool driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) override;
   void stand_still() override;
   std::string alarm() const override;
-  std::string word_to_driver() const override { return seat_.look ? std::string() : word_.text(); }
+  std::string word_to_driver() const override { return seat_.is_driven_by_a_device() ? std::string() : word_.text(); }
   double shaking_share() const override { return dose_.is_reached() ? 0.0 : guard_.share; }
   double tick_rate_hz() const override { return simulation::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
@@ -91,6 +91,7 @@ class LiveDrive final : public TickSource {
   void watch_faults();
   void feel(const Snapshot& before, car_io::CarMotion& motion);
   void move_actuators(const Snapshot& before);
+  void actuate(const car_io::Actuators& actuators);
   void show_instruments(const DriverInput& input);
   void keep_state();
   void tell(const std::string& what);

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/printable.hpp"
+#include "engine/driver/driver_parameters.hpp"
 #include "logging/subject.hpp"
 #include "program/resources.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
@@ -12,7 +12,7 @@ namespace septet::server {
 
 Expected<void> check_names(const ServerOptions& options) {
   if (!options.driver.empty())
-    if (const auto driver = car_io::find_driver(options.driver); !driver)
+    if (const auto driver = driver::find_driver(options.driver); !driver)
       return failure(driver.error().what, "--driver", driver.error().remedy);
   if (auto traffic = check_traffic(options.traffic); !traffic) return traffic;
   const auto characters = printable_characters(options.participant);

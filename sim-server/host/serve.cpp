@@ -10,25 +10,52 @@ namespace {
 
 using logging::DriveEnd;
 
+/// Two texts that the driver reads, one below the other.
+std::string below(std::string above, const std::string& text) {
+  if (!above.empty() && !text.empty()) above += '\n';
+  return above += text;
+}
+
 /// The loop's parts share these. A part returns once `result.end` says why, or where it has nothing more to do.
 struct Loop {
   TickSource& source;
-  const ServeEnvironment& environment;
+  const Attendants& attendants;
+  ServeClock& clock;
   std::uint64_t ticks;
   double started_s;
   ServeResult result = {};
   std::shared_ptr<const TakenSnapshot> newest = nullptr;
-  std::string doing = "starting";  ///< For whoever looks on.
+  std::string doing = "starting";  ///< For attendants.
+  Wishes wishes = {};              ///< Of all attendants, as they last were.
 
-  bool is_paused() const { return environment.is_paused && environment.is_paused(); }
+  bool is_paused() const { return wishes.stands_still; }
   void report(std::string what) {
-    doing = what;
-    environment.report({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(),
-                        environment.now_s() - started_s, std::move(what)});
+    doing = std::move(what);
+    const Progress progress{result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(),
+                            clock.now_s() - started_s, doing};
+    for (const auto& attendant : attendants) attendant->show(progress);
   }
-  /// What the source says; it has logged it itself.
+  void tell(const Message& message) {
+    for (const auto& attendant : attendants) attendant->hear(message);
+  }
+  void tell(std::string text) { tell(Message{std::move(text)}); }
   void show_messages() {
-    for (const auto& text : source.take_messages()) (environment.show ? environment.show : environment.message)(text);
+    for (auto& text : source.take_messages()) tell(Message{std::move(text), true});
+  }
+  /// What the attendants do before a tick, and wish for it.
+  void attend() {
+    for (const auto& attendant : attendants) {
+      attendant->before_tick({newest, doing, clock.now_s()});
+      for (auto& text : attendant->take_messages()) tell(std::move(text));
+    }
+    wishes = {};
+    for (const auto& attendant : attendants) {
+      const Wishes wish = attendant->wishes();
+      if (!wishes.end) wishes.end = wish.end;
+      wishes.stands_still = wishes.stands_still || wish.stands_still;
+      wishes.goes_without_missing = wishes.goes_without_missing || wish.goes_without_missing;
+      wishes.word_to_driver = below(std::move(wishes.word_to_driver), wish.word_to_driver);
+    }
   }
   /// The next tick; nothing at the end, with the reason in the result.
   std::shared_ptr<const TakenSnapshot> take_tick(const std::optional<DriverInput>& controls) {
@@ -43,20 +70,19 @@ struct Loop {
     result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
     result.state_hash = (*snapshot)->snapshot().state_hash;
     newest = *snapshot;
-    if (environment.hear) environment.hear(newest, source.shaking_share());
+    for (const auto& attendant : attendants) attendant->after_tick(newest, source.shaking_share());
     return std::move(*snapshot);
   }
   /// Whether somebody wants the drive to end or its log is lost; the result says so.
   bool is_stopped(const std::optional<DriveEnd>& by_a_screen) {
-    if (environment.attend) environment.attend(newest, doing);
+    attend();
     if (auto error = source.take_error()) {
       result.error = std::move(*error);
       result.end = source.end();
     }
     if (result.error) return true;
-    const auto asked = environment.end_requested();
-    if (!asked && !by_a_screen) return false;
-    result.end = asked ? *asked : *by_a_screen;
+    if (!wishes.end && !by_a_screen) return false;
+    result.end = wishes.end ? *wishes.end : *by_a_screen;
     return true;
   }
   /// Whether all ticks that were asked for are there; the result says so.
@@ -67,12 +93,6 @@ struct Loop {
   }
 };
 
-/// Two texts that the driver reads, one below the other.
-std::string below(std::string above, const std::string& text) {
-  if (!above.empty() && !text.empty()) above += '\n';
-  return above += text;
-}
-
 /// A loop with screens.
 struct ScreenLoop : Loop {
   ScreenHost& host;
@@ -80,19 +100,16 @@ struct ScreenLoop : Loop {
   bool can_pause = false;  ///< The world goes on by the clock, and has begun.
   std::string alarm = {};  ///< As the driver reads it, and what is said to him.
 
-  std::string word() const { return environment.word ? environment.word() : std::string(); }
   void show_alarm() {
-    if (auto now = below(below(source.alarm(), source.word_to_driver()), word()); now != alarm) {
+    if (auto now = below(below(source.alarm(), source.word_to_driver()), wishes.word_to_driver); now != alarm) {
       alarm = std::move(now);
       host.give_notice({alarm, host.notice().keys});
     }
   }
 
   void pump() {
-    if (environment.changed_list)
-      if (auto list = environment.changed_list()) host.set_allowed(std::move(*list));
-    host.pump(environment.now_s());
-    for (const auto& text : host.take_messages()) environment.message(text);
+    host.pump(clock.now_s());
+    for (auto& text : host.take_messages()) tell(std::move(text));
   }
   /// Who wants to pause what cannot be paused, or has not begun, wants to leave.
   bool is_stopped() {
@@ -105,18 +122,18 @@ struct ScreenLoop : Loop {
   /// Pumps until `satisfied`, out of patience or stopped; false in the latter cases. `every_s` runs `nudge` now and then.
   template <class Condition, class Nudge>
   bool pump_until(Condition satisfied, double patience_s, double every_s, Nudge nudge) {
-    const double begun_s = environment.now_s();
+    const double begun_s = clock.now_s();
     double nudged_s = begun_s;
     while (true) {
       pump();
       if (satisfied()) return true;
-      const double now_s = environment.now_s();
+      const double now_s = clock.now_s();
       if (now_s - begun_s > patience_s || is_stopped()) return false;
       if (now_s - nudged_s > every_s) {
         nudged_s = now_s;
         nudge();
       }
-      environment.wait(host.has_backlog() ? 0.0 : 0.005);
+      clock.wait(host.has_backlog() ? 0.0 : 0.005);
     }
   }
 };
@@ -126,13 +143,14 @@ struct ScreenLoop : Loop {
 bool wait_for_screens(ScreenLoop& loop) {
   const auto missing = [&] { return fmt::format("{}", fmt::join(loop.host.missing(), ", ")); };
   const double patience_s = loop.options.lockstep ? loop.options.patience_s : loop.options.wait_for_screens_s;
-  const bool can_go = loop.environment.told_to_go != nullptr;
-  const auto told_to_go = [&] { return can_go && loop.environment.told_to_go(); };
+  const auto told_to_go = [&] { return loop.wishes.goes_without_missing; };
   if (patience_s > 0.0)
-    loop.pump_until(
-        [&] { return loop.host.all_ready() || told_to_go(); }, patience_s, 0.5,
-        [&] { loop.report(fmt::format("waiting for {}{}", missing(), can_go ? " (Enter: drive without)" : "")); });
-  loop.started_s = loop.environment.now_s();
+    loop.pump_until([&] { return loop.host.all_ready() || told_to_go(); }, patience_s, 0.5,
+                    [&] {
+                      loop.report(fmt::format("waiting for {}{}", missing(),
+                                              loop.options.can_go_without ? " (Enter: drive without)" : ""));
+                    });
+  loop.started_s = loop.clock.now_s();
   if (patience_s <= 0.0 || loop.host.all_ready()) return true;
   if (loop.is_stopped()) return false;
   if (loop.options.lockstep && !told_to_go() && loop.host.missing().size() == loop.host.screens().size()) {
@@ -141,7 +159,7 @@ bool wait_for_screens(ScreenLoop& loop) {
                               "look into their logs, and check that they run and reach this machine"};
     return false;
   }
-  loop.environment.message("the drive begins without " + missing());
+  loop.tell("the drive begins without " + missing());
   return true;
 }
 
@@ -154,16 +172,16 @@ void stand_still(ScreenLoop& loop) {
     const control::Notice notice{
         below((alarm.empty() ? "" : alarm + ". ") +
                   (by_driver ? "Paused. Escape: go on. R: begin again. Enter: end" : "Paused by the operator"),
-              loop.word()),
+              loop.wishes.word_to_driver),
         before.keys, by_driver};
     if (loop.host.notice() != notice) {
       loop.host.give_notice(notice);
-      if (by_driver) loop.environment.message("paused by the driver");
+      if (by_driver) loop.tell("paused by the driver");
     }
     loop.report(by_driver ? "paused by the driver" : "paused");
   };
   loop.source.stand_still();
-  const double begun_s = loop.environment.now_s();
+  const double begun_s = loop.clock.now_s();
   say();
   loop.pump_until(
       [&] { return !loop.is_paused(); }, std::numeric_limits<double>::infinity(), 0.1,
@@ -173,8 +191,8 @@ void stand_still(ScreenLoop& loop) {
         loop.source.stand_still();  // The word that says so may be lost on its way to a car on another machine.
         say();
       });
-  const double stood_s = loop.environment.now_s() - begun_s;
-  loop.environment.message(fmt::format("the world stood still for {:.1f} s", stood_s));
+  const double stood_s = loop.clock.now_s() - begun_s;
+  loop.tell(fmt::format("the world stood still for {:.1f} s", stood_s));
   loop.host.give_notice(before);
   loop.host.restart_shown_time();
   loop.started_s += stood_s;
@@ -193,15 +211,15 @@ void run_lockstep(ScreenLoop& loop) {
     loop.show_alarm();
     const Tick tick = snapshot->snapshot().tick;
     if (tick % loop.options.draw_every_ticks != 0) continue;
-    loop.host.publish(snapshot, loop.environment.now_s());
-    const double asked_s = loop.environment.now_s();
+    loop.host.publish(snapshot, loop.clock.now_s());
+    const double asked_s = loop.clock.now_s();
     const auto look = [&] {
-      loop.host.leave_silent_behind(tick, loop.environment.now_s() - loop.options.longest_silence_s);
+      loop.host.leave_silent_behind(tick, loop.clock.now_s() - loop.options.longest_silence_s);
       loop.host.repeat_newest();
     };
     const bool together =
         loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.patience_s, 0.1, look);
-    if (!together && loop.environment.now_s() - asked_s > loop.options.patience_s) loop.host.leave_behind(tick);
+    if (!together && loop.clock.now_s() - asked_s > loop.options.patience_s) loop.host.leave_behind(tick);
     loop.report("driving");
   }
 }
@@ -212,15 +230,14 @@ void wait_for_driver(ScreenLoop& loop) {
   if (!first || loop.options.wait_for_driver.empty()) return;
   const std::string about = loop.options.about.empty() ? "" : '\n' + loop.options.about;
   const auto say = [&, keys = loop.host.notice().keys] {
-    const control::Notice notice{below(loop.options.wait_for_driver + about, loop.word()), keys};
+    const control::Notice notice{below(loop.options.wait_for_driver + about, loop.wishes.word_to_driver), keys};
     if (loop.host.notice() != notice) loop.host.give_notice(notice);
   };
   say();
-  loop.environment.message(
-      fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
-  const double begun_s = loop.environment.now_s();
+  loop.tell(fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
+  const double begun_s = loop.clock.now_s();
   loop.host.publish(first, begun_s);
-  const auto waited_s = [&] { return loop.environment.now_s() - begun_s; };
+  const auto waited_s = [&] { return loop.clock.now_s() - begun_s; };
   const bool is_ready =
       loop.pump_until([&] { return loop.source.driver_is_ready(loop.host.take_controls(), waited_s()); },
                       std::numeric_limits<double>::infinity(), 0.1,
@@ -233,8 +250,8 @@ void wait_for_driver(ScreenLoop& loop) {
   // Who has taken the controls has read the keys, in whichever window the first one was pressed.
   loop.host.give_notice({"", !is_ready && loop.host.notice().keys});
   loop.host.restart_shown_time();
-  loop.started_s = loop.environment.now_s();
-  if (is_ready) loop.environment.message(fmt::format("the driver took the controls after {:.1f} s", waited_s()));
+  loop.started_s = loop.clock.now_s();
+  if (is_ready) loop.tell(fmt::format("the driver took the controls after {:.1f} s", waited_s()));
 }
 
 void run_real_time(ScreenLoop& loop) {
@@ -243,18 +260,18 @@ void run_real_time(ScreenLoop& loop) {
   if (loop.is_stopped()) return;
   loop.can_pause = true;
   const double tick_s = 1.0 / loop.source.tick_rate_hz();
-  double due_s = loop.environment.now_s();
+  double due_s = loop.clock.now_s();
   double reported_s = due_s;
   while (!loop.is_over()) {
     loop.pump();
     if (loop.is_paused()) {
       stand_still(loop);
-      due_s = loop.environment.now_s();
+      due_s = loop.clock.now_s();
       continue;
     }
-    const double now_s = loop.environment.now_s();
+    const double now_s = loop.clock.now_s();
     if (now_s < due_s) {
-      loop.environment.wait(loop.host.has_backlog() ? 0.0 : due_s - now_s);
+      loop.clock.wait(loop.host.has_backlog() ? 0.0 : due_s - now_s);
       continue;
     }
     // A machine that cannot keep up slows the simulation down; it does not skip ticks.
@@ -276,37 +293,37 @@ void run_real_time(ScreenLoop& loop) {
 
 }  // namespace
 
-ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options,
-                  const ServeEnvironment& environment) {
-  ScreenLoop loop{{source, environment, options.ticks, environment.now_s()}, host, options};
+ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const Attendants& attendants,
+                  ServeClock& clock) {
+  ScreenLoop loop{{source, attendants, clock, options.ticks, clock.now_s()}, host, options};
   options.lockstep ? run_lockstep(loop) : run_real_time(loop);
-  loop.result.wall_s = environment.now_s() - loop.started_s;
+  loop.result.wall_s = clock.now_s() - loop.started_s;
   // Whatever happened, the screens hear that it is over and say what they have seen.
   host.finish(loop.result.error ? loop.result.error->what : std::string(text_of(loop.result.end)));
-  const double asked_s = environment.now_s();
+  const double asked_s = clock.now_s();
   do {
     loop.pump();
-    environment.wait(host.has_backlog() ? 0.0 : 0.005);
-  } while (!host.all_reported() && environment.now_s() - asked_s < 10.0);
+    clock.wait(host.has_backlog() ? 0.0 : 0.005);
+  } while (!host.all_reported() && clock.now_s() - asked_s < 10.0);
   return loop.result;
 }
 
-ServeResult run_headless(TickSource& source, std::uint64_t ticks, const ServeEnvironment& environment) {
-  Loop loop{source, environment, ticks, environment.now_s()};
+ServeResult run_headless(TickSource& source, std::uint64_t ticks, const Attendants& attendants, ServeClock& clock) {
+  Loop loop{source, attendants, clock, ticks, clock.now_s()};
   while (!loop.is_stopped(std::nullopt) && !loop.is_time_over()) {
     if (loop.is_paused()) {
-      const double begun_s = loop.environment.now_s();
+      const double begun_s = loop.clock.now_s();
       loop.source.stand_still();
       loop.report("paused");
-      while (loop.is_paused() && !loop.is_stopped(std::nullopt)) loop.environment.wait(0.01);
-      loop.started_s += loop.environment.now_s() - begun_s;
+      while (loop.is_paused() && !loop.is_stopped(std::nullopt)) loop.clock.wait(0.01);
+      loop.started_s += loop.clock.now_s() - begun_s;
       loop.report("driving");
       continue;
     }
     if (!loop.take_tick(std::nullopt)) break;
     if (loop.result.ticks % 120 == 0) loop.report("driving");
   }
-  loop.result.wall_s = environment.now_s() - loop.started_s;
+  loop.result.wall_s = clock.now_s() - loop.started_s;
   return loop.result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Who looks on at a page, and who commands: who asks first, until it lets go, is gone, or another one takes the command by force.
+/// Viewers of a page and the one in command: the first to ask for it, until it lets go, is gone, or another takes the
+/// command by force.
 
 #include <optional>
 #include <set>
@@ -13,7 +14,7 @@ namespace septet::page {
 
 class Helm {
  public:
-  /// What is answered at once: nothing is to be done, or it is done.
+  /// Immediate reply: nothing to do, or done.
   struct Reply {
     std::optional<std::string> why_not;
   };
@@ -27,7 +28,7 @@ class Helm {
   const std::optional<Commander>& commander() const { return commander_; }
   const std::set<BrowserId>& browsers() const { return browsers_; }
 
-  /// Nothing where it is for whoever runs the drive.
+  /// Empty if the message is for the drive.
   std::optional<Reply> judge(BrowserId browser, const Wish& wish) {
     if (const auto* take = std::get_if<Take>(&wish)) {
       if (commander_ && !commands(browser) && !take->by_force) return Reply{"somebody else commands"};

@@ -17,7 +17,7 @@
 namespace septet::page {
 namespace {
 
-constexpr int tries_of_any_port = 20;  ///< Until one is free on both addresses.
+constexpr int tries_of_any_port = 20;  ///< Attempts to find one free on both addresses.
 
 tl::unexpected<Error> no_port(int reason, std::string_view address, std::uint16_t port) {
   return failure(std::strerror(reason), fmt::format("the operator's page, {}:{}", address, port),
@@ -61,7 +61,7 @@ int listen_at(int& file, const sockaddr* place, socklen_t size) {
   return reason;
 }
 
-/// This machine has no such address: nobody can come by it.
+/// This machine has no such address: no browser can use it.
 bool is_no_address(int reason) {
   return reason == EAFNOSUPPORT || reason == EADDRNOTAVAIL || reason == EPROTONOSUPPORT;
 }

@@ -1,7 +1,7 @@
 #pragma once
-/// A port of this machine's own addresses (127.0.0.1, and [::1] where there is IPv6) on which a page is served, by one program after the
-/// other: who waits for a drive to be chosen hands it to the drive that it starts, and has it back after that. Whoever connects meanwhile
-/// waits, and is refused by nobody. Both addresses, for a browser that is asked for "localhost" takes either.
+/// A port of this machine's own addresses (127.0.0.1, and [::1] with IPv6) on which a page is served, by one program
+/// after the other: the start page hands it to the drive that it starts, and gets it back afterwards. Browsers that
+/// connect meanwhile wait, and are not refused. Both addresses, since a browser takes either for "localhost".
 
 #include <cstdint>
 #include <optional>
@@ -23,9 +23,10 @@ struct ListeningFiles {
 
 class ListeningSocket {
  public:
-  /// 0: any port that is free on both. Error: the port cannot be had; also where another program has it on one of the two addresses alone.
+  /// 0: any port that is free on both. Error: the port is not available; also if another program has it on one of the
+  /// two addresses alone.
   static Expected<ListeningSocket> open(std::uint16_t port);
-  /// What whoever started this program has handed over (`read_handover`). Error: it is no such socket.
+  /// Takes over the parent program's port (`read_handover`). Error: it is no such socket.
   static Expected<ListeningSocket> take(ListeningFiles files);
   ListeningSocket(ListeningSocket&& other) noexcept
       : files_(std::exchange(other.files_, ListeningFiles{})), port_(other.port_) {}
@@ -33,7 +34,7 @@ class ListeningSocket {
   ~ListeningSocket() { files_.close(); }
 
   std::uint16_t port() const { return port_; }
-  /// Other file descriptors of it, the caller's own, which programs that are started do not get; or do, if `inherited`.
+  /// Duplicated file descriptors, owned by the caller, which child programs do not inherit, or do, if `inherited`.
   Expected<ListeningFiles> copy(bool inherited = false) const;
 
  private:
@@ -42,14 +43,14 @@ class ListeningSocket {
   std::uint16_t port_;
 };
 
-/// What a page is handed over with, in the environment variable `handover_variable`: it is nobody else's to read, as a command line is.
+/// Handover of a page, in the environment variable `handover_variable`: private, unlike a command line.
 struct Handover {
   ListeningFiles files;
   std::string token;
 };
 inline constexpr const char* handover_variable = "SEPTET_PAGE";
 std::string text_of(const Handover& handover);
-/// Nothing where it is none: "FILE TOKEN" or "FILE+FILE TOKEN".
+/// Parses "FILE TOKEN" or "FILE+FILE TOKEN"; empty for anything else.
 std::optional<Handover> read_handover(std::string_view text);
 
 }  // namespace septet::page

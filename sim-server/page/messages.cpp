@@ -19,20 +19,20 @@ tl::unexpected<Error> no_message(std::string what) {
   return failure(std::move(what), "the operator's page", "load the page again");
 }
 
-/// A text member, printable and cut to length; empty where there is none.
+/// A text member, printable and cut to length; empty if there is none.
 std::string text_member(const nlohmann::json& object, const char* name, std::size_t most) {
   const auto found = object.find(name);
   if (found == object.end() || !found->is_string()) return {};
   return printable(found->get_ref<const std::string&>(), most);
 }
 
-/// A whole number from 0 on; a huge one where there is none.
+/// A whole number from 0 on; a huge one if there is none.
 std::uint64_t count_member(const nlohmann::json& object, const char* name) {
   const auto found = object.find(name);
   return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : ~std::uint64_t{0};
 }
 
-/// The drive of a message: what is none of its members' kind is left out, and Septet's own command line judges the rest.
+/// The drive of a message: members of a wrong type are skipped, and Septet's own command line checks the rest.
 DriveChoice choice_of(const nlohmann::json& object) {
   const auto text = [&](const char* name, std::size_t most) { return text_member(object, name, most); };
   DriveChoice choice{.scenario = text("scenario", 200),
@@ -73,7 +73,7 @@ Answer answer_of(const nlohmann::json& object) {
   return answer;
 }
 
-/// Rounded: a state is sent ten times a second, and nobody reads a micrometre off a map.
+/// Rounded: a state is sent ten times a second, and a map needs no micrometres.
 Json rounded(double value, double unit) {
   if (!std::isfinite(value)) return nullptr;
   const double scaled = std::round(value / unit);
@@ -132,7 +132,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-/// As an <img> takes it, of whichever kind its first bytes say.
+/// In the form of an <img> source, with the type from its first bytes.
 std::string picture_address(std::string_view picture) {
   const bool is_jpeg = picture.starts_with("\xff\xd8");
   return fmt::format("data:image/{};base64,{}", is_jpeg ? "jpeg" : "png", base64(picture));

@@ -1,5 +1,5 @@
 #pragma once
-/// What the page and the server say to each other: JSON, one object a message. PROTOCOL.md has every member.
+/// Messages between page and server: JSON, one object a message. PROTOCOL.md has every member.
 
 #include <cstdint>
 #include <optional>
@@ -19,18 +19,18 @@ namespace septet::page {
 inline constexpr int schema = 1;
 
 /// Browser → server.
-struct Take {  ///< To be the one who commands; `by_force` also where somebody else does.
+struct Take {  ///< Request for the command; `by_force` also if another browser has it.
   std::string name;
   bool by_force = false;
 };
 struct Release {};
 struct Pause {};
-/// Fan, shaker and wheel force may run again after a fault or an emergency stop.
+/// Lets fan, shaker and wheel force run again after a fault or an emergency stop.
 struct Rearm {};
-struct GoOn {};  ///< Also: drive without the screens that are missing.
+struct GoOn {};  ///< Resumes, or drives without the missing screens.
 struct End {
   std::string reason;
-  bool participant_stops = false;  ///< A drop-out, which counts as such: the reason is the participant's.
+  bool participant_stops = false;  ///< A drop-out, which counts as one: the reason is the participant's.
 };
 struct Mark {
   std::string note;
@@ -39,38 +39,38 @@ struct Mark {
 struct Change {
   std::string command;
 };
-/// How the driver feels on the scale of the questionnaire that the drive has for it (MISC).
+/// Answer on the drive's scale of well-being (MISC).
 struct Rate {
   int value = 0;
 };
-/// Where there is no drive: this one, to be started.
+/// Without a drive: starts this one.
 struct Start {
   DriveChoice choice;
 };
-/// The drive that is being made ready is not wanted any more.
+/// Cancels the drive that is being prepared.
 struct Cancel {};
-/// A file of a past session. Anybody may look.
+/// Request for a file of a past session. Open to every browser.
 struct Look {
   std::uint64_t session = 0;
   std::string file;
 };
-/// What a driver has answered after a drive of the past.
+/// A driver's answers after a past drive.
 struct Answer {
   std::uint64_t session = 0;
   std::string questionnaire;
-  std::string as;  ///< What its answers are called; empty: as the questionnaire is.
-  std::vector<std::pair<std::string, std::optional<int>>> answers;  ///< By item. Nothing: it was no whole number.
+  std::string as;  ///< Prefix of the answers; empty: the questionnaire's id.
+  std::vector<std::pair<std::string, std::optional<int>>> answers;  ///< By item. Empty: not a whole number.
 };
-/// A word to the student: text on his screen, and aloud where that is asked for and a synthesiser is installed.
+/// A word to the student: text on his screen, and aloud if requested and a synthesiser is installed.
 struct Say {
   std::string text, language;  ///< "en", "de", "sv".
   bool aloud = false;
 };
-/// The instructor's brake, held or let go. Who holds it says so again, at least each half second.
+/// The instructor's brake, pressed or released. While pressed it is repeated, at least each half second.
 struct Brake {
   bool held = false;
 };
-/// The car back onto the road: where it was so long ago, as fast as then; 0: where it last was in a lane, at rest.
+/// Puts the car back onto the road: to its place and speed this long ago; 0: to its last place in a lane, at rest.
 struct Back {
   double seconds = 0.0;
 };
@@ -79,9 +79,9 @@ struct Make {
   std::uint64_t session = 0;
   std::string what;  ///< "film" or "replay".
 };
-/// What is being made of a past drive is not wanted any more.
+/// Cancels the running film or replay of a past drive.
 struct StopMaking {};
-/// To see what a screen shows large, five times a second; no screen: no more. Anybody may.
+/// Subscribes to a screen's large picture, five times a second; no screen: unsubscribes. Open to every browser.
 struct Watch {
   std::string screen;
 };
@@ -89,16 +89,16 @@ using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, 
                           Watch, Say, Brake, Back, Make, StopMaking>;
 
 struct BrowserMessage {
-  std::uint64_t id = 0;  ///< Which the answer names.
+  std::uint64_t id = 0;  ///< Named in the reply.
   Wish wish;
 };
 
 inline constexpr std::size_t most_note_characters = 500, most_name_characters = 60, most_word_characters = 160;
 
-/// Texts are one line, printable and not longer than these. Error: it is no such message.
+/// Texts are one line, printable and not longer than these. Error: not such a message.
 Expected<BrowserMessage> read_browser_message(std::string_view text);
 
-/// Who commands.
+/// The browser in command.
 struct Commander {
   std::uint64_t browser = 0;
   std::string name;
@@ -109,15 +109,15 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
 std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint64_t number,
                        const std::optional<Commander>& commander, std::size_t browsers);
 std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_not);
-/// What a screen shows, as a picture that an <img> takes.
+/// A screen's picture, in the form of an <img> source.
 std::string thumbnail_text(const std::string& screen, std::string_view picture);
 /// The same, large.
 std::string large_picture_text(const std::string& screen, std::string_view picture);
-/// Something has happened, for the list of events.
+/// An event, for the list of events.
 std::string event_text(const PageEvent& event);
-/// How the lesson stands, and its faults so far.
+/// State of the lesson, and its faults so far.
 std::string lesson_text(const LessonView& lesson);
-/// What the screen ahead showed at a fault.
+/// Picture of the screen ahead at a fault.
 std::string still_text(std::uint32_t fault, std::string_view picture);
 
 }  // namespace septet::page

@@ -16,7 +16,7 @@
 namespace septet::page {
 namespace {
 
-constexpr std::size_t remembered_events = 200;  ///< For who opens the page later.
+constexpr std::size_t remembered_events = 200;  ///< For browsers that open the page later.
 
 }  // namespace
 
@@ -24,9 +24,9 @@ struct OperatorPage::Shared {
   // Handed over between the two threads.
   std::mutex mutex;
   std::optional<DriveView> newest;  ///< The slot.
-  bool is_due = false;              ///< The page's thread has been told of it.
+  bool is_due = false;              ///< The page's thread has been notified.
   WishBox wishes;
-  std::map<BrowserId, std::string> watching;  ///< Which screen each browser sees large.
+  std::map<BrowserId, std::string> watching;  ///< The screen that each browser sees large.
 
   // The page's thread's own.
   DriveFacts facts;
@@ -78,7 +78,7 @@ struct OperatorPage::Shared {
       answer(reply->why_not);
       return reply->why_not ? void() : send_state();
     }
-    // The drive answers.
+    // The drive replies.
     if (!wishes.put({browser, message->id, helm.commander()->name, std::move(message->wish)}))
       answer("the drive has not yet done what was asked before");
   }
@@ -111,7 +111,8 @@ struct OperatorPage::Shared {
         server->send_newest_picture(browser, screen.name, picture);
     }
   }
-  /// Each still once: those that `before` has were sent with it. A browser that is slow is sent the newest lesson alone.
+  /// Each still once: those that `before` has were sent with it. A browser that is slow is sent the newest lesson
+  /// alone.
   void send_lesson(BrowserId browser, const LessonView* before) {
     server->send_newest_picture(browser, "lesson", shared_text(lesson_text(*shown.lesson)));
     for (const LessonFaultView& fault : shown.lesson->faults) {
@@ -139,7 +140,7 @@ Expected<std::unique_ptr<OperatorPage>> OperatorPage::open(PageOptions options, 
                        .resources = page_files(),
                        .listening = options.listening ? &*options.listening : nullptr};
   Shared* const here = shared.get();
-  // Nothing that needs the server may be done before it is kept: until then its thread waits here.
+  // Handlers that need the server wait here until it is stored.
   std::unique_lock starting(shared->mutex);
   const auto once_kept = [here] { const std::lock_guard kept(here->mutex); };
   auto server = WebServer::start(std::move(web),
@@ -161,7 +162,7 @@ OperatorPage::OperatorPage(std::unique_ptr<Shared> shared) : shared_(std::move(s
 OperatorPage::~OperatorPage() { shared_->server->flush(0.5); }
 
 void OperatorPage::show(DriveView view) {
-  std::optional<DriveView> before;  // Its end is nothing to wait for with a lock in hand.
+  std::optional<DriveView> before;  // Destroyed outside the lock.
   {
     const std::lock_guard lock(shared_->mutex);
     before.swap(shared_->newest);

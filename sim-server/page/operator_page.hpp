@@ -1,13 +1,14 @@
 #pragma once
-/// The operator's page of one drive: shows it in a browser, and hands over what the operator wants.
+/// The operator's page of one drive: shows it in a browser, and hands over the operator's requests.
 ///
 ///     auto page = OperatorPage::open(options, facts, roads);
 ///     each tenth of a second: page->show(view);
 ///     between two ticks:      for (auto& wish : page->take_wishes()) page->answer(wish, …);
 ///
-/// All of that is called by the drive's thread and costs it a moment: a view is put in a slot where the next one takes its place, wishes
-/// lie in a bounded queue. Everything else is done in the page's own thread, which nobody waits for. Any number may look on, one commands:
-/// who asks first, until it lets go, is gone, or another one takes the command by force. All who hold the token are trusted alike.
+/// All of that is called by the drive's thread and is cheap: a view goes into a slot where the next one replaces it,
+/// requests lie in a bounded queue. The rest happens in the page's own thread, for which the drive never waits. Any
+/// number may look on, one commands: the first to ask for it, until it lets go, is gone, or another takes the command
+/// by force. All holders of the token are trusted alike.
 
 #include <cstdint>
 #include <memory>
@@ -25,28 +26,27 @@
 namespace septet::page {
 
 struct PageOptions {
-  std::uint16_t port = 0;                  ///< On 127.0.0.1; 0: any free one.
-  std::vector<std::string> allowed_hosts;  ///< As a proxy is called.
-  std::string token;                       ///< Of web_server.hpp.
-  std::optional<ListeningSocket> listening =
-      std::nullopt;  ///< Instead of the port: handed over by whoever started the drive.
+  std::uint16_t port = 0;                                   ///< On 127.0.0.1; 0: any free one.
+  std::vector<std::string> allowed_hosts;                   ///< Host names of a proxy.
+  std::string token;                                        ///< Token of web_server.hpp.
+  std::optional<ListeningSocket> listening = std::nullopt;  ///< Instead of the port: handed over by the parent program.
 };
 
 class OperatorPage {
  public:
   static Expected<std::unique_ptr<OperatorPage>> open(PageOptions options, DriveFacts facts,
                                                       const road::RoadNetwork& roads);
-  /// Who looks on sees the last view, as far as that can be sent within a moment.
+  /// Viewers get the last view, as far as it can be sent within a moment.
   ~OperatorPage();
 
-  /// With the token: whoever has it may command.
+  /// With the token: its holder may command.
   const std::string& url() const { return url_; }
 
   void show(DriveView view);
   std::vector<OperatorWish> take_wishes();
-  /// `why_not` where it was not done.
+  /// `why_not`: reason for a refusal.
   void answer(const OperatorWish& wish, const std::optional<std::string>& why_not);
-  /// The screens that are watched, by the names that browsers gave.
+  /// Screens being watched, by the names that browsers gave.
   std::set<std::string> watched() const;
   /// For the list of events on the page.
   void tell(const PageEvent& event);

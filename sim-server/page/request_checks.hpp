@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a request comes from the page itself: pure functions of what its header says. See web_server.hpp.
+/// Checks that a request comes from the page itself: pure functions of its header. See web_server.hpp.
 
 #include <span>
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace septet::page {
 
-/// A Host header of this machine (localhost, 127.0.0.1, [::1]) or of `allowed`, as a whole, on any port.
+/// True for a Host header of this machine (localhost, 127.0.0.1, [::1]) or of `allowed`, as a whole, on any port.
 bool is_allowed_host(std::string_view host, std::span<const std::string> allowed);
-/// An Origin header that names the same scheme-less host and port as the Host header.
+/// True for an Origin header that names the same scheme-less host and port as the Host header.
 bool is_own_origin(std::string_view origin, std::string_view host);
-/// Whether one of the comma-separated subprotocols is the token, without telling by its time where they differ.
+/// True if one of the comma-separated subprotocols is the token; in constant time, so that timing reveals nothing.
 bool holds_token(std::string_view protocols, std::string_view token);
 
 /// 128 random bits of the system, as 32 hexadecimal digits.

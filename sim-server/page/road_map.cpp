@@ -12,7 +12,7 @@ namespace septet::page {
 namespace {
 
 constexpr double step_m = 4.0;
-/// A line is simplified in stretches of so many points: one of n points could take n² otherwise.
+/// A line is simplified in stretches of this many points: one of n points could take n² otherwise.
 constexpr std::size_t stretch_points = 512;
 
 double distance_m(const Vec2& point, const Vec2& a, const Vec2& b) {
@@ -42,7 +42,7 @@ void keep_corners(const std::vector<Vec2>& points, std::size_t first, std::size_
   }
 }
 
-/// The borders of one lane section, from where it begins to where the next one does.
+/// The borders of one lane section, from its beginning to the next one's.
 class SectionLines {
  public:
   SectionLines(const road::RoadNetwork& network, road::RoadIndex index, std::size_t section)
@@ -82,7 +82,7 @@ bool is_paved(road::LaneType type) {
          type == parking || type == restricted || type == road_works;
 }
 
-/// One side of the centre line: its lanes from the inside out, as stretches of neighbours that are paved.
+/// One side of the centre line: its lanes from the inside out, as stretches of adjacent paved lanes.
 void add_side(const SectionLines& lines, int sign, RoadMap& map, std::vector<RoadMap::Shape>& painted) {
   std::vector<const road::Lane*> lanes;
   for (const auto& lane : lines.section().lanes)
@@ -140,7 +140,7 @@ RoadMap road_map(const road::RoadNetwork& network, double tolerance_m, std::size
       map.shapes.push_back({shape.kind, simplified(shape.points_m, tolerance_m)});
       points += map.shapes.back().points_m.size();
     }
-    // What cannot become coarser by that is cut off.
+    // The part that cannot become coarser is cut off.
     if (points <= most_points || tolerance_m > 100.0) {
       if (points > most_points) map.shapes.resize(std::min(map.shapes.size(), most_points / 64));
       return map;

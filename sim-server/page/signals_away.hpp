@@ -1,11 +1,11 @@
 #pragma once
-/// Signals are the program's: none is to be delivered to a thread of a library.
+/// Keeps signals, which belong to the program, from a library's threads.
 
 #include <csignal>
 
 namespace septet::page {
 
-/// No signal is delivered to a thread that is made while this lives: they are the program's.
+/// Threads started during its lifetime receive no signal.
 class SignalsAway {
  public:
   SignalsAway() {

@@ -1,5 +1,5 @@
 #pragma once
-/// What is said to browsers while no drive goes on: see PROTOCOL.md.
+/// Messages to browsers while there is no drive: see PROTOCOL.md.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace septet::page {
 
 std::string start_hello_text(const Choices& choices, std::uint64_t browser);
 std::string start_state_text(const StartView& view, const std::optional<Commander>& commander, std::size_t browsers);
-/// The answer to a look: where it can be read.
+/// Reply to a look: the file's address.
 std::string look_text(std::uint64_t id, const std::string& path);
-/// Somebody else serves the page from now on, at the same address.
+/// Another program serves the page from now on, at the same address.
 std::string moved_text();
 
 }  // namespace septet::page

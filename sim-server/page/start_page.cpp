@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view past_begin = "/past/";
 constexpr std::size_t token_characters = 32, most_looks = 64;
-/// A report is a page of its own, which runs no script and reaches nobody.
+/// A report is a page of its own, without scripts and without network access.
 constexpr const char* past_policy =
     "default-src 'none'; style-src 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; "
     "form-action 'none'";
@@ -39,7 +39,7 @@ bool is_plain(std::string_view word) {
   });
 }
 
-/// What a browser may read of a past session for a while: its address tells nothing and can be guessed by nobody.
+/// A temporary permission to read a past session's file: its address carries no information and cannot be guessed.
 struct PastLook {
   std::string token;
   fs::path folder;
@@ -73,7 +73,7 @@ bool is_past_file(std::string_view name) {
 }
 
 struct StartPage::Shared {
-  std::mutex starting;  ///< Held until the server is kept: nothing that needs it may be done before.
+  std::mutex starting;  ///< Held until the server is stored: handlers that need it wait.
   WishBox wishes;
 
   // The page's thread's own.

@@ -1,11 +1,11 @@
 #pragma once
-/// The page while no drive goes on: a drive is chosen and started here, and past ones are looked at.
+/// The page while there is no drive: a drive is chosen and started here, and past ones are viewed.
 ///
 ///     auto page = StartPage::open(listening, …);
 ///     again and again:  page->show(view);  for (auto& wish : page->take_wishes()) page->answer(wish, …);
 ///
-/// Everything that browsers do is done in the page's own thread. A file of a past session is read there, by a path that is made of the
-/// folder of that session and a name that is one of a few: no bytes of a browser are part of it.
+/// Browsers are served in the page's own thread. A file of a past session is read there, by a path made of the folder
+/// of that session and a name from a short list: no bytes of a browser are part of it.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,22 +22,22 @@
 
 namespace septet::page {
 
-/// What is made of a past drive.
+/// Product of a past drive in the making.
 struct PastWorkView {
   std::uint64_t session = 0;
   std::string what;  ///< "film" or "replay".
   bool is_running = false, has_failed = false;
-  std::string said;  ///< Its newest line.
+  std::string said;  ///< Its newest output line.
   bool operator==(const PastWorkView&) const = default;
 };
 
-/// How things stand without a drive.
+/// State without a drive.
 struct StartView {
   bool is_starting = false;
-  std::string command;            ///< What was started, as a command line.
-  std::vector<std::string> said;  ///< What it has said so far, or at its end.
-  std::string last;               ///< How the last drive ended, or why it did not start.
-  bool has_failed = false;        ///< That.
+  std::string command;            ///< Command line of the started program.
+  std::vector<std::string> said;  ///< Its output so far, or at its end.
+  std::string last;               ///< End of the last drive, or the reason that it did not start.
+  bool has_failed = false;        ///< The last drive failed.
   std::vector<PastSession> sessions;
   std::optional<PastWorkView> work;
   bool is_looking = false;  ///< Not all of them have been read yet.
@@ -47,7 +47,7 @@ class StartPage {
  public:
   static Expected<std::unique_ptr<StartPage>> open(const ListeningSocket& listening, std::string token,
                                                    std::vector<std::string> allowed_hosts, Choices choices);
-  /// Browsers that look on are told that they will be served by the drive.
+  /// Viewers are told that the drive will serve them.
   ~StartPage();
 
   /// `folders` are those of the view's sessions.
@@ -61,7 +61,7 @@ class StartPage {
   std::unique_ptr<Shared> shared_;
 };
 
-/// Files of a past session that may be looked at: those of its results, and the pictures that they show.
+/// True for files of a past session that may be viewed: its results, and the pictures that they show.
 bool is_past_file(std::string_view name);
 inline constexpr std::size_t largest_past_file_bytes = std::size_t{64} << 20,
                              largest_film_bytes = std::size_t{512} << 20;

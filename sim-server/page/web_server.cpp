@@ -40,21 +40,21 @@ using beast::error_code;
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
-constexpr auto patience = std::chrono::seconds(10);         // For an answer to be taken.
+constexpr auto patience = std::chrono::seconds(10);         // For a browser to take its reply.
 constexpr auto request_patience = std::chrono::seconds(2);  // For a whole request: browsers send it at once.
 constexpr std::string_view subprotocol = "septet";
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 beast::string_view view(std::string_view text) { return {text.data(), text.size()}; }
 
-/// What the connections know of their server.
+/// The connections' view of their server.
 struct Shared {
   WebServerOptions options;
   WebHandlers handlers;
   std::atomic<std::uint64_t> connections{0}, refused{0}, opened{0}, closed{0}, states_left_out{0};
 };
 
-/// A page's WebSocket: one write at a time, what is to be said waits.
+/// A page's WebSocket: one write at a time, further messages queue.
 class Browser : public std::enable_shared_from_this<Browser> {
  public:
   Browser(tcp::socket&& socket, BrowserId id, Shared& shared) : socket_(std::move(socket)), id_(id), shared_(shared) {}
@@ -150,7 +150,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
   std::function<void()> closed_;
 };
 
-/// One request and its answer; then the connection is closed, or has become a browser's.
+/// One request and its reply; then the connection is closed, or has become a browser's.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   using Upgrade = std::function<void(tcp::socket&&, Request&&)>;
@@ -163,7 +163,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void start() {
     stream_.expires_after(request_patience);
-    // The header is a whole request: no body is ever waited for.
+    // The header is a whole request: a body is never awaited.
     http::async_read_header(stream_, buffer_, parser_, [self = shared_from_this()](error_code error, std::size_t) {
       if (!self->stream_.socket().is_open()) return;  // It had to make room.
       if (!error) return self->answer(std::move(self->parser_.get()));
@@ -176,7 +176,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     error_code ignored;
     stream_.socket().close(ignored);
   }
-  /// Nobody misses it: it has sent no whole request, or its whole answer is out.
+  /// Expendable: it has sent no whole request, or its whole reply is out.
   bool may_go() const { return !is_answering_; }
 
  private:
@@ -190,7 +190,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (target == shared_.options.socket_path) return open_socket(std::move(request), host);
     if (request.method() != http::verb::get && request.method() != http::verb::head)
       return refuse(http::status::method_not_allowed, "only GET is answered");
-    // What others have added to the address, as messengers and mail programs do, is passed over.
+    // Additions to the address, as of messengers and mail programs, are ignored.
     const auto path = target.substr(0, target.find('?'));
     for (const Resource& resource : shared_.options.resources)
       if (resource.path == path)
@@ -243,7 +243,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
       http::async_write(stream_, *serializer_,
                         [self = shared_from_this()](error_code, std::size_t) { self->finish(); });
   }
-  /// Says that nothing more comes, and reads on until the other side has read it: to close at once would take back what was sent.
+  /// Shuts down the sending side, and reads on until the other side has read everything: closing at once would discard
+  /// sent data.
   void finish() {
     is_answering_ = false;
     error_code ignored;
@@ -277,7 +278,7 @@ struct WebServer::Running {
   asio::io_context context{1};
   std::array<tcp::acceptor, 2> acceptors{tcp::acceptor(context), tcp::acceptor(context)};  ///< IPv4, IPv6.
   std::array<asio::steady_timer, 2> retries{asio::steady_timer(context), asio::steady_timer(context)};
-  std::map<BrowserId, std::shared_ptr<Browser>> browsers;  ///< Also those that are still opening.
+  std::map<BrowserId, std::shared_ptr<Browser>> browsers;  ///< Includes those that are still opening.
   std::vector<std::weak_ptr<Connection>> connections;      ///< The oldest first.
   BrowserId next_browser = 1;
   std::uint16_t port = 0;
@@ -287,7 +288,7 @@ struct WebServer::Running {
     tcp::acceptor& acceptor = acceptors[which];
     acceptor.async_accept([this, which, &acceptor](error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted || !acceptor.is_open()) return;
-      if (error) {  // No file descriptor is left, for one: others may become free.
+      if (error) {  // For example without a free file descriptor: others may become free.
         retries[which].expires_after(std::chrono::milliseconds(100));
         retries[which].async_wait([this, which](error_code stopped) {
           if (!stopped) accept(which);
@@ -306,8 +307,8 @@ struct WebServer::Running {
     });
   }
 
-  /// Where all places are taken the oldest connection goes that has not sent a whole request, or has its answer: who holds places without
-  /// asking for anything cannot keep others out, who ask at once. If all are being answered, the oldest of them.
+  /// With all places taken, the oldest connection without a whole request, or with its reply sent, is closed: idle
+  /// connections cannot keep out others, which send their request at once. If all are being served, the oldest of them.
   void make_room() {
     std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
     if (connections.size() < most_connections) return;
@@ -339,7 +340,7 @@ struct WebServer::Running {
         });
   }
 
-  /// Whoever was named is gone by now, perhaps.
+  /// May be gone by now.
   std::shared_ptr<Browser> find(BrowserId id) const {
     const auto found = browsers.find(id);
     return found == browsers.end() ? nullptr : found->second;
@@ -387,7 +388,7 @@ WebServer::WebServer(std::unique_ptr<Running> running) : running_(std::move(runn
 WebServer::~WebServer() {
   running_->context.stop();
   running_->thread.join();
-  // Also where a program that was started meanwhile holds a copy of the socket: a browser hears at once that this server is gone.
+  // Also if a child program holds a copy of the socket: a browser hears at once that this server is gone.
   for (const auto& [id, browser] : running_->browsers) browser->hang_up();
 }
 

@@ -1,12 +1,13 @@
 #pragma once
-/// A small web server for one page and its WebSocket, on this machine's own addresses (127.0.0.1 and [::1]) and nothing else.
+/// A small web server for one page and its WebSocket, on this machine's own addresses (127.0.0.1 and [::1]) alone.
 ///
-/// Whoever runs on this machine may connect, and a browser does so for any site that its user looks at; so before anything else is read of a
-/// request its Host must be this machine or one that was allowed by name (a foreign name that was made to point here is refused), a
-/// WebSocket's Origin must be that same host, and it must hold the token, which no other site can read. One thread of its own does all
-/// network input and output; handlers are called there. Nobody waits for a browser: of states it is sent the newest one only, of
-/// messages a bounded queue, and who does not take those is closed. Bytes from outside end a connection at worst, and whoever holds
-/// connections without a whole request makes room for who asks.
+/// Every user of this machine may connect, and a browser does so for any site that its user looks at; so before the
+/// rest of a request is read its Host must be this machine or an allowed name (a foreign name that resolves to this
+/// machine is refused), a WebSocket's Origin must be that same host, and it must hold the token, which no other site
+/// can read. One thread of its own does all network input and output; handlers are called there. It never waits for a
+/// browser: of states only the newest is sent, messages go into a bounded queue, and a browser that does not take them
+/// is closed. Bytes from outside end a connection at worst, and connections without a whole request make room for new
+/// ones.
 ///
 /// Standards: RFC 9112 (HTTP/1.1), RFC 6455 (WebSocket), by Boost.Beast.
 
@@ -24,19 +25,19 @@
 
 namespace septet::page {
 
-/// What is answered to a GET.
+/// Reply to a GET.
 struct Resource {
   std::string path;  ///< "/", "/page.js".
   std::string type;  ///< "text/html; charset=utf-8".
   std::string_view body;
 };
 
-/// The Content-Security-Policy of the resources: what the page may load and reach is this server's own.
+/// Content-Security-Policy of the resources: the page may load and reach this server alone.
 inline constexpr std::string_view page_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
     "frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 
-/// What is made or read when it is asked for.
+/// A resource made or read on request.
 struct FoundResource {
   std::string type, body;
   std::string content_policy;  ///< Its Content-Security-Policy.
@@ -44,15 +45,15 @@ struct FoundResource {
 
 struct WebServerOptions {
   std::uint16_t port = 0;                  ///< 0: any free one.
-  std::vector<std::string> allowed_hosts;  ///< Beside localhost, 127.0.0.1 and [::1]: those of a proxy.
-  std::string token;                       ///< Of the WebSocket, as one of its subprotocols.
+  std::vector<std::string> allowed_hosts;  ///< Beside localhost, 127.0.0.1 and [::1]: names of a proxy.
+  std::string token;                       ///< Required as one of the WebSocket's subprotocols.
   std::string socket_path = "/live";
   std::vector<Resource> resources;
-  /// What else there is, called in the server's thread; nothing: 404. May be empty. The path is any bytes.
+  /// Further resources, called in the server's thread; an empty result is 404. May be empty. The path is any bytes.
   std::function<std::optional<FoundResource>(std::string_view path)> find;
-  /// Where it listens, made before (listening_socket.hpp), of which it takes a copy; null: at `port`.
+  /// Listening socket made before (listening_socket.hpp), which is copied; null: at `port`.
   const ListeningSocket* listening = nullptr;
-  double silence_s = 20.0;  ///< A browser that says nothing for so long, and answers no ping, is gone.
+  double silence_s = 20.0;  ///< A browser that is silent for this long, and returns no ping, is closed.
 };
 
 inline constexpr std::size_t most_browsers = 16, most_connections = 256;
@@ -63,7 +64,7 @@ using BrowserId = std::uint64_t;
 using Text = std::shared_ptr<const std::string>;
 inline Text shared_text(std::string words) { return std::make_shared<const std::string>(std::move(words)); }
 
-/// Called in the server's thread; they may call send, send_newest and close.
+/// Called in the server's thread; may call send, send_newest and close.
 struct WebHandlers {
   std::function<void(BrowserId)> opened;
   std::function<void(BrowserId, std::string_view)> said;  ///< A text message, at most most_message_bytes, any bytes.
@@ -72,12 +73,12 @@ struct WebHandlers {
 
 struct WebCounters {
   std::uint64_t connections = 0, refused = 0, opened = 0, closed = 0;
-  std::uint64_t states_left_out = 0;  ///< Older states that a slow browser was never sent.
+  std::uint64_t states_left_out = 0;  ///< Older states dropped before a slow browser took them.
 };
 
 class WebServer {
  public:
-  /// Error: the port cannot be had.
+  /// Error: the port is not available.
   static Expected<std::unique_ptr<WebServer>> start(WebServerOptions options, WebHandlers handlers);
   /// Closes everything and waits for the thread.
   ~WebServer();
@@ -88,12 +89,12 @@ class WebServer {
 
   /// In the server's thread. A message that must arrive.
   void send(BrowserId browser, Text text);
-  /// In the server's thread. A state: one that has not been sent yet is left out for it.
+  /// In the server's thread. A state: replaces an unsent one.
   void send_newest(BrowserId browser, Text text);
-  /// The same of a picture, each of its name.
+  /// The same for a picture, per name.
   void send_newest_picture(BrowserId browser, const std::string& name, Text text);
   void close(BrowserId browser);
-  /// Waits until every browser has been sent what waits for it, at most so long. From any other thread.
+  /// Waits until every browser has been sent its queue, at most this long. From any other thread.
   void flush(double patience_s);
   WebCounters counters() const;
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What operators want, on its way from the page's thread to whoever runs the drive: a few wait, those beyond are refused.
+/// Operators' requests, on their path from the page's thread to the drive: a bounded queue; requests beyond it are
+/// refused.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,11 +15,12 @@
 
 namespace septet::page {
 
-/// Something that the one who commands wants: Start, Cancel or Answer without a drive; Pause, GoOn, Rearm, End, Mark, Rate or Change of one.
+/// A request of the browser in command: Start, Cancel or Answer without a drive; Pause, GoOn, Rearm, End, Mark, Rate or
+/// Change during one.
 struct OperatorWish {
   BrowserId browser = 0;
   std::uint64_t id = 0;
-  std::string name;  ///< Of the operator, as he calls himself; may be empty.
+  std::string name;  ///< The operator's own name; may be empty.
   Wish wish;
 };
 
@@ -27,7 +29,7 @@ inline constexpr std::size_t most_waiting_wishes = 64;
 /// Any thread.
 class WishBox {
  public:
-  /// False: it is full.
+  /// Returns false if it is full.
   bool put(OperatorWish wish) {
     const std::lock_guard lock(mutex_);
     if (wishes_.size() >= most_waiting_wishes) return false;
@@ -44,7 +46,7 @@ class WishBox {
   std::vector<OperatorWish> wishes_;
 };
 
-/// Tells who asked that it was done, or why not. Any thread.
+/// Tells the browser that its request was done, or the reason for a refusal. Any thread.
 inline void send_answer(WebServer& server, const OperatorWish& wish, const std::optional<std::string>& why_not) {
   server.post([&server, browser = wish.browser, words = shared_text(answer_text(wish.id, why_not))] {
     server.send(browser, words);

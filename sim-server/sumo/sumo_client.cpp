@@ -8,15 +8,15 @@ namespace septet::server {
 
 Expected<ConnectSumo> load_sumo_module() {
   std::error_code ignored;
-  auto file = program::own_folder() / "septet-sumo.so";  // As it is built; else as it is installed.
+  auto file = program::own_folder() / "septet-sumo.so";  // In the build tree; else as installed.
   if (!std::filesystem::exists(file, ignored))
     file = program::own_folder().parent_path() / "lib/septet/modules/septet-sumo.so";
   if (!std::filesystem::exists(file, ignored))
     return failure(
         "this Septet was built without SUMO's client library", "--traffic sumo",
         "build septet-sumo beside it (./run does, where the package sumo is installed), or drive with --traffic own");
-  void* module =
-      ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // Stays loaded: its objects may live as long as the program.
+  // Stays loaded: its objects may live as long as the program.
+  void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* connect = module ? ::dlsym(module, "septet_connect_sumo") : nullptr;
   if (!connect) {
     const char* reason = ::dlerror();

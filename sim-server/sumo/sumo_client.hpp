@@ -1,7 +1,7 @@
 #pragma once
-/// What Septet asks of a running SUMO: one call of its C++ client (TraCI) each.
+/// Septet's queries to a running SUMO: one call of its C++ client (TraCI) each.
 ///
-/// The client library is linked by a module of its own, which is loaded when a drive wants SUMO: Septet builds and runs
+/// The client library is linked by a module of its own, which is loaded when a drive needs SUMO: Septet builds and runs
 /// without it. Vehicles are known by participant id; the world frame is Septet's. Errors: SUMO has gone, or refuses.
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct SumoDeparture {
   std::vector<std::string> route;
   int lane_index = 0;
   double along_m = 0.0;
-  bool watched = true;  ///< Whether `step` tells of it.
+  bool watched = true;  ///< True: `step` reports it.
 };
 
 /// One vehicle after a step.
@@ -51,17 +51,18 @@ class SumoClient {
  public:
   virtual ~SumoClient() = default;
   virtual Expected<void> define_type(const SumoVehicleType& type) = 0;
-  /// It departs when SUMO finds room for it at that place, at the speed that its driver wants or, where that cannot be, as fast as SUMO lets it.
+  /// It departs when SUMO finds room for it at that place, at its driver's desired speed or, if that is impossible, as
+  /// fast as SUMO lets it.
   virtual Expected<void> add_vehicle(const SumoDeparture& departure) = 0;
-  /// One that SUMO does not know, for it has left or was thrown away, is gone: no error.
+  /// A vehicle that SUMO does not know, since it has left or was removed, is gone: no error.
   virtual Expected<void> remove_vehicle(ParticipantId id) = 0;
-  /// Where a vehicle that others move is after the next step, whatever its route; off every road nobody minds it.
+  /// Place of a vehicle moved by others after the next step, independent of its route; off every road it is ignored.
   virtual Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double heading_rad) = 0;
-  /// One of SUMO's steps; the watched vehicles on the road, ascending id.
+  /// Advances SUMO by one step; returns the watched vehicles on the road, ascending id.
   virtual Expected<std::vector<SumoVehicle>> step() = 0;
 };
 
-/// SUMO's client for the SUMO that listens at this port of this machine; one at a time.
+/// Connects to the SUMO that listens at this port of this machine; one at a time.
 using ConnectSumo = Expected<std::unique_ptr<SumoClient>> (*)(int port);
 /// Loads the module. Error: this Septet was built without SUMO, or SUMO's library is gone.
 Expected<ConnectSumo> load_sumo_module();

@@ -1,7 +1,7 @@
 /// septet-sumo.so: the only place that knows SUMO's client library (libtracicpp).
 ///
-/// What SUMO knows of its vehicles comes by subscription: one message per step for all of them together. A call per vehicle
-/// and value costs a round trip of some 17 µs each, which for 200 vehicles would take longer than the step.
+/// Vehicle states come by subscription: one message per step for all of them together. A call per vehicle and value
+/// costs a round trip of some 17 µs each, which for 200 vehicles would take longer than the step.
 
 #include <algorithm>
 #include <charconv>
@@ -17,7 +17,7 @@
 namespace septet::server {
 namespace {
 
-/// moveToXY: any edge, and off the network where there is none.
+/// moveToXY: any edge, and off the network if there is none.
 constexpr int anywhere = 2;
 
 template <class Call>
@@ -71,8 +71,8 @@ class TraciClient final : public SumoClient {
 
   Expected<void> add_vehicle(const SumoDeparture& departure) override {
     return asked([&] {
-      // A speed that is demanded ("desired", or a number) and cannot be kept into the next edge has the vehicle thrown away; "max" is lowered.
-      // A route is known by where it begins: the rest follows from the corridor.
+      // A speed that is demanded ("desired", or a number) and cannot be kept into the next edge has the vehicle thrown
+      // away; "max" is lowered. A route is known by where it begins: the rest follows from the corridor.
       const std::string route = departure.route.front() + ">" + departure.route.back();
       if (std::ranges::find(routes_, route) == routes_.end()) {
         libtraci::Route::add(route, departure.route);
@@ -88,12 +88,12 @@ class TraciClient final : public SumoClient {
 
   Expected<void> remove_vehicle(ParticipantId id) override {
     return asked([&] {
-      // SUMO would still answer the subscription once, with an error.
+      // SUMO would still reply to the subscription once, with an error.
       try {
         if (std::erase(watched_, name_of(id)) > 0) libtraci::Vehicle::unsubscribe(name_of(id));
         libtraci::Vehicle::remove(name_of(id));
       } catch (const libsumo::TraCIException&) {
-        // SUMO knows it no more: it came to the end of its way, or was never set out.
+        // Unknown to SUMO: it reached the end of its route, or was never placed.
       }
     });
   }
@@ -105,7 +105,7 @@ class TraciClient final : public SumoClient {
       try {
         libtraci::Vehicle::moveToXY(name_of(id), "", 0, front_m.x, front_m.y, angle, anywhere);
       } catch (const libsumo::TraCIException&) {
-        // No road within its reach: nobody has to mind it.
+        // No road within its reach: traffic can ignore it.
       }
     });
   }
@@ -145,8 +145,8 @@ class TraciClient final : public SumoClient {
   }
 
  private:
-  /// "101.3": the third entry of participant 101. SUMO remembers a subscription to a vehicle that was removed; a new one of
-  /// the same name that still waits for room would answer it with an error.
+  /// "101.3": the third entry of participant 101. SUMO remembers a subscription to a removed vehicle; a new one of the
+  /// same name that still waits for room would reply to it with an error.
   std::string name_of(ParticipantId id) const { return fmt::format("{}.{}", id, entries_.at(id)); }
 
   inline static const std::vector<int> watched_values{libsumo::VAR_POSITION, libsumo::VAR_ANGLE, libsumo::VAR_SPEED,

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double straight_step_m = 10.0, curved_step_m = 2.0;
 constexpr double curved_per_m = 1.0 / 1500.0;  // Chords of 10 m stay within 1 cm of anything flatter.
-/// Where no limit is posted: the drivers bring their own desired speed.
+/// For roads without a posted limit: the drivers have their own desired speed.
 constexpr double no_limit_mps = 80.0;
 /// Times round a ring, for SUMO's routes have an end.
 constexpr int laps = 40;
@@ -81,8 +81,8 @@ int index_of(const std::vector<int>& lanes, int lane) {
   return static_cast<int>(std::ranges::find(lanes, lane) - lanes.begin());
 }
 
-/// Where a lane goes on: as its links say; without any, within one road, as the lane of the same number, which is how Septet's own traffic
-/// goes through a file that does not link the lanes of its sections.
+/// Continuation of a lane: by its links; without any, within one road, the lane of the same number, as in Septet's own
+/// traffic on a file without links between the lanes of its sections.
 std::vector<road::LaneContinuation> beyond(const road::RoadNetwork& roads, const SumoEdge& edge, int lane) {
   auto found = road::continuations(roads, edge.road, edge.section, lane, edge.along_s);
   if (!found.empty()) return found;
@@ -110,7 +110,7 @@ double limit_mps(const road::RoadNetwork& roads, const SumoEdge& edge, int lane)
   return limit > 0.0 ? limit : no_limit_mps;
 }
 
-/// Edges' ends that meet are one node: ends 2e (begin of edge e) and 2e + 1 (its end), joined by the links.
+/// Ends of edges that meet are one node: ends 2e (beginning of edge e) and 2e + 1 (its end), joined by the links.
 std::vector<std::size_t> nodes_of(std::size_t edges, const std::vector<Link>& links) {
   std::vector<std::size_t> node(2 * edges);
   std::iota(node.begin(), node.end(), std::size_t{0});
@@ -143,7 +143,8 @@ SumoNetwork make_sumo_network(const road::RoadNetwork& roads) {
     for (std::size_t i = 0; i < edge.lanes.size(); ++i) {
       const auto line = centre_line(roads, edge, edge.lanes[i]);
       if (middle.empty()) middle.assign(line.size(), Vec2(0.0));
-      // All lanes of an edge are sampled where the first one is, unless a curve begins between them: then the first decides.
+      // All lanes of an edge are sampled at the first one's places, unless a curve begins between them: then the first
+      // decides.
       if (line.size() == middle.size())
         for (std::size_t k = 0; k < line.size(); ++k) middle[k] += line[k] / static_cast<double>(edge.lanes.size());
       else if (i == 0)
@@ -187,7 +188,7 @@ SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roa
   const SumoEdge& edge = network.edges[*first];
   place.lane_index = index_of(edge.lanes, at.lane);
   place.along_m = edge.along_s ? at.s_m - edge.begin_s_m : edge.end_s_m - at.s_m;
-  // The rest of the way: every piece of the corridor, section by section in the direction of travel.
+  // The rest of the path: every piece of the corridor, section by section in the direction of travel.
   std::vector<std::size_t> way;
   std::size_t here = 0;
   for (const auto& piece : corridor.pieces) {
@@ -202,7 +203,7 @@ SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roa
       way.push_back(static_cast<std::size_t>(found - network.edges.begin()));
     }
   }
-  // As far as lanes lead from edge to edge: SUMO ends at a route with a gap.
+  // As far as lanes lead from edge to edge: SUMO aborts on a route with a gap.
   const std::size_t rounds = corridor.closed ? laps * way.size() : way.size() - here;
   for (std::size_t i = 0; i < rounds; ++i) {
     const std::size_t edge_now = way[(here + i) % way.size()];

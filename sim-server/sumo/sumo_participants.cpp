@@ -44,8 +44,8 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
   } else if (member.place && member.place->road == front->position.road) {
     const double rate = direction * (front->position.t_m - member.place->t_m) / sumo_step_s;
     member.lateral_mps += (rate - member.lateral_mps) * sumo_step_s / drift_time_s;
-    // All lanes of an edge are equally long to SUMO: in a bend it sets whoever changes lanes forwards or back. That is
-    // taken up and given back slowly.
+    // All lanes of an edge are equally long to SUMO: in a bend a lane change shifts a vehicle forwards or back. The
+    // shift is absorbed and released slowly.
     const double slip = direction * (front->position.s_m - member.place->s_m) * line.stretch - driven;
     member.slip_m = std::abs(slip) < most_slip_m ? (member.slip_m - slip) * (1.0 - sumo_step_s / slip_time_s) : 0.0;
   }
@@ -81,7 +81,7 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
   // At speed SUMO lights the brake lamps only from about 5 m/s²; drivers behind need to see less.
   participant.lamps.set(
       Lamp::brake, (vehicle.signals & sumo_signal::brake_light) != 0 || vehicle.acceleration_mps2 < -brake_lamp_mps2);
-  // Whether the indicator is on; it blinks where it is shown.
+  // True while the indicator is on; the display makes it blink.
   participant.lamps.set(Lamp::indicator_left, (vehicle.signals & sumo_signal::blinker_left) != 0);
   participant.lamps.set(Lamp::indicator_right, (vehicle.signals & sumo_signal::blinker_right) != 0);
   return participant;

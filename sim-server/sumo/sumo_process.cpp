@@ -22,9 +22,9 @@ namespace {
 
 constexpr auto patience = 5min;
 
-// The drivers are Septet's: car following by IDM with each one's own parameters, and the limit is the limit (SUMO's own would take it with a
-// factor of each). Lateral movement is continuous, by SUMO's
-// sublane model, and vehicles with a beacon have SUMO's own device for them.
+// The drivers are Septet's: car following by IDM with each one's own parameters, and without SUMO's own factor on the
+// limit. Lateral movement is continuous, by SUMO's sublane model, and vehicles with a beacon have SUMO's own device for
+// them.
 constexpr const char* types_xml = R"(<additional>
 <vType id="driver" carFollowModel="IDM" laneChangeModel="SL2015" vClass="passenger" latAlignment="center" lcSigma="0" speedFactor="1" speedDev="0"/>
 <vType id="foreign" carFollowModel="IDM" laneChangeModel="SL2015" vClass="passenger" latAlignment="center"/>
@@ -56,7 +56,7 @@ Expected<int> free_port() {
   return ntohs(address.sin_port);
 }
 
-/// The last line of SUMO's own log that says what is wrong; empty: none.
+/// The last error line of SUMO's own log; empty: none.
 std::string error_in(const fs::path& log) {
   std::ifstream file(log);
   std::string error;
@@ -70,7 +70,7 @@ std::string error_or_end(const fs::path& log) {
   return error.empty() ? "it ended at once" : error;
 }
 
-/// What SUMO itself says of it goes with each of its client's errors.
+/// Adds SUMO's own explanation to each of its client's errors.
 class ExplainingClient final : public SumoClient {
  public:
   ExplainingClient(std::unique_ptr<SumoClient> client, fs::path log)
@@ -156,7 +156,8 @@ Expected<void> SumoProcess::convert_network() {
 }
 
 Expected<void> SumoProcess::run(const SumoOptions& options) {
-  // SUMO's client writes to its socket without MSG_NOSIGNAL: a SUMO that is gone must be an error, not this program's end.
+  // SUMO's client writes to its socket without MSG_NOSIGNAL: a SUMO that is gone must be an error, not this program's
+  // end.
   std::signal(SIGPIPE, SIG_IGN);
   const auto connect = load_sumo_module();
   if (!connect) return tl::unexpected(connect.error());
@@ -200,7 +201,7 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
                                                .log = folder_.path() / "sumo.err"});
   if (!process) return tl::unexpected(process.error());
   process_ = std::move(*process);
-  // Only the start is waited for by the clock; from the first step on, SUMO's time is the simulation's.
+  // Only the start has a wall-clock limit; from the first step on, SUMO's time is the simulation's.
   const auto until = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < until) {
     if (process_->poll())

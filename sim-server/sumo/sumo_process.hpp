@@ -17,10 +17,10 @@ struct SumoOptions {
   std::uint64_t seed = 1;
 };
 
-/// A SUMO that runs and the client that talks to it; both end with this, and so does the folder with SUMO's files.
+/// A running SUMO and the client that talks to it; both end with this, and so does the folder with SUMO's files.
 class SumoProcess {
  public:
-  /// Error: SUMO is not installed, does not accept the network, or does not answer.
+  /// Error: SUMO is not installed, does not accept the network, or does not reply.
   static Expected<std::unique_ptr<SumoProcess>> start(const SumoNetwork& network, const SumoOptions& options);
 
   SumoClient& client() { return *client_; }
@@ -31,7 +31,7 @@ class SumoProcess {
   Expected<void> convert_network();
   Expected<void> run(const SumoOptions& options);
 
-  // They end in the opposite order: who talks to SUMO, SUMO, the files that it reads.
+  // Destroyed in the opposite order: the client, SUMO, the files that it reads.
   program::TemporaryFolder folder_;
   std::optional<program::ChildProcess> process_;
   std::unique_ptr<SumoClient> client_;

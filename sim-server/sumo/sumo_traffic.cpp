@@ -46,7 +46,8 @@ void SumoTraffic::start(const traffic::TrafficParameters& parameters, std::span<
   running_ = true;
   for (std::size_t c = 0; c < corridors_.size() && running_; ++c) {
     const auto& corridor = corridors_[c];
-    // From the front to the back: SUMO sets out as fast as the one ahead allows, but nobody close before one who is there.
+    // From the front to the back: SUMO places each as fast as the one ahead allows, but never close ahead of a present
+    // vehicle.
     std::vector<std::size_t> front_first(corridor.size());
     std::iota(front_first.begin(), front_first.end(), std::size_t{0});
     std::ranges::stable_sort(front_first,
@@ -66,7 +67,7 @@ void SumoTraffic::start(const traffic::TrafficParameters& parameters, std::span<
     }
   }
   std::ranges::sort(members_, {}, &Member::id);
-  // SUMO's clock begins one step before the drive: the first step sets everybody out.
+  // SUMO's clock begins one step before the drive: the first step places all vehicles.
   if (running_) place_foreign(foreign, 0.0);
   if (running_) step(foreign);
   if (running_) place_foreign(foreign, sumo_step_s);
@@ -106,7 +107,7 @@ void SumoTraffic::leave(Member& member) {
   ok(client_->remove_vehicle(member.id));
 }
 
-/// Somewhere within the swarm, as long as it is being set out. Whether it was asked for.
+/// Placed anywhere within the swarm while it is being set out. Returns true if it was requested.
 bool SumoTraffic::set_out_again(Member& member, double middle_x_m) {
   const auto& corridor = corridors_[member.corridor];
   const double length = corridor.corridor.length_m;
@@ -120,7 +121,7 @@ bool SumoTraffic::set_out_again(Member& member, double middle_x_m) {
   return member.stay == Member::Stay::asked_for;
 }
 
-/// As Septet's own swarm: out of the radius on one side, in again on the other; slower ones come in ahead.
+/// As in Septet's own swarm: out of the radius on one side, in again on the other; slower ones enter ahead.
 void SumoTraffic::recycle(Member& member, const road::RoadPosition& middle, double middle_speed_mps) {
   const auto& corridor = corridors_[member.corridor];
   if (corridor.corridor.closed && steps_ > setting_out_steps) return;
@@ -231,7 +232,7 @@ void SumoTraffic::append_participants(std::vector<Participant>& participants) co
   auto before = before_.begin();
   for (const Participant& after : after_) {
     while (before != before_.end() && before->id < after.id) ++before;
-    // Who has just come in is shown from the step on at which SUMO set it out.
+    // A vehicle that has just entered is shown from the step on at which SUMO placed it.
     if (before == before_.end() || before->id != after.id) continue;
     participants.push_back(shown(interpolate(*before, after, sumo_step_s, phase_s_ / sumo_step_s)));
   }

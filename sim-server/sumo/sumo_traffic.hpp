@@ -1,12 +1,13 @@
 #pragma once
-/// Traffic moved by SUMO, as a TrafficEngine: whoever reads participants sees no difference.
+/// Traffic moved by SUMO, as a TrafficEngine: readers of participants see no difference.
 ///
-/// SUMO runs one of its steps (50 ms) ahead of the drive; ticks in between are interpolated (interpolate.hpp). The swarm is
-/// the one that Septet's own engine would set out: same places, same kinds of vehicles, same drivers with IDM; whoever falls
-/// out of its radius comes in at the other rim. Whom SUMO cannot set out where Septet would is set out somewhere else in the swarm during the
-/// first second, at its rims later on; until then he is not there. Positions are mapped by x and y; height and tilt are those of Septet's road,
-/// heading is that of the road with the vehicle's drift across it, because SUMO's own turns in steps. Vehicles that others
-/// move are told to SUMO at each of its steps, at where they will be then.
+/// SUMO runs one of its steps (50 ms) ahead of the drive; ticks in between are interpolated (interpolate.hpp). The
+/// swarm is the one that Septet's own engine would set out: same places, same kinds of vehicles, same drivers with IDM;
+/// vehicles that fall out of its radius enter at the other rim. A vehicle that SUMO cannot place where Septet would is
+/// placed elsewhere in the swarm during the first second, at its rims later on; until then it is absent. Positions are
+/// mapped by x and y; height and tilt are those of Septet's road, heading is that of the road with the vehicle's drift
+/// across it, because SUMO's own turns in steps. Vehicles moved by others are sent to SUMO at each of its steps, with
+/// their place after the step.
 
 #include <memory>
 #include <vector>
@@ -42,10 +43,10 @@ class SumoTraffic final : public traffic::TrafficEngine {
     std::size_t corridor = 0;
     double desired_speed_mps = 0.0;
     enum class Stay { outside, asked_for, on_road } stay = Stay::outside;
-    int steps_waiting = 0;  ///< Since it was asked for.
+    int steps_waiting = 0;  ///< Since its request.
     std::optional<road::RoadPosition> place;
     double speed_mps = 0.0, lateral_mps = 0.0, rolled_m = 0.0;
-    double slip_m = 0.0;  ///< How far ahead of SUMO's place it is shown.
+    double slip_m = 0.0;  ///< Distance ahead of SUMO's place at which it is shown.
   };
 
   bool ok(const Expected<void>& outcome);
@@ -71,13 +72,13 @@ class SumoTraffic final : public traffic::TrafficEngine {
   double phase_s_ = 0.0;                     ///< Since `before_`.
   double time_s_ = 0.0;
   bool running_ = false;
-  int steps_ = 0;  ///< Since the swarm was asked for.
+  int steps_ = 0;  ///< Since the swarm's request.
   std::optional<std::string> remark_;
   std::optional<Error> error_;
 };
 
-/// What a participant is told to do is the derivative of where it is shown: SUMO's own speed is that along a lane as long as all lanes of
-/// its edge are. `gained_mps`: by how much that has grown in the step.
+/// A participant's motion is the derivative of its shown place: SUMO's own speed is that along a lane as long as all
+/// lanes of its edge are. `gained_mps`: its growth in the step.
 void tell_sumo_motion(const Participant& before, double gained_mps, Participant& now);
 
 }  // namespace septet::server

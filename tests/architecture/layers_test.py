@@ -37,7 +37,7 @@ def folder_of(path, level_of):
 
 
 def name_within(path, level_of):
-    """What a path from within a folder is by the folder's table: the most precise of its names."""
+    """Name of a path from within a folder in the folder's table: the most precise one."""
     def holds(name):
         return path.startswith(name[:-1]) if name.endswith("*") else path == name or path.startswith((name + "/", name + "."))
     candidates = [name for name in level_of if holds(name)]
@@ -89,7 +89,7 @@ def violations(root):
     for folder in level_of:
         if not (root / folder).is_dir():
             yield f"layers.txt: {folder} is no folder of the tree"
-    for top in ("engine", "program", "sim-server", "sim-client", "car-io", "logging"):
+    for top in ("engine", "program", "sim-server", "sim-client", "car-io", "logging", "command-line"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in (".hpp", ".cpp"):
                 continue

@@ -11,7 +11,7 @@ import sys
 
 root = pathlib.Path(sys.argv[1])
 breaches, looked_at = [], 0
-for folder in ("engine", "logging", "car-io", "program", "sim-client", "sim-server"):
+for folder in ("engine", "logging", "car-io", "program", "sim-client", "sim-server", "command-line"):
     for source in sorted((root / folder).rglob("*.cpp")):
         own = source.with_suffix(".hpp")
         if not own.exists():

@@ -47,7 +47,7 @@ def included(file):
 
 
 breaches, looked_at = [], 0
-for folder in ("engine", "logging", "car-io", "program", "sim-client", "sim-server"):
+for folder in ("engine", "logging", "car-io", "program", "sim-client", "sim-server", "command-line"):
     for path in sorted(root.glob(f"{folder}/**/*.[ch]pp")):
         file = str(path.relative_to(root))
         code = COMMENT_OR_TEXT.sub("", path.read_text())

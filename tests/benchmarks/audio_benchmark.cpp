@@ -1,6 +1,6 @@
-/// A block of sound (400 samples, 1/120 s) of a car with sixteen others around it, on 5.1 loudspeakers: `audio/block` with OpenAL's
-/// placement, `audio/synthesis` without. In real time
-/// 120 are due a second: 3 % of one processor are 250 µs.
+/// A block of sound (400 samples, 1/120 s) of a car with sixteen others around it, on 5.1 loudspeakers: `audio/block`
+/// with OpenAL's placement, `audio/synthesis` without. In real time 120 are due a second: 3 % of one processor are 250
+/// µs.
 
 #include <benchmark/benchmark.h>
 

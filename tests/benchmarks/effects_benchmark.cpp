@@ -1,6 +1,6 @@
-// What the effects add to the server's tick and to the tick lane: ten seconds of each scenario that has them, with a
-// simulated driver. Bytes are those of a snapshot as a difference to the one of three ticks before, as a screen acknowledges
-// them on a local network; without repetition.
+// Cost of the effects in the server's tick and in the tick lane: ten seconds of each scenario that has them, with a
+// simulated driver. Bytes are those of a snapshot as a difference to the one of three ticks before, as a screen
+// acknowledges them on a local network; without repetition.
 
 #include <algorithm>
 #include <chrono>

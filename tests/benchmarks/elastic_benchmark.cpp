@@ -27,7 +27,7 @@ void elastic_step(benchmark::State& state, Eigen::Vector3i cells) {
   for (auto _ : state) {
     iterations += step_elastic(body, settings).iterations;
     ++steps;
-    if (steps % 60 == 0) {  // Wound up anew, before the twist has died down.
+    if (steps % 60 == 0) {  // Wound up again, before the twist has died down.
       state.PauseTiming();
       body.position_m = start.position_m;
       body.velocity_mps = start.velocity_mps;
@@ -38,8 +38,8 @@ void elastic_step(benchmark::State& state, Eigen::Vector3i cells) {
   state.counters["iterations"] = static_cast<double>(iterations) / steps;
 }
 
-/// The job of tests/benchmarks/peers/elastic_beam.py: the beam is let go straight and bends by its weight for 200 steps. Counts
-/// how far its end has come down, in the mean of the last hundred.
+/// The job of tests/benchmarks/peers/elastic_beam.py: the beam is let go straight and bends by its weight for 200
+/// steps. Counts how far its end has come down, in the mean of the last hundred.
 void elastic_bend(benchmark::State& state, Eigen::Vector3i cells) {
   auto body = *make_elastic_body(lattice_mesh(cells, 0.1 * cells.cast<double>()), {1e8, 0.25, 1000.0});
   fix_nodes(body, {-1e-9, -1e-9, -1e-9}, {100, 100, 1e-9});

@@ -24,7 +24,7 @@ void face_normals(benchmark::State& run, NormalMethod method) {
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(normals.size()));
 }
 
-/// What a screen does with a pair of keyframes: 4 ticks at 120 a second are two frames.
+/// A screen's work for a pair of keyframes: 4 ticks at 120 a second are two frames.
 void two_frames(benchmark::State& run, NormalMethod method) {
   const auto faces = morphs::sphere_faces(morphs::blob, morphs::other_blob);
   FaceNormals at;

@@ -1,5 +1,6 @@
 // One virtual screen on lavapipe, from the scenario's motorway with traffic: CPU time of drawing a frame and reading it
-// back, the shaders' compilation not counted. LP_NUM_THREADS=0 keeps Mesa on one thread. By day, and in each weather by its name.
+// back, the shaders' compilation not counted. LP_NUM_THREADS=0 keeps Mesa on one thread. By day, and in each weather by
+// its name.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -140,8 +141,8 @@ void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uin
   state.counters["draws"] = renderer.statistics().draws;
 }
 
-/// Seven screens of 1920 × 1080 around the eye on a graphics card, each with all that it draws there, one after the other: frames of all seven a
-/// second, and what each pass of the seven took by the device's clock.
+/// Seven screens of 1920 × 1080 around the eye on a graphics card, each with all its effects, one after the other:
+/// frames of all seven a second, and the time of each pass of the seven by the device's clock.
 void seven_screens(benchmark::State& state, std::string_view name, bool validated) {
   constexpr std::uint32_t width = 1920, height = 1080, screens = 7;
   std::vector<Renderer> renderers;

@@ -1,5 +1,5 @@
-// Ice on lavapipe as the paper measured it (section 4, figures 6 and 7): the irregular cube of 4800 triangles with 2 cracks and
-// 19 planes of air at 1024 × 768, over a fifth of the picture and over all of it, with parts left out.
+// Ice on lavapipe as the paper measured it (section 4, figures 6 and 7): the irregular cube of 4800 triangles with 2
+// cracks and 19 planes of air at 1024 × 768, over a fifth of the picture and over all of it, with parts left out.
 #include <stdexcept>
 
 #include <benchmark/benchmark.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How well machines of unequal speed are used by a traced film: measured, not simulated.
+"""Efficiency of a traced film on machines of unequal speed: measured, not simulated.
 
 machines.py [--build FOLDER] [--programs N] [--size WIDTHxHEIGHT] [--samples N] [--film-samples N] [--frames N] [--what picture,film]
             [--schedules ours,paper,round-robin] [--session FILE] [--json FILE]
@@ -61,7 +61,7 @@ def run(build, session, folder, schedule, shares, arguments, buckets=81):
 
 
 def losses(rows, shares, time_s):
-    """Shares of all that the programs could have done, by what kept them from it. Each has one thread."""
+    """Shares of the programs' possible work, by the cause of its loss. Each has one thread."""
     lost = dict.fromkeys(("twice", "frames", "runs", "end"), 0.0)
     for program, share in enumerate(shares):
         last_s, frame = 0.0, None

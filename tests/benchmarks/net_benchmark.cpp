@@ -1,5 +1,4 @@
-// What the network costs: one tick of each lane, the seal of a datagram, and a whole scene to seven
-// clients.
+// Costs of the network: one tick of each lane, the seal of a datagram, and a whole scene to seven clients.
 
 #include <benchmark/benchmark.h>
 

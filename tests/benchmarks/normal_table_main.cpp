@@ -1,5 +1,5 @@
-/// Table 1 of "Temporal Face Normal Interpolation" over nine morphs of 15,300 faces: the summed angle errors, and each as a
-/// multiple of linear interpolation's, beside the paper's four meshes. Run `build/release/septet-normal-table`.
+/// Table 1 of "Temporal Face Normal Interpolation" over nine morphs of 15,300 faces: the summed angle errors, and each
+/// as a multiple of linear interpolation's, beside the paper's four meshes. Run `build/release/septet-normal-table`.
 
 #include <algorithm>
 #include <array>

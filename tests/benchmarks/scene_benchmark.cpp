@@ -1,4 +1,4 @@
-// The scene on its way from the server to a screen's triangles.
+// The scene from the server to a screen's triangles.
 #include <memory>
 
 #include <benchmark/benchmark.h>

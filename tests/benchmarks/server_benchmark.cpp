@@ -1,4 +1,4 @@
-// What a tick of the server costs with the driver's car and 200 vehicles, and what its snapshot costs on the wire.
+// Costs of the server's tick with the driver's car and 200 vehicles, and of its snapshot on the wire.
 
 #include <chrono>
 #include <optional>
@@ -43,7 +43,7 @@ struct RunningDrive {
 };
 
 void server_tick_200(benchmark::State& bench) {
-  // Nobody steers: after a few seconds the car would meet a barrier, and the ticks would be those of a crash.
+  // Without steering: after a few seconds the car would meet a barrier, and the ticks would be those of a crash.
   constexpr int ticks_on_the_road = 240;
   std::optional<RunningDrive> drive;
   int left = 0;
@@ -62,8 +62,9 @@ void server_tick_200(benchmark::State& bench) {
 }
 BENCHMARK(server_tick_200)->Name("server_tick/200")->Unit(benchmark::kMicrosecond);
 
-/// Simulated over computed time, without screens: driver's car, simulated driver, traffic and the session log. The benchmark's
-/// own figure is the CPU time of the thread that simulates; by the clock the log's thread, which encodes and writes, counts too.
+/// Simulated over computed time, without screens: driver's car, simulated driver, traffic and the session log. The
+/// benchmark's own figure is the CPU time of the thread that simulates; by the clock the log's thread, which encodes
+/// and writes, counts too.
 void server_realtime_factor(benchmark::State& bench) {
   const LoadedDrive loaded = motorway_drive();
   const auto folder = program::TemporaryFolder::make("septet-bench");

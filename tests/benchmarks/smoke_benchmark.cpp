@@ -11,7 +11,8 @@ namespace {
 
 constexpr double step_s = 1.0 / 120.0;
 
-/// A road tunnel of half-metre cells, long enough for two particles in a cell's volume, filled evenly and left to settle.
+/// A road tunnel of half-metre cells, long enough for two particles in a cell's volume, filled evenly and left to
+/// settle.
 State settled_tunnel(std::size_t count) {
   const double length_m = std::min(2000.0, static_cast<double>(count) / 500.0);
   Emitter fire;

@@ -1,5 +1,6 @@
-// The ray tracer on one core: samples a second. The Cornell box is that of tests/benchmarks/peers/ray_tracing.py (256², 64 samples a
-// pixel, six edges); the motorway is the scenario's, 10 km with 200 vehicles, of which the memory is told too.
+// The ray tracer on one core: samples a second. The Cornell box is that of tests/benchmarks/peers/ray_tracing.py (256²,
+// 64 samples a pixel, six edges); the motorway is the scenario's, 10 km with 200 vehicles, of which the memory is told
+// too.
 #include <fstream>
 #include <stdexcept>
 #include <string>

@@ -21,7 +21,7 @@ void update(benchmark::State& bench) {
 }
 BENCHMARK(update)->Name("traffic_update")->Arg(100)->Arg(1000)->Arg(4000);
 
-/// The same with an ambulance that everybody within 300 m makes way for.
+/// The same with an ambulance, to which all within 300 m yield.
 void update_with_ambulance(benchmark::State& bench) {
   const auto count = static_cast<std::uint32_t>(bench.range(0));
   const auto network = ring_road(count * 10.0, 5);

@@ -1,5 +1,6 @@
-// What ice costs in a drive: the front screen of 640 × 420 of the scenario winter-lorry on lavapipe while slabs lie, slide, break and lie in
-// pieces, through a windscreen in frost, and the same frames without ice and frost. Processor time of drawing and reading back; `times` is what ice multiplies it by.
+// Cost of ice in a drive: the front screen of 640 × 420 of the scenario winter-lorry on lavapipe while slabs lie,
+// slide, break and lie in pieces, through a windscreen in frost, and the same frames without ice and frost. Processor
+// time of drawing and reading back; `times` is the factor of ice.
 #include <ctime>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ T must(Expected<T> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// Frames of the drive, a second apart, and what they show.
+/// Frames of the drive, a second apart, and their content.
 struct WinterDrive {
   scene::ResolvedScene scene;
   std::vector<instant::FrameInput> frames;
@@ -95,8 +96,8 @@ instant::FrameInput without_ice(instant::FrameInput frame) {
   return frame;
 }
 
-/// Each frame in turn with and without ice, some rounds of it; of each the lower quartile of the processor's time, so that what else runs
-/// disturbs both alike.
+/// Each frame in turn with and without ice, some rounds of it; of each the lower quartile of the processor's time, so
+/// that other load disturbs both alike.
 void winter_lorry(benchmark::State& state) {
   const WinterDrive& drive = winter_drive();
   auto renderer = must(render::Renderer::create(

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Waits for what another thread does; generous, as it only costs time where it fails.
+/// Waits for another thread; generous, since only a failure takes the time.
 bool comes_true(const std::function<bool()>& condition) {
   for (const auto end = Clock::now() + std::chrono::minutes(5); Clock::now() < end;) {
     if (condition()) return true;
@@ -26,7 +26,7 @@ bool comes_true(const std::function<bool()>& condition) {
   return false;
 }
 
-/// The fan of the newest output report, or what it was.
+/// The fan of the newest output report, or its previous value.
 double newest_fan(SimulatedHidPort& port, double before) {
   for (const Bytes& report : port.take_written())
     if (const auto actuators = decode_actuators(report)) before = actuators->fan;
@@ -86,7 +86,7 @@ TEST_CASE("a sticky writer is cut by a silence also where it is set again before
   port.plug();
   ActuatorWriter writer(port.opener(), {.period_s = 600.0, .silent_after_s = 0.01, .sticky = true});
   writer.set({.fan = 0.5, .vibration_hz = 20.0});
-  std::this_thread::sleep_for(std::chrono::milliseconds(30));  // As a program that was stopped with all its threads.
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));  // Like a program stopped with all its threads.
   writer.set({.fan = 0.5, .vibration_hz = 20.0});
   CHECK(writer.is_cut());
   writer.set({});
@@ -180,7 +180,7 @@ struct Unplugged final : HidDevice {
   struct Port {
     std::size_t reports_of_first = 0;
     std::atomic<int> handles{0}, writes{0};  ///< Also those that fail.
-    std::vector<double> fans;                ///< What has arrived; to be read when the writer has gone.
+    std::vector<double> fans;                ///< Received commands; to be read after the writer has gone.
   };
   explicit Unplugged(Port& its_port) : port(its_port), is_first(++port.handles == 1) {}
   Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }

@@ -27,16 +27,16 @@ TEST_CASE("every key does one thing and both keys of a line do the same") {
   CHECK(key_states([](Key) { return false; }) == KeyStates{});
 }
 
-TEST_CASE("the readme and the text for terminals name every key and what it does") {
-  const std::string readme = shipped_text("README.md"), text = driving_keys_text();
+TEST_CASE("the manual and the text for terminals name every key and what it does") {
+  const std::string manual = shipped_text("docs/driving.md"), text = driving_keys_text();
   for (const DrivingKey& key : driving_keys()) {
     const std::string line = "| " + names_of_keys(key) + " | " + key.does + " |";
     CAPTURE(line);
-    CHECK(readme.find(line) != std::string::npos);
+    CHECK(manual.find(line) != std::string::npos);
     CHECK(text.find(key.does) != std::string::npos);
     CHECK(text.find(names_of_keys(key)) != std::string::npos);
   }
-  CHECK(readme.find(gamepad_text) != std::string::npos);
+  CHECK(manual.find(gamepad_text) != std::string::npos);
   CHECK(text.find(gamepad_text) != std::string::npos);
 }
 

@@ -21,9 +21,10 @@ DriverInput hold(KeyboardDriver& driver, const KeyStates& keys, double speed_mps
   return input;
 }
 
-/// Somebody who knows a keyboard and no wheel follows a line, straight or bent, from 0.8 m beside it, sees where the car was a quarter of a second ago,
-/// and decides eight times a second: a key that would turn the car to where it should go, or none. Returns the farthest from the line
-/// in the last twenty of forty seconds, of a car that goes where its front wheels point.
+/// A driver used to a keyboard follows a line, straight or bent, from 0.8 m beside it, sees where the car was a quarter
+/// of a second ago, and decides eight times a second: a key that would turn the car to where it should go, or none.
+/// Returns the farthest from the line in the last twenty of forty seconds, of a car that goes where its front wheels
+/// point.
 double wandering_m(double speed_mps, double curvature_per_m = 0.0) {
   constexpr int seen_late_ticks = 30, decided_every_ticks = 15;
   KeyboardDriver driver;

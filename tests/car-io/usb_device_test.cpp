@@ -1,4 +1,4 @@
-// What needs a device is in tests/rig-vm.
+// Tests that need a device are in tests/rig-vm.
 #include "car-io/usb_device.hpp"
 
 #include <optional>

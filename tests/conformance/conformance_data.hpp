@@ -1,5 +1,5 @@
 #pragma once
-/// Where the third-party files and their reference answers lie: tests/conformance/data, or the folder that
+/// Place of the third-party files and their reference results: tests/conformance/data, or the folder that
 /// SEPTET_CONFORMANCE_DIR names. Absent data fails the test that asks for it, so that no green run has checked nothing.
 
 #include <cstdlib>

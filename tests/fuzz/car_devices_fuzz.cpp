@@ -1,5 +1,5 @@
-// A device that sends what it likes: HID reports of any bytes for every layout, frames of any kind on a CAN bus, any axes and buttons of a
-// joystick. Whatever comes, the simulation gets controls that there are.
+// A device that sends arbitrary data: HID reports of any bytes for every layout, frames of any kind on a CAN bus, any
+// axes and buttons of a joystick. The simulation always gets valid controls.
 //
 // The first byte chooses the device. Reports and frames are a byte with their length, then that many bytes.
 #include <sys/socket.h>

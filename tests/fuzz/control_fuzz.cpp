@@ -1,5 +1,5 @@
-// Hostile clients of a screen host, all with keys of its list: any messages of the secure lane in any order, connections that come and go,
-// while the server reads. See the script that the bytes are.
+// Hostile clients of a screen host, all with keys of its list: any messages of the secure lane in any order,
+// connections that come and go, while the server reads. See the script that the bytes are.
 
 #include "tests/sim-server/client_script.hpp"
 
@@ -7,7 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace septet;
   const auto bytes = std::as_bytes(std::span(data, size));
   if (bytes.empty()) return 0;
-  // A control message by itself: what is read is written the same, and read again.
+  // A control message by itself: a decoded one is encoded the same, and decoded again.
   if (const auto message = control::decode_control(bytes)) {
     const Bytes again = control::encode_control(*message);
     if (!control::decode_control(again) || again.size() != bytes.size()) std::abort();

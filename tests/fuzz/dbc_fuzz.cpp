@@ -1,4 +1,4 @@
-// DBC files of any bytes: what is read can be sent, heard and planned.
+// DBC files of any bytes: an accepted one can be sent, heard and planned.
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// glTF files of any bytes: a model that is whole, or an error that says what, where and what to do.
+// glTF files of any bytes: a whole model, or an error with fault, place and remedy.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A HID report descriptor of any bytes, and behind it a wheel that answers with any bytes: whatever it says of itself, what is sent to it has the
-// length and the id that it said.
+// A HID report descriptor of any bytes, and behind it a wheel that returns any bytes: reports sent to it always have
+// the announced length and id.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace {
 using namespace septet;
 using namespace septet::car_io;
 
-/// Answers with what is left of the input.
+/// Returns the rest of the input.
 struct Stranger final : HidDevice {
   explicit Stranger(std::span<const std::byte> what, const HidReportFields& said) : answers(what), fields(said) {}
   Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }

@@ -1,4 +1,4 @@
-// The OpenDRIVE reader on any bytes; what it accepts is evaluated, located and driven along.
+// The OpenDRIVE reader on any bytes; an accepted road is evaluated, located and driven along.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

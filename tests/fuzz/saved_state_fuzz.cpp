@@ -1,7 +1,8 @@
-// Saved states that somebody has altered and signed again: traffic, a storyboard, debris and smoke on a short straight road. What is
-// accepted is saved once more, and gives the same bytes back.
+// Saved states, altered and signed again: traffic, a storyboard, debris and smoke on a short straight road. An accepted
+// one is saved once more, and gives the same bytes back.
 //
-// The input is a list of patches, each of three bytes where, one how long, and so many bytes; one of no length cuts the state off there.
+// The input is a list of patches, each of three bytes where, one how long, and so many bytes; one of no length cuts the
+// state off there.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +15,8 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/version.hpp"
 #include "engine/road/opendrive_reader.hpp"
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/simulation/saved_state.hpp"
 
 namespace septet {

@@ -1,4 +1,4 @@
-// The OpenSCENARIO reader on any bytes; what it accepts is checked against a road and driven for a while.
+// The OpenSCENARIO reader on any bytes; an accepted scenario is checked against a road and driven for a while.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -6,14 +6,14 @@
 #include <string_view>
 
 #include "engine/road/opendrive_reader.hpp"
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 
 namespace {
 
 using namespace septet;
 
-/// 2 km straight with two lanes each way: what scenarios of the corpus drive on.
+/// 2 km straight with two lanes each way: the road of the corpus' scenarios.
 const road::RoadNetwork& straight_road() {
   static const auto network = road::read_opendrive(
       R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="R" length="2000" junction="-1"><planView>
@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int step = 0; step < 60; ++step) advance_scenario(*scenario, straight_road(), 0.05, *state);
   std::vector<Participant> participants;
   append_participants(*scenario, *state, 1, participants);
-  // A number gone bad is reset and told, and never handed on.
+  // A number gone bad is reset and reported, and never handed on.
   for (const Participant& participant : participants)
     if (!std::isfinite(participant.world_from_vehicle.position_m.x) ||
         !std::isfinite(participant.world_from_vehicle.position_m.y))

@@ -1,8 +1,8 @@
-// Session files that somebody has altered: bytes anywhere in a small session, or any value in one of its cells. All that is in it is read,
-// the report drawn and the scene restored.
+// Altered session files: bytes anywhere in a small session, or any value in one of its cells. All of it is read, the
+// report drawn and the scene restored.
 //
-// The first byte is even: patches follow, each of three bytes where, one how long and so many bytes. Odd: the next byte says in which cell
-// the rest is put, and whether as bytes, as text or as a number.
+// The first byte is even: patches follow, each of three bytes where, one how long and so many bytes. Odd: the next byte
+// says in which cell the rest is put, and whether as bytes, as text or as a number.
 #include <sqlite3.h>
 #include <unistd.h>
 

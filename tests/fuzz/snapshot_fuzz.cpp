@@ -1,5 +1,5 @@
-// Hostile bytes against what a screen decodes of a tick: the snapshot, as a keyframe and as a difference, and the effects'
-// keyframes in it. The first byte chooses. Whatever is taken must come back from its own encoder.
+// Hostile bytes against a screen's decoding of a tick: the snapshot, as a keyframe and as a difference, and the
+// effects' keyframes in it. The first byte chooses. Accepted bytes must come back from their own encoder.
 
 #include <cstdlib>
 

@@ -1,4 +1,5 @@
-// A game's telemetry of any bytes, in each known format and in one that is made of the first of them: what is taken is finite and bounded.
+// A game's telemetry of any bytes, in each known format and in one made from the first of them: accepted values are
+// finite and bounded.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Rigs, film scripts and vehicles of any bytes; cameras follow the way of what shots are accepted.
+// Rigs, film scripts and vehicles of any bytes; cameras follow the path of accepted shots.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// An error is a message that names its place; nothing else may come of a text that is refused.
+/// An error is a message that names its place; a refused text has no other effect.
 template <class Value>
 void check_refusal(const septet::Expected<Value>& read) {
   if (!read && (read.error().what.empty() || !read.error().where.starts_with("fuzz.toml"))) std::abort();

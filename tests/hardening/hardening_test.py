@@ -55,7 +55,7 @@ def faults_of_program(program, processor):
 
 
 def faults_of_command(command):
-    """What a program's own bytes need not show: few frames are longer than a page, few copies have a size that the compiler knows."""
+    """Properties that a program's own bytes need not show: few frames are longer than a page, few copies have a size that the compiler knows."""
     words = command.split()
     for word in ["-fstack-protector-strong", "-fstack-clash-protection", "-D_GLIBCXX_ASSERTIONS"]:
         if word not in words:

@@ -1,4 +1,4 @@
-// Adds to the largest integer, and ends well if nobody minds.
+// Adds to the largest integer, and ends well without a check.
 
 #include <climits>
 

@@ -1,7 +1,9 @@
 /// Draws the motorway in one weather by both renderers, from one description of the instant:
 ///
-///     both_renderers noon|dusk|night|rain|snow|tunnel|frost FOLDER SAMPLES     FOLDER/raster.png, FOLDER/traced.png
+///     both_renderers noon|dusk|night|rain|snow|tunnel|frost|fire FOLDER SAMPLES     FOLDER/raster.png, FOLDER/traced.png
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -41,8 +43,27 @@ ice::IceBody frosted_pane(const instant::FrameView& view) {
   return pane;
 }
 
+/// Half of the light of road and vehicles ahead is lost to soot, the lamps' and signs' too, and thin smoke stands
+/// beside them.
+void burn(instant::FrameInput& input) {
+  const RigidTransform& world_from_car = input.views.front().world_from_car;
+  instant::SootField& soot = input.soot;
+  soot.world_from_field = {world_from_car * Vec3(6.0, -16.0, -1.0), world_from_car.orientation};
+  soot.cell_m = 2.0;
+  soot.nx = 24, soot.ny = 16, soot.nz = 6;
+  soot.cover.assign(static_cast<std::size_t>(soot.nx * soot.ny * soot.nz), 128);
+  for (int i = 0; i < 6; ++i) {
+    instant::SmokePuff puff;
+    puff.position_m = world_from_car * Vec3(24.0 + 2.0 * i, 5.0 - i, 1.0 + 0.5 * i);
+    puff.radius_m = 1.5f;
+    puff.extinction_area_m2 = 6.0f;
+    puff.seed = static_cast<std::uint32_t>(i);
+    input.smoke.push_back(puff);
+  }
+}
+
 instant::FrameInput frame(const Motorway& motorway, std::string_view weather) {
-  const bool night = weather == "night", rain = weather == "rain", tunnel = weather == "tunnel";
+  const bool night = weather == "night" || weather == "fire", rain = weather == "rain", tunnel = weather == "tunnel";
   instant::FrameInput input = motorway.frame({"", tunnel ? 3350.0 : 800.0, 0.0, night, rain});
   if (weather == "dusk") {
     input.environment.sun_elevation_rad = 0.02;
@@ -54,6 +75,7 @@ instant::FrameInput frame(const Motorway& motorway, std::string_view weather) {
     input.environment.temperature_k = 268.0;
     input.environment.visibility_m = 4000.0;
   }
+  if (weather == "fire") burn(input);
   if (weather == "frost") input.glass.push_back(frosted_pane(input.views.front()));
   return input;
 }

@@ -1,5 +1,5 @@
-/// What a driver sees of a vehicle that has just caught fire: from its ignition by the stage that burns it, through the keyframes that a snapshot
-/// carries, to the pixels of a screen of a shipped rig.
+/// A driver's view of a vehicle that has just caught fire: from its ignition by the stage that burns it, through the
+/// keyframes that a snapshot carries, to the pixels of a screen of a shipped rig.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,6 +1,7 @@
 /// A flat face has one light: the walls of lorries' boxes and cabs, in the radiance before exposure.
 ///
-/// A face whose normals lean towards its neighbours' is brighter at one end than at the other, and looks like a cushion.
+/// A face whose normals lean towards its neighbours' is brighter at one end than at the other, and looks like a
+/// cushion.
 
 #include <algorithm>
 #include <cmath>

@@ -90,7 +90,7 @@ std::vector<float> bell(float deviation, int radius) {
   return kernel;
 }
 
-/// What the eye's contrast sensitivity leaves: a sum of bells a·√(π/b)·exp(−π²x²/b), x in degrees.
+/// Filter of the eye's contrast sensitivity: a sum of bells a·√(π/b)·exp(−π²x²/b), x in degrees.
 Plane as_seen(const Plane& plane, std::uint32_t width, std::uint32_t height,
               std::span<const std::array<float, 2>> terms) {
   static const int radius = static_cast<int>(std::ceil(3.0f * std::sqrt(0.04f / (2.0f * pi * pi)) * pixels_per_degree));
@@ -116,7 +116,7 @@ float colour_distance(const glm::vec3& a, const glm::vec3& b) {
   return std::pow(std::abs(d.x) + std::hypot(d.y, d.z), 0.7f);
 }
 
-/// The strength of what a kernel finds along rows and along columns; its positive and its negative part count as one each.
+/// Strength of a kernel's response along rows and along columns; its positive and its negative part count as one each.
 Plane strength(const Plane& lightness, std::uint32_t width, std::uint32_t height, std::vector<float> kernel,
                std::span<const float> across_it) {
   float positive = 0.0f, negative = 0.0f;

@@ -1,8 +1,9 @@
 #pragma once
-/// The difference between two pictures as a person sees it who flips between them: LDR-FLIP.
+/// Perceived difference of two pictures for a viewer who flips between them: LDR-FLIP.
 ///
-/// Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating Images" (2020), with
-/// its constants: 0.7 m from a screen 0.7 m wide with 3840 pixels. The twin of flip.py, for tests that draw hundreds of pictures.
+/// Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating
+/// Images" (2020), with its constants: 0.7 m from a screen 0.7 m wide with 3840 pixels. The mirror of flip.py, for
+/// tests that draw hundreds of pictures.
 
 #include <vector>
 
@@ -10,10 +11,10 @@
 
 namespace septet {
 
-/// What is kept of a picture to compare it with others of its size.
+/// Features of a picture for comparison with others of its size.
 struct FlipFeatures {
   std::uint32_t width = 0, height = 0;
-  std::vector<float> lightness, green_red, blue_yellow;  ///< As seen, Hunt-adjusted Lab.
+  std::vector<float> lightness, green_red, blue_yellow;  ///< Filtered by contrast sensitivity, Hunt-adjusted Lab.
   std::vector<float> edges, points;
 };
 FlipFeatures flip_features(const image::Image& picture);

@@ -1,4 +1,4 @@
-"""The difference between two pictures as a person sees it who flips between them: LDR-FLIP.
+"""Perceived difference of two pictures for a viewer who flips between them: LDR-FLIP.
 
 Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating Images"
 (2020), with its constants: 0.7 m from a screen 0.7 m wide with 3840 pixels. Pictures are arrays of sRGB codes from 0 to 1.
@@ -72,7 +72,7 @@ def filtered(plane, down, across):
 
 
 def as_seen(codes):
-    """What is left of a picture at that distance, as linear light."""
+    """A picture filtered for that distance, as linear light."""
     radius = math.ceil(3 * math.sqrt(0.04 / (2 * math.pi ** 2)) * PIXELS_PER_DEGREE)
     steps = numpy.arange(-radius, radius + 1) / PIXELS_PER_DEGREE
     planes = opponent(linear(codes))

@@ -1,8 +1,8 @@
-/// How large the glow of a vehicle's lamps is in a picture, by its distance.
+/// Size of the glow of a vehicle's lamps in a picture, by its distance.
 ///
-/// A glow is light that the eye scatters: as large as the lamp's own (participants.cpp) until that is a few pixels, and from there on no smaller but
-/// dimmer (shaders/glow.vert). Its light is that of its lamp, which falls with the square of the distance from where the lens itself is no longer
-/// seen (passes/glow_pass.hpp).
+/// A glow is light that the eye scatters: as large as the lamp's own (participants.cpp) until that is a few pixels, and
+/// from there on no smaller but dimmer (shaders/glow.vert). Its light is that of its lamp, which falls with the square
+/// of the distance from where the lens itself is no longer seen (passes/glow_pass.hpp).
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +105,8 @@ TEST_CASE(
     "pixels wide and its light goes on falling so to four hundred metres") {
   GlowScreen screen = GlowScreen::with_vehicles();
   const auto seen = [&](double distance_m) { return glow_of_lamps(screen.renderer, screen.scene, distance_m); };
-  // The two lamps' glows; a hundredth of the light is left at the root of 0.231 of the radius, 0.22 m times 1.9 by night.
+  // The two lamps' glows; a hundredth of the light is left at the root of 0.231 of the radius, 0.22 m times 1.9 by
+  // night.
   const auto area_px = [](double distance_m) {
     const double radius_px = std::max(0.418 / (distance_m * glow_pixel_rad), 3.2);
     return 2.0 * std::numbers::pi * 0.231 * radius_px * radius_px;

@@ -1,5 +1,5 @@
-/// What screens show of fixed instants on the scenario's motorway, compared with the pictures in golden/ (see the README there). They are
-/// drawn as septet-screen draws them: a snapshot, through a screen of a shipped rig.
+/// Screens at fixed instants on the scenario's motorway, compared with the pictures in golden/ (see the README there).
+/// They are drawn as septet-screen draws them: a snapshot, through a screen of a shipped rig.
 
 #include <algorithm>
 #include <cstddef>
@@ -24,7 +24,8 @@
 namespace septet {
 namespace {
 
-/// Mean FLIP that the whole and a tile may have. A tile in which an edge fell on the next pixel stays below it, one from which a car is missing does not.
+/// Mean FLIP that the whole and a tile may have. A tile in which an edge fell on the next pixel stays below it, one
+/// from which a car is missing does not.
 constexpr double accepted_mean = 0.01, accepted_tile = 0.12;
 constexpr std::uint32_t tile_px = 16;
 
@@ -164,7 +165,7 @@ TEST_CASE("pictures alike differ by nothing, white and black by nearly all, and 
       next.set(x, y, x < 33 ? image::Color{60, 60, 60} : image::Color{90, 90, 90});
     }
   CHECK(difference(flip_features(edge), flip_features(edge)).mean == doctest::Approx(0.0));
-  // As flip.py has it.
+  // As in flip.py.
   CHECK(difference(flip_features(black), flip_features(white)).mean == relative(0.9674, 2e-3));
   const Difference moved = difference(flip_features(edge), flip_features(next));
   CHECK(moved.mean == relative(0.01016, 0.02));
@@ -172,7 +173,7 @@ TEST_CASE("pictures alike differ by nothing, white and black by nearly all, and 
 }
 
 TEST_CASE("a picture from which one vehicle is missing is not the golden one") {
-  constexpr long least_px = 100;  // What can be seen as a vehicle.
+  constexpr long least_px = 100;  // Visible as a vehicle.
   const Motorway motorway;
   Client client(motorway, ahead);
   const Snapshot all = motorway.snapshot(by_day, driven_mps);

@@ -1,4 +1,4 @@
-"""How near ice is to the truth: pictures of septet-ice against references of a path tracer (ice/, made by
+"""Distance of ice from the truth: pictures of septet-ice against references of a path tracer (ice/, made by
 tests/benchmarks/peers/ice_reference.py), by mean FLIP over the object's pixels.
 
     ice_flip_test.py SEPTET_ICE

@@ -1,4 +1,4 @@
-/// What lamps tell the driver by day, measured in pictures of a screen.
+/// Lamps' visibility to the driver by day, measured in pictures of a screen.
 
 #include <array>
 #include <cmath>
@@ -72,7 +72,7 @@ TEST_CASE(
           REQUIRE(renderer.draw(input).has_value());
           seen[brakes] = *renderer.read_back();
         }
-        // The least difference that is seen is about 2.3; this one nobody overlooks.
+        // The least visible difference is about 2.3; this one is obvious.
         constexpr double plain = 20.0;
         int told_px = 0;
         for (std::uint32_t y = 0; y < screen.height_px; ++y)

@@ -1,9 +1,10 @@
-/// At what distance a driver can read a sign on a screen, as its pixels say it.
+/// Reading distance of a sign on a screen, from its pixels.
 ///
-/// An eye of full acuity tells strokes of one minute of arc: letters of five strokes from 6.9 m per cm of their height; 6 m per cm is the usual rule.
-/// A pixel of a screen of 1080 lines over 40 degrees is 2.3 minutes, and edges fall anywhere between pixels: here signs that differ by a digit are told
-/// from 2.5 m per cm, where the digits are six pixels high. Whoever is to read them from further off needs more lines in the same angle.
-/// What is compared is what a screen shows, smoothed and in its codes, with the faces of all the limits that it could be.
+/// An eye of full acuity resolves strokes of one minute of arc: letters of five strokes from 6.9 m per cm of their
+/// height; 6 m per cm is the usual rule. A pixel of a screen of 1080 lines over 40 degrees is 2.3 minutes, and edges
+/// fall anywhere between pixels: here signs that differ by a digit are distinguished from 2.5 m per cm, where the
+/// digits are six pixels high. Reading from further off needs more lines in the same angle. The screen's picture,
+/// smoothed and in its codes, is compared with the faces of all possible limits.
 
 #include <algorithm>
 #include <array>
@@ -35,7 +36,7 @@ double light_of_code(std::uint8_t code) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-/// Of what stands within the red ring, row by row; a pixel of which none does is left out.
+/// Pixels within the red ring, row by row; others are left out.
 struct Inside {
   std::vector<double> light;
   double middle = 0.0;
@@ -53,7 +54,8 @@ double correlation(const Inside& a, const Inside& b) {
   return ab / std::sqrt(std::max(aa * bb, 1e-30));
 }
 
-/// The sign's own coordinates, 0 to 1 from its upper left, of a place of the picture that shows it square on in its middle.
+/// The sign's own coordinates, 0 to 1 from its upper left, of a place of the picture that shows it square on in its
+/// middle.
 glm::dvec2 on_sign(double x_px, double y_px, double distance_m) {
   const double side_px = sign_m / (distance_m * sign_pixel_rad);
   return {(x_px - 0.5 * sign_view_px) / side_px + 0.5, (y_px - 0.5 * sign_view_px) / side_px + 0.5};
@@ -72,7 +74,7 @@ Inside of_picture(const image::Image& picture, double distance_m) {
   return inside;
 }
 
-/// What a pixel would show that averages the face over its square.
+/// Value of a pixel that averages the face over its square.
 Inside of_face(const image::Image& face, double distance_m) {
   constexpr int steps = 8;
   Inside inside;

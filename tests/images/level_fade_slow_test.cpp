@@ -1,4 +1,4 @@
-/// What changes between a picture and the next one as the eye drives on, where things take another level of detail.
+/// Changes between a picture and the next one as the eye drives on, where objects take another level of detail.
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +36,8 @@ scene::ResolvedScene scene_of(const std::string& objects) {
   return scene::resolve(store);
 }
 
-/// Mean change of a pixel (of 255) from each tick to the next, with the eye at x = `from_m` and then on until `to_m`, looking ahead at what
-/// stands `at_m` from the road's begin. As many pixels an angle as a screen of 640 × 420 has.
+/// Mean change of a pixel (of 255) from each tick to the next, with the eye at x = `from_m` and then on until `to_m`,
+/// looking ahead at objects `at_m` from the road's begin. As many pixels an angle as on a screen of 640 × 420.
 std::vector<double> changes(const scene::ResolvedScene& scene, instant::FrameInput input, const Vec3& at_m,
                             double from_m, double to_m) {
   render::Renderer renderer = *render::Renderer::create(

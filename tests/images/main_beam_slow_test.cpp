@@ -1,4 +1,4 @@
-/// What the main beam shows of the motorway by night that the dipped one does not.
+/// Additional visibility of the motorway at night under the main beam.
 
 #include <algorithm>
 #include <cstddef>
@@ -43,7 +43,7 @@ TEST_CASE(
     return *renderer.read_radiance();
   };
   const render::RadianceImage empty = light(false, false), dipped = light(true, false), main = light(true, true);
-  // What hides something of the empty road is the van.
+  // Occluded road: the van's.
   double by_dipped = 0.0, by_main = 0.0;
   int pixels = 0;
   for (std::size_t i = 0; i < empty.radiance.size(); ++i) {

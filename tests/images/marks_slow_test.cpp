@@ -1,4 +1,4 @@
-/// What the motorway's pictures say of its lines, measured in the radiance before exposure.
+/// The motorway's lines in its pictures, measured in the radiance before exposure.
 
 #include <algorithm>
 #include <cmath>

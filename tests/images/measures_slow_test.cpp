@@ -1,4 +1,4 @@
-/// What tells the driver one thing from another, measured on the motorway.
+/// Distinguishability of things for the driver, measured on the motorway.
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ TEST_CASE(
   REQUIRE(renderer.draw(input).has_value());
   const render::RadianceImage without = *renderer.read_radiance();
   const glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
-  // White is what a white board on the road would be.
+  // White is that of a white board on the road.
   const instant::SkyLight light = instant::sky_light(input.environment);
   const double white = double(glm::dot(light.sky_irradiance, weights)) / 3.14159;
   int changed = 0, told = 0;

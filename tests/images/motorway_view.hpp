@@ -59,7 +59,7 @@ class Motorway {
     return input;
   }
 
-  /// What a server would publish: traffic, standing, and the driver's car as the last participant. It is driven at `speed_mps`, as all are.
+  /// A server's snapshot: traffic, standing, and the driver's car as the last participant. All drive at `speed_mps`.
   Snapshot snapshot(const MotorwayInstant& instant, double speed_mps = 0.0) const {
     Snapshot shown;
     shown.tick = 1440;
@@ -90,7 +90,7 @@ class Motorway {
     return shown;
   }
 
-  /// So many vehicles more, evenly along all 10 km and over its five lanes.
+  /// Adds this many vehicles, evenly along all 10 km and over its five lanes.
   void add_traffic(instant::FrameInput& input, std::size_t count, bool lit) const {
     double length_m = 0.0;
     for (road::RoadIndex each = 0; each < main_roads; ++each) length_m += network_.roads[each].length_m;
@@ -111,7 +111,7 @@ class Motorway {
   RigidTransform in_lane(int lane, double s_m, road::RoadIndex on = 0) const {
     return road::world_from_lane(road::evaluate_lane(network_, {on, lane, s_m, 0.0}));
   }
-  /// Which model and paint, and what is lit, follows from its number. Nobody walks here.
+  /// Model, paint and lamps follow from its number. Without pedestrians.
   static void add_vehicle(std::vector<Participant>& participants, std::size_t i,
                           const RigidTransform& world_from_vehicle, bool lit) {
     const auto& models = vehicle_models();

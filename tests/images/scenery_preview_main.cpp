@@ -3,9 +3,10 @@
 ///     scenery_preview OUT vehicles [MODEL…]              turntables
 ///     scenery_preview OUT road ROAD.xodr [ROAD@]S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…
 ///
-/// S and T place the eye on the road of that id, else on the first one; the view is 44° × 30°, that of one screen of the rig.
+/// S and T place the eye on the road of that id, else on the first one; the view is 44° × 30°, that of one screen of
+/// the rig.
 ///
-/// Prints what each picture costs to submit, and the size of the scene on the wire.
+/// Prints the submission time of each picture, and the size of the scene on the wire.
 
 #include <cmath>
 #include <cstdio>
@@ -106,7 +107,7 @@ void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene, co
     if (i != 2) participant.lamps.set(Lamp::low_beam, true);
     participant.lamps.set(Lamp::beacon, true);
     if (i == 0) participant.front_steer_rad = 0.35;
-    if (i != 1) participant.speed_mps = 1.4;  // People walk, but for one who stands.
+    if (i != 1) participant.speed_mps = 1.4;  // People walk, except one.
     if (i == 2) participant.wheel_spin_rad = 1.6;
     input.participants.push_back(participant);
     image::blit(sheet, image::resize(drawn(renderer, input), width / 2, height / 2), (i % 2) * width / 2,

@@ -1,4 +1,5 @@
-/// What frames before lend to a picture is what stands still, and nothing of what a driver acts on: passes/temporal_pass.hpp, on the software device.
+/// Earlier frames lend a picture standing surfaces alone, and no cue that a driver acts on: passes/temporal_pass.hpp,
+/// on the software device.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/image/png.hpp"
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/images/motorway_view.hpp"
 
@@ -50,7 +51,7 @@ class AntialiasedScreen {
     for (std::uint32_t y = 0; y < screen_height_px * times_; ++y)
       for (std::uint32_t x = 0; x < screen_width_px * times_; ++x)
         codes[std::size_t{y / times_} * screen_width_px + x / times_] +=
-            255.0f * instant::display_code(light.at(x, y) * exposure) / static_cast<float>(times_ * times_);
+            255.0f * light::display_code(light.at(x, y) * exposure) / static_cast<float>(times_ * times_);
     return codes;
   }
   image::Image picture(const std::string& name) {
@@ -93,7 +94,7 @@ instant::FrameInput alone(const Motorway& motorway, const MotorwayInstant& from,
   return input;
 }
 
-/// Mean error, in codes, of the pixels whose edges show: those that one sample in their middle tells wrongly.
+/// Mean error, in codes, of pixels with visible edges: those with a wrong sample in their middle.
 float error_at_edges(const std::vector<glm::vec3>& codes, const std::vector<glm::vec3>& one_sample,
                      const std::vector<glm::vec3>& many_samples) {
   float sum = 0.0f, count = 0.0f;
@@ -192,7 +193,7 @@ TEST_CASE("a car that crosses and its shadow leave no trail, and the car is as i
       CHECK(left > 200);
       CHECK(trail <= left / 50);
       if (sunny) continue;
-      // Without a sun its shadow is a mark of the frame, too: what differs is the car.
+      // Without a sun its shadow is a mark of the frame, too: the difference is the car.
       instant::FrameInput gone = input;
       gone.participants.erase(gone.participants.begin());
       const std::vector<glm::vec3> without = fresh_codes(gone);
@@ -237,7 +238,7 @@ TEST_CASE("a brake lamp that is switched on or off is so in the very next pictur
     }
     CAPTURE(lamp);
     CHECK(lamp > 30);
-    CHECK(late <= lamp / 10);  // What ripples on the road mirror of it comes up to some frames later.
+    CHECK(late <= lamp / 10);  // Its reflection in the road's ripples comes up to some frames later.
     CHECK(lasting <= lamp / 10);
   }
 }

@@ -1,5 +1,5 @@
-/// What a graphics card draws besides changes nothing that a driver acts on: lamps, lines, signs and where vehicles are, measured in
-/// pictures of a screen with and without it. Software device, asked for it.
+/// A graphics card's extra effects change no cue that a driver acts on: lamps, lines, signs and places of vehicles,
+/// measured in pictures of a screen with and without it. Software device, on request.
 
 #include <algorithm>
 #include <array>
@@ -62,8 +62,8 @@ class TierScreen {
   render::Renderer renderer_;
 };
 
-/// Where two pictures differ by more than a driver overlooks. Its bounds are where they differ plainly: by half of a shadow's depth or more, where a
-/// wide edge of a shadow has its middle.
+/// Region in which two pictures differ visibly. Its bounds are where they differ plainly: by half of a shadow's depth
+/// or more, where a wide edge of a shadow has its middle.
 struct Change {
   double codes = 0.0;  ///< By which they differ, all pixels and colours together.
   glm::dvec2 middle{0.0};
@@ -147,7 +147,7 @@ TEST_CASE("softer shadows and clustered headlights leave lines and what is writt
     std::array<image::Image, 3> pictures;
     for (std::size_t i = 0; i < 3; ++i)
       pictures[i] = TierScreen(motorway, tiers()[i]).draw(empty, std::string(instant.name) + " empty");
-    // Steps from a pixel to the next that nobody overlooks: edges of lines, letters, borders of signs.
+    // Obvious steps from a pixel to the next: edges of lines, letters, borders of signs.
     const int plain = instant.night ? 12 : 30;
     const auto step = [](const image::Image& picture, std::uint32_t x, std::uint32_t y) {
       return picture.at(x + 1, y).green - picture.at(x, y).green;

@@ -25,7 +25,7 @@ TEST_CASE("a best list has the best of each game first, and tells the place of w
   CHECK(*enter_best_list(path, played("P02", 900.0)) == 1);
   CHECK(*enter_best_list(path, played("P03", 700.0)) == 2);
   CHECK(*enter_best_list(path, played("P03", 9000.0, "other")) == 1);
-  CHECK(*enter_best_list(path, played("", 700.0)) == 3);  // Who had as many before stays before.
+  CHECK(*enter_best_list(path, played("", 700.0)) == 3);  // An earlier equal stays before.
   const auto list = read_best_list(path);
   REQUIRE(list.has_value());
   REQUIRE(list->size() == 5);

@@ -1,5 +1,5 @@
 #pragma once
-// How often a page says something.
+// Number of occurrences of a text in a page.
 
 #include <string>
 

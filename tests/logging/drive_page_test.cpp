@@ -1,4 +1,4 @@
-// What a drive's page shows of where, when and what: route, events, pictures, and the group's links to such pages.
+// A drive's page: route, events, pictures, and the group's links to these pages.
 
 #include <cmath>
 #include <fstream>

@@ -173,8 +173,8 @@ TEST_CASE("TTC from 3 s to 1 s and back exposes for 4 s and integrates to 4 s²"
 }
 
 TEST_CASE("TTC equals that of commonroad-crime") {
-  // commonroad-crime 0.4.5 (PyPI), measures HW and TTC, which it rounds to hundredths: a car of 4.8 m at 25 m/s on a straight lane,
-  // one of the same length at 18 m/s with its middle 40 m ahead, at 0, 1 and 2 s.
+  // commonroad-crime 0.4.5 (PyPI), measures HW and TTC, which it rounds to hundredths: a car of 4.8 m at 25 m/s on a
+  // straight lane, one of the same length at 18 m/s with its middle 40 m ahead, at 0, 1 and 2 s.
   const double gaps_m[] = {35.2, 28.2, 21.2}, ttc_s[] = {5.03, 4.03, 3.03};
   for (int i = 0; i < 3; ++i) {
     Sample sample = sample_at(10 * i, -1, 0.0);
@@ -231,13 +231,14 @@ TEST_CASE("reversal rates of a recording equal those of SciPy's filter and the p
 }
 
 TEST_CASE("25 s at 30 Hz with 5, 8, 27 and 55 reversals are the published 12.0, 19.2, 64.8 and 132.0 a minute") {
-  // The rates of Markkula and Engström's example recordings (baseline 12.0 and 64.8, visual task 19.2, cognitive task 132.0), which are not
-  // ours to ship. Here: slow swings that count for visual load, with ripples on top that count for cognitive load alone.
+  // The rates of Markkula and Engström's example recordings (baseline 12.0 and 64.8, visual task 19.2, cognitive task
+  // 132.0), which are not ours to ship. Here: slow swings that count for visual load, with ripples on top that count
+  // for cognitive load alone.
   const auto recording = [](double slow_swings, double ripple_swings) {
     std::vector<double> radians;
     for (int i = 0; i < 751; ++i) {
-      const double half_wave =
-          std::numbers::pi * i / 750.0;  // By the published rule the first value is a stationary point, the last none.
+      // By the published rule the first value is a stationary point, the last is not.
+      const double half_wave = std::numbers::pi * i / 750.0;
       const double slow_deg = 4.0 * std::sin(slow_swings * half_wave);
       const double ripple_deg = 0.35 * std::sin(ripple_swings * half_wave);
       radians.push_back((slow_deg + ripple_deg) * std::numbers::pi / 180.0);
@@ -252,7 +253,7 @@ TEST_CASE("25 s at 30 Hz with 5, 8, 27 and 55 reversals are the published 12.0, 
   CHECK(visual(recording(8.0, 0.0)) == exactly(19.2));
   CHECK(cognitive(recording(0.0, 27.0)) == exactly(64.8));
   CHECK(cognitive(recording(0.0, 55.0)) == exactly(132.0));
-  // Swings of less than 3 degrees are none for visual load, whatever lies on top of them.
+  // Swings of less than 3 degrees do not count for visual load, with any noise on top.
   CHECK(visual(recording(0.0, 27.0)) == 0.0);
   CHECK(visual(recording(5.0, 55.0)) == exactly(12.0));
 }

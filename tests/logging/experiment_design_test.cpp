@@ -92,7 +92,7 @@ TEST_CASE("whoever has not had enough when the offered time is over has not stop
       CHECK(subject.drives[0].seconds == doctest::Approx(seconds));
       CHECK(subject.drives[0].stops == stops);
     }
-  // What is offered is shorter than the minute that everybody tries it for.
+  // The offered time is shorter than the minute that all try it for.
   const auto plan = plan_of(*read_experiment(
       "[[group]]\nname = \"g\"\nsubjects = 1\nstops_mean_min = 0.2\n[[part]]\nname = \"p\"\nscenario = "
       "\"s\"\nup_to_min = 1\n",

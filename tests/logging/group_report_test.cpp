@@ -84,7 +84,7 @@ TEST_CASE(
   CHECK(json["subjects"][0]["answers"]["paper.fun"] == 5.0);
   CHECK(json["subjects"][1]["stopped"] == false);
   const auto& ttc = json["subjects"][0]["drives"][0]["measures"]["ttc_smallest_s"];
-  CHECK(ttc["value"].is_null());  // Nobody was ahead.
+  CHECK(ttc["value"].is_null());  // No leader.
   CHECK(ttc["missing"] == 301);
   CHECK(json["measures"]["ttc_smallest_s"]["unit"] == "s");
 }

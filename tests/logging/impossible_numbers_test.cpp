@@ -1,4 +1,4 @@
-// Numbers that no car has are told and left out.
+// Impossible numbers are reported and left out.
 
 #include <sqlite3.h>
 
@@ -17,7 +17,7 @@
 namespace septet::logging {
 namespace {
 
-/// A minute's drive with what is done to it afterwards.
+/// A minute's drive with later alterations.
 std::filesystem::path altered_session(const TemporaryFolder& folder, const std::string& sql) {
   const auto file = folder / "session.sqlite";
   SessionWriter writer = must_create(file);
@@ -79,7 +79,7 @@ TEST_CASE("no report, summary or table prints a number that nothing physical has
     CHECK(count_of(group_page, "nothing physical has") == 1);
     for (const std::string& text : {page, json, group_page, csv, group_json}) {
       CHECK(longest_number(text) < 25);
-      // Named once where it is told, and nowhere else.
+      // Named once in its notice, and nowhere else.
       CHECK(count_of(text, "e+30") <= 1);
     }
   }

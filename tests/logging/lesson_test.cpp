@@ -1,4 +1,4 @@
-// Lessons: what is marked, how, and what the learner reads of it.
+// Lessons: marked tasks, their marks, and the learner's texts.
 
 #include <cmath>
 #include <cstdint>
@@ -39,7 +39,8 @@ std::vector<Sample> good_drive() {
   return samples;
 }
 
-/// Into the lane to the left from the 260th sample, over the line at the 300th, with the indicator on for so long before the car moves.
+/// Into the lane to the left from the 260th sample, over the line at the 300th, with the indicator on for so long
+/// before the car moves.
 void change_lanes(std::vector<Sample>& samples, double signal_s) {
   for (int i = 260; i < 340; ++i) {
     samples[static_cast<std::size_t>(i)].lateral_position_m = (i < 300 ? 0.0 : -3.5) + 3.5 * (i - 260) / 80.0;
@@ -165,7 +166,7 @@ TEST_CASE("speed counts over the limit that is posted where one drives") {
   };
   CHECK_FALSE(mark_of("limit", 3.0, 15.0, samples).mark.has_value());
   CHECK(*mark_of("limit", 3.0, 15.0, samples, {limit(0, "80")}).mark == doctest::Approx(10.0));
-  // The log tells some events later than they were.
+  // The log dates some events later than they were.
   const TaskMark village =
       mark_of("limit", 3.0, 15.0, samples,
               {limit(0, "80"), {0, 31.0, "debris", std::nullopt, ""}, limit(30, "60"), limit(40, "0")});
@@ -202,7 +203,7 @@ TEST_CASE(
   CHECK(hard.worst_s == doctest::Approx(20.5));
   for (std::size_t i = 400; i < samples.size(); ++i) samples[i].speed_mps = 0.0;
   CHECK(*mark_of("braking", 3.4, 3.4, samples).mark == doctest::Approx(5.0));
-  // Who comes back from a gap in the log has not braked in it.
+  // A car that returns from a gap in the log has not braked in it.
   auto gap = good_drive();
   for (std::size_t i = 300; i < gap.size(); ++i) gap[i].speed_mps = 10.0, gap[i].simulated_time_s += 60.0;
   CHECK(*mark_of("braking", 3.4, 3.4, gap).mark == doctest::Approx(10.0));

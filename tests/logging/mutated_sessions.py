@@ -20,7 +20,7 @@ KEYS = {"meta": "key", "files": "rowid", "snapshots": "tick", "driver_inputs": "
         "questionnaire": "id", "saved_states": "tick", "actuators": "tick", "head_positions": "tick"}
 
 
-# What somebody may make on purpose; check says it of each.
+# Deliberately crafted files; check reports each.
 CRAFTED = {
     "no scene": "DELETE FROM scene_edits",
     "a third of the scene random": "UPDATE scene_edits SET data = randomblob(length(data)) WHERE id % 3 = 0",

@@ -1,4 +1,4 @@
-// Snapshots in the session file: what is packed comes back, takes less than on the wire, and no bytes do harm.
+// Snapshots in the session file: lossless, smaller than on the wire, and safe on any bytes.
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,8 @@ bool are_equal(const WireSnapshot& a, const WireSnapshot& b) {
   return left == right;
 }
 
-/// Vehicles in a bend, who come and go; one of them spins, so that every component of its orientation is the largest in its turn.
+/// Vehicles in a bend, entering and leaving; one of them spins, so that every component of its orientation is the
+/// largest in turn.
 WireSnapshot bend(Tick tick) {
   Snapshot snapshot = drive_snapshot(tick, 40);
   std::erase_if(snapshot.participants,
@@ -48,7 +49,7 @@ std::vector<Bytes> pack_all(const std::vector<WireSnapshot>& wires, std::size_t 
 TEST_CASE("packed snapshots come back to the last bit, keyframes and differences, whoever comes and goes") {
   std::vector<WireSnapshot> wires;
   for (Tick tick = 0; tick < 60; ++tick) wires.push_back(bend(tick));
-  wires.push_back(to_wire(Snapshot{.tick = 60, .simulated_time_s = 0.5}));  // Nobody is left…
+  wires.push_back(to_wire(Snapshot{.tick = 60, .simulated_time_s = 0.5}));  // All have left…
   wires.push_back(bend(61));                                                // …and everybody is new.
   const auto rows = pack_all(wires, 25);
   SnapshotUnpacker unpacker;

@@ -1,4 +1,4 @@
-"""python_reader_check.py SESSION EXPECTED.csv: everybody at every tick, as the C++ reader has them, within a hair."""
+"""python_reader_check.py SESSION EXPECTED.csv: all participants at every tick, as in the C++ reader, within a hair."""
 import pathlib
 import sys
 

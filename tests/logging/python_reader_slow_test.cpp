@@ -1,4 +1,4 @@
-// The reader for statistics programs (logging/python) has what the C++ reader has.
+// The reader for statistics programs (logging/python) agrees with the C++ reader.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -15,7 +15,7 @@
 namespace septet::logging {
 namespace {
 
-/// Some come, some go, some stand, one accelerates: every kind of difference.
+/// Vehicles enter, leave, stand, and one accelerates: every kind of difference.
 Snapshot busy_snapshot(Tick tick) {
   Snapshot snapshot = drive_snapshot(tick, 3 + static_cast<int>(tick / 40) % 4);
   for (Participant& participant : snapshot.participants) {

@@ -13,8 +13,8 @@
 namespace septet::logging {
 namespace {
 
-/// Records until the disk is full; returns how many snapshots were committed. The first one is safe before the rest come: a fast
-/// machine fills the disk before it commits.
+/// Records until the disk is full; returns how many snapshots were committed. The first one is safe before the rest
+/// come: a fast machine fills the disk before it commits.
 std::size_t record_until_full(SessionWriter& writer, std::vector<Error>& errors) {
   Tick tick = 0;
   writer.record(taken(drive_snapshot(tick++, 40)));
@@ -47,7 +47,7 @@ void write_file(const std::filesystem::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
 }
 
-/// Reads everything there is; true where all of it was readable. Must not crash on any bytes.
+/// Reads everything there is; true if all of it was readable. Must not crash on any bytes.
 bool read_everything(const std::filesystem::path& path) {
   const auto reader = SessionReader::open(path);
   if (!reader) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the session file share: a small drive, and a writer that is given it.
+// Shared by the tests of the session file: a small drive, and a writer for it.
 
 #include <cmath>
 #include <filesystem>

@@ -12,7 +12,7 @@
 namespace septet::logging {
 namespace {
 
-/// How far a writer has come, seen by its process and by the one that kills it.
+/// Progress of a writer, seen by its process and by its killer.
 struct Progress {
   std::atomic<std::int64_t> recorded{0};   ///< Ticks handed to the writer.
   std::atomic<std::int64_t> committed{0};  ///< Those of them that the writer calls safe.
@@ -32,7 +32,7 @@ struct Progress {
   }
 }
 
-/// What a session holds whose writer was killed once `is_time` held.
+/// Content of a session whose writer was killed once `is_time` held.
 struct Killed {
   std::int64_t committed = 0;  ///< Ticks that were safe before.
   std::int64_t recorded = 0;
@@ -69,7 +69,7 @@ Killed kill_writer(std::int64_t ticks, const std::function<bool(const Progress&)
 
 TEST_CASE("kill -9 at any moment loses nothing that was committed and the file opens") {
   for (const std::int64_t moment : {1, 2, 7, 15, 26, 49, 100, 233, 377}) {
-    // Commits follow by the clock, in the midst of whatever the drive does.
+    // Commits follow by the clock, at any moment of the drive.
     const auto killed = kill_writer(1'000'000, [&](const Progress& progress) {
       return progress.recorded >= moment && (moment < 100 || progress.committed > 0);
     });

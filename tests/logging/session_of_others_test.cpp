@@ -1,4 +1,4 @@
-// What a session that somebody sent may do to who reads it: nothing.
+// Effects of a foreign session on its reader: none.
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -80,7 +80,7 @@ void run_and_kill(Work work) {
   REQUIRE(WIFSIGNALED(status));
 }
 
-/// A change that was cut off after its pages had reached the file: the journal beside it tells what they were.
+/// A change cut off after its pages had reached the file: the journal beside it holds the old pages.
 void cut_off_an_answer(const fs::path& session) {
   run_and_kill([&] {
     sqlite3* database = nullptr;
@@ -95,7 +95,7 @@ void cut_off_an_answer(const fs::path& session) {
   REQUIRE(fs::file_size(session.string() + "-journal") > 512);
 }
 
-/// Reads all that a session has; what is said where that fails.
+/// Reads everything in a session; returns the message of a failure.
 std::string read_all(const fs::path& session) {
   const auto reader = SessionReader::open(session);
   if (!reader) return describe(reader.error());
@@ -198,7 +198,7 @@ TEST_CASE("a killed drive is read with its newest commits, with and without the 
     CHECK(read_all(session) == "20 snapshots, weather clear");
     CHECK(watched.changes() == "");
   }
-  // A folder that nobody may write reads all the same.
+  // A folder without write permission can still be read.
   REQUIRE(add_answers(session, {}).has_value());
   CHECK_FALSE(fs::exists(session.string() + "-wal"));
   CHECK(read_all(session) == "20 snapshots, weather clear");

@@ -1,4 +1,4 @@
-// Whoever reads a session while it is written changes nothing.
+// Readers of a session being written change nothing.
 
 #include <sqlite3.h>
 #include <sys/wait.h>
@@ -33,7 +33,7 @@ class ForeignReader {
   sqlite3* database_ = nullptr;
 };
 
-/// Another program that opens the file, looks and closes it, again and again, until it is told to end.
+/// Another program that repeatedly opens the file, reads and closes it, until it is told to end.
 class ComingAndGoing {
  public:
   explicit ComingAndGoing(const std::filesystem::path& file) : child_(fork()) {
@@ -89,9 +89,9 @@ TEST_CASE("a session that somebody reads at its end ends well and is whole") {
         CHECK_FALSE(writer.take_error().has_value());
         CHECK(writer.lost_records() == 0);
         check_whole(file, 100);
-        // What comes after the drive is not refused either.
+        // Later additions are accepted too.
         CHECK(add_answers(file, {{"paper.fun", "", "4", 4.0, 1.0, false, ""}}, "paper.").has_value());
-        // Of a person who is to be forgotten nothing may stay with somebody.
+        // A forgotten person's data may stay nowhere.
         CHECK_FALSE(write_anonymous_copy(file).has_value());
       }
       check_whole(file, 100);

@@ -181,7 +181,7 @@ TEST_CASE("a file that is deleted is noticed though nothing more is recorded") {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   REQUIRE(error.has_value());
   CHECK(error->what.find("deleted") != std::string::npos);
-  CHECK(writer.finish().has_value());  // It has been told.
+  CHECK(writer.finish().has_value());  // It has been reported.
 }
 
 TEST_CASE("ticks without a snapshot are counted from tick 0") {

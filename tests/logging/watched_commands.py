@@ -58,14 +58,14 @@ class Watch:
 
 
 def killed_with(session, sql):
-    """Somebody who writes the session and is killed in the middle of it."""
+    """A program that writes the session and is killed in the middle of it."""
     program = ("import os, sqlite3, sys\nd = sqlite3.connect(sys.argv[1], isolation_level=None)\n"
                f"for sql in {sql!r}: d.execute(sql).fetchall()\nos.kill(os.getpid(), 9)")
     assert subprocess.run([sys.executable, "-c", program, str(session)], check=False).returncode == -signal.SIGKILL
 
 
 def still_written(session):
-    """Somebody who has committed and has the session open."""
+    """A program that has committed and has the session open."""
     program = ("import sqlite3, sys\nd = sqlite3.connect(sys.argv[1], isolation_level=None)\n"
                "d.execute('PRAGMA journal_mode=WAL').fetchall()\nd.execute(\"INSERT INTO meta VALUES('later', '1')\")\n"
                "print('written', flush=True)\nsys.stdin.read()")
@@ -82,7 +82,7 @@ def super_journal(session, victim):
 
 
 def operate(session, _out):
-    """The operator's page lists what lies below its folder when it starts."""
+    """The operator's page lists the sessions below its folder when it starts."""
     process = subprocess.Popen([septet, "operate", "--page", "0", "--out", session.parent.parent], stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:

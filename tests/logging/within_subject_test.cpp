@@ -1,4 +1,4 @@
-// What one person says after different drives stays apart, and what was not measured is missing.
+// One person's answers after different drives stay apart, and missing measures are missing.
 
 #include <algorithm>
 #include <sstream>
@@ -150,7 +150,8 @@ TEST_CASE("a code that a spreadsheet takes for something else is in the table wh
   for (const char* code : {"'07", "007", "=1+1", "NA", "null"})
     sessions.push_back(write_part(folder.path(), {.participant = code}));
   const std::string csv = to_csv(report_of(sessions));
-  const char* cells[] = {"''07", "007", "'=1+1", "NA", "null"};  // Less the first apostrophe, each is what was given.
+  // Without the first apostrophe, each is the given text.
+  const char* cells[] = {"''07", "007", "'=1+1", "NA", "null"};
   for (std::size_t row = 0; row < 5; ++row) CHECK(cell_in(csv, row, "participant") == cells[row]);
 }
 
@@ -170,7 +171,7 @@ TEST_CASE("without a head tracker glances are missing and not none, without a la
   CHECK(glances["value"].is_null());
   CHECK(glances["samples"] == 0);
   CHECK(glances["missing"] == 101);
-  // The page's row beside the paper divides by the time of those alone whose head was known: 2 × 10 s over 2.
+  // The page's row beside the paper divides by the time of drives with a known head alone: 2 × 10 s over 2.
   CHECK(to_html(report).find("<td class=\"value\">10.0 s</td>") != std::string::npos);
 }
 

@@ -110,7 +110,7 @@ class Installed(unittest.TestCase):
                     self.assertRegex(page, rf"(?m)^\.B {option}( |$)")
 
     def complete(self, name, *words):
-        """What bash offers for the last of these words."""
+        """Completions that bash offers for the last of these words."""
         script = f"""source {prefix}/share/bash-completion/completions/{name}
             COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _septet "$1"; printf '%s\\n' "${{COMPREPLY[@]}}" """
         return set(run("bash", "-c", script, "bash", program(name), *words).split())

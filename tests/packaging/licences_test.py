@@ -11,7 +11,7 @@ import sys
 
 
 def said_by_debian(package):
-    """The licence of `Files: *` in a machine-readable copyright file; None where there is none, or only prose."""
+    """The licence of `Files: *` in a machine-readable copyright file; None if it is missing, or only prose."""
     file = pathlib.Path(f"/usr/share/doc/{package}/copyright")
     if not file.exists():
         return None

@@ -1,4 +1,4 @@
-/// The car on a machine of its own: septet-server and septet-car as two programs. Only the USB device is not there.
+/// The car on a machine of its own: septet-server and septet-car as two programs. Only the USB device is missing.
 
 #include <csignal>
 
@@ -23,7 +23,7 @@ TEST_CASE("septet-car is let in by its key and learns from the server which devi
     const std::string port = ready_port(server, folder / (name + ".err"));
     auto process =
         start("septet-car", {"--server", "127.0.0.1:" + port, "--keys", keys.string()}, folder / (name + "-car.err"));
-    // One that is refused goes on asking: once the server has said so, that is seen.
+    // A refused one goes on asking: visible once the server has replied.
     const auto refused = [&] {
       return text_of(folder / (name + ".err")).find("refused a client") != std::string::npos;
     };

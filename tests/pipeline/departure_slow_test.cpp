@@ -8,7 +8,7 @@
 namespace septet {
 namespace {
 
-/// The screen pumps and tells of its leaving until `end_s`, or until it gives up; whether it has given up.
+/// The screen pumps and sends its departure until `end_s`, or until it gives up; returns true if it has given up.
 bool leave(SimulatedRig& rig, screen::Departure& departure, double end_s) {
   while (rig.now_s() < end_s && !(rig.has_server() && rig.host().end_requested())) {
     rig.advance_1ms();

@@ -162,7 +162,7 @@ TEST_CASE("a replay verifies from the last state that the log has kept") {
   };
   CHECK(verify(session, "11.5") == "240 ticks run again from the state of 10 s: every state hash agrees");
   CHECK(verify(session, "9.9") == "1440 ticks run again: every state hash agrees");
-  // What lies before the state is not run again.
+  // Ticks before the state are not run again.
   change(session, "UPDATE snapshots SET state_hash = 5 WHERE tick = 600");
   CHECK(verify(session, "11.5") == "240 ticks run again from the state of 10 s: every state hash agrees");
   CHECK(verify(session, "0").find("tick 600 gives state hash") != std::string::npos);

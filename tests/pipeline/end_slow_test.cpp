@@ -10,7 +10,7 @@
 namespace septet::pipeline {
 namespace {
 
-/// The meta row that says why the drive ended; "none" where the log cannot be read or does not say.
+/// The meta row with the reason of the drive's end; "none" if the log cannot be read or has none.
 std::string why(const fs::path& out) {
   const auto session = logging::SessionReader::open(out / "session.sqlite");
   if (!session || !session->info().other.contains("ended_why")) return "none";
@@ -33,7 +33,7 @@ std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-/// The last line of what a program has said on its standard output, once it has ended.
+/// The last line of a program's standard output, once it has ended.
 std::string last_words(program::ChildProcess& process) {
   std::string last;
   while (const auto line = process.read_line(1s)) last = *line;
@@ -98,7 +98,7 @@ TEST_CASE("a server that still reads its files is ended at once by a signal") {
   const TemporaryFolder folder;
   const fs::path keys = make_keys(folder / "keys", "");
   fs::remove(keys / "allowed-clients");
-  REQUIRE(::mkfifo((keys / "allowed-clients").c_str(), 0600) == 0);  // Nobody ever writes into it.
+  REQUIRE(::mkfifo((keys / "allowed-clients").c_str(), 0600) == 0);  // It never has a writer.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     CAPTURE(signal);
     auto server = start("septet-server", {"--keys", keys.string(), "--any-port", "--out", (folder / "out").string()},
@@ -118,7 +118,7 @@ TEST_CASE("a killed drive takes its server and its keys along") {
   auto drive = start("septet", headless(folder / "out", "0"), folder / "err", place);
   REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }));
   drive.send_signal(SIGKILL);
-  // The server hears of it and ends in order.
+  // The server is notified and ends in order.
   CHECK(becomes_true([&] { return why(folder / "out") == "terminated"; }));
   CHECK(becomes_true([&] { return entries(folder / "tmp") == 0; }));
 }
@@ -157,7 +157,7 @@ TEST_CASE("a killed drive's session is checked also where no file may grow") {
   server.send_signal(SIGKILL);
   CHECK(exit_code(server) == -1);
   REQUIRE(fs::exists(wal));
-  fs::remove(session.string() + "-shm");  // The WAL's index, which whoever reads it makes anew.
+  fs::remove(session.string() + "-shm");  // The WAL's index, which a reader recreates.
   auto check = start("/bin/sh",
                      {"-c", fmt::format("ulimit -f 8; exec '{}' check '{}'",
                                         (fs::path(build_folder()) / "septet").string(), session.string())},
@@ -270,7 +270,7 @@ TEST_CASE(
   CHECK(complaint.find("no screen can be started") != std::string::npos);
   CHECK(complaint.find("screens/a.log") != std::string::npos);
   CHECK(last_words(blind).find("no screen could be started") != std::string::npos);
-  // The world waited for its driver meanwhile: there is nothing to look at but what the screens said.
+  // The world waited for its driver meanwhile: the only results are the screens' outputs.
   for (const char* name : {"session.sqlite", "summary.json", "report.html"})
     CHECK_FALSE(fs::exists(folder / "blind" / name));
   CHECK(fs::exists(folder / "blind" / "screens" / "a.log"));

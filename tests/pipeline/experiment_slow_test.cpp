@@ -54,7 +54,7 @@ TEST_CASE("an experiment run twice has identical numbers and one that was killed
     CHECK_MESSAGE(is_same, name);
   }
 
-  // Who is forgotten is not driven anew, and is in no figure.
+  // A forgotten subject is not driven again, and is in no figure.
   const auto forgotten = run("septet", {"session", "forget", "P02", (folder / "whole").string()}, folder / "f.log");
   REQUIRE_MESSAGE(forgotten.code == 0, forgotten.error);
   const auto without = run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "w.log");
@@ -68,7 +68,7 @@ TEST_CASE("an experiment run twice has identical numbers and one that was killed
   auto next = start("septet", {"experiment", "next", file, "--out", (folder / "whole").string()}, folder / "n.log");
   CHECK(next.read_line(patience).value_or("") == "4 of 4 subjects are finished, 1 of them forgotten");
 
-  // Another file in the same folder is another experiment where it changes what was driven, or who is forgotten…
+  // Another file in the same folder is another experiment if it changes finished drives, or forgotten subjects…
   const auto changed = [&](const std::string& text) {
     write_text(folder / "e.toml", text);
     return run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "4.log");
@@ -138,7 +138,7 @@ TEST_CASE("a participant who is forgotten is in no file of the drives any more a
   };
   drive("Q77", "x");
   drive("Q78", "y");
-  // Such a session can be measured, and whoever wants to see it again is told why not.
+  // Such a session can be measured, and a replay gives the reason of its refusal.
   const std::string session = (folder / "data/Q77/session.sqlite").string();
   for (const char* command : {"replay", "film", "sound"}) {
     const auto shown = run("septet", {command, session, "--out", (folder / "shown").string()}, folder / "s.log");
@@ -146,7 +146,7 @@ TEST_CASE("a participant who is forgotten is in no file of the drives any more a
     CHECK_MESSAGE(shown.error.find("without snapshots") != std::string::npos, command, shown.error);
   }
   CHECK_FALSE(fs::exists(folder / "shown"));
-  // What lies beside a session tells what was answered after it, and no longer what is forgotten.
+  // Files beside a session hold answers given after it, and no longer the forgotten data.
   const auto told = [&](const std::string& words) {
     int files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder / "data"))

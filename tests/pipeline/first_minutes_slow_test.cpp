@@ -1,4 +1,4 @@
-/// What whoever starts Septet for the first time meets: a world that waits, a screen that is full, a window that shows.
+/// A first user's experience: a waiting world, a full screen, a visible window.
 
 #include <csignal>
 #include <sstream>
@@ -16,7 +16,7 @@ namespace {
 
 bool says(const fs::path& log, const std::string& words) { return text_of(log).find(words) != std::string::npos; }
 
-/// What follows those words in each line that has them.
+/// The text after those words in each line with them.
 std::vector<std::string> each_after(const std::string& words, const fs::path& log) {
   std::vector<std::string> found;
   std::istringstream lines(text_of(log));

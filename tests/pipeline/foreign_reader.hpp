@@ -1,5 +1,5 @@
 #pragma once
-/// Another program that has a session open, by SQLite alone, while it is written.
+/// Another program with a session open, by SQLite alone, while it is written.
 
 #include <sqlite3.h>
 
@@ -12,12 +12,12 @@
 namespace septet::pipeline {
 
 enum class Reading {
-  idle,             ///< Looks once and stays connected.
-  transaction,      ///< Looks within a transaction that it never ends.
-  coming_and_going  ///< Opens, looks and closes 20 times a second.
+  idle,             ///< Reads once and stays connected.
+  transaction,      ///< Reads within a transaction that it never ends.
+  coming_and_going  ///< Opens, reads and closes 20 times a second.
 };
 
-/// Waits for the session, reads it in its way until the object goes.
+/// Waits for the session, then reads it in its manner until the object goes.
 class ForeignReader {
  public:
   ForeignReader(std::filesystem::path session, Reading reading, bool may_write = false)
@@ -32,7 +32,7 @@ class ForeignReader {
     is_over_ = true;
     thread_.join();
   }
-  /// How often it has seen the session.
+  /// Number of reads of the session.
   int looks() const { return looks_; }
 
  private:

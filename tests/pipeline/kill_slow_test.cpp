@@ -22,7 +22,7 @@ int child_called(int parent, const std::string& name) {
   return 0;
 }
 
-/// Whether every thread of a process has come to a stop.
+/// True if every thread of a process has stopped.
 bool is_stopped(int process) {
   for (const auto& thread : fs::directory_iterator(fmt::format("/proc/{}/task", process))) {
     const std::string stat = text_of(thread.path() / "stat");
@@ -39,7 +39,7 @@ double logged_s(const fs::path& file) {
   return span && *span ? (*span)->second : 0.0;
 }
 
-/// What summary.json says of a screen.
+/// A screen's entry in summary.json.
 nlohmann::json screen_in(const fs::path& summary, const std::string& screen) {
   const auto json = nlohmann::json::parse(text_of(summary), nullptr, false);
   if (json.is_object())
@@ -95,8 +95,8 @@ TEST_CASE("a killed screen costs the others no frame and is back by itself") {
   }
   const auto screen = screen_in(out / "summary.json", "b");
   CHECK(screen["frames"] > 0);
-  CHECK(screen["frames"] <=
-        120);  // It may miss none: in lockstep the others wait for as long as it is not known to be gone.
+  // It may miss no frame: in lockstep the others wait until it is known to be gone.
+  CHECK(screen["frames"] <= 120);
   CHECK(screen["connected_s"].size() == 2);
   CHECK(screen["left_s"].size() == 1);
   CHECK(fs::exists(out / "screens" / "b" / "960.png"));
@@ -160,7 +160,7 @@ TEST_CASE(
     REQUIRE((span && *span));
     MESSAGE("the killed server's log lacks the last " << static_cast<double>(reached) / 120.0 - (*span)->second
                                                       << " s");
-    CHECK((*span)->second > 1.0);  // What was in it is in it; the rest is session_kill_slow_test's.
+    CHECK((*span)->second > 1.0);  // Its earlier content is still there; session_kill_slow_test tests the rest.
   }
   const fs::path held = pictures / "a" / "server-lost.png";
   CHECK(becomes_true([&] { return fs::exists(held) && image::read_png(held).has_value(); }));

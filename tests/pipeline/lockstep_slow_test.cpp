@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "sim-server/host/serve.hpp"
-#include "tests/pipeline/simulated_rig.hpp"
+#include "tests/pipeline/rig_service.hpp"
 
 namespace septet {
 namespace {
@@ -24,7 +23,7 @@ class Circles final : public server::TickSource {
   Tick tick_ = 0;
 };
 
-/// Screens on a simulated clock that answer as those of the product do: each new tick, once they hold the scene.
+/// Screens on a simulated clock that acknowledge like the product's: each new tick, once they hold the scene.
 class LockstepRig {
  public:
   explicit LockstepRig(std::size_t screens)
@@ -34,21 +33,16 @@ class LockstepRig {
 
   server::ServeResult serve(double seconds, const std::function<void()>& each_ms) {
     Circles circles;
-    const server::ServeEnvironment environment{[this] { return rig.server_clock_s(); },
-                                               [&](double) {
-                                                 rig.advance_1ms();
-                                                 each_ms();
-                                                 for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
-                                               },
-                                               [] { return std::optional<logging::DriveEnd>(); },
-                                               [](const server::Progress&) {},
-                                               [this](const std::string& text) { messages.push_back(text); }};
+    RigClock clock(rig, [&] {
+      each_ms();
+      for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
+    });
     const auto served = server::serve(circles, rig.host(),
                                       {.lockstep = true,
                                        .draw_every_ticks = draw_every_ticks,
                                        .ticks = static_cast<std::uint64_t>(120.0 * seconds),
                                        .longest_silence_s = silence_s},
-                                      environment);
+                                      one_attendant(std::make_unique<Listener>(messages)), clock);
     REQUIRE_FALSE(served.error.has_value());
     CHECK(served.end == logging::DriveEnd::time_over);
     return served;
@@ -96,7 +90,7 @@ TEST_CASE("in lockstep a screen that comes up is waited for and misses no tick a
       lockstep.rig.stop_screen(1);
       lockstep.shown[1].clear();
     }
-    // It comes back while the others wait for the answer of the one that was killed.
+    // It comes back while the others wait for the killed one's report.
     if (killed_s && !started && lockstep.rig.now_s() > *killed_s + 0.5 * silence_s) {
       started = true;
       newest_at_start = others.back();

@@ -13,9 +13,9 @@
 namespace septet::pipeline {
 namespace {
 
-/// Counts the frames that a screen shows in time: those for whose instant it has the ticks when their turn comes, and that show
-/// the world half a frame further on at least: one that goes slowly shows fewer. What the screen is not asked for in time, since
-/// no processor was given to it, it loses.
+/// Counts the frames that a screen shows in time: those for whose instant it has the ticks when their turn comes, and
+/// that show the world half a frame further on at least: one that goes slowly shows fewer. What the screen is not asked
+/// for in time, since no processor was given to it, it loses.
 class FrameCount {
  public:
   explicit FrameCount(Observer& observer) : observer_(observer) {}
@@ -39,7 +39,7 @@ class FrameCount {
  private:
   Observer& observer_;
   std::int64_t number_ = 0;
-  double counted_s_ = 0.0;  ///< What the frame that was counted last showed.
+  double counted_s_ = 0.0;  ///< Time shown by the last counted frame.
   int shown_ = 0;
 };
 
@@ -51,9 +51,9 @@ int signal_of(Fault fault, double since_s) {
   return fault == Fault::slow && std::fmod(since_s, 0.05) < 0.005 ? SIGCONT : SIGSTOP;
 }
 
-/// A fault lasts so long, and so does the calm before it. Shorter than the server takes to find that somebody has gone.
+/// Length of a fault, and of the calm before it. Shorter than the server's time to notice a lost screen.
 constexpr double window_s = 1.5;
-constexpr int least_frames = 12;         ///< Of 90 in a calm: what a machine that is too busy does not reach.
+constexpr int least_frames = 12;         ///< Of 90 in a calm: not reached by a machine that is too busy.
 constexpr double accepted_share = 0.15;  ///< Of the frames in the calm before, that may be lost.
 constexpr std::size_t least_faults = 3, most_faults = 15;
 
@@ -152,9 +152,9 @@ class RealTimeRig {
 
 }  // namespace
 
-/// What else the machine does costs frames before a fault as well as during it, now more, now less: the median over as many
-/// faults as it takes comes to nothing, or to a gain, since a screen that does not draw leaves its processor to the others. A
-/// server that waits for the screen fails, however many.
+/// Other load costs frames before a fault as well as during it, in varying amounts: the median over enough faults is
+/// zero, or a gain, since a screen that does not draw leaves its processor to the others. A server that waits for the
+/// screen fails with any number.
 TEST_CASE("in real time a screen that is killed or hangs or is slow costs the others no frame") {
   RealTimeRig rig;
   struct Kind {

@@ -29,7 +29,8 @@ struct Machines {
     INFO(name << " says:\n" << text_of(log(name)));
     REQUIRE_MESSAGE(said, words);
   }
-  /// A screen that was sent away. One that no processor was given to may be dropped as silent, and comes back: that says nothing.
+  /// A screen that was sent away. One that no processor was given to may be dropped as silent, and comes back: that
+  /// says nothing.
   bool sent_away(const std::string& server, const std::string& screen) const {
     const std::string text = text_of(log(server)), words = "screen " + screen + " left: ";
     for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
@@ -61,7 +62,7 @@ TEST_CASE("a rig of several machines is started in any order and each part says 
   rig.says("first", "waiting for b (Enter: drive without)");
   CHECK(text_of(rig.log("first")).find("shows tick") == std::string::npos);
 
-  // Another key than the list's, another server's key, another screen's key: each is told, and goes on trying.
+  // Another key than the list's, another server's key, another screen's key: each gets a message, and goes on trying.
   fs::create_directories(rig.folder / "stranger");
   REQUIRE(net::load_or_create_identity(rig.folder / "stranger" / "b.key").has_value());
   fs::copy_file(rig.keys / "pc-b" / "server.public", rig.folder / "stranger" / "server.public");
@@ -114,7 +115,8 @@ TEST_CASE("a rig of several machines is started in any order and each part says 
   rig.says("second", "screen a shows tick");
   rig.says("second", "screen b shows tick");
 
-  // A second holder of a key is refused while the first one is alive, and takes its place when that one has gone without a word.
+  // A second holder of a key is refused while the first one is alive, and takes its place once that one has gone
+  // silently.
   auto twin = rig.start_screen("a", rig.keys / "pc-a", "twin");
   rig.says("twin", "another client with this key is connected");
   rig.says("second", "a second client with the key of a");
@@ -122,7 +124,7 @@ TEST_CASE("a rig of several machines is started in any order and each part says 
   a.send_signal(SIGKILL);
   rig.says("twin", "connected to the server");
   next.send_signal(SIGTERM);
-  CHECK(exit_code(next) == 3);  // Stopped by somebody.
+  CHECK(exit_code(next) == 3);  // Stopped by a person.
   CHECK(exit_code(twin) == 0);
   CHECK(exit_code(b) == 0);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// A screen that does everything but draw, in the test's own process: what the server sends is seen here.
+/// A screen that does everything except drawing, in the test's own process: shows the server's messages.
 
 #include "sim-client/screen/screen_link.hpp"
 #include "tests/pipeline/process_rig.hpp"

@@ -1,4 +1,4 @@
-/// What the programs say of themselves, and options that change a drive.
+/// Help texts of the programs, and options that change a drive.
 
 #include <csignal>
 #include <cstdio>

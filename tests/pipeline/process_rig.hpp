@@ -25,12 +25,12 @@ namespace septet::pipeline {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-/// How long an event is waited for: only a hang takes so long, however busy the machine.
+/// Longest wait for an event: only a hang takes so long, however busy the machine.
 inline constexpr std::chrono::milliseconds patience = 10min;
 
 inline void write_text(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
-/// Whether it holds before the time is up; asked a hundred times a second.
+/// True if the condition holds before the time is up; checked a hundred times a second.
 inline bool becomes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = patience) {
   const auto until = Clock::now() + within;
   while (!condition()) {
@@ -66,7 +66,7 @@ inline program::ChildProcess start(const std::string& program, std::vector<std::
   return std::move(*process);
 }
 
-/// Waits for the end; −2 where it does not come.
+/// Waits for the end; −2 if it does not come.
 inline int exit_code(program::ChildProcess& process, std::chrono::milliseconds within = patience) {
   if (!becomes_true([&] { return process.poll().has_value(); }, within)) return -2;
   return process.poll()->code;
@@ -85,7 +85,7 @@ inline Ended run(const std::string& program, std::vector<std::string> arguments,
   return {code, text_of(log)};
 }
 
-/// Exit status not 0, one line that names what and where, and nothing at `out`.
+/// Checks for an exit status other than 0, one line that names fault and place, and nothing at `out`.
 inline void check_refused(const Ended& ended, const std::vector<std::string>& words, const fs::path& out) {
   INFO(ended.error);
   CHECK(ended.code > 0);
@@ -97,7 +97,7 @@ inline void check_refused(const Ended& ended, const std::vector<std::string>& wo
   CHECK_FALSE(fs::exists(out));
 }
 
-/// Keys of a server and of screens that it knows.
+/// Keys of a server and of its known screens.
 inline fs::path make_keys(const fs::path& folder, const std::string& screens) {
   fs::create_directories(folder);
   std::string allowed;
@@ -138,7 +138,7 @@ inline program::ChildProcess start_screen(const std::string& name, const std::st
                pictures / (name + ".log"));
 }
 
-/// The newest tick of which a screen keeps a picture, 0 without one.
+/// The newest tick with a kept picture of a screen, 0 without one.
 inline long newest_picture(const fs::path& folder) {
   long newest = 0;
   std::error_code ignored;

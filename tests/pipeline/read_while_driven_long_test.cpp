@@ -1,4 +1,4 @@
-// 24 drives in real time, each with somebody who reads its session meanwhile: all whole, all with exit status 0.
+// 24 drives in real time, each with a reader of its session meanwhile: all whole, all with exit status 0.
 
 #include <atomic>
 #include <string>

@@ -1,4 +1,4 @@
-// Who reads a session while it is written changes nothing, and is told that it goes on.
+// A reader of a session being written changes nothing, and learns that it is still growing.
 
 #include <algorithm>
 #include <csignal>
@@ -28,7 +28,7 @@ TEST_CASE("an experiment loses nobody to those who have its sessions open") {
   for (const ForeignReader* reader : {&idle, &stuck, &busy}) CHECK(reader->looks() > 0);
   const std::string table = text_of(folder / "out/subjects.csv");
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);
-  // None of it is driven anew.
+  // None of it is driven again.
   const auto again =
       run("septet", {"experiment", (folder / "e.toml").string(), "--out", (folder / "out").string()}, folder / "2.log");
   CHECK(again.code == 0);

@@ -9,7 +9,7 @@
 namespace septet::pipeline {
 namespace {
 
-/// Takes the processors away from whoever else wants them, until it is destroyed.
+/// Occupies the processors, until it is destroyed.
 class BusyMachine {
  public:
   explicit BusyMachine(int loops) {

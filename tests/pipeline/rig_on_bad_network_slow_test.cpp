@@ -16,8 +16,8 @@ struct Presented {
   int frames = 0, skewed = 0, held = 0, wrong = 0;
 };
 
-/// Every live screen presents each frame when its own clock asks for it; the frames of one number are compared with each
-/// other and with the truth.
+/// Every live screen presents each frame when its own clock asks for it; the frames of one number are compared with
+/// each other and with the truth.
 Presented present(SimulatedRig& rig, double seconds, const std::set<std::size_t>& without = {}) {
   Presented result;
   std::vector<std::optional<std::int64_t>> last(rig.size());
@@ -59,7 +59,7 @@ void check_flawless(const Presented& seen, int least_frames) {
 
 /// Every frame that every screen shows begins within 2 ms of the instant that the server means, in true time.
 void check_in_true_time(SimulatedRig& rig, double seconds, const std::string& name) {
-  constexpr double step_s = 0.00025;  // Of which up to one is added to what is measured.
+  constexpr double step_s = 0.00025;  // Adds up to one step to the measurement.
   std::vector<std::optional<std::int64_t>> last(rig.size());
   int frames = 0;
   double earliest_s = 1.0, latest_s = -1.0;
@@ -206,7 +206,7 @@ TEST_CASE("screens hold their last tick while the server is gone and return by t
   SimulatedRig rig({});
   rig.run_for(1.0);
   rig.stop_server();
-  rig.run_for(2.5);  // The lane's two seconds begin with the first ping that nobody answers.
+  rig.run_for(2.5);  // The lane's two seconds begin with the first ping without a pong.
   for (std::size_t i = 0; i < rig.size(); ++i) {
     CHECK(rig.screen(i).link->state() == net::ClientState::lost);
     CHECK_FALSE(rig.screen(i).link->history().empty());

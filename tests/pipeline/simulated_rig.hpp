@@ -1,5 +1,6 @@
 #pragma once
-/// A server and its screens in one process, each on a machine with a clock of its own, on a bad network: both lanes for real, no GPU.
+/// A server and its screens in one process, each on a machine with a clock of its own, on a bad network: both lanes for
+/// real, no GPU.
 
 #include <cmath>
 #include <functional>
@@ -24,11 +25,11 @@ struct SimulatedRigOptions {
   std::uint64_t seed = 1;
   std::size_t vehicles = 200;
   double least_playout_delay_s = 2.0 / 120.0;
-  std::function<void(scene::SceneBuilder&)> world{};  ///< What the scene holds; some posts if empty.
+  std::function<void(scene::SceneBuilder&)> world{};  ///< Content of the scene; some posts if empty.
   std::set<std::size_t> deaf{};                       ///< Screens that the group's datagrams do not reach.
-  double screen_pump_s =
-      0.0;  ///< How often a screen looks at its sockets: at every step, or once a frame as one that draws.
-  bool real_time = true;  ///< A tick is published whenever one is due; false: whoever drives the host publishes.
+  /// Interval at which a screen reads its sockets: at every step, or once a frame as a drawing one.
+  double screen_pump_s = 0.0;
+  bool real_time = true;  ///< True: a tick is published whenever one is due; false: the host's driver publishes.
 };
 
 inline constexpr double rig_tick_s = 1.0 / 120.0;
@@ -98,7 +99,7 @@ class SimulatedRig {
       options.welcome.group_ip = group_.ip;
       options.welcome.group_port = group_.port;
     }
-    // A server that was away does not make up for the ticks that it missed.
+    // A server that was away does not catch up on missed ticks.
     next_tick_ = static_cast<Tick>(std::ceil((server_clock_s() - begun_s_) / rig_tick_s));
     host_ = std::make_unique<server::ScreenHost>(*server_lane_, *server_tick_, store_, std::move(options));
   }
@@ -132,7 +133,7 @@ class SimulatedRig {
     screens_[i].tick_socket.reset();
   }
 
-  /// One step of true time: the server publishes where a tick is due, everybody pumps.
+  /// One step of true time: the server publishes if a tick is due, all are pumped.
   void advance(double step_s) {
     now_s_ += step_s;
     network_.advance_to(now_s_);
@@ -156,7 +157,7 @@ class SimulatedRig {
     for (int i = 0; i < static_cast<int>(seconds * 1000.0 + 0.5); ++i) advance_1ms();
   }
 
-  /// The number of the frame that a screen's own idea of the server's clock asks for now.
+  /// Number of the frame due by a screen's own estimate of the server's clock.
   std::optional<std::int64_t> frame_due(std::size_t i) const {
     const auto& link = screens_[i].link;
     const auto server_s = link ? link->server_time_s(screens_[i].machine->clock_s(now_s_)) : std::nullopt;
@@ -164,7 +165,7 @@ class SimulatedRig {
     return frame::frame_number(*server_s);
   }
 
-  /// What a screen would present now, if it has anything.
+  /// A screen's present playout, if it has any.
   std::optional<frame::PlayedOut> shown(std::size_t i) const {
     const auto& link = screens_[i].link;
     if (!link || link->history().empty()) return std::nullopt;
@@ -174,8 +175,8 @@ class SimulatedRig {
                        rig_tick_s);
   }
 
-  /// By how much later than the server meant a screen shows, in true time, what it shows from now on: the server means the frame
-  /// at the instant at which its own clock comes half a frame's time before the frame's instant.
+  /// A screen's lateness against the server's intent, in true time, for frames from now on: the intended instant of a
+  /// frame is when the server's own clock reaches half a frame's time before the frame's instant.
   std::optional<double> lateness_s(std::size_t i) const {
     const auto number = frame_due(i);
     const auto seen = shown(i);

@@ -17,7 +17,7 @@ bool has_sumo() {
   return false;
 }
 
-/// The process called "sumo" that this one has started; 0: none.
+/// This process' child named "sumo"; 0: no such process.
 int sumo_of(int parent) {
   const std::string tasks = fmt::format("/proc/{0}/task/{0}/children", parent);
   std::ifstream children(tasks);

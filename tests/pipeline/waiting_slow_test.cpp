@@ -1,12 +1,17 @@
 /// The world waits for its driver: server loop, screens and network on simulated clocks.
 
+#include <functional>
+#include <memory>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "sim-client/screen/pause_request.hpp"
-#include "sim-server/host/serve.hpp"
-#include "tests/pipeline/simulated_rig.hpp"
+#include "tests/pipeline/rig_service.hpp"
 
 namespace septet {
 namespace {
@@ -26,7 +31,33 @@ class DrivenCircles final : public server::TickSource {
   logging::DriveEnd end() const override { return logging::DriveEnd::failed; }
 
   Tick tick = 0;
-  int rests = 0;  ///< How often whatever moves in the driver's seat was told to rest.
+  int rests = 0;  ///< Number of commands to rest to the driver's seat.
+};
+
+/// An operator who pauses, and may end the drive.
+class Pausing final : public server::Attendant {
+ public:
+  Pausing(const bool& is_paused, std::function<void(const server::Moment&)> look)
+      : is_paused_(is_paused), look_(std::move(look)) {}
+  void before_tick(const server::Moment& moment) override { look_(moment); }
+  server::Wishes wishes() override {
+    server::Wishes wishes{.stands_still = is_paused_};
+    if (asks_before_end && ++asked_ > *asks_before_end) wishes.end = logging::DriveEnd::by_operator;
+    return wishes;
+  }
+
+  std::optional<int> asks_before_end;
+
+ private:
+  const bool& is_paused_;
+  std::function<void(const server::Moment&)> look_;
+  int asked_ = 0;
+};
+
+class StillClock final : public server::ServeClock {
+ public:
+  double now_s() const override { return 0.0; }
+  void wait(double) override {}
 };
 
 }  // namespace
@@ -37,39 +68,33 @@ TEST_CASE("the world stands still and says so until the driver takes the control
   DrivenCircles circles;
   std::vector<std::string> messages;
   double ready_s = 0.0, joined_s = 0.0;
-  const server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
-                                             [&](double) {
-                                               rig.advance_1ms();
-                                               auto& screen = rig.screen(0);
-                                               if (screen.link->finished()) {
-                                                 for (std::size_t i = 0; i < rig.size(); ++i)
-                                                   rig.screen(i).link->report({});
-                                               } else if (ready_s == 0.0 && rig.now_s() < 4.0) {
-                                                 CHECK(circles.tick == 0);
-                                                 if (rig.now_s() > 1.0) {
-                                                   CHECK(screen.link->notice().text == "Press any key to start");
-                                                   REQUIRE(rig.shown(0));
-                                                   CHECK(rig.shown(0)->tick == 0);
-                                                 }
-                                                 // Who comes while the world waits sees it too.
-                                                 if (joined_s == 0.0 && rig.now_s() > 2.0) {
-                                                   rig.stop_screen(1);
-                                                   rig.start_screen(1);
-                                                   joined_s = rig.now_s();
-                                                 }
-                                               } else if (ready_s == 0.0) {
-                                                 REQUIRE(rig.shown(1));
-                                                 CHECK(rig.shown(1)->tick == 0);
-                                                 CHECK(rig.screen(1).link->notice().text == "Press any key to start");
-                                                 ready_s = rig.now_s();
-                                                 screen.link->send(control::Controls{}, net::Reliability::unreliable);
-                                               }
-                                             },
-                                             [] { return std::optional<logging::DriveEnd>(); },
-                                             [](const server::Progress&) {},
-                                             [&](const std::string& text) { messages.push_back(text); }};
-  const auto served =
-      server::serve(circles, rig.host(), {.ticks = 240, .wait_for_driver = "Press any key to start"}, environment);
+  RigClock clock(rig, [&] {
+    auto& screen = rig.screen(0);
+    if (screen.link->finished()) {
+      report_all(rig);
+    } else if (ready_s == 0.0 && rig.now_s() < 4.0) {
+      CHECK(circles.tick == 0);
+      if (rig.now_s() > 1.0) {
+        CHECK(screen.link->notice().text == "Press any key to start");
+        REQUIRE(rig.shown(0));
+        CHECK(rig.shown(0)->tick == 0);
+      }
+      // A screen that joins while the world waits sees it too.
+      if (joined_s == 0.0 && rig.now_s() > 2.0) {
+        rig.stop_screen(1);
+        rig.start_screen(1);
+        joined_s = rig.now_s();
+      }
+    } else if (ready_s == 0.0) {
+      REQUIRE(rig.shown(1));
+      CHECK(rig.shown(1)->tick == 0);
+      CHECK(rig.screen(1).link->notice().text == "Press any key to start");
+      ready_s = rig.now_s();
+      screen.link->send(control::Controls{}, net::Reliability::unreliable);
+    }
+  });
+  const auto served = server::serve(circles, rig.host(), {.ticks = 240, .wait_for_driver = "Press any key to start"},
+                                    one_attendant(std::make_unique<Listener>(messages)), clock);
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(served.ticks == 240);
   CHECK(served.late_ticks == 0);
@@ -88,29 +113,25 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
   rig.run_for(0.5);
   DrivenCircles circles;
   double ready_s = 0.0;
-  const server::ServeEnvironment environment{
-      [&] { return rig.server_clock_s(); },
-      [&](double) {
-        rig.advance_1ms();
-        auto& screen = rig.screen(0);
-        // It compiles its shaders for longer than the server waits for an answer.
-        screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
-        if (screen.link->finished()) screen.link->report({});
-        if (rig.now_s() < 12.0 || ready_s > 0.0) return;
-        REQUIRE(screen.link->welcomes() == 2);
-        REQUIRE(rig.shown(0));
-        CHECK(rig.shown(0)->tick == 0);
-        CHECK(screen.link->notice().text == "Press any key to start\nA first lesson");
-        ready_s = rig.now_s();
-        screen.link->send(control::Controls{}, net::Reliability::unreliable);
-      },
-      [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [](const std::string&) {}};
+  RigClock clock(rig, [&] {
+    auto& screen = rig.screen(0);
+    // It compiles its shaders for longer than the server waits for a reply.
+    screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
+    if (screen.link->finished()) screen.link->report({});
+    if (rig.now_s() < 12.0 || ready_s > 0.0) return;
+    REQUIRE(screen.link->welcomes() == 2);
+    REQUIRE(rig.shown(0));
+    CHECK(rig.shown(0)->tick == 0);
+    CHECK(screen.link->notice().text == "Press any key to start\nA first lesson");
+    ready_s = rig.now_s();
+    screen.link->send(control::Controls{}, net::Reliability::unreliable);
+  });
   rig.host().give_notice({"", true});
-  const auto served = server::serve(
-      circles, rig.host(), {.ticks = 120, .wait_for_driver = "Press any key to start", .about = "A first lesson"},
-      environment);
+  const auto served =
+      server::serve(circles, rig.host(),
+                    {.ticks = 120, .wait_for_driver = "Press any key to start", .about = "A first lesson"}, {}, clock);
   CHECK(served.end == logging::DriveEnd::time_over);
-  CHECK_FALSE(rig.screen(0).link->notice().keys);  // Which keys drive is known to who has pressed one.
+  CHECK_FALSE(rig.screen(0).link->notice().keys);  // A pressed key shows that its holder knows the keys.
   CHECK(ready_s > 0.0);
   CHECK(rig.shown(0)->tick >= 116);
 }
@@ -124,17 +145,12 @@ TEST_CASE(
   Tick stood_at = 0;
   bool is_paused = false, has_joined = false;
   std::set<std::string> doings;
-  server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
-                                       [&](double) {
-                                         rig.advance_1ms();
-                                         if (rig.screen(0).link->finished())
-                                           for (std::size_t i = 0; i < rig.size(); ++i) rig.screen(i).link->report({});
-                                       },
-                                       [] { return std::optional<logging::DriveEnd>(); },
-                                       [](const server::Progress&) {}, [](const std::string&) {}};
-  environment.attend = [&](const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what) {
-    doings.insert(what);
-    if (stood_at == 0 && newest && newest->snapshot().tick == 120) {
+  RigClock clock(rig, [&] {
+    if (rig.screen(0).link->finished()) report_all(rig);
+  });
+  const auto look = [&](const server::Moment& moment) {
+    doings.insert(std::string(moment.doing));
+    if (stood_at == 0 && moment.newest && moment.newest->snapshot().tick == 120) {
       stood_at = 120;
       is_paused = true;
     }
@@ -152,8 +168,8 @@ TEST_CASE(
     CHECK(rig.screen(1).link->notice().text == "Paused by the operator");
     is_paused = false;
   };
-  environment.is_paused = [&] { return is_paused; };
-  const auto served = server::serve(circles, rig.host(), {.ticks = 240}, environment);
+  const auto served = server::serve(circles, rig.host(), {.ticks = 240},
+                                    one_attendant(std::make_unique<Pausing>(is_paused, look)), clock);
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(served.ticks == 240);
   CHECK(served.wall_s < 2.5);  // Of the simulated clock: standing still is not driving.
@@ -172,24 +188,20 @@ TEST_CASE("a driver who presses Escape pauses the drive and goes on by it, and b
   screen::PauseRequest pause;
   int presses = 0;
   double stood_s = 0.0;
-  const server::ServeEnvironment environment{
-      [&] { return rig.server_clock_s(); },
-      [&](double) {
-        rig.advance_1ms();
-        auto& link = *rig.screen(0).link;
-        if (link.finished()) link.report({});
-        if ((presses == 0 && circles.tick == 60) || (presses == 1 && stood_s > 3.0)) {
-          pause.toggle(link);
-          ++presses;
-        }
-        pause.tell(link);
-        if (!link.notice().paused || presses == 2) return;
-        stood_s += 0.001;
-        CHECK(link.notice().text.starts_with("Paused. Escape: go on."));
-        CHECK(circles.tick < 75);
-      },
-      [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [](const std::string&) {}};
-  const auto served = server::serve(circles, rig.host(), {.ticks = 120}, environment);
+  RigClock clock(rig, [&] {
+    auto& link = *rig.screen(0).link;
+    if (link.finished()) link.report({});
+    if ((presses == 0 && circles.tick == 60) || (presses == 1 && stood_s > 3.0)) {
+      pause.toggle(link);
+      ++presses;
+    }
+    pause.tell(link);
+    if (!link.notice().paused || presses == 2) return;
+    stood_s += 0.001;
+    CHECK(link.notice().text.starts_with("Paused. Escape: go on."));
+    CHECK(circles.tick < 75);
+  });
+  const auto served = server::serve(circles, rig.host(), {.ticks = 120}, {}, clock);
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(served.ticks == 120);
   CHECK(presses == 2);
@@ -200,28 +212,22 @@ TEST_CASE("a driver who presses Escape pauses the drive and goes on by it, and b
   DrivenCircles not_begun;
   screen::PauseRequest leaves;
   leaves.toggle(*waiting.screen(0).link);
-  const server::ServeEnvironment other{[&] { return waiting.server_clock_s(); },
-                                       [&](double) {
-                                         waiting.advance_1ms();
-                                         leaves.tell(*waiting.screen(0).link);
-                                         if (waiting.screen(0).link->finished()) waiting.screen(0).link->report({});
-                                       },
-                                       [] { return std::optional<logging::DriveEnd>(); },
-                                       [](const server::Progress&) {}, [](const std::string&) {}};
-  const auto left = server::serve(not_begun, waiting.host(), {.wait_for_driver = "Press any key to start"}, other);
+  RigClock other(waiting, [&] {
+    leaves.tell(*waiting.screen(0).link);
+    if (waiting.screen(0).link->finished()) report_all(waiting);
+  });
+  const auto left = server::serve(not_begun, waiting.host(), {.wait_for_driver = "Press any key to start"}, {}, other);
   CHECK(left.end == logging::DriveEnd::escape);
   CHECK(left.ticks == 0);
 }
 
 TEST_CASE("a paused drive can be ended") {
   DrivenCircles circles;
-  int asked = 0;
-  server::ServeEnvironment environment{
-      [] { return 0.0; }, [](double) {},
-      [&] { return ++asked > 50 ? std::optional(logging::DriveEnd::by_operator) : std::nullopt; },
-      [](const server::Progress&) {}, [](const std::string&) {}};
-  environment.is_paused = [&] { return circles.tick >= 10; };
-  const auto served = server::run_headless(circles, 0, environment);
+  bool is_paused = false;
+  auto operating = std::make_unique<Pausing>(is_paused, [&](const server::Moment&) { is_paused = circles.tick >= 10; });
+  operating->asks_before_end = 50;
+  StillClock clock;
+  const auto served = server::run_headless(circles, 0, one_attendant(std::move(operating)), clock);
   CHECK(served.end == logging::DriveEnd::by_operator);
   CHECK(served.ticks == 10);
   CHECK(circles.rests >= 1);
@@ -231,14 +237,10 @@ TEST_CASE("a drive that waits for nobody begins at once") {
   SimulatedRig rig({.screens = 1, .real_time = false});
   rig.run_for(0.5);
   DrivenCircles circles;
-  const server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
-                                             [&](double) {
-                                               rig.advance_1ms();
-                                               if (rig.screen(0).link->finished()) rig.screen(0).link->report({});
-                                             },
-                                             [] { return std::optional<logging::DriveEnd>(); },
-                                             [](const server::Progress&) {}, [](const std::string&) {}};
-  const auto served = server::serve(circles, rig.host(), {.ticks = 120}, environment);
+  RigClock clock(rig, [&] {
+    if (rig.screen(0).link->finished()) report_all(rig);
+  });
+  const auto served = server::serve(circles, rig.host(), {.ticks = 120}, {}, clock);
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(served.wall_s < 1.1);  // Of the simulated clock.
 }

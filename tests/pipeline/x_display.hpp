@@ -1,5 +1,5 @@
 #pragma once
-/// A display without a monitor, for the programs that open windows, and a hand that closes them.
+/// A display without a monitor, for programs that open windows, and input that closes them.
 
 #include <array>
 #include <map>
@@ -14,7 +14,7 @@ class XDisplay {
  public:
   XDisplay();
   std::map<std::string, std::string> environment() const { return {{"DISPLAY", name_}}; }
-  /// Whether there is a window of this title.
+  /// True if there is a window of this title.
   bool has_window(const std::string& title) const;
   /// Left, top, width and height of the window, pixels of the display (640 × 480).
   std::array<int, 4> place_of(const std::string& title) const;
@@ -23,7 +23,7 @@ class XDisplay {
   void press_escape(const std::string& title) const;
   void press_enter(const std::string& title) const;
   void press_r(const std::string& title) const;
-  /// Presses the arrow up, and lets it go again.
+  /// Presses and releases the arrow up.
   void tap_arrow_up(const std::string& title) const;
 
  private:

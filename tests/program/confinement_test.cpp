@@ -19,7 +19,8 @@ namespace septet::program {
 namespace {
 namespace fs = std::filesystem;
 
-/// In a process of its own, for what is confined stays so; with a temporary folder of its own, which is always open to be written.
+/// In a process of its own, since confinement is permanent; with a temporary folder of its own, which is always
+/// writable.
 int run_confined(const fs::path& temporary, const std::vector<fs::path>& places, const std::function<int()>& work) {
   const pid_t child = ::fork();
   REQUIRE(child >= 0);

@@ -19,7 +19,7 @@ struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// A file that takes what a console would.
+/// A file in place of a terminal.
 struct Console {
   std::unique_ptr<std::FILE, Close> file{std::tmpfile()};
   std::string text() const {
@@ -54,7 +54,7 @@ TEST_CASE("progress is one line on a terminal and a line every ten seconds elsew
     for (const double now_s : {0.0, 0.05, 0.15, 9.9, 10.1})
       if (progress->is_due(now_s)) progress->show(std::to_string(now_s).substr(0, 4));
     progress->message("a screen has come");
-    // The clock begins anew.
+    // The clock restarts.
     if (progress->is_due(0.0)) progress->show("anew");
     progress->close();
     progress->close();

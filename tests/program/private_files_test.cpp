@@ -1,4 +1,4 @@
-// What the programs write is their user's alone.
+// Files of the programs are their user's alone.
 #include "program/run.hpp"
 
 #include <sys/resource.h>
@@ -26,7 +26,7 @@ unsigned mode_of(const fs::path& path) {
   return found.st_mode & 0777u;
 }
 
-/// Runs it as a program would, in a process of its own: what it sets stays there.
+/// Runs it as a program would, in a process of its own, whose settings stay there.
 int run_as_program(const std::function<int()>& work) {
   const pid_t child = ::fork();
   REQUIRE(child >= 0);

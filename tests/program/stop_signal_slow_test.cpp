@@ -43,7 +43,7 @@ TEST_CASE("a program that looks ends as it likes and knows which signal it was")
     CHECK(end_of(signal, 3600, [] {
             while (!stop_signal()) ::usleep(1000);
             obey_stop_signal();
-            // What is under way is not cut off: no alarm is set any more.
+            // An end under way is not cut off: the alarm is off.
             return ::alarm(0) == 0 ? *stop_signal() : still_threatened;
           }) == signal);
   }

@@ -37,7 +37,7 @@ namespace {
 
 using namespace car_io;
 
-/// Somebody else on the bus, who speaks the kernel's own structures.
+/// Another node on the bus, which uses the kernel's own structures.
 class Peer {
  public:
   explicit Peer(const char* interface) : socket_(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK, CAN_RAW)) {
@@ -95,7 +95,7 @@ OpenCanBus opener(const std::string& interface) {
   return [interface] { return open_socket_can(interface, false); };
 }
 
-/// What a cluster sees of one message.
+/// A cluster's view of one message.
 struct Seen {
   std::vector<double> at_s;
   std::vector<double> counters;
@@ -131,7 +131,7 @@ TEST_CASE("classic and FD frames of both lengths of identifier pass the kernel i
   CHECK(
       (first_size == CAN_MTU && first.can_id == (0x1ABCDEFu | CAN_EFF_FLAG) && first.len == 8 && first.data[7] == 21));
   CHECK((second_size == CANFD_MTU && second.can_id == 0x7FF && second.len == 64 && second.data[63] == 189));
-  CHECK((*bus)->receive().value() == std::nullopt);  // Not what it has sent itself.
+  CHECK((*bus)->receive().value() == std::nullopt);  // Without its own frames.
 
   can_frame raw{};
   std::memcpy(&raw, &first, sizeof raw);
@@ -258,7 +258,7 @@ TEST_CASE("a full queue drops instruments and says so and a removed interface is
   };
   run(0.2);
   CHECK(sender.counts().dropped == 0);
-  // Four frames fit, and each stays for a second: a bus on which nobody acknowledges.
+  // Four frames fit, and each stays for a second: a bus without acknowledgement.
   command("/tools/tc qdisc add dev vcan0 root netem delay 1s limit 4");
   run(0.5);
   CHECK(sender.counts().dropped > 20);

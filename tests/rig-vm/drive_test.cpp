@@ -26,7 +26,7 @@ namespace {
 using namespace car_io;
 namespace fs = std::filesystem;
 
-/// What the driver's cluster shows: the newest of every signal.
+/// The driver's cluster: the newest value of every signal.
 class Cluster {
  public:
   explicit Cluster(const char* interface, const std::string& dbc = text_of("/source/rigs/cluster.dbc"),
@@ -102,7 +102,7 @@ TEST_CASE(
   CHECK(cluster["controls_lost"] == 0.0);
   CHECK(device.watchdog_ms() == 250);
 
-  // What the driver does, to what the instruments show.
+  // From the driver's action to the instruments' display.
   const double pressed_s = now_s();
   input.parking_brake = true;
   device.set(input);
@@ -224,7 +224,7 @@ TEST_CASE(
   CHECK(now_s() - since_s < 0.36);
   is_silent = false;
   sleep_s(1.0);
-  CHECK(device.actuators().fan == 0.0);  // Nobody has re-armed.
+  CHECK(device.actuators().fan == 0.0);  // Not re-armed.
   is_rearming = true;
   CHECK(becomes_true([&] { return device.actuators().fan > 0.2; }, 5.0));
   has_ended = true;

@@ -1,4 +1,5 @@
-// A commercial game on the rig: septet-car serve as its wheel, the car on USB, telemetry over a socket of the kernel; and septet-car test.
+// A commercial game on the rig: septet-car serve as its wheel, the car on USB, telemetry over a socket of the kernel;
+// and septet-car test.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -53,7 +54,7 @@ class GameWheel {
   GameWheel(const GameWheel&) = delete;
   GameWheel& operator=(const GameWheel&) = delete;
 
-  /// −1 to 1 of what the axis can be.
+  /// −1 to 1 of the axis' range.
   double place(int axis) const {
     input_absinfo info{};
     REQUIRE(ioctl(file_, EVIOCGABS(static_cast<unsigned>(axis)), &info) == 0);
@@ -81,7 +82,7 @@ class GameWheel {
   }();
 };
 
-/// A game at 90 km/h that tells so fifty times a second while `tells` is true.
+/// A game at 90 km/h that sends it fifty times a second while `tells` is true.
 class Telemetry {
  public:
   Telemetry() : file_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {

@@ -1,5 +1,6 @@
 #pragma once
-/// What the suites share: they run in a virtual machine of their own, as root, by a clock that waits for nothing that sleeps (README.md).
+/// Shared by the suites: they run in a virtual machine of their own, as root, by a clock that does not wait for
+/// sleeping programs (README.md).
 
 #include <chrono>
 #include <cstdlib>
@@ -13,10 +14,11 @@
 
 namespace septet::rig_vm {
 
-/// A line for the machine's shell, which must succeed. busybox prefers its own ip and tc, which know little: these are /tools/ip and /tools/tc.
+/// A line for the machine's shell, which must succeed. busybox prefers its own, limited ip and tc: these are /tools/ip
+/// and /tools/tc.
 inline void command(const std::string& line) { REQUIRE_MESSAGE(std::system(line.c_str()) == 0, line); }
 
-/// The same where a failure must not end the test: in destructors.
+/// The same in destructors, where a failure must not end the test.
 inline void last_command(const std::string& line) { CHECK_MESSAGE(std::system(line.c_str()) == 0, line); }
 
 inline double now_s() {
@@ -25,7 +27,7 @@ inline double now_s() {
 
 inline void sleep_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
-/// Whether it holds before the time is up; asked a thousand times a second.
+/// True if the condition holds before the time is up; checked a thousand times a second.
 inline bool becomes_true(const std::function<bool()>& condition, double within_s = 30.0) {
   for (const double end_s = now_s() + within_s; !condition(); sleep_s(0.001))
     if (now_s() > end_s) return false;

@@ -1,4 +1,4 @@
-// A HID device that is all ours (uhid), as hidraw and evdev show it: what a good firmware never sends.
+// An artificial HID device (uhid), as hidraw and evdev show it: reports that a good firmware never sends.
 
 #include <fcntl.h>
 #include <linux/input-event-codes.h>
@@ -79,7 +79,7 @@ class UserSpaceCar {
     send(encode_controls(input));
   }
 
-  /// How it answers what sets its watchdog.
+  /// Its reply to a setting of its watchdog.
   enum class Watchdog : std::uint8_t { keeps, forgets, refuses };
   std::atomic<Watchdog> watchdog = Watchdog::keeps;
 
@@ -120,7 +120,7 @@ class UserSpaceCar {
 
   int file_;
   std::atomic<bool> is_ending_ = false;
-  std::mutex mutex_;  ///< Of what follows.
+  std::mutex mutex_;  ///< Guards the members below.
   DeviceStatus status_{.firmware = 1, .watchdog_ms = 1000};
   double fan_ = -1.0;
   std::thread thread_;

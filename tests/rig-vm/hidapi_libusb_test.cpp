@@ -1,4 +1,4 @@
-// hidapi's own way through libusb, beside ours: what other programs that drive this car use.
+// hidapi's own path through libusb, beside Septet's: used by other programs for this car.
 
 #include <dlfcn.h>
 #include <hidapi/hidapi.h>
@@ -56,7 +56,8 @@ TEST_CASE("hidapi through libusb reads the car and moves it and reads its watchd
   car.set(input);
   hid_device* device = nullptr;
   const HidapiLibusb hidapi;
-  // Without udev it sees what is there when it begins; opening races with the kernel's own driver. (By serial number it would need iconv's tables.)
+  // Without udev it sees what is there when it begins; opening races with the kernel's own driver. (By serial number it
+  // would need iconv's tables.)
   REQUIRE(becomes_true(
       [&] {
         sleep_s(0.05);

@@ -77,7 +77,7 @@ class MotorWheel {
       REQUIRE(write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event));
     }
   }
-  /// What the motor does now: the levels of the effects that play and have not run out, to the left.
+  /// The motor's present force: the levels of playing effects that have not run out, to the left.
   double force() {
     const std::lock_guard lock(mutex_);
     double sum = 0.0;
@@ -124,7 +124,7 @@ class MotorWheel {
 
   int file_;
   std::atomic<bool> is_ending_ = false;
-  std::mutex mutex_;  ///< Of what follows.
+  std::mutex mutex_;  ///< Guards the members below.
   std::map<int, ff_effect> effects_;
   std::map<int, double> playing_since_s_;
   std::thread thread_;
@@ -202,7 +202,7 @@ TEST_CASE("the motor plays one effect that is changed and ends with silence or w
     CHECK(now_s() - since_s < 0.42);
   }
   CHECK(becomes_true([&] { return wheel.effects() == 0; }));
-  // A program that hangs: nothing is written any more, and the file stays open.
+  // A hung program: nothing more is written, and the file stays open.
   const auto hung = open_wheel();
   REQUIRE(hung.has_value());
   REQUIRE((*hung)->set_force(0.5).value());

@@ -20,14 +20,14 @@ import sys
 
 HERE = pathlib.Path(__file__).parent
 PATH = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
-# What is asked for; modprobe knows what each of them needs.
+# Required modules; modprobe knows their dependencies.
 MODULES = ("virtio_pci 9pnet_virtio 9p configfs vcan can_raw uhid hid_generic usbhid dummy_hcd usb_f_fs evdev uinput veth sch_netem kvaser_pci "
            "snd_aloop snd_dummy").split()
 UNPACKED = ("boot/vmlinuz*", "lib/modules/*/modules.*", "lib/modules/*/kernel/crypto/*", "lib/modules/*/kernel/fs/*", "lib/modules/*/kernel/lib/*",
             "lib/modules/*/kernel/net/*", "lib/modules/*/kernel/drivers/hid/*", "lib/modules/*/kernel/drivers/input/*",
             "lib/modules/*/kernel/drivers/net/*", "lib/modules/*/kernel/drivers/usb/*", "lib/modules/*/kernel/drivers/virtio/*",
             "lib/modules/*/kernel/sound/soundcore.ko", "lib/modules/*/kernel/sound/core/*", "lib/modules/*/kernel/sound/drivers/*")
-# What ALSA's library reads before it knows a card.
+# Files that ALSA's library reads before it knows a card.
 ALSA_SETTINGS = pathlib.Path("/usr/share/alsa")
 COMMAND_LINE = "console=ttyS0 quiet panic=-1 tsc=reliable no_timer_check mitigations=off random.trust_cpu=1"
 ALL_SUITES_RAN = 33  # QEMU's exit status for the 16 that init writes to its debug port.
@@ -35,7 +35,7 @@ LIMIT_S = 900
 
 
 class Missing(Exception):
-    """This machine has not what it takes."""
+    """This machine lacks the requirements."""
 
 
 def output_of(*command):

@@ -30,7 +30,8 @@ namespace {
 constexpr std::uint32_t server_ip = 0x0a090001, screen_ip = 0x0a090002;  // 10.9.0.1 and .2.
 const net::Address group{0xef010203, 4750};                              // 239.1.2.3.
 
-/// A socket of another machine at the other end of a cable: of a thread in a network of its own, where the socket stays.
+/// A socket of another machine at the other end of a cable: of a thread in a network of its own, where the socket
+/// stays.
 net::UdpSocket socket_of_screen() {
   std::unique_ptr<net::UdpSocket> socket;
   std::mutex mutex;
@@ -128,7 +129,7 @@ TEST_CASE("of the ticks that a network loses and reorders nearly all arrive by t
   CHECK(late_ms(0.01) > 14.0);
   CHECK(late_ms(0.99) < 40.0);
 
-  // A cable that is pulled for a second: the lane goes on with what comes then.
+  // A cable pulled for a second: the lane goes on with later datagrams.
   command("/tools/ip link set cable0 down");
   run(1.0);
   command("/tools/ip link set cable0 up && /tools/tc qdisc del dev cable0 root");

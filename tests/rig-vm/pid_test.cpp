@@ -1,4 +1,4 @@
-// A wheel of HID PID that is all ours (uhid): the kernel makes a joystick of it, and no force feedback.
+// An artificial wheel of HID PID (uhid): the kernel makes a joystick of it, without force feedback.
 
 #include <fcntl.h>
 #include <linux/input.h>
@@ -186,7 +186,7 @@ TEST_CASE("a wheel of HID PID that is pulled out and back is moved again") {
 TEST_CASE("a wheel whose motor may not be reached drives and whoever wants its force is told") {
   PidWheelOnUhid wheel;
   REQUIRE(becomes_true([] { return open_pid_wheel().has_value(); }));
-  // What a system without a rule for hidraw looks like, also to root.
+  // A system without a rule for hidraw, also for root.
   command("mkdir -p /tmp/hidden && for node in /dev/hidraw*; do mv $node /tmp/hidden; done");
   CarConnection car(pid_wheel_opener(), {.calibration = {.steering_lock_rad = 7.85}});
   CHECK(becomes_true([&] { return car.poll(now_s()).is_connected; }));
@@ -198,7 +198,7 @@ TEST_CASE("a wheel whose motor may not be reached drives and whoever wants its f
     return fault.has_value();
   }));
   CHECK(fault->what.find("it has no motor that may be reached") != std::string::npos);
-  // What septet devices says of it.
+  // Its entry in septet devices.
   const auto listed = [] {
     for (const FoundDevice& found : list_devices("/sys", "/dev"))
       if (found.kind == DeviceKind::joystick && found.product_id == 0x0f0f) return found;

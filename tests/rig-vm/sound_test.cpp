@@ -1,7 +1,7 @@
-// The drive's sound on a sound card of the kernel: what is played is heard behind it, and what fails is felt by nobody.
+// The drive's sound on a sound card of the kernel: its output is heard behind it, and its failures affect no drive.
 //
-// snd-aloop plays into its own microphone. Its clock is another card's (snd-dummy), which runs while something is played there, so that it can
-// be stopped; OpenAL's own thread can be frozen.
+// snd-aloop plays into its own microphone. Its clock is another card's (snd-dummy), which runs while something is
+// played there, so that it can be stopped; OpenAL's own thread can be frozen.
 
 #include <csignal>
 #include <cstddef>
@@ -56,7 +56,7 @@ class Clock {
   ALCcontext* context_ = nullptr;
 };
 
-/// Whether the card that the server plays on takes samples.
+/// True if the server's card takes samples.
 bool card_plays() {
   const auto played = [] {
     const std::string status = text_of("/proc/asound/Loopback/pcm0p/sub0/status");
@@ -68,7 +68,7 @@ bool card_plays() {
   return !before.empty() && played() != before;
 }
 
-/// What a microphone before the loudspeaker hears.
+/// A microphone before the loudspeaker.
 class Microphone {
  public:
   Microphone() {
@@ -80,7 +80,7 @@ class Microphone {
   ~Microphone() { alcCaptureCloseDevice(device_); }
   Microphone(const Microphone&) = delete;
   Microphone& operator=(const Microphone&) = delete;
-  /// Whether anything but silence has come since it was last asked.
+  /// True if anything but silence has come since the last call.
   bool hears() {
     ALCint waiting = 0;
     alcGetIntegerv(device_, ALC_CAPTURE_SAMPLES, 1, &waiting);
@@ -124,7 +124,7 @@ class FrozenMixer {
   FrozenMixer(const FrozenMixer&) = delete;
   FrozenMixer& operator=(const FrozenMixer&) = delete;
 
-  /// Whether nothing of its program is left but the thread that cannot end.
+  /// True if only the thread that cannot end is left of its program.
   bool is_alone() const { return text_of("/proc/" + program_ + "/stat").find(") Z ") != std::string::npos; }
 
  private:
@@ -133,7 +133,7 @@ class FrozenMixer {
 
 /// A server whose car is on USB and whose sound is on the card.
 struct Drive {
-  /// `clock`: what the card's own is; nothing: the kernel's.
+  /// `clock`: the card's own; empty: the kernel's.
   explicit Drive(const char* clock) {
     std::ofstream("/proc/asound/Loopback/timer_source") << clock << '\n';
     device.plug();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Says what a suite found in the virtual machine.
+"""Prints a suite's result from the virtual machine.
 
     suite_result.py WORK SUITE
 

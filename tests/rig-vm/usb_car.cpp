@@ -32,7 +32,8 @@ void add32(Blob& blob, unsigned value) {
   add16(blob, value >> 16);
 }
 
-/// Interface, HID descriptor, an endpoint in each direction (USB 2.0, 9.6; HID 1.11, 6.2.1), as FunctionFS wants them for both speeds.
+/// Interface, HID descriptor, an endpoint in each direction (USB 2.0, 9.6; HID 1.11, 6.2.1), as FunctionFS wants them
+/// for both speeds.
 Blob descriptors(UsbCar::Kind kind) {
   const bool is_hid = kind == UsbCar::Kind::hid;
   Blob body;

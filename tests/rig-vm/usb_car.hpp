@@ -1,8 +1,10 @@
 #pragma once
-/// Septet's car as a USB device of this machine: what a microcontroller would do, behind the kernel's own USB stack (dummy_hcd, FunctionFS).
+/// Septet's car as a USB device of this machine, in place of a microcontroller, behind the kernel's own USB stack
+/// (dummy_hcd, FunctionFS).
 ///
-/// It sends its controls 125 times a second while somebody reads, takes output reports, keeps a watchdog (feature report 3), and can be
-/// unplugged. As a HID device it has REPORTS.md's descriptor and interrupt endpoints; else it is a device of its vendor with bulk endpoints.
+/// It sends its controls 125 times a second while it is read, takes output reports, keeps a watchdog (feature report
+/// 3), and can be unplugged. As a HID device it has REPORTS.md's descriptor and interrupt endpoints; otherwise it is a
+/// vendor device with bulk endpoints.
 
 #include <atomic>
 #include <cstdint>
@@ -29,10 +31,10 @@ class UsbCar {
   void plug();
   void unplug();
   void set(const DriverInput& input, const car_io::CarSwitches& switches = {});
-  /// A firmware that hangs: takes no output report any more.
+  /// Simulates a hung firmware: takes no more output reports.
   void hang(bool is_hanging) { is_hanging_ = is_hanging; }
 
-  /// What fan, shaker and wheel do now: what was asked for last, or nothing once the watchdog has bitten.
+  /// Present state of fan, shaker and wheel: the last command, or zero after the watchdog.
   car_io::Actuators actuators();
   std::uint16_t watchdog_ms();
   std::uint64_t outputs();
@@ -50,7 +52,7 @@ class UsbCar {
   bool is_plugged_ = false;
   std::atomic<bool> is_ending_ = false, is_hanging_ = false;
 
-  std::mutex mutex_;  ///< Of what follows.
+  std::mutex mutex_;  ///< Guards the members below.
   DriverInput input_;
   car_io::CarSwitches switches_;
   car_io::DeviceStatus status_{.firmware = 0x0102, .watchdog_ms = 1000};

@@ -1,4 +1,4 @@
-// A car on USB, as the kernel and libusb show it: plugged in, pulled out, hung, and left by whoever drove it.
+// A car on USB, as the kernel and libusb show it: plugged in, pulled out, hung, and abandoned by its program.
 
 #include <csignal>
 #include <cstdint>
@@ -45,7 +45,7 @@ rig::UsbEndpoints endpoints_of_car() {
   return endpoints;
 }
 
-/// A way in, with the device that it leads to.
+/// A path in, with the device that it leads to.
 struct Way {
   const char* name;
   UsbCar::Kind kind;
@@ -85,7 +85,7 @@ std::optional<double> time_until(CarConnection& car, Wanted wanted, double withi
 
 constexpr auto is_fresh = [](const CarReading& reading) { return reading.is_connected && !reading.is_stale; };
 
-/// septet-car try, as another user where one is given.
+/// septet-car try, as another user if given.
 pid_t start_trial(const std::string& car_table, uid_t user = 0) {
   const std::string rig = std::filesystem::temp_directory_path() / "rig.toml";
   std::ofstream(rig) << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[[screen]]\nname = \"a\"\n"
@@ -130,7 +130,7 @@ TEST_CASE("a car is read and moved and its watchdog set whatever the way in") {
     CHECK(reading.input.accelerator == relative(0.5, 0.001));
     CHECK(reading.input.brake == relative(0.25, 0.001));
 
-    // What the driver does is there a few milliseconds later.
+    // The driver's input arrives a few milliseconds later.
     input.accelerator = 1.0;
     device.set(input);
     const auto felt_s = time_until(car, [](const CarReading& r) { return r.input.accelerator > 0.99; });

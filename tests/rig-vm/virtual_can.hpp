@@ -1,5 +1,5 @@
 #pragma once
-/// A virtual CAN interface that is up, and gone at the end.
+/// A virtual CAN interface that is up, removed at the end.
 
 #include <string>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-/// A drive in which the driver follows the ambulance, as the product drives it: what the driver sees of it.
+/// A drive in which the driver follows the ambulance, as the product runs it: figures of the driver's view.
 
 #include <algorithm>
 #include <string>
@@ -17,11 +17,11 @@ namespace septet::server {
 struct AmbulanceChase {
   double time_s = 0.0;
   double ambulance_mps = 0.0, driver_mps = 0.0,
-         traffic_mps = 0.0;        ///< Means; traffic that goes along within 400 m of the ambulance.
+         traffic_mps = 0.0;        ///< Means; traffic moving along within 400 m of the ambulance.
   double farthest_m = 0.0;         ///< Between the origins of the two.
-  double least_traffic = 1e9;      ///< How many of them there are.
-  int driver_collisions = 0;       ///< Of the driver's car with anybody, once each.
-  int ambulance_overlaps_s10 = 0;  ///< Tenths of a second in which the ambulance's body lies in another's.
+  double least_traffic = 1e9;      ///< Number of these.
+  int driver_collisions = 0;       ///< Collisions of the driver's car, each participant counted once.
+  int ambulance_overlaps_s10 = 0;  ///< Tenths of a second in which the ambulance's body overlaps another's.
   std::string first_overlap;
 };
 

@@ -1,4 +1,5 @@
-// The game as the product plays it: it ends as its rules say, is the same again with the same driving, and simulated drivers can play it.
+// The game as the product plays it: it ends as its rules say, is the same again with the same driving, and simulated
+// drivers can play it.
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +21,7 @@ struct PlayedGame {
   logging::DriveEnd end = logging::DriveEnd::failed;
   std::uint64_t state_hash = 0;
   std::size_t least_vehicles = 1000, most_vehicles = 0;
-  std::set<int> lanes;  ///< That the driver was in.
+  std::set<int> lanes;  ///< Lanes of the driver.
   std::vector<std::string> events;
 };
 

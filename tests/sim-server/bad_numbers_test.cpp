@@ -12,7 +12,7 @@
 namespace septet::server {
 namespace {
 
-/// Traffic that is not there, and of whose numbers two have gone bad.
+/// Empty traffic that reports two bad numbers.
 class EmptyTraffic final : public traffic::TrafficEngine {
  public:
   void start(const traffic::TrafficParameters&, std::span<const traffic::ForeignVehicle>) override {}

@@ -13,20 +13,31 @@
 namespace septet::server {
 namespace {
 
-/// A drive whose driver sits at a device that is plugged in. `actuate_again` sets what its last tick has set.
+/// Keeps the last tick's command, so that it can be repeated.
+class Repeated final : public SeatDevice {
+ public:
+  Repeated(std::unique_ptr<SeatDevice> device, std::function<void()>& again) : device_(std::move(device)) {
+    again = [this] { device_->actuate(0, newest_); };
+  }
+  bool moves() const override { return device_->moves(); }
+  std::optional<Error> actuate(Tick tick, const car_io::Actuators& actuators) override {
+    newest_ = actuators;
+    return device_->actuate(tick, actuators);
+  }
+
+ private:
+  std::unique_ptr<SeatDevice> device_;
+  car_io::Actuators newest_;
+};
+
+/// A drive whose driver sits at a device that is plugged in. `actuate_again` repeats its last tick's command.
 std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::CarActuators& limits = {},
                                      std::function<void()>* actuate_again = nullptr) {
   port.plug();
   DriverSeat seat;
   seat.actuators = limits;
   sit_at_device(seat, port.opener(), {});
-  if (actuate_again) {
-    const auto newest = std::make_shared<car_io::Actuators>();
-    seat.actuate = [newest, actuate = seat.actuate](Tick tick, const car_io::Actuators& actuators) {
-      return actuate(tick, *newest = actuators);
-    };
-    *actuate_again = [newest, actuate = seat.actuate] { actuate(0, car_io::Actuators(*newest)); };
-  }
+  if (actuate_again) seat.devices.back() = std::make_unique<Repeated>(std::move(seat.devices.back()), *actuate_again);
   const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
   REQUIRE(live.has_value());
@@ -60,7 +71,8 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
       port.send(car_io::encode_controls(input));
       REQUIRE(live->next(std::nullopt).has_value());
     }
-    // The writer has a thread and a clock of its own: give it until it has written this speed, which fades where nobody sets it.
+    // The writer has a thread and a clock of its own: wait until it has written this speed, which fades unless it is
+    // renewed.
     const double share = std::min(live->newest().driver_car.speed_mps / 70.0, 1.0);
     const auto expected = relative(0.2 + 0.8 * share, 1e-3);
     double fan = -1.0;

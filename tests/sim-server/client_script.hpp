@@ -1,8 +1,8 @@
 #pragma once
-/// Clients of a screen host that do whatever a script of bytes tells them: they hold keys of the list, and nothing else about
-/// them can be trusted. They also act while the server is reading, as the datagrams do that pile up before a busy server.
+/// Clients of a screen host that execute a script of bytes: they hold keys of the list, and are otherwise untrusted.
+/// They also act while the server is reading, as datagrams do that pile up before a busy server.
 ///
-/// Every byte string is a script. After it has been played the host has been asked everything that the server asks it.
+/// Every byte string is a script. At its end the host has received every call that the server makes.
 
 #include <deque>
 #include <map>
@@ -18,15 +18,15 @@
 
 namespace septet::server {
 
-/// What a script's bytes mean; each is followed by the number of a client.
+/// Meaning of a script's bytes; each is followed by the number of a client.
 enum class ScriptStep : std::uint8_t {
-  end_of_pump,  ///< The server has read all there is and works; then u8 × 10 ms pass.
-  pump,         ///< The client receives, answers, sends.
-  restart,      ///< The client starts anew: at the same address, or (u8 odd) at another one.
+  end_of_pump,  ///< The server has read everything pending and works; then u8 × 10 ms pass.
+  pump,         ///< The client receives, replies, sends.
+  restart,      ///< The client restarts: at the same address, or (u8 odd) at another one.
   hello,        ///< Hello under the name numbered u8.
   control,      ///< A control message: u8 length, kind and fields.
   replication,  ///< A scene message: u8 length, bytes.
-  scene_hello,  ///< A good hello of the scene.
+  scene_hello,  ///< A valid hello of the scene.
   raw,          ///< Any message: u8 length, bytes.
   unreliable,   ///< The same, unreliable.
   datagram,     ///< A datagram outside of any connection: u8 length, bytes.
@@ -41,7 +41,7 @@ Bytes script(Parts... parts) {
   return {static_cast<std::byte>(parts)...};
 }
 
-/// That the client sends this message and the host reads it and publishes a tick.
+/// The client sends this message and the host reads it and publishes a tick.
 inline Bytes says(int client, const control::ControlMessage& message) {
   const Bytes bytes = control::encode_control(message);
   Bytes steps = script(ScriptStep::control, client, bytes.size() - 1);
@@ -71,10 +71,10 @@ class ClientScript {
   }
 
   ScreenHost& host() { return *host_; }
-  /// What has reached the car so far.
+  /// Controls that have reached the car so far.
   const std::vector<DriverInput>& controls() const { return controls_; }
 
-  /// Handshake and Hello under the own names: the scripts begin where screens and car are there.
+  /// Handshake and Hello under the own names: the scripts begin with screens and car connected.
   void connect_all() {
     for (int turn = 0; turn < 4; ++turn) {
       for (std::size_t who = 0; who < 3; ++who) clients_[who]->pump(now_s_);
@@ -110,7 +110,7 @@ class ClientScript {
   struct Socket final : net::DatagramSocket {
     Socket(ClientScript& owner, net::Address own_address) : script(owner), own(own_address) {}
     bool send(const net::Address& to, std::span<const std::byte> bytes) override {
-      // A bounded queue, as every socket's; what goes to nobody is lost.
+      // A bounded queue, as every socket's; datagrams to unknown addresses are lost.
       if (const auto found = script.sockets_.find(to);
           found != script.sockets_.end() && found->second->waiting.size() < 64)
         found->second->waiting.emplace_back(own, Bytes(bytes.begin(), bytes.end()));
@@ -176,7 +176,7 @@ class ClientScript {
     host_->publish(std::make_shared<const TakenSnapshot>(snapshot), now_s_);
   }
 
-  /// The next step of the script; false when the server has read all that there is.
+  /// The next step of the script; false once the server has read everything.
   bool act() {
     if (!script_ || script_->at_end()) return false;
     ByteReader& script = *script_;

@@ -38,7 +38,8 @@ struct LaneSocket final : net::DatagramSocket {
   int interruptions = 0;
 };
 
-/// Screens as they start up, each on a machine with a clock of its own: they connect, say who they are and ask for the scene.
+/// Screens as they start up, each on a machine with a clock of its own: they connect, introduce themselves and request
+/// the scene.
 struct Crowd {
   explicit Crowd(std::size_t count) {
     scene::SceneBuilder(store).add_object("post", {});
@@ -75,7 +76,7 @@ struct Crowd {
         }
   }
 
-  /// The screens run for a while, the server reads nothing; then it reads all that waits in its socket and what comes while it reads.
+  /// The screens run for a while without the server's reading; then it reads everything pending and arriving.
   void let_wait(double seconds) {
     for (const double until_s = now_s + seconds; now_s < until_s; now_s += 0.05) talk();
     lane.interruptions = 6;
@@ -107,7 +108,8 @@ struct Crowd {
 }  // namespace
 
 TEST_CASE("twenty-one screens that start at once before a busy server are all there") {
-  // Screens knock anew after a second: whoever was busy for longer finds handshakes twice, and what was said under the first ones.
+  // Screens repeat their hello after a second: a server busy for longer finds handshakes twice, and messages under the
+  // first ones.
   for (const double busy_s : {0.1, 0.7, 1.3, 2.6}) {
     CAPTURE(busy_s);
     Crowd crowd(21);

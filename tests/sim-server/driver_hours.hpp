@@ -1,7 +1,8 @@
 #pragma once
-/// Hours of driving as the product does them, without screens or log: what the simulated driver did that people do not.
+/// Hours of driving as the product runs them, without screens or log: deviations of the simulated driver from people.
 ///
-/// A drive is the shipped motorway with its ambulance and traffic; at the road's end the next one begins with another seed.
+/// A drive is the shipped motorway with its ambulance and traffic; at the road's end the next one begins with another
+/// seed.
 
 #include <algorithm>
 #include <cmath>
@@ -28,21 +29,21 @@
 
 namespace septet::server {
 
-/// What is counted over one or many drives.
+/// Counts over one or many drives.
 struct DrivingRecord {
   double time_s = 0.0, way_m = 0.0;
-  int hard_brakings = 0;  ///< Times that the car slowed by more than 5 m/s² over a tenth of a second.
+  int hard_brakings = 0;  ///< Decelerations beyond 5 m/s² over a tenth of a second.
   double hardest_mps2 = 0.0;
-  int own_collisions = 0;    ///< That the driver made.
-  int other_collisions = 0;  ///< That others made.
+  int own_collisions = 0;    ///< Caused by the driver.
+  int other_collisions = 0;  ///< Caused by others.
   int stops = 0;             ///< Times at a standstill.
   double off_lanes_s = 0.0;  ///< With the front axle off every lane for driving.
   int lane_changes = 0;
   int unseen_changes = 0;  ///< Without a glance at that side's mirror in the six seconds before the line is crossed.
-  int glances = 0;         ///< Those for lane changes included.
-  double glance_s = 0.0;   ///< All of them together…
+  int glances = 0;         ///< Including those for lane changes.
+  double glance_s = 0.0;   ///< Total…
   double longest_glance_s = 0.0;
-  /// Sums over samples of the lateral position and its square, without lane changes; and of the time headway of those below 4 s.
+  /// Sums over samples of the lateral position and its square, without lane changes; and of time headways below 4 s.
   double lateral_samples = 0.0, lateral_m = 0.0, lateral_m2 = 0.0;
   double headway_samples = 0.0, headway_s = 0.0, short_headways = 0.0;  ///< Short: below 1 s.
   std::vector<std::string> incidents;  ///< A line for each collision, stop and braking harder than 4 m/s².
@@ -127,7 +128,7 @@ class DriveWatch {
     remember(snapshot, *car);
   }
 
-  /// After a collision the drive says nothing more about driving.
+  /// After a collision the drive is no longer representative.
   bool has_collided() const { return record.own_collisions + record.other_collisions > 0; }
 
   DrivingRecord finish() {
@@ -204,8 +205,8 @@ class DriveWatch {
     }
   }
 
-  /// The driver made it by driving into what was in the way, or by leaving the lane. Who is struck from behind in the own lane, or
-  /// by somebody who came into it within the last seconds, did not.
+  /// True if the driver caused it, by driving into an obstacle or by leaving the lane; false if struck from behind in
+  /// the own lane, or by a vehicle that entered it within the last seconds.
   bool is_own_fault(const Snapshot& snapshot, const Participant& car, const Participant& other) const {
     const double half_width_m = vehicle_models()[car.model].width_m / 2.0;
     const auto in_lane = [&](const DriverCar& own) {
@@ -220,11 +221,11 @@ class DriveWatch {
     const double apart_m = half_width_m + vehicle_models()[other.model].width_m / 2.0 + 0.2;
     for (const Instant& instant : past_)
       for (const auto& [id, away] : instant.others)
-        if (id == other.id && std::abs(away.y) > apart_m) return false;  // It was beside the car's way: it cut in.
+        if (id == other.id && std::abs(away.y) > apart_m) return false;  // It was beside the car's path: it cut in.
     return true;
   }
 
-  /// What happened, and who was around: forward and left in the car's frame, with speed and acceleration.
+  /// Records the incident and the vehicles around: forward and left in the car's frame, with speed and acceleration.
   void note(const Snapshot& snapshot, const std::string& what) {
     const DriverCar& own = snapshot.driver_car;
     const Participant* car = find_participant(snapshot, own.participant);
@@ -248,7 +249,7 @@ class DriveWatch {
   bool is_noted_ = false, is_braking_hard_ = false, stands_ = false;
 };
 
-/// One drive, for as long as given or until a collision.
+/// One drive, for the given time or until a collision.
 inline DriveWatch watch_drive(const std::string& scenario, const std::string& driver, std::uint64_t seed,
                               double seconds) {
   const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);

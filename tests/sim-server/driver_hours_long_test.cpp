@@ -1,10 +1,11 @@
-// Twenty hours on the motorway with each simulated driver, in ten seeds: nothing that a person would not do.
+// Twenty hours on the motorway with each simulated driver, in ten seeds: without deviations from a person's driving.
 //
 //     ./test --long -R 'hours on the motorway'
 //
-// The drives are shared among the processor cores that the process may use. From the environment: SEPTET_DRIVER_HOURS shortens it,
-// SEPTET_DRIVER_FIRST_SEED takes other seeds (1 by default), SEPTET_DRIVER_SCENARIO another motorway, SEPTET_DRIVER_REPORT names a
-// file to which every drive adds a line, and a line for what it did that people do not, as soon as it ends.
+// The drives are shared among the processor cores that the process may use. From the environment: SEPTET_DRIVER_HOURS
+// shortens it, SEPTET_DRIVER_FIRST_SEED takes other seeds (1 by default), SEPTET_DRIVER_SCENARIO another motorway,
+// SEPTET_DRIVER_REPORT names a file to which every drive adds a line, and a line for its deviations from people, as
+// soon as it ends.
 
 #include <cstdlib>
 #include <fstream>
@@ -28,7 +29,7 @@ std::string from_environment(const char* name, const char* otherwise) {
   return value ? value : otherwise;
 }
 
-/// Adds what a drive did to the report, for those who wait; one thread at a time.
+/// Adds a drive's result to the report, for people who wait; one thread at a time.
 class Report {
  public:
   explicit Report(const std::string& path) {

@@ -1,3 +1,6 @@
+#include <chrono>
+#include <thread>
+
 #include <doctest/doctest.h>
 
 #include "car-io/simulated_hid_device.hpp"
@@ -94,13 +97,18 @@ TEST_CASE("a simulated driver is always ready") {
 
 TEST_CASE("silence on the wall clock is a fault of the actuators in real time, and none where time is simulated") {
   car_io::SimulatedHidPort port;
-  for (const bool is_real_time : {true, false}) {
-    DriverSeat seat;
-    seat.is_real_time = is_real_time;
-    sit_at_device(seat, port.opener(), {});
-    CHECK(seat.actuate);
-    CHECK(static_cast<bool>(seat.actuators_are_cut) == is_real_time);
+  port.plug();
+  DriverSeat real_time, simulated;
+  simulated.is_real_time = false;
+  for (DriverSeat* seat : {&real_time, &simulated}) {
+    sit_at_device(*seat, port.opener(), {}, true);
+    REQUIRE(seat->has_actuators());
+    for (const auto& device : seat->devices) CHECK_FALSE(device->actuate(1, {.fan = 0.5}).has_value());
   }
+  for (int looks = 0; looks < 2000 && !real_time.has_cut_itself(); ++looks)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  CHECK(real_time.has_cut_itself());
+  CHECK_FALSE(simulated.has_cut_itself());
 }
 
 TEST_CASE("a simulated driver's seat moves no actuators, so that no silence can cut them") {
@@ -110,8 +118,7 @@ TEST_CASE("a simulated driver's seat moves no actuators, so that no silence can 
     car.source = rig::CarSource::simulated_driver;
     auto seat = open_driver_seat(car, 1, drive.model);
     REQUIRE(seat.has_value());
-    CHECK_FALSE(seat->actuate);
-    CHECK_FALSE(seat->actuators_are_cut);
+    CHECK_FALSE(seat->has_actuators());
     const auto live = seated(drive, std::move(*seat));
     CHECK_FALSE(live->has_actuators());
     for (int tick = 0; tick < 12; ++tick) REQUIRE(live->next(std::nullopt).has_value());
@@ -127,7 +134,7 @@ TEST_CASE("a seat whose device may be missing is one at the keyboard without it"
   const auto seat = open_driver_seat(car, 1, drive.model);
   REQUIRE(seat.has_value());
   CHECK_FALSE(seat->car);
-  CHECK_FALSE(seat->look);
+  CHECK(seat->devices.empty());
   car.source = rig::CarSource::hid;
   const auto refused = open_driver_seat(car, 1, drive.model);
   REQUIRE_FALSE(refused.has_value());

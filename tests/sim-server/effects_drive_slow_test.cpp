@@ -19,7 +19,7 @@ struct Driven {
   std::vector<std::string> warnings;
 };
 
-/// Drives straight on for some seconds, then brakes: enough for what the scenario throws.
+/// Drives straight on for some seconds, then brakes: enough for the scenario's effects.
 Driven drive(const std::string& name, double seconds, std::uint64_t seed) {
   const LoadedDrive loaded = shipped_drive(name, "seven-screens", seed);
   auto state = simulation::initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 1));

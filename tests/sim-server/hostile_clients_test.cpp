@@ -21,12 +21,12 @@ constexpr int here = 0, elsewhere = 1;
 TEST_CASE("a screen that connects twice while the server is busy is there once") {
   for (const int where : {here, elsewhere}) {
     ClientScript rig;
-    // All of it waits in the server's socket, or comes while it reads: Hello and a scene message under one connection, then another
-    // one is confirmed that takes its place.
+    // All is pending in the server's socket, or arrives while it reads: Hello and a scene message under one connection,
+    // then another one is confirmed that takes its place.
     rig.play(script(pump, a, pump, a, end_of_pump, a, 0, pump, a, hello, a, a, scene_hello, a, pump, a, raw, a, 2, 0, 1,
                     pump, a, restart, a, where, pump, a, pump, a, pump, a, pump, a, hello, a, a, pump, a, end_of_pump,
                     a, 0));
-    // From another address it was refused while the first one was alive; that one sent what nobody can read, and is out.
+    // From another address it was refused while the first one was alive; that one sent unreadable data, and is out.
     for (int turn = 0; turn < 3; ++turn) rig.play(script(end_of_pump, a, 100, pump, a, pump, a, pump, a));
     rig.play(script(hello, a, a, pump, a, end_of_pump, a, 0));
     CHECK(is_live(rig, "a"));

@@ -1,4 +1,5 @@
-// Every lesson from end to end, in ten seeds, by the novice and the experienced driver: marks tell them apart, and every mark can be lost.
+// Every lesson from end to end, in ten seeds, by the novice and the experienced driver: marks separate them, and every
+// mark can be lost.
 //
 //     ./test --long -R 'every lesson'
 
@@ -19,7 +20,7 @@ struct LessonLength {
   const char* scenario;
   double seconds;
 };
-/// Each until its own end, or until whoever takes it has come to stand.
+/// Each until its own end, or until its driver has come to stand.
 constexpr LessonLength lessons[] = {
     {"first-lesson", 320.0}, {"behind-ambulance", 300.0}, {"winter-lorry", 75.0}, {"tunnel-fire", 60.0}};
 
@@ -48,7 +49,7 @@ TEST_CASE(
     CHECK(effect->low > 0.0);
     for (const auto& [task, mark] : lowest) {
       INFO(std::string(each.scenario) << ", " << task);
-      // Nobody touches anybody on a motorway; what a collision costs is shown in tests/logging/lesson_test.cpp.
+      // There are no contacts on a motorway; tests/logging/lesson_test.cpp tests the mark of a collision.
       if (task != "collision") CHECK(mark < 10.0);
     }
   }

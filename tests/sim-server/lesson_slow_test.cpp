@@ -1,4 +1,4 @@
-// The shipped lessons, taken by simulated drivers: everything that is marked is seen, and who drives better gets the better mark.
+// The shipped lessons, taken by simulated drivers: every task has an occasion, and better drivers get better marks.
 //
 // The whole of it, ten seeds of each lesson from end to end, is lesson_marks_long_test.cpp.
 

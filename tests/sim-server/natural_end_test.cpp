@@ -49,7 +49,8 @@ TEST_CASE("a drive ends where the car leaves the end of the road and where the s
   std::vector<simulation::Event> events;
   simulation::server_step(*drive.model, {}, *state, events);
   CHECK_FALSE(natural_end(*drive.model, *state).has_value());
-  // Where a road ends without a successor, in the lane beside the barrier in the middle, the car drives off the end: 30 m/s for a second.
+  // Where a road ends without a successor, in the lane beside the barrier in the middle, the car drives off the end: 30
+  // m/s for a second.
   const road::RoadNetwork& roads = drive.model->roads;
   const auto open_end = std::ranges::find_if(roads.roads, [](const road::Road& road) {
     return road.successor.road == road::no_index && road.successor.junction == road::no_index;

@@ -71,7 +71,7 @@ TEST_CASE("the car hits each kind of thing beside the road and the log says what
   const auto listed = model().obstacles->listed();
   for (int k = 0; k <= static_cast<int>(ObstacleKind::house); ++k) {
     const auto kind = static_cast<ObstacleKind>(k);
-    // Rails and walls stand before these: hull_test drives into what yields.
+    // Rails and walls stand before these: hull_test drives into yielding ones.
     if (kind == ObstacleKind::portal || kind == ObstacleKind::marker_post) continue;
     // Where the road file has a road: beyond its ends the scenery goes on alone.
     const auto found = std::ranges::find_if(listed, [&](const Obstacle& o) {

@@ -5,7 +5,7 @@
 namespace septet::server {
 namespace {
 
-/// What is said of a drive whose files are not there either.
+/// Message for a drive whose files do not exist either.
 Error refusal_of(ServerOptions options) {
   options.scenario = options.rig = "no-such-file";
   const auto end = run_server(options);

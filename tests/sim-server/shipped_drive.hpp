@@ -1,5 +1,5 @@
 #pragma once
-/// A shipped scenario on a shipped rig, as a drive loads them.
+/// A shipped scenario on a shipped rig, loaded as for a drive.
 
 #include <string>
 

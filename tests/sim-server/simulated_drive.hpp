@@ -1,5 +1,6 @@
 #pragma once
-/// A loaded drive as it begins, a simulated driver at the wheel and the scenario's own traffic around, without screens or log.
+/// A loaded drive at its beginning, a simulated driver at the wheel and the scenario's own traffic around, without
+/// screens or log.
 
 #include <cstdint>
 #include <memory>

@@ -40,7 +40,7 @@ std::shared_ptr<const simulation::Model> motorway() {
   return drive->model;
 }
 
-/// What a road's two lane sections hold to the right of the reference line, and how the road runs.
+/// Lanes of a road's two lane sections to the right of the reference line, and the road's course.
 struct RoadText {
   std::string shape, first, second;
 };

@@ -19,7 +19,7 @@ class StraightSumo final : public SumoClient {
   std::map<ParticipantId, SumoVehicle> vehicles;
   std::map<ParticipantId, Vec2> foreign;
   int steps = 0, steps_until_gone = 1000;
-  ParticipantId refused_from = 1'000'000;  ///< From this id on nobody finds room.
+  ParticipantId refused_from = 1'000'000;  ///< From this id on vehicles find no room.
   int refusals = 0;
 
   Expected<void> define_type(const SumoVehicleType&) override { return {}; }

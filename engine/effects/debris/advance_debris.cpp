@@ -31,8 +31,8 @@ void update_sleep(Piece& piece, double step_s) {
   std::ranges::fill(piece.body.velocity_mps, Eigen::Vector3d::Zero());
 }
 
-/// A step is linear in what moves; where contact would move a node by much of an element's size in
-/// one, the piece makes several.
+/// A step is linear in the motion; where contact would move a node by much of an element's size in one, the piece makes
+/// several.
 int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, double step_s) {
   constexpr double share_of_element = 0.15;
   constexpr int most = 24;
@@ -46,15 +46,16 @@ int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, 
   return std::clamp(static_cast<int>(std::ceil(std::min(wanted, double{most}))), 1, most);
 }
 
-/// The surfaces that a piece is between, and how much energy they may leave it with, in the frame that moves with their
-/// middle. One surface, whatever its speed, returns less than it took: in its own frame a piece gains nothing. Two that close
-/// on a piece can make it as fast as they are themselves: they are vehicles, whose metal gives way before it does more.
+/// The surfaces that enclose a piece, and the energy that they may leave it with, in the frame that moves with their
+/// middle. One surface, whatever its speed, returns less than it took: in its own frame a piece gains no energy. Two
+/// that close on a piece can make it as fast as they are themselves: they are vehicles, whose metal yields before it
+/// does more.
 struct Frame {
   Eigen::Vector3d velocity_mps{0, 0, 0};
   double allowed_j = 0.0;
 };
 
-/// Kinetic energy as seen by something that moves with `frame_mps`.
+/// Kinetic energy in a frame that moves with `frame_mps`.
 double kinetic_energy_j(const Piece& piece, const Eigen::Vector3d& frame_mps) {
   double sum = 0.0;
   for (int i = 0; i < piece.body.node_count(); ++i)
@@ -73,15 +74,15 @@ Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double s
   double apart = 0.0;
   for (const FoundContact& f : found)
     apart = std::max(apart, (f.contact.surface_velocity_mps - frame.velocity_mps).norm());
-  // And what weight and being pushed out of a surface may add.
+  // Extra energy of weight and of leaving a surface's inside.
   const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * gravity_mps2 * step_s * (speed + 0.2);
   frame.allowed_j = weight_j + std::max(before, 0.5 * mass * apart * apart);
   return frame;
 }
 
-/// The elastic step errs where elements turn or shear by much within it. Energy that nothing gave
-/// is taken out of the deformation: of its velocity, and of its shape by going back towards the
-/// rest shape in its best place. Mass, momentum and angular momentum stay.
+/// The elastic step errs where elements turn or shear by much within it. Energy without a source is taken out of the
+/// deformation: of its velocity, and of its shape by going back towards the rest shape in its best place. Mass,
+/// momentum and angular momentum stay.
 void bound_energy(Piece& piece, const Frame& frame) {
   auto& body = piece.body;
   const auto motion = elastic::rigid_motion(body);
@@ -117,9 +118,9 @@ void bound_energy(Piece& piece, const Frame& frame) {
   for (int i = 0; i < body.node_count(); ++i) body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
 }
 
-/// Two surfaces that close on a piece ask of it what no velocity can do, and the step answers with more than either gives.
-/// Where that made it faster than the frame allows, the step's change of velocity, and with it the surfaces' impulses, is taken
-/// only as far as that. `position_m` and `velocity_mps` are those before the step.
+/// Two surfaces that close on a piece demand an impossible velocity, and the step returns more energy than either
+/// gives. Where that made it faster than the frame allows, the step's change of velocity, and with it the surfaces'
+/// impulses, is taken only as far as that. `position_m` and `velocity_mps` are those before the step.
 void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
                 std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts) {
   auto& body = piece.body;
@@ -141,8 +142,8 @@ void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const
   for (auto& contact : contacts) contact.impulse_ns *= share;
 }
 
-/// Adds what the boxes received. What two of them press on each other through the piece is left out: their own collision has
-/// it already, and between boxes that cannot yield it has no bound.
+/// Adds the impulses on the boxes. The press of two of them on each other through the piece is left out: their own
+/// collision has it already, and between boxes that cannot yield it has no bound.
 void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic::NodeContact> contacts,
                    ContactWorld& world) {
   std::map<int, Vec3> given_ns;
@@ -160,14 +161,14 @@ void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic:
   for (const auto& [box, impulse_ns] : given_ns) world.boxes[static_cast<std::size_t>(box)].impulse_ns += impulse_ns;
 }
 
-/// What is gone of the energy, as the surfaces see it: it pays for flow, cracks and scatter.
+/// Energy lost in the surfaces' frame: it pays for flow, cracks and scatter.
 double lost_j(const Piece& piece, const Frame& frame) {
   return std::max(
       0.0, frame.allowed_j - kinetic_energy_j(piece, frame.velocity_mps) - elastic::elastic_energy_j(piece.body));
 }
 
-/// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds what the boxes
-/// received, and returns what the contacts did to the piece.
+/// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds the impulses
+/// on the boxes, and returns the contacts' effect on the piece.
 Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s, StepReport& report) {
   auto found = find_contacts(piece, world, step_s, ahead_s);
   const Frame frame = frame_of(piece, found, step_s);
@@ -192,8 +193,8 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
   return blow;
 }
 
-/// Steps a piece from substep `first` of a tick of `count`. What breaks off goes on for the rest of
-/// the tick by itself; all that is left at its end is appended to `done`.
+/// Steps a piece from substep `first` of a tick of `count`. Fragments continue by themselves for the rest of the tick;
+/// all remaining pieces at its end are appended to `done`.
 void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s, StepReport& report,
                 std::vector<Piece>& done) {
   for (int k = first; k < count; ++k) {
@@ -204,7 +205,7 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
       continue;
     }
     report.fractures += result.opened_faces;
-    // The largest part keeps the id, so that a screen goes on with what it shows.
+    // The largest part keeps the id, so that a screen continues with the piece it shows.
     std::ranges::stable_sort(result.pieces, std::ranges::greater{},
                              [](const Piece& p) { return p.body.elements.size(); });
     result.pieces.front().id = piece.id;
@@ -265,8 +266,7 @@ StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
 std::optional<double> highest_debris_m(const State& state, double x_m, double y_m, double radius_m) {
   std::optional<double> highest;
   for (const Piece& piece : state.pieces) {
-    Eigen::AlignedBox3d bounds;
-    for (const auto& x : piece.body.position_m) bounds.extend(x);
+    const Eigen::AlignedBox3d bounds = bounds_of(piece);
     if (x_m < bounds.min().x() - radius_m || x_m > bounds.max().x() + radius_m || y_m < bounds.min().y() - radius_m ||
         y_m > bounds.max().y() + radius_m || bounds.diagonal().z() < 0.01)
       continue;

@@ -49,7 +49,7 @@ Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts,
     for (int a = 0; a < 4; ++a) along[a] = piece.body.position_m[element.nodes[a]].dot(blow.normal);
     element_m += (along.maxCoeff() - along.minCoeff()) / static_cast<double>(piece.body.elements.size());
   }
-  // The step's stress falls off to nothing at the far side, and an element has its mean; the wave's does not.
+  // The step's stress falls to zero at the far side, and an element has its mean; the wave's does not fall.
   const double mean_share = 1.0 - 0.5 * std::min(1.0, element_m / (high - low));
   const auto& m = piece.material.elastic;
   const double wave_mps = std::sqrt(m.young_modulus_pa / m.density_kgpm3);
@@ -67,8 +67,8 @@ void scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, doubl
     centre += m * elastic::centre_of_mass_m(p.body);
   }
   centre /= mass;
-  // Each fragment moves away from the middle as a whole; the rigid turn that this would give to all
-  // of them together is taken out again.
+  // Each fragment moves away from the middle as a whole; the rigid turn that this would give to all of them together is
+  // subtracted.
   std::vector<Eigen::Vector3d> away;
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();

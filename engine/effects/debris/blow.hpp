@@ -1,16 +1,14 @@
 #pragma once
-/// A blow: a contact that is over before the step is.
+/// An impact: a contact that is over before the step is.
 ///
-/// A stiff piece that meets something stiff at speed V is stopped within the time that a wave needs
-/// to its far side and back, τ = 2L/c with c = √(Y/ρ): 50 µs for a slab of ice, 10 to 100 times
-/// less than a step. The step carries the right impulse (1+e)mV, but as if it had been spread over
-/// Δt, and so the stress that its multiplier shows is too small. `stress_factor` Δt c/((1+e)L)
-/// makes a plane blow's stress ρcV, that of the wave, at the surface that is struck; an element of
-/// length h there has only the share 1 − h/2L of it, by which the factor is divided.
+/// A stiff piece that meets another stiff body at speed V is stopped within the time that a wave needs to its far side
+/// and back, τ = 2L/c with c = √(Y/ρ): 50 µs for a slab of ice, 10 to 100 times less than a step. The step carries the
+/// right impulse (1+e)mV, but as if it had been spread over Δt, and so the stress that its multiplier shows is too
+/// small. `stress_factor` Δt c/((1+e)L) makes a plane impact's stress ρcV, that of the wave, at the struck surface; an
+/// element of length h there has only the share 1 − h/2L of it, by which the factor is divided.
 ///
-/// Of the energy with which contact points closed, e² is returned as rebound (Newton's coefficient
-/// of restitution). What is lost pays for the surfaces of cracks, for plastic flow, and a share of
-/// it for the scatter of the fragments.
+/// Of the energy with which contact points closed, e² is returned as rebound (Newton's coefficient of restitution). The
+/// lost energy pays for the surfaces of cracks, for plastic flow, and a share of it for the scatter of the fragments.
 
 #include <span>
 
@@ -24,27 +22,27 @@ namespace septet::debris {
 
 struct Blow {
   Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< Mean direction of the impulse on the piece.
-  double stress_factor = 1.0;             ///< Of ElasticBody::step_stress_pa.
+  double stress_factor = 1.0;             ///< Factor of ElasticBody::step_stress_pa.
   double lost_j = 0.0;                    ///< Taken by the contact.
-  double pressed_j = 0.0;                 ///< Work of what goes on pressing: pays for cracks, scatters nothing.
+  double pressed_j = 0.0;                 ///< Work of lasting pressure: pays for cracks, scatters nothing.
 };
 
-/// Closing speed below which a contact is pressure and no blow, and returns nothing.
+/// Closing speed below which a contact is pressure and no impact, and returns no energy.
 inline constexpr double least_blow_speed_mps = 1.0;
 
-/// Share of the lost energy, less that of the cracks, which fragments fly apart with. Estimate.
+/// Share of the lost energy, less that of the cracks, for the fragments' scatter. Estimate.
 inline constexpr double scatter_share = 0.2;
 
-/// Makes the contacts that close fast return `restitution` of their speed, for one step of
-/// `step_s`. Answers each contact's closing speed, 0 where it is no blow.
+/// Makes fast closing contacts return `restitution` of their speed, for one step of `step_s`. Returns each contact's
+/// closing speed, 0 where it is no impact.
 std::vector<double> add_restitution(const Piece& piece, std::vector<FoundContact>& contacts, double step_s);
 
-/// What the contacts of a step did, from their impulses and closing speeds.
+/// Impact of a step's contacts, from their impulses and closing speeds.
 Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts, std::span<const double> closing_mps,
              double step_s);
 
-/// Lets fragments fly apart across the blow's normal with `energy_j` more than they have. Momentum
-/// and angular momentum of all together stay.
+/// Scatters fragments across the impact's normal with an additional `energy_j`. Momentum and angular momentum of all
+/// together stay.
 void scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, double energy_j);
 
 }  // namespace septet::debris

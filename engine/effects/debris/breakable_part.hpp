@@ -1,10 +1,9 @@
 #pragma once
-/// What can break, and what it is made of.
+/// Breakable parts and their materials.
 ///
-/// Thin parts are lattices thicker than the sheet they stand for. Mass, stiffness and strength are
-/// those of the sheet, spread over the thicker section: they, and the energy of a crack, are
-/// multiplied by the fill, the sheet's volume over the lattice's. The values and their sources stand
-/// in materials.toml and parts.toml beside this file.
+/// Thin parts are lattices thicker than the real sheet. Mass, stiffness and strength are those of the sheet, spread
+/// over the thicker section: they, and the energy of a crack, are multiplied by the fill, the sheet's volume over the
+/// lattice's. The values and their sources stand in materials.toml and parts.toml beside this file.
 
 #include <cstdint>
 
@@ -22,10 +21,10 @@ struct MaterialData {
   elastic::ElasticMaterial elastic;
   double strength_pa;              ///< Largest tensile stress across a face before it opens.
   double compressive_strength_pa;  ///< Unconfined: beyond it faces along the pressure open.
-  double yield_pa;                 ///< Von Mises stress from which it flows; 0: it does not.
+  double yield_pa;                 ///< Von Mises stress from which it flows; 0: it never flows.
   double friction;                 ///< On dry asphalt.
-  double fracture_energy_jpm2;     ///< That a crack takes for each square metre of its area.
-  double restitution;              ///< Share of the closing speed that a blow returns.
+  double fracture_energy_jpm2;     ///< Energy of a crack for each square metre of its area.
+  double restitution;              ///< Share of the closing speed that an impact returns.
 };
 const MaterialData& material_data(Material material);
 
@@ -37,13 +36,13 @@ struct PartRecipe {
   glm::ivec3 cells;  ///< Lattice cubes along x, y, z; five tetrahedra each.
   Vec3 size_m;       ///< Outer box; x forward, y left, z up, centred on the part's origin.
   double mass_kg;
-  int splinters;  ///< Voronoi cells that it can fall into.
+  int splinters;  ///< Number of Voronoi cells into which it can break.
   double taper;   ///< Width of the top over that of the foot.
   bool shards;    ///< Splinters fly on as rigid shards and not as elastic pieces.
 };
 const PartRecipe& part_recipe(Part part);
 
-/// The material of a part's lattice: spread over its section, see above.
+/// The material of a part's lattice: spread over its section, as above.
 MaterialData spread_material(const PartRecipe& recipe);
 
 }  // namespace septet::debris

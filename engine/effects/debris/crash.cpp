@@ -65,8 +65,8 @@ void lift_above_ground(Piece& piece, const ContactWorld& world) {
   if (deepest > 0.0) move(piece, {0, 0, deepest + 0.01});
 }
 
-/// What the crush makes of a part between the two bodies: pressed together by `crush_m`, it splits
-/// as far as the energy reaches that its own motion and the crush bring.
+/// Crushes a part between the two bodies: pressed together by `crush_m`, it splits as far as the energy of its own
+/// motion and of the crush reaches.
 std::vector<Piece> crushed(Piece piece, const Vec3& push, double crush_m, double closing_mps) {
   const auto& m = piece.material;
   const Eigen::Vector3d normal = to_eigen(push);
@@ -90,9 +90,9 @@ std::vector<Piece> crushed(Piece piece, const Vec3& push, double crush_m, double
   return std::move(result.pieces);
 }
 
-/// A random direction across the blow, rather up than down and rather away from its middle.
+/// A random direction across the impact, rather up than down and rather away from its middle.
 Vec3 way_out(Context& context, const Vec3& from_middle, const Vec3& push) {
-  // One after the other: which argument of a call a compiler evaluates first is its own choice.
+  // In sequence: the order in which a call's arguments are evaluated is the compiler's choice.
   const double left = context.random.normal(), ahead = context.random.normal();
   Vec3 way = from_middle + 0.3 * Vec3(ahead, left, 0.0);
   way.z = std::abs(way.z) + 0.2 + 0.3 * context.random.uniform();
@@ -100,7 +100,7 @@ Vec3 way_out(Context& context, const Vec3& from_middle, const Vec3& push) {
   return glm::normalize(way);
 }
 
-/// Puts what has become of a part into the state, outside the boxes and above the ground.
+/// Puts a part's pieces into the state, outside the boxes and above the ground.
 void release(Context& context, std::vector<Piece> pieces, const Vec3& push) {
   for (Piece& piece : pieces) {
     squeeze_out(piece, context.boxes, push, context.random.uniform() < 0.5 ? -1.0 : 1.0);
@@ -134,7 +134,7 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
     const Vec3 before = velocity_at(body.box, place.position_m);
     Vec3 velocity = before;
     if (struck) {
-      // Carried along by the crush to the common speed, and out with what the blow returns.
+      // Carried along by the crush to the common speed, and out with the rebound of the impact.
       const double returned = material_data(part_recipe(mounted.part).material).restitution * closing;
       velocity += lost_speed_mps * push + returned * std::sqrt(context.random.uniform()) *
                                               way_out(context, place.position_m - crash.point_m, push);
@@ -144,7 +144,7 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
       velocity += lost_speed_mps * (1.0 - std::sqrt(1.0 - sine * sine)) * push;
       ++context.report.torn_off;
     }
-    // Which mount holds longest is not known; the part turns about it.
+    // The part turns about the mount that holds longest, which is not known: its spin is random.
     Vec3 spin = body.box.angular_velocity_radps;
     for (int c = 0; c < 3; ++c) spin[c] += 0.15 * glm::length(velocity - before) * context.random.normal();
     std::vector<Piece> pieces;

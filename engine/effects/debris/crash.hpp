@@ -1,17 +1,17 @@
 #pragma once
-/// A crash of two bodies throws debris.
+/// Debris of a crash of two bodies.
 ///
-/// The blow itself is over within about a tenth of a second, so it is worked out at once. Both
-/// bodies crush like springs that do not return (Huang 2002, Vehicle Crash Mechanics, ch. 4): with
-/// V the closing speed and ω the frequency of the crush, the speed that body k loses is
-/// ΔV_k (1 − cos ωt), its deceleration ΔV_k ω sin ωt, its crush ΔV_k/ω.
-/// - A part within the crush of the contact is struck at the closing speed: it breaks where its
-///   material cannot stand that, and its fragments are squeezed out sideways and upwards.
-/// - Any other part is held by its mounts until its mass times the deceleration passes their
-///   strength; from then on it flies with the speed that the body had at that instant.
+/// The impact itself is over within about a tenth of a second, so it is computed at once. Both bodies crush like
+/// springs that do not return (Huang 2002, Vehicle Crash Mechanics, ch. 4): with V the closing speed and ω the
+/// frequency of the crush, the speed that body k loses is ΔV_k (1 − cos ωt), its deceleration ΔV_k ω sin ωt, its crush
+/// ΔV_k/ω.
+/// - A part within the crush of the contact is struck at the closing speed: it breaks where its material cannot bear
+///   that, and its fragments are squeezed out sideways and upwards.
+/// - Any other part is held by its mounts until its mass times the deceleration passes their strength; from then on it
+///   flies with the speed that the body had at that instant.
 ///
-/// Mass is kept. The momentum of what flies off differs from what it had on the body by impulses
-/// that are given back in CrashBody::impulse_ns. No part gets more energy than it brought.
+/// Mass is kept. The momentum of parts that fly off differs from their momentum on the body by impulses that are
+/// returned in CrashBody::impulse_ns. No part gains energy.
 
 #include <cstdint>
 #include <vector>
@@ -23,10 +23,10 @@
 namespace septet::debris {
 
 struct CrashBody {
-  Box box;                         ///< With its motion before the blow.
-  double mass_kg = INFINITY;       ///< Infinite: stands fast, as a barrier does.
-  std::vector<MountedPart> parts;  ///< In: what it carries. Out: without what broke off.
-  Vec3 impulse_ns{0.0};            ///< Out: what the parts that broke off gave back to it.
+  Box box;                         ///< With its motion before the impact.
+  double mass_kg = INFINITY;       ///< Infinite: immovable, as a barrier.
+  std::vector<MountedPart> parts;  ///< In: its mounted parts. Out: those that have not broken off.
+  Vec3 impulse_ns{0.0};            ///< Out: impulse on it of the parts that broke off.
 };
 
 struct Crash {
@@ -38,16 +38,15 @@ struct Crash {
 struct CrashReport {
   double closing_speed_mps = 0.0;     ///< Along the normal.
   int struck = 0, torn_off = 0;       ///< Parts broken loose by the contact, and by their inertia.
-  int fragments = 0;                  ///< What they have become, shards included.
+  int fragments = 0;                  ///< Pieces of broken-off parts, shards included.
   std::vector<std::uint32_t> pieces;  ///< Ids of those that are now in the state's pieces.
 };
 
-/// Below this closing speed nothing breaks off.
+/// Closing speed below which nothing breaks off.
 inline constexpr double least_crash_speed_mps = 3.0;
 
-/// Breaks off what the crash breaks off and adds it to the state; `world` has the ground and the
-/// boxes that pieces must not start in, the two bodies' own included or not. To be called once a
-/// crash, in the tick of the first contact.
+/// Breaks parts off and adds them to the state; `world` has the ground and the boxes in which pieces must not start,
+/// with or without the two bodies' own. Call once a crash, in the tick of the first contact.
 CrashReport crash(State& state, Crash& crash, const ContactWorld& world, Random& random);
 
 }  // namespace septet::debris

@@ -12,7 +12,7 @@
 namespace septet::debris {
 namespace {
 
-/// Whether the places at rest follow, and cracks.
+/// Flags: places at rest follow, and cracks.
 constexpr std::uint8_t without_rest = 1, with_rest = 2, with_cracks = 3;
 /// A coordinate of the first vertex, and a difference between vertices, in quanta.
 constexpr std::int64_t furthest = 1'000'000'000, widest = 1'000'000;
@@ -29,7 +29,7 @@ Place quantised(const Vec3& p) {
   return result;
 }
 
-/// Each from the one before.
+/// Differences, each from the place before.
 void put_places(ByteWriter& writer, std::span<const Vec3> places) {
   Place last{};
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -115,7 +115,7 @@ Keyframe keyframe_of(const Piece& piece) {
       });
       Keyframe::Crack told;
       const auto known = [&](int node) { return place.contains(node); };
-      if (nodes.size() != 3 || !std::ranges::all_of(nodes, known)) continue;  // Deep inside, where nobody sees it.
+      if (nodes.size() != 3 || !std::ranges::all_of(nodes, known)) continue;  // Deep inside, out of sight.
       for (std::size_t c = 0; c < 3; ++c) told.corners[c] = place.at(nodes[c]);
       told.reach = static_cast<std::uint8_t>(std::clamp(std::lround(255.0 * crack.reach), 0L, 255L));
       if (told.reach > 0) keyframe.cracks.push_back(told);

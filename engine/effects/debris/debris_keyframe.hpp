@@ -1,6 +1,5 @@
 #pragma once
-/// Debris on the wire: one EffectKeyframe per piece and one for all shards. The format is written
-/// down in DEBRIS.md.
+/// Debris on the wire: one EffectKeyframe per piece and one for all shards. The format is written down in DEBRIS.md.
 
 #include <array>
 #include <cstdint>
@@ -20,21 +19,21 @@ inline constexpr std::uint32_t first_effect_id = 0x02000000;
 inline constexpr double position_quantum_m = 1e-3;
 inline constexpr std::size_t max_vertices = 4096, max_triangles = 8192, max_cracks = 4096;
 
-/// What a screen draws of one piece: triangles, counter-clockwise from outside. Shards are drawn
-/// from both sides.
+/// A screen's picture of one piece: triangles, counter-clockwise from outside. Shards are drawn from both sides.
 struct Keyframe {
   Part part = Part::bumper;
   Material material = Material::bumper_plastic;
   bool shards = false;
   bool asleep = false;
   std::vector<Vec3> vertices_m;
-  /// Of ice, of each vertex: where it lay in the whole part, before anything moved or broke. What is inside keeps to it.
+  /// Rest places of ice, one a vertex: in the whole part, before any motion or fracture. The inside's texture follows
+  /// it.
   std::vector<Vec3> rest_m;
   std::vector<std::array<std::uint16_t, 3>> triangles;
-  /// Of ice: what has cracked and not yet opened; it grows from its first corner.
+  /// A crack of ice: a face that has not yet opened; the crack grows from its first corner.
   struct Crack {
     std::array<std::uint16_t, 3> corners{};
-    std::uint8_t reach = 0;  ///< Of its edges, in 1/255.
+    std::uint8_t reach = 0;  ///< Share of its edges, in 1/255.
   };
   std::vector<Crack> cracks;
 };
@@ -45,7 +44,7 @@ Keyframe keyframe_of(const Piece& piece);
 Keyframe keyframe_of(const std::vector<Shard>& shards);
 
 Bytes encode(const Keyframe& keyframe);
-/// Refuses anything that `encode` would not write; safe on hostile bytes.
+/// Error: bytes that `encode` would not write; safe on hostile bytes.
 Expected<Keyframe> decode(std::span<const std::byte> bytes);
 
 /// All debris, ascending id, ready for a snapshot.

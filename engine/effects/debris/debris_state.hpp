@@ -15,7 +15,7 @@
 
 namespace septet::debris {
 
-struct Piece;  ///< An elastic piece: piece.hpp, for those who look inside.
+struct Piece;  ///< An elastic piece: defined in piece.hpp.
 
 /// A rigid splinter of glass, drawn as one triangle.
 struct Shard {
@@ -25,7 +25,7 @@ struct Shard {
   double mass_kg = 0.0;
 };
 
-/// Its special members stand where a piece is whole, so that whoever holds a state need not know what a piece is made of.
+/// Its special members are defined where Piece is complete, so that users of a state need not include it.
 struct State {
   State();
   State(const State&);
@@ -46,7 +46,7 @@ struct GroundPoint {
   double friction_factor = 1.0;  ///< Multiplies the material's friction; 0.15 on ice.
 };
 
-/// A plane of a hull, in its box's frame: what lies beyond it along the normal is outside.
+/// A plane of a hull, in its box's frame: points beyond it along the normal are outside.
 struct HullPlane {
   Vec3 normal{0.0, 0.0, 1.0};  ///< Unit length.
   double offset_m = 0.0;       ///< From the box's centre.
@@ -57,10 +57,10 @@ struct Box {
   RigidTransform world_from_box;  ///< Origin at the centre.
   Vec3 half_size_m{1.0};
   std::vector<HullPlane> cuts;
-  Vec3 velocity_mps{0.0};  ///< Of the centre.
+  Vec3 velocity_mps{0.0};  ///< Velocity of the centre.
   Vec3 angular_velocity_radps{0.0};
   double friction = 0.4;
-  Vec3 impulse_ns{0.0};  ///< Out: what the debris gave to the box during the tick.
+  Vec3 impulse_ns{0.0};  ///< Out: impulse of the debris on the box during the tick.
 };
 
 struct ContactWorld {
@@ -74,19 +74,19 @@ struct StepReport {
   int bad_numbers = 0;
 };
 
-/// A part in one piece, without an id; the splinters are drawn from `random`. `height_left`: of its size along z, where it has
-/// melted.
+/// A part in one piece, without an id; the splinters are drawn from `random`. `height_left`: remaining share of its
+/// size along z, where it has melted.
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                 const Vec3& angular_velocity_radps, Random& random, double height_left = 1.0);
 
-/// Adds a part in one piece; the splinters are drawn from `random`. Answers its id.
+/// Adds a part in one piece; the splinters are drawn from `random`. Returns its id.
 std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                          const Vec3& angular_velocity_radps, Random& random, double height_left = 1.0);
 
 StepReport advance_debris(State& state, ContactWorld& world, double step_s);
 
-/// Height of the highest debris within `radius_m` of a place, for wheels that meet it; pieces
-/// thinner than a centimetre and shards are no obstacle.
+/// Height of the highest debris within `radius_m` of a place, for wheels that meet it; pieces thinner than a centimetre
+/// and shards are no obstacle.
 std::optional<double> highest_debris_m(const State& state, double x_m, double y_m, double radius_m);
 
 }  // namespace septet::debris

@@ -25,20 +25,21 @@ double fading(double x) {
   return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
-/// So far inwards all is moved alike: a skin and its lining.
+/// Depth of the layer that moves as a whole: a skin and its lining.
 constexpr double skin_m = 0.15;
-/// How far inwards a body is moved: so far that what lies behind is pressed together and never through itself.
+/// Inward reach of a dent: far enough that the parts behind are compressed and never pushed through themselves.
 double reach_m(const Dent& dent) { return std::clamp(skin_m + 2.2 * dent.depth_m, 0.4, 1.8); }
 
-/// Between what is pushed in and what is not.
+/// Width of the transition between the dented part and the rest.
 double rim_m(const Dent& dent) { return 0.2 + 0.4 * dent.depth_m; }
 
-constexpr double over_top_m = 0.5;  ///< So far above what struck it a body gives way with what is below.
+/// Height over the striking body up to which the body gives way with the parts below.
+constexpr double over_top_m = 0.5;
 
-/// A point as the dent sees it.
+/// A point in the dent's frame.
 struct InDent {
   double inwards_m, along_m;
-  double share;  ///< Of the depth that it is moved by.
+  double share;  ///< Share of the depth by which it is moved.
 };
 
 InDent place_in(const Dent& dent, const Vec3& p) {
@@ -51,7 +52,8 @@ InDent place_in(const Dent& dent, const Vec3& p) {
   return place;
 }
 
-/// Folds of sheet metal: uneven, within ±1, the same for all parts of the vehicle, and nearly so for what lies behind each other.
+/// Folds of sheet metal: uneven, within ±1, the same for all parts of the vehicle, and nearly so for points behind each
+/// other.
 double folds(const Dent& dent, const Vec3& place_m, double turned_rad) {
   const Vec3 inwards(std::cos(dent.heading_rad), std::sin(dent.heading_rad), 0.0);
   const Vec3 p = place_m - 0.7 * glm::dot(place_m, inwards) * inwards;
@@ -70,7 +72,7 @@ Vec3 moved(const Dent& dent, const Vec3& p) {
   const double fold_m = std::min(0.022, 0.08 * dent.depth_m) * (lengthways > 0.7 ? 1.0 : 0.4) * place.share;
   Vec3 way = (dent.depth_m * place.share + fold_m * folds(dent, p, 0.0)) * inwards;
   way += 0.7 * fold_m * folds(dent, p, 1.3) * up;
-  // A bonnet or a lid that is pressed together rises between its edges.
+  // A compressed bonnet or lid rises between its edges.
   if (lengthways > 0.7 && place.inwards_m > 0.0 && place.inwards_m < reach_m(dent)) {
     const double wave = std::sin(std::numbers::pi * place.inwards_m / reach_m(dent)),
                  sheet = (1.0 - fading((p.z - 0.5) / 0.3)) * fading((p.z - 0.95) / 0.25),

@@ -56,7 +56,7 @@ Expected<std::vector<DentedVehicle>> decode_dents(std::span<const std::byte> byt
     return in.ok() ? static_cast<double>(value) / per_m : 0.0;
   };
   if (in.get<std::uint8_t>() != dent_version) in.fail();
-  // Of things that take some bytes each.
+  // Number of items of at least `bytes_each` bytes.
   const auto count_of = [&](std::size_t most, std::size_t bytes_each) {
     return in.get_count(std::min(most, in.remaining() / bytes_each));
   };

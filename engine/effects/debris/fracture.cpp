@@ -54,7 +54,8 @@ std::vector<InnerFace> inner_faces(const elastic::ElasticBody& body) {
 
 bool cracks_slowly(const Piece& piece) { return part_recipe(piece.part).material == Material::ice; }
 
-/// By how much a stress passes the strength of a face with this normal; below one it holds. Less than `least` may be 0.
+/// Ratio of a stress to the strength of a face with this normal; below one it holds. Values below `least` may be
+/// returned as 0.
 double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal,
                         double least) {
   if (stress.norm() < least * strength_pa) return 0.0;
@@ -75,12 +76,12 @@ double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa, con
 }
 
 struct Overload {
-  double lasting = 0.0;  ///< Of the shape and of the step's own stress.
-  double blow = 0.0;     ///< Of the blow's peak.
+  double lasting = 0.0;  ///< Overload by the shape and by the step's own stress.
+  double blow = 0.0;     ///< Overload by the impact's peak.
 };
 
-/// The step's stress at each node, the mean of the elements around it by their volume: within one cube its tetrahedra differ by
-/// a factor of three, and only their mean is the stress of the cube.
+/// The step's stress at each node, the mean of the elements around it by their volume: within one cube its tetrahedra
+/// differ by a factor of three, and only their mean is the stress of the cube.
 std::vector<Eigen::Matrix3d> stress_at_nodes_pa(const elastic::ElasticBody& body) {
   std::vector<Eigen::Matrix3d> stress(static_cast<std::size_t>(body.node_count()), Eigen::Matrix3d::Zero());
   std::vector<double> volume(stress.size(), 0.0);
@@ -95,7 +96,8 @@ std::vector<Eigen::Matrix3d> stress_at_nodes_pa(const elastic::ElasticBody& body
   return stress;
 }
 
-/// Stress jumps from one linear tetrahedron to the next: the greatest of a face's two and of the mean around it decides.
+/// Stress jumps from one linear tetrahedron to the next: the greatest of a face's two and of the mean around it
+/// decides.
 Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow,
                      const std::vector<Eigen::Matrix3d>& at_nodes_pa, const Eigen::Vector3d& normal) {
   Overload most;
@@ -125,14 +127,14 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
   return most;
 }
 
-/// What becomes of each inner face.
+/// Outcome for each inner face.
 struct FaceFates {
   std::vector<bool> opened;
-  std::vector<double> reach;  ///< Of its crack.
-  double left_j = 0.0;        ///< What the cracks leave of the energy that the blow lost.
+  std::vector<double> reach;  ///< Reach of its crack.
+  double left_j = 0.0;        ///< Energy lost in the impact that the cracks leave.
 };
 
-/// How far each face has cracked before.
+/// Reach of each face's earlier crack.
 std::vector<double> reach_before(const Piece& piece, const std::vector<InnerFace>& faces) {
   std::vector<double> reach(faces.size(), 0.0);
   if (piece.cracks.empty()) return reach;
@@ -152,7 +154,7 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
   };
   std::vector<Candidate> candidates;
   const bool slowly = cracks_slowly(piece);
-  // Only a blow is judged by the mean around a face, and most steps have none.
+  // Only an impact is judged by the mean around a face, and most steps have none.
   const auto at_nodes_pa = blow.lost_j > 0.0 ? stress_at_nodes_pa(piece.body) : std::vector<Eigen::Matrix3d>{};
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
@@ -194,14 +196,14 @@ std::vector<FaceCrack> cracks_of(const std::vector<InnerFace>& faces, const Face
   return cracks;
 }
 
-/// The part of the rest shape that has flowed: edges(rest) · rest_inverse = Fp⁻¹.
+/// The plastic part of the rest shape: edges(rest) · rest_inverse = Fp⁻¹.
 Eigen::Matrix3d inverse_flow(const elastic::ElasticBody& body, const Element& e) {
   Eigen::Matrix3d edges;
   for (int a = 0; a < 3; ++a) edges.col(a) = body.rest_position_m[e.nodes[a + 1]] - body.rest_position_m[e.nodes[0]];
   return edges * e.rest_inverse;
 }
 
-/// The elements of one island as a piece of its own.
+/// Cuts out the elements of one island as a separate piece.
 Piece cut_out(const Piece& from, const std::vector<int>& elements, const std::vector<FaceCrack>& cracks,
               const std::vector<std::array<int, 4>>& corner_group) {
   const auto& old = from.body;
@@ -331,9 +333,9 @@ int flow(Piece& piece, const Blow& blow) {
     piece.plastic_strain[k] += share * deviator.norm();
     ++count;
   }
-  // A blow's work is the yield stress times the strain over what it overloads. The shape takes the
-  // strain as well, for the stress was there and gone within the step; what that stores springs
-  // back later and is no more than half of what the blow lost.
+  // An impact's work is the yield stress times the strain over the overloaded elements. The shape takes the strain as
+  // well, for the stress has come and gone within the step; the energy that this stores springs back later and is no
+  // more than half of the impact's loss.
   const double strain = struck.empty() ? 0.0
                                        : std::min({most_per_step, blow.lost_j / (yield * struck_volume_m3),
                                                    std::sqrt(0.5 * blow.lost_j / (lame.mu_pa * struck_volume_m3))});

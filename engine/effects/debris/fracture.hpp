@@ -1,24 +1,25 @@
 #pragma once
-/// Breaking and bending for good.
+/// Fracture and plastic flow.
 ///
-/// Fracture follows O'Brien and Hodgins 1999 in the real-time form of Parker and O'Brien 2009: the
-/// tetrahedra are grouped into splinters beforehand, and a face between two splinters opens where
-/// the greatest principal stress passes the material's strength and pulls across it. Nothing is
-/// remeshed; nodes are doubled. Every tetrahedron keeps its mass and every copy of a node its place
-/// and velocity, so mass, momentum and angular momentum are those of before, exactly.
+/// Fracture follows O'Brien and Hodgins 1999 in the real-time form of Parker and O'Brien 2009: the tetrahedra are
+/// grouped into splinters beforehand, and a face between two splinters opens where the greatest principal stress passes
+/// the material's strength and pulls across it. Nothing is remeshed; nodes are doubled. Every tetrahedron keeps its
+/// mass and every copy of a node its place and velocity, so mass, momentum and angular momentum are those of before,
+/// exactly.
 ///
-/// Under a blow the stress is that of its peak (blow.hpp). Pressure then opens the faces
-/// along it, as axial splitting does, beyond the compressive strength or, in brittle materials,
-/// where the sides bulge by more than the strength allows (f_t/ν): within a wave's time they are
-/// free. Faces that only the blow opens cost their fracture energy, the most overloaded first,
-/// until what the blow lost is used up; a share of the rest scatters the fragments.
+/// Under an impact the stress is that of its peak (blow.hpp). Pressure then opens the faces along it, as axial
+/// splitting does, beyond the compressive strength or, in brittle materials, where the sides bulge by more than the
+/// strength allows (f_t/ν): within a wave's time they are free. Faces that only the impact opens cost their fracture
+/// energy, the most overloaded first, until the energy lost in the impact is used up; a share of the rest scatters the
+/// fragments.
 ///
-/// In ice a face cracks before it opens. Under a lasting pull σ a crack of reach a grows as damage does after Kachanov (1958), who
-/// lets what is left of a section carry all of its load: ȧ = (σ/((1 − a) f_t))ⁿ/τ, so that after t of a constant pull (1 − a)ⁿ⁺¹ = 1 − t/t_r with
-/// t_r = τ/(n + 1) (f_t/σ)ⁿ, and the face opens when σ passes the strength of what is left, at a = 1 − σ/f_t. Of a blow, the face that its energy no longer pays for in full cracks as far as it reaches; the next blow has
-/// only the rest to pay.
+/// In ice a face cracks before it opens. Under a lasting pull σ a crack of reach a grows as damage does after Kachanov
+/// (1958), in which the rest of a section carries all of its load: ȧ = (σ/((1 − a) f_t))ⁿ/τ, so that after t of a
+/// constant pull (1 − a)ⁿ⁺¹ = 1 − t/t_r with t_r = τ/(n + 1) (f_t/σ)ⁿ, and the face opens when σ passes the strength of
+/// the rest, at a = 1 − σ/f_t. In an impact, the face that its energy no longer pays for in full cracks as far as it
+/// reaches; the next impact has only the rest to pay.
 ///
-/// Plastic flow is multiplicative: F = Fe·Fp, and what passes the yield stress moves from Fe to Fp.
+/// Plastic flow is multiplicative: F = Fe·Fp, and the strain beyond the yield stress moves from Fe to Fp.
 
 #include <vector>
 
@@ -30,20 +31,21 @@ namespace septet::debris {
 
 struct FractureResult {
   int opened_faces = 0;
-  std::vector<Piece> pieces;      ///< What the piece is now; empty where nothing opened.
-  std::vector<FaceCrack> cracks;  ///< Of the piece where nothing opened.
+  std::vector<Piece> pieces;      ///< Pieces after the fracture; empty where no face opened.
+  std::vector<FaceCrack> cracks;  ///< Cracks of the piece where no face opened.
 };
 
-/// n and τ. Both assumed: published exponents of ice's damage are from 3 to 5; a pull of 0.9 f_t parts it within half a second.
+/// n and τ. Both assumed: published exponents of ice's damage are from 3 to 5; a pull of 0.9 f_t parts it within half a
+/// second.
 inline constexpr double crack_exponent = 4.0, crack_time_s = 3.3;
-/// Below this share of the strength nothing grows.
+/// Share of the strength below which no crack grows.
 inline constexpr double least_cracking_share = 0.4;
 
 /// Opens the overloaded faces and lets cracks grow for `step_s`. The pieces' ids are zero.
 FractureResult fracture(const Piece& piece, const Blow& blow = {}, double step_s = 0.0);
 
-/// Lets the overloaded elements flow; returns how many did. What a blow overloads flows as far as
-/// the energy that it lost reaches.
+/// Lets the overloaded elements flow; returns their number. Elements overloaded by an impact flow as far as its lost
+/// energy reaches.
 int flow(Piece& piece, const Blow& blow = {});
 
 }  // namespace septet::debris

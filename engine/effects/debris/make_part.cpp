@@ -9,7 +9,7 @@
 
 namespace septet::debris {
 
-constexpr std::size_t tetrahedra_per_cube = 5;  // One after the other in lattice_mesh.
+constexpr std::size_t tetrahedra_per_cube = 5;  // In sequence in lattice_mesh.
 
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                 const Vec3& angular_velocity_radps, Random& random, double height_left) {
@@ -36,8 +36,8 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
     for (int c = 0; c < 3; ++c) seed[c] = recipe.size_m[c] * (random.uniform() - 0.5);
     seeds.push_back(seed);
   }
-  // What is one cube thick along the car falls apart into whole cubes: a crash presses it flat, it splits across, and the inner
-  // faces of a flat cube lie nearly along it.
+  // A part one cube thick along the car breaks into whole cubes: a crash presses it flat, it splits across, and the
+  // inner faces of a flat cube lie nearly along it.
   const std::size_t together = recipe.cells.x == 1 ? tetrahedra_per_cube : 1;
   std::vector<elastic::Tetrahedron> tetrahedra;
   for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {

@@ -9,7 +9,7 @@ namespace {
 
 struct Mounts {
   double door_strength_n, windscreen_strength_n;
-  double clips_hold_g;  // Of bumpers and lamps, in their own weights.
+  double clips_hold_g;  // Strength of the mounts of bumpers and lamps, in their own weights.
 };
 #define SEPTET_ENTRY(name, ...) constexpr Mounts name __VA_ARGS__;
 #include "engine/effects/debris/mounts.toml.inc"

@@ -1,5 +1,5 @@
 #pragma once
-/// Parts in their mounts: what a vehicle or a barrier carries that a crash can tear off.
+/// Parts in their mounts: those of a vehicle or a barrier that a crash can tear off.
 
 #include <vector>
 
@@ -15,8 +15,8 @@ struct MountedPart {
   double mount_strength_n = 0.0;  ///< Force of inertia at which the mounts give way.
 };
 
-/// Bumpers, head and tail lamps, four doors (two where the car is short) and the windscreen of a
-/// passenger car whose box has these half sizes. What holds them: mounts.toml.
+/// Bumpers, head and tail lamps, four doors (two where the car is short) and the windscreen of a passenger car with a
+/// box of these half sizes. Strength of their mounts: mounts.toml.
 std::vector<MountedPart> passenger_car_parts(const Vec3& half_size_m);
 
 }  // namespace septet::debris

@@ -1,5 +1,5 @@
 #pragma once
-/// An elastic piece of debris: a body of tetrahedra, what it is made of and where it may open.
+/// An elastic piece of debris: a body of tetrahedra, its material and the faces that may open.
 ///
 /// Apart from debris_state.hpp, because only the debris itself computes with Eigen.
 
@@ -15,7 +15,7 @@
 
 namespace septet::debris {
 
-/// A crack in the face between two elements: how much of it has parted, 0 to 1. At 1 it has opened.
+/// A crack in the face between two elements: its parted share, 0 to 1. At 1 it has opened.
 struct FaceCrack {
   int first = 0, second = 0;  ///< Elements, ascending.
   double reach = 0.0;
@@ -26,12 +26,12 @@ struct Piece {
   Part part = Part::bumper;
   MaterialData material;  ///< Spread over the lattice (breakable_part.hpp).
   elastic::ElasticBody body;
-  std::vector<int> splinter;           ///< Of each element; faces between two may open.
+  std::vector<int> splinter;           ///< Splinter of each element; faces between two may open.
   std::vector<double> plastic_strain;  ///< Accumulated, of each element.
-  std::vector<FaceCrack> cracks;       ///< Of ice; ascending.
+  std::vector<FaceCrack> cracks;       ///< Cracks of ice; ascending.
   std::vector<elastic::SurfaceTriangle> surface;
-  double calm_s = 0.0;  ///< For how long it has hardly moved.
-  bool asleep = false;  ///< Neither stepped nor broken until something touches it.
+  double calm_s = 0.0;  ///< Time for which it has hardly moved.
+  bool asleep = false;  ///< Neither stepped nor broken until touched.
 };
 
 inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }

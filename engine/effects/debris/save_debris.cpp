@@ -11,7 +11,7 @@ namespace septet::debris {
 SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg)
 
 SEPTET_MEMBERS(FaceCrack, first, second, reach)
-// Left out are what is its part's, what is drawn of it, and its body, which has a reader of its own.
+// Left out are data of its part, of its picture, and its body, which has a reader of its own.
 SEPTET_MEMBER_GROUPS(Piece, hashed(id, part), left_out(material, body), kept(splinter), hashed(plastic_strain, cracks),
                      left_out(surface), hashed(calm_s, asleep))
 // Pieces and, in the hash, shards are taken one by one.
@@ -61,7 +61,7 @@ void add_to_hash(const State& state, StateHash& hash) {
   hash_members(hash, state);
   for (const Piece& piece : state.pieces) {
     hash.add(piece.id);
-    if (piece.asleep) continue;  // Hashed when it moved last.
+    if (piece.asleep) continue;  // Hashed when it last moved.
     hash_members(hash, piece);
     elastic::add_to_hash(piece.body, hash);
   }

@@ -11,10 +11,10 @@ namespace septet::debris {
 SEPTET_MEMBERS(MountedPart, part, box_from_part, mount_strength_n)
 
 void save_debris(const State& state, StateWriter& writer);
-/// What moves of it: to be chained from step to step.
+/// Adds the moving part of the state: to be chained from step to step.
 void add_to_hash(const State& state, StateHash& hash);
 
-/// `reader` fails where it is no debris: then `state` is not to be used.
+/// `reader` fails on invalid data: then `state` is not to be used.
 void restore_debris(StateReader& reader, State& state);
 
 }  // namespace septet::debris

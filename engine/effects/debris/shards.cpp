@@ -13,7 +13,7 @@
 namespace septet::debris {
 namespace {
 
-/// Takes the closing speed away, a fifth of it returned, and Coulomb's share of the sliding.
+/// Removes the closing speed, with a fifth of it returned, and Coulomb's share of the sliding.
 void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, double friction) {
   const Vec3 relative = shard.velocity_mps - surface_velocity;
   const double closing = -glm::dot(relative, normal);

@@ -5,13 +5,13 @@
 
 namespace septet::debris {
 
-/// Whether a piece is down to one splinter of a material that flies on as shards.
+/// True where a piece is down to one splinter of a material that flies on as shards.
 bool is_shard(const Piece& piece);
 
 /// The shard with a piece's mass and motion.
 Shard shard_of(const Piece& piece);
 
-/// Returns how many had a number that was not finite: they are gone.
+/// Returns the number of shards removed because of a non-finite number.
 int advance_shards(State& state, const ContactWorld& world, double step_s);
 
 }  // namespace septet::debris

@@ -7,11 +7,11 @@
 
 namespace septet::ice {
 
-/// What a texel hides at most.
+/// Upper bound on a texel's opacity.
 inline constexpr float most_air_opacity = 0.5f;
 
-/// Opacity in 1/255 of most_air_opacity, row after row, of a square tile that repeats at its edges; haze lies where `ranks`, a noise of 8 bits of
-/// the same size, is high. In each of `cells` times `cells` cells lies one bubble at most.
+/// Opacity in 1/255 of most_air_opacity, row after row, of a square tile that repeats at its edges; haze lies where
+/// `ranks`, a noise of 8 bits of the same size, is high. Each of `cells` times `cells` cells holds one bubble at most.
 std::vector<std::uint8_t> air_pattern(std::span<const std::uint8_t> ranks, std::uint32_t side,
                                       std::uint32_t cells = 13);
 

@@ -30,7 +30,7 @@ Crack any_crack(Random& random, const glm::vec3& middle_m, float size_m) {
   return crack;
 }
 
-/// Of a coordinate in cells. What is no number, or lies further out than any cell, counts as in the last.
+/// Cell index of a coordinate in cells. NaN, or a place beyond every cell, counts as in the last.
 int cell_of(float at) {
   constexpr float furthest = 1 << 20;
   return static_cast<int>(std::max(-furthest, std::min(furthest, std::floor(at))));

@@ -31,14 +31,14 @@ Frost morning_frost(double air_k, std::uint32_t seed) {
 }
 
 double wind_wpm2k(double speed_mps) {
-  // Air at 0 °C; the pane's length along the wind. A car that stands has some of it, too.
+  // Air at 0 °C; the pane's length along the wind. A standing car has some wind, too.
   constexpr double viscosity_m2ps = 1.33e-5, conductivity_wpmk = 0.0243, prandtl = 0.715, length_m = 0.8, still = 8.0;
   const double reynolds = std::abs(speed_mps) * length_m / viscosity_m2ps;
   return std::max(still, 0.037 * std::pow(reynolds, 0.8) * std::cbrt(prandtl) * conductivity_wpmk / length_m);
 }
 
 double blower_share(double across, double up) {
-  // A slot before each seat; its jet is wider the higher it is.
+  // A slot before each seat; its jet widens upwards.
   constexpr double slot = 0.07, length_in_slots = 1.0 / 0.07, half_width = 0.17, widens = 0.16;
   const double above = std::pow(1.0 + std::max(up, 0.0) * length_in_slots, -0.6),
                width = half_width + widens * up + slot;
@@ -48,7 +48,8 @@ double blower_share(double across, double up) {
 }
 
 double left_by_scraper(double across, double up) {
-  // Strokes of a blade, side by side along an arc about the driver's shoulder: some were drawn further than others, and left some between them.
+  // Strokes of a blade, side by side along an arc about the driver's shoulder: some are longer than others, with gaps
+  // between some.
   constexpr double middle = 0.735, reach = 0.15, low = 0.24, high = 0.76, strokes = 7.0;
   const double lean = (across - middle) / reach + 0.22 * (up - 0.45), stroke = (lean + 1.0) * 0.5 * strokes;
   const double nth = std::floor(stroke), off = stroke - nth - 0.5;

@@ -28,7 +28,7 @@ Vec3 normal_at(const PaneShape& pane, double across, double up) {
   return length > 1e-12 ? normal / length : Vec3(1.0, 0.0, 0.0);
 }
 
-/// Where a line along +x meets the triangles furthest forward; nothing where it misses them all.
+/// x at which a line along +x meets the triangles furthest forward; empty where it misses them all.
 double furthest_x(std::span<const Vec3> triangles_m, double y_m, double z_m) {
   double furthest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 2 < triangles_m.size(); i += 3) {
@@ -46,7 +46,7 @@ double furthest_x(std::span<const Vec3> triangles_m, double y_m, double z_m) {
 
 using Place = glm::dvec2;  // On the pane, m.
 
-/// Of a crack: so many times as wide is what it is drawn on, so that one of less than a pixel is not lost between two.
+/// Width of a drawn strip over that of its crack, so that a crack of less than a pixel is not lost between two.
 constexpr double strip_widths = 3.0;
 
 struct Drawing {
@@ -58,13 +58,13 @@ struct Drawing {
     const Place at = glm::clamp(place, Place(0.0), size) / size;
     surface.push_back({glm::vec3(place_on(pane, at.x, at.y)), glm::vec3(normal), rest});
   }
-  /// `tilt`: how far a crack's face leans out of the upright, so that each shines from somewhere else.
+  /// `tilt`: inclination of a crack's face out of the upright, so that each reflects from another direction.
   void strip(const Place& a, const Place& b, double width_a, double width_b, double along_m, double tilt) const {
     const Place way = b - a;
     const double length = glm::length(way);
     if (!(length > 1e-6)) return;
     const Place middle = glm::clamp(0.5 * (a + b), Place(0.0), size), side = Place(-way.y, way.x) / length;
-    if (middle != 0.5 * (a + b)) return;  // It has left the pane.
+    if (middle != 0.5 * (a + b)) return;  // The crack has left the pane.
     const Vec3 out = normal_at(pane, middle.x / size.x, middle.y / size.y);
     const Vec3 along = place_on(pane, (middle.x + 0.01 * side.x) / size.x, (middle.y + 0.01 * side.y) / size.y) -
                        place_on(pane, (middle.x - 0.01 * side.x) / size.x, (middle.y - 0.01 * side.y) / size.y);
@@ -122,7 +122,7 @@ PaneShape pane_between(const Vec3& foot_right_m, const Vec3& foot_left_m, const 
 
 PaneShape pane_on(std::span<const Vec3> triangles_m) {
   constexpr std::size_t columns = 17, rows = 9;
-  constexpr double lift_m = 0.004;  // Over the glass that it lies on.
+  constexpr double lift_m = 0.004;  // Height over the glass below.
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vec3& corner : triangles_m) low = std::min(low, corner.z), high = std::max(high, corner.z);
   if (!(high - low > 0.1) || !(high - low < 3.0)) return {};
@@ -156,7 +156,7 @@ PaneShape pane_on(std::span<const Vec3> triangles_m) {
 
 Vec3 place_on(const PaneShape& pane, double across, double up) {
   if (pane.empty()) return Vec3(0.0);
-  const auto within = [](double share) { return share > 0.0 ? std::min(share, 1.0) : 0.0; };  // Also what is no number.
+  const auto within = [](double share) { return share > 0.0 ? std::min(share, 1.0) : 0.0; };  // NaN becomes 0, too.
   const double x = within(across) * static_cast<double>(pane.columns - 1),
                y = within(up) * static_cast<double>(pane.rows - 1);
   const auto i = std::min(static_cast<std::size_t>(x), pane.columns - 2),

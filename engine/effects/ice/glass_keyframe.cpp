@@ -13,7 +13,7 @@ constexpr double per_m = 1000.0, per_kgpm2 = 1000.0, of_one = 255.0;
 constexpr std::uint64_t longest = 20'000, most_of_one = 255,
                         most_frost = static_cast<std::uint64_t>(most_frost_kgpm2 * per_kgpm2);
 
-/// Returns what it put.
+/// Returns the written integer.
 std::uint64_t put(ByteWriter& out, double value, double quanta, std::uint64_t most) {
   const double scaled = std::clamp(std::isfinite(value) ? value * quanta : 0.0, 0.0, static_cast<double>(most));
   const auto rounded = static_cast<std::uint64_t>(std::lround(scaled));
@@ -62,7 +62,7 @@ Bytes encode_glass(const std::vector<Pane>& panes) {
 Expected<std::vector<Pane>> decode_glass(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   if (in.get<std::uint8_t>() != glass_version) in.fail();
-  // Of things that take some bytes each.
+  // Number of items of at least `bytes_each` bytes.
   const auto count_of = [&](std::size_t most, std::size_t bytes_each) {
     return in.get_count(std::min(most, in.remaining() / bytes_each));
   };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint8_t version = 1;
 constexpr double quanta_per_m = 1000.0, quanta_per_kh = 256.0;
-/// In quanta: of a place from the one before, and of anything's size.
+/// In quanta: bounds of a place relative to the one before, and of all sizes.
 constexpr std::int64_t furthest = 1'000'000'000, largest = 20'000, most_thaw = 1 << 24;
 
 std::int64_t quantised(double value, double per_unit, std::int64_t low, std::int64_t high) {
@@ -50,7 +50,7 @@ struct Reader {
     }
     return last_m;
   }
-  /// Of things that take some bytes each.
+  /// Number of items of at least `bytes_each` bytes.
   std::size_t get_count(std::size_t most, std::size_t bytes_each) {
     return in.get_count(std::min(most, in.remaining() / bytes_each));
   }

@@ -1,5 +1,6 @@
 #pragma once
-/// Still ice on the wire: all of it in one EffectKeyframe, renewed when it changes. The format is written down in ICE.md.
+/// Still ice on the wire: all of it in one EffectKeyframe, renewed when it changes. The format is written down in
+/// ICE.md.
 
 #include <span>
 
@@ -10,12 +11,12 @@ namespace septet::ice {
 
 inline constexpr std::uint16_t keyframe_kind = 5;
 inline constexpr std::uint32_t effect_id = 0x03000000;
-/// More than this is not sent: what comes last is left out.
+/// Limits: later items are left out.
 inline constexpr std::size_t most_slabs = 64, most_rows = 512, most_sheets = 16, most_sheet_points = 256;
 
 /// Lengths to the millimetre, degree-hours to 1/256.
 Bytes encode(const StillIce& ice);
-/// Refuses anything that `encode` would not write; safe on hostile bytes.
+/// Error: bytes that `encode` would not write; safe on hostile bytes.
 Expected<StillIce> decode(std::span<const std::byte> bytes);
 
 }  // namespace septet::ice

@@ -19,7 +19,7 @@ constexpr float pi = 3.14159265f;
 
 using Corner = std::array<std::int32_t, 3>;
 
-/// Corners that lie together within a thousandth of a millimetre are one.
+/// Corners within a thousandth of a millimetre of each other are one.
 Corner corner_of(const glm::vec3& at) {
   const auto rounded = [](float x) {
     return static_cast<std::int32_t>(std::lround(std::clamp(x, -1e3f, 1e3f) * 1e6f));

@@ -13,7 +13,7 @@ namespace septet::ice {
 
 std::vector<Icicle> icicles_of(const IcicleRow& row, double thawed_kh) {
   constexpr double mean_gap_m = 0.22,
-                   thickness = 0.045;  // Of a root's radius, in lengths: slender, as drips make them.
+                   thickness = 0.045;  // Root's radius over length: slender, as drips make them.
   constexpr std::size_t most = 32;
   std::vector<Icicle> icicles;
   const double length_m = glm::length(row.to_m - row.from_m);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint64_t sorting_ticks = 32;
 
-/// Every cell whose centre a box covers is full, and those that it touches on by a quarter of a cell. Answers whether any of
-/// them has smoke.
+/// Fills every cell whose centre a box covers, and those that it overlaps by at least a quarter of a cell. Returns true
+/// where any of them has smoke.
 bool mark_full(State& state, std::span<const Obstacle> obstacles) {
   bool smoke_within = false;
   const Grid& grid = state.grid;
@@ -49,12 +49,12 @@ bool mark_full(State& state, std::span<const Obstacle> obstacles) {
   return smoke_within;
 }
 
-/// What a particle in a cell makes in a tick: (rest + bias·above)·scale + drift, and uniform steps in ±jitter for each unit of
-/// its cell's crowding.
+/// Parameters of a particle's step in a tick: (rest + bias·above)·scale + drift, and uniform steps in ±jitter for each
+/// unit of its cell's crowding.
 struct Motion {
   float scale = 0.0f, jitter = 0.0f;
   glm::vec3 drift{0.0f};
-  std::uint64_t key = 0, counter = 0;  ///< Of the random numbers; a particle adds its own.
+  std::uint64_t key = 0, counter = 0;  ///< Key of the random numbers; a particle adds its own.
 };
 
 /// A cell's velocity is one load, one widening and one conversion of eight numbers.
@@ -102,8 +102,8 @@ void count_extinction(State& state) {
   }
 }
 
-/// Particles that smoke brings to a cell: a particle is a ball with the deviation of one cell, as it is drawn. (Few come into
-/// the cell itself, because walls repel.)
+/// Density of particles around a cell: a particle is a ball with the deviation of one cell, as it is drawn. (Few come
+/// into the cell itself, because walls repel.)
 float density_around(const State& state, std::uint32_t cell) {
   constexpr std::array<float, 5> weight{0.054f, 0.242f, 0.399f, 0.242f, 0.054f};
   const Grid& grid = state.grid;
@@ -117,7 +117,7 @@ float density_around(const State& state, std::uint32_t cell) {
   return sum;
 }
 
-/// A 32nd of the walls a tick, for 32 ticks' time.
+/// Adds soot to a 32nd of the walls a tick, for 32 ticks' time.
 void leave_soot(State& state, double step_s) {
   constexpr std::size_t slices = 32;
   const std::size_t slice = state.tick % slices, count = state.beside_wall.size();

@@ -14,7 +14,7 @@ class BitWriter {
   BitWriter(const BitWriter&) = delete;
   BitWriter& operator=(const BitWriter&) = delete;
 
-  /// The low `count` bits of `value`, which has no others; count at most 32.
+  /// Appends the low `count` bits of `value`, whose other bits are zero; count at most 32.
   void put(std::uint32_t value, int count) {
     bits_ |= static_cast<std::uint64_t>(value) << held_;
     for (held_ += count; held_ >= 8; held_ -= 8, bits_ >>= 8) out_.push_back(static_cast<std::byte>(bits_ & 0xff));

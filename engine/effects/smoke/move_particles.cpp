@@ -5,9 +5,9 @@
 namespace septet::smoke {
 namespace {
 
-/// What a particle's age does to it, by its emitter.
+/// Effect of a particle's age on it, by its emitter.
 struct Ageing {
-  std::array<float, 256> heat{}, per_cooling{}, lifetime_s{};  // As many as an index can say.
+  std::array<float, 256> heat{}, per_cooling{}, lifetime_s{};  // As many as an index can name.
 
   explicit Ageing(const State& state) {
     lifetime_s.fill(INFINITY);
@@ -20,7 +20,7 @@ struct Ageing {
   }
 };
 
-/// Takes out the particles at these places (ascending): each one's place goes to the last, which stays or went before.
+/// Removes the particles at these places (ascending): each one's place goes to the last, which stays or went before.
 void remove(State& state, const std::vector<std::size_t>& places) {
   const Particles& particles = state.particles;
   for (std::size_t n = places.size(); n-- > 0;) {
@@ -66,13 +66,13 @@ void locate(const State& state, const Ageing& ageing, Block& block) {
     bias[n] = 1.0f + ageing.heat[emitter[n]] * std::max(0.0f, 1.0f - age_s[n] * ageing.per_cooling[emitter[n]]);
 }
 
-/// Moves those that stay in their cell, which are most, and answers for each whether it did not.
+/// Moves the particles that stay in their cell, which are most, and marks the others.
 void move_within_cells(int count, const float* __restrict step, float* __restrict x, float* __restrict y,
                        float* __restrict z, int* __restrict crosses) {
   for (int n = 0; n < count; ++n) {
     const float from_x = x[n], from_y = y[n], from_z = z[n];
     const float to_x = from_x + step[4 * n], to_y = from_y + step[4 * n + 1], to_z = from_z + step[4 * n + 2];
-    // Conversion rounds towards zero: below it, −1 would look like 0, but for its sign.
+    // Conversion rounds towards zero: below it, −1 would look like 0, except for its sign.
     const int changes = (static_cast<int>(to_x) ^ static_cast<int>(from_x)) |
                         (static_cast<int>(to_y) ^ static_cast<int>(from_y)) |
                         (static_cast<int>(to_z) ^ static_cast<int>(from_z));
@@ -86,8 +86,8 @@ void move_within_cells(int count, const float* __restrict step, float* __restric
   }
 }
 
-/// Moves a particle an axis at a time, never into a full or crowded cell and never more than one cell, so that it slides
-/// along walls. False: it left through an open face; it is still counted in its cell.
+/// Moves a particle an axis at a time, never into a full or crowded cell and never more than one cell, so that it
+/// slides along walls. False: it left through an open face; it is still counted in its cell.
 bool move_between_cells(State& state, std::size_t at, int cell, const float* step) {
   constexpr float furthest = 0.95f;
   const Grid& grid = state.grid;

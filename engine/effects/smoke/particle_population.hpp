@@ -1,5 +1,5 @@
 #pragma once
-/// Where particles come from and go: births, deaths, and the way out of cells that became full.
+/// Population of particles: births, deaths, and the way out of cells that became full.
 
 #include <optional>
 
@@ -13,8 +13,8 @@ inline std::uint64_t mixed(std::uint64_t bits) {
   return bits ^ (bits >> 31);
 }
 
-/// Three independent numbers in [0, 1) from a key (SplitMix64's mixing of a seed) and a counter: the same wherever and in
-/// whatever order they are asked for.
+/// Three independent numbers in [0, 1) from a key (SplitMix64's mixing of a seed) and a counter: the same for any place
+/// and order of the calls.
 inline std::array<float, 3> uniform_of(std::uint64_t key, std::uint64_t counter) {
   const std::uint64_t bits = mixed(key + counter * 0x9e3779b97f4a7c15u);
   constexpr float scale = 1.0f / (1 << 21);
@@ -26,7 +26,8 @@ inline std::array<float, 3> uniform_of(std::uint64_t key, std::uint64_t counter)
 struct CellPlace {
   int i, j, k;
 };
-/// The nearest cell that is not full and has room for one more, within six cells; of equally near ones the lowest, then the first.
+/// The nearest cell that is not full and has room for one more, within six cells; of equally near ones the lowest, then
+/// the first.
 std::optional<CellPlace> nearest_free_cell(const State& state, int i, int j, int k);
 
 /// The last particle takes its place. The density of its cell is the caller's to lower.
@@ -35,7 +36,7 @@ void remove_particle(Particles& particles, std::size_t at);
 /// Puts the particles into the order of their cells. Numbers stay.
 void sort_by_cell(State& state);
 
-/// The births of a step. Answers how many.
+/// Adds the births of a step; returns their number.
 int emit(State& state, double step_s);
 
 }  // namespace septet::smoke

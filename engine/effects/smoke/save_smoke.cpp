@@ -14,7 +14,8 @@ SEPTET_MEMBERS(Grid, world_from_grid, cell_m, nx, ny, nz, open_faces, wall)
 SEPTET_MEMBERS(KeyframeTrack, first_chunk, chunks)
 SEPTET_MEMBERS(KeyframeTrack::Chunk, time_s, place, known, data)
 
-// Kept is where the smoke is and what follows from the hashed; left out are the densities, which are counted again, and a step's memory.
+// Kept is the smoke's place and data that follows from the hashed; left out are the densities, which are counted again,
+// and a step's memory.
 SEPTET_MEMBER_GROUPS(State, kept(grid), hashed(parameters, emitters, particles, capacity, seed, tick, births, time_s),
                      kept(beside_wall), hashed(soot), left_out(density), kept(extinction_area_m2, full),
                      left_out(field))

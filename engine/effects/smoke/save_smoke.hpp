@@ -9,7 +9,7 @@ namespace septet::smoke {
 
 void save_smoke(const State& state, const KeyframeTrack& track, StateWriter& writer);
 
-/// `reader` fails where it is no smoke: then both are not to be used.
+/// `reader` fails on invalid data: then both are not to be used.
 void restore_smoke(StateReader& reader, State& state, KeyframeTrack& track);
 
 }  // namespace septet::smoke

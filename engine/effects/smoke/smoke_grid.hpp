@@ -1,8 +1,9 @@
 #pragma once
-/// The box of cells that smoke moves in: where it stands, which cells are wall, which of its faces are open.
+/// The box of cells in which smoke moves: its place, its wall cells, its open faces.
 ///
-/// Grid coordinates are cells: x, y, z from the lower corner, z up; cell (i, j, k) holds [i, i+1) × [j, j+1) × [k, k+1).
-/// What lies outside the box counts as wall, but a particle that crosses an open face has left and is no longer followed.
+/// Grid coordinates are cells: x, y, z from the lower corner, z up; cell (i, j, k) holds [i, i+1) × [j, j+1) × [k,
+/// k+1). Cells outside the box count as wall, but a particle that crosses an open face has left and is no longer
+/// followed.
 
 #include <array>
 #include <cmath>
@@ -14,7 +15,7 @@
 
 namespace septet::smoke {
 
-/// Largest number of cells along an axis, and in all: bounds for what a scenario may ask.
+/// Limits of a scenario's grid: number of cells along an axis, and in all.
 inline constexpr int max_cells_along = 4096, max_cells = 1 << 23;
 
 enum OpenFace : std::uint8_t {
@@ -40,7 +41,7 @@ struct Grid {
   Vec3 world_from_cells(const Vec3& grid) const { return world_from_grid * (grid * cell_m); }
 };
 
-/// Whether a cell outside the box lies in open air: every face that it is beyond is open.
+/// True where a cell outside the box lies in open air: every face that it is beyond is open.
 inline bool is_open(const Grid& grid, int i, int j, int k) {
   const auto beyond = [&](int at, int count, std::uint8_t low, std::uint8_t high) {
     return at < 0 ? (grid.open_faces & low) != 0 : at < count || (grid.open_faces & high) != 0;
@@ -52,11 +53,11 @@ inline bool is_open(const Grid& grid, int i, int j, int k) {
 /// A box without walls. Sizes must be 1 to `max_cells_along` and `max_cells` in all (checked).
 Grid make_grid(const RigidTransform& world_from_grid, double cell_m, int nx, int ny, int nz, std::uint8_t open_faces);
 
-/// Makes a wall of every cell whose centre `is_wall` says is one (world frame).
+/// Makes a wall of every cell for whose centre `is_wall` is true (world frame).
 void add_walls(Grid& grid, const std::function<bool(const Vec3& world_m)>& is_wall);
 
-/// A tunnel along x of the grid: a box of this length whose cells outside the arch (half width, height of the side walls,
-/// height of the crown over the floor; metres) are wall. Both portals are open.
+/// A tunnel along x of the grid: a box of this length whose cells outside the arch (half width, height of the side
+/// walls, height of the crown over the floor; metres) are wall. Both portals are open.
 Grid make_tunnel_grid(const RigidTransform& world_from_floor_start, double cell_m, double length_m, double half_width_m,
                       double side_height_m, double crown_height_m);
 

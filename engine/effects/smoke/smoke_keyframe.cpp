@@ -96,7 +96,7 @@ Bytes encode(const State& state, std::uint32_t chunk, double duration_s, const s
 
 constexpr std::uint32_t nobody = 0xffffffff;
 
-/// `particle_of` has for each number the place of its particle, or nobody.
+/// `particle_of` maps each number to the place of its particle, or to `nobody`.
 void renew(KeyframeTrack& track, const State& state, std::size_t number, std::span<const std::uint32_t> particle_of) {
   const Particles& particles = state.particles;
   KeyframeTrack::Chunk& chunk = track.chunks[number];

@@ -1,10 +1,10 @@
 #pragma once
 /// Smoke on the wire and between keyframes. The format is written down in SMOKE.md.
 ///
-/// Particles go in chunks by their numbers, `chunk_slots` to each; a chunk is one EffectKeyframe, renewed every `keyframe_ticks` ticks, each chunk on
-/// a tick of its own, so that the load is even. A keyframe tells where each particle was when the chunk's last keyframe
-/// was taken and where it is now; a screen draws the way between them during the time until the next. What is shown is
-/// therefore one renewal late, without a jump, and needs no other keyframe.
+/// Particles go in chunks by their numbers, `chunk_slots` to each; a chunk is one EffectKeyframe, renewed every
+/// `keyframe_ticks` ticks, each chunk on a tick of its own, so that the load is even. A keyframe holds each particle's
+/// place at the chunk's last keyframe and now; a screen draws the path between them during the time until the next. The
+/// picture is therefore one renewal late, without a jump, and needs no other keyframe.
 
 #include <array>
 #include <cstdint>
@@ -25,22 +25,23 @@ inline constexpr std::uint64_t keyframe_ticks = 30;
 /// Coordinates on the wire are multiples of a cell over this; the error of one is at most half of it.
 inline constexpr int steps_per_cell = 8;
 
-/// What the encoder keeps between ticks: it belongs to the server's state, and follows wholly from the smoke's history.
+/// The encoder's memory between ticks: it belongs to the server's state, and follows wholly from the smoke's history.
 struct KeyframeTrack {
   struct Chunk {
     double time_s = 0.0;
-    std::vector<std::array<std::int32_t, 3>> place;  ///< Of each slot, quantised.
+    std::vector<std::array<std::int32_t, 3>> place;  ///< Place of each slot, quantised.
     std::vector<std::uint8_t> known;                 ///< 1 where the slot's particle was in the last keyframe.
     Bytes data;                                      ///< Empty where no particle is alive.
   };
-  std::uint32_t first_chunk = 0;  ///< Where a world has several smokes, each numbers its chunks from its own first.
+  /// Distinguishes several smokes of a world: each numbers its chunks from its own first.
+  std::uint32_t first_chunk = 0;
   std::vector<Chunk> chunks;
 };
 
 /// Call once a tick, after advance_smoke: all smoke of this instant, ascending id, ready for a snapshot.
 std::vector<EffectKeyframe> advance_keyframes(KeyframeTrack& track, const State& state);
 
-/// One chunk as a screen has it.
+/// One chunk on a screen.
 struct Keyframe {
   struct Look {
     std::array<float, 3> albedo{};
@@ -57,14 +58,14 @@ struct Keyframe {
   };
   RigidTransform world_from_grid;
   float cell_m = 0.5f;
-  double time_s = 0.0;      ///< When `to` was taken and `from` is shown.
-  float duration_s = 0.0f;  ///< After which `to` is shown.
+  double time_s = 0.0;      ///< Time at which `to` was taken and `from` is shown.
+  float duration_s = 0.0f;  ///< Time after which `to` is shown.
   std::uint32_t chunk = 0;
   std::vector<Look> looks;
   std::vector<Particle> particles;
 };
 
-/// Refuses anything that the encoder would not write; safe on hostile bytes.
+/// Error: bytes that the encoder would not write; safe on hostile bytes.
 Expected<Keyframe> decode(std::span<const std::byte> bytes);
 
 /// One puff to draw: a ball of smoke whose density falls off as a Gaussian.
@@ -73,14 +74,14 @@ struct Puff {
   float radius_m = 0.5f;            ///< Standard deviation of the density.
   float extinction_area_m2 = 0.0f;  ///< Optical depth through its middle is this over 2π radius².
   glm::vec3 albedo{0.25f};
-  float glow = 0.0f;       ///< Of the flame, 1 at birth.
-  std::uint32_t seed = 0;  ///< Stays with the particle: which way its texture is turned.
+  float glow = 0.0f;       ///< Glow of the flame, 1 at birth.
+  std::uint32_t seed = 0;  ///< Constant for the particle: turns its texture.
 };
 
 /// Appends the puffs of a keyframe as they stand at a simulated time (clamped to the keyframe's span).
 void add_puffs(const Keyframe& keyframe, double time_s, std::vector<Puff>& puffs);
 
-/// All smoke of a snapshot at a time. Keyframes that cannot be read are left out and counted in `refused`.
+/// All smoke of a snapshot at a time. Unreadable keyframes are left out and counted in `refused`.
 std::vector<Puff> puffs_of(std::span<const EffectKeyframe> effects, double time_s, std::uint32_t* refused = nullptr);
 
 }  // namespace septet::smoke

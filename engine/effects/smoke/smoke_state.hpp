@@ -2,11 +2,11 @@
 /// Smoke as particles that read the density of the cells around them.
 ///
 /// Source: Gustavsson, Engström and Gustavsson, "A multi-sampling approach for smoke behavior in real-time graphics"
-/// (SIGRAD 2006): a particle is drawn to thin cells and pushed from dense ones, 46 samples in three shells around it, with
-/// a bias to what lies above while it is hot. SMOKE.md says what was added and why.
+/// (SIGRAD 2006): a particle is drawn to thin cells and pushed from dense ones, 46 samples in three shells around it,
+/// with a bias to the samples above while it is hot. SMOKE.md lists our additions and their reasons.
 ///
-/// `advance_smoke` is the tick. State is plain data; the same state, air, obstacles and step give the same smoke, on every
-/// machine. One thread.
+/// `advance_smoke` is the tick. State is plain data; the same state, air, obstacles and step give the same smoke, on
+/// every machine. One thread.
 
 #include <array>
 #include <cstdint>
@@ -26,28 +26,28 @@ inline constexpr std::uint64_t extinction_ticks = 4;
 struct Parameters {
   double steepness = 1.0;           ///< k of the logistic function of the density.
   double crowd = 5.0;               ///< Particles in a cell from which it repels.
-  double speed_cells_per_s = 20.0;  ///< Of a particle whose mean sample vector (figure 1) is one cell long.
+  double speed_cells_per_s = 20.0;  ///< Speed of a particle whose mean sample vector (figure 1) is one cell long.
   /// Random walk out of crowded cells: the steps of a second along an axis add up to this standard deviation for each ½
   /// by which the cell's attraction is below ½.
   double jitter_cells = 2.4;
-  std::uint16_t most_in_cell = 12;  ///< A cell with so many lets no more in.
-  /// Share of a full layer that a second leaves on a wall where the smoke is as dense as the crowd. With particles of 0.4 m²
-  /// in cells of 1 m³ that is a deposition speed of 20 mm/s. Chosen, not measured: thermophoresis in hot smoke gives 3 to 10,
-  /// and a burning vehicle gives off two to four times the soot that its particles stand for.
+  std::uint16_t most_in_cell = 12;  ///< Limit of particles in a cell.
+  /// Share of a full layer left on a wall in a second where the smoke is as dense as the crowd. With particles of 0.4
+  /// m² in cells of 1 m³ that is a deposition speed of 20 mm/s. Chosen, not measured: thermophoresis in hot smoke gives
+  /// 3 to 10, and a burning vehicle gives off two to four times the soot that its particles stand for.
   double soot_per_s = 0.01;
 };
 
-/// What gives off smoke. The scenario moves it and sets its rate; 0 stops it.
+/// A source of smoke. The scenario moves it and sets its rate; 0 stops it.
 struct Emitter {
   Vec3 position_m{0.0};   ///< World frame.
   double radius_m = 0.5;  ///< Particles are born anywhere within.
   double rate_per_s = 0.0;
   double heat = 0.5;         ///< Excess of the bias of the samples above a newborn particle; 0 is cold.
-  double cooling_s = 10.0;   ///< Heat falls to nothing within.
-  double lifetime_s = 60.0;  ///< After which a particle has thinned out; 0: it stays for ever.
+  double cooling_s = 10.0;   ///< Time within which the heat falls to zero.
+  double lifetime_s = 60.0;  ///< Time after which a particle has thinned out; 0: it stays for ever.
   std::array<float, 3> albedo{0.25f, 0.24f, 0.23f};  ///< Linear Rec. 709: of the light it scatters.
   double extinction_area_m2 = 0.25;  ///< Cross-section of one particle: density per m³ times this is extinction per m.
-  double glow = 0.0;                 ///< 0 to 1: how much a newborn particle shines like the flame that it left.
+  double glow = 0.0;                 ///< 0 to 1: brightness of a newborn particle, of the flame that it left.
   double owed = 0.0;                 ///< Part of a particle not yet born.
 };
 
@@ -57,8 +57,8 @@ struct Obstacle {
   Vec3 half_size_m{1.0};
 };
 
-/// Particles in grid coordinates, in the order of their cells as of the last sorting: neighbours in space are neighbours
-/// in memory. A particle keeps its number until it dies, so that a screen can follow it.
+/// Particles in grid coordinates, in the order of their cells as of the last sorting: neighbours in space are
+/// neighbours in memory. A particle keeps its number until it dies, so that a screen can follow it.
 struct Particles {
   std::vector<float> x, y, z, age_s;
   std::vector<std::uint8_t> emitter;  ///< Index of the emitter it came from.
@@ -80,7 +80,7 @@ struct State {
   std::uint64_t births = 0;
   double time_s = 0.0;
   std::vector<std::uint32_t> beside_wall;  ///< Free cells that touch a wall, ascending.
-  std::vector<float> soot;                 ///< Left on those walls, 0 to 1; as many.
+  std::vector<float> soot;                 ///< Soot on those walls, 0 to 1; as many.
   // Follow from the above and the obstacles of the last step.
   std::vector<std::uint16_t> density;     ///< Particles in each cell.
   std::vector<float> extinction_area_m2;  ///< Their cross-sections in each cell, every `extinction_ticks` ticks.
@@ -100,12 +100,12 @@ struct StepReport {
 /// One tick. `wind_mps` is the draught (world frame); obstacles may move between ticks.
 StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles, double step_s);
 
-/// Puts a particle into the nearest cell that is not full. False: at capacity, or nothing free within reach.
-/// Its extinction is not counted before the next tick.
+/// Puts a particle into the nearest cell that is not full. False: at capacity, or no free cell within reach. Its
+/// extinction is not counted before the next tick.
 bool add_particle(State& state, const Vec3& grid_position, std::uint8_t emitter, float age_s = 0.0f);
 
-/// Share of its extinction that a particle still has at this share of its lifetime: all of it for the first 70 %, then
-/// less, steadily, to nothing.
+/// Remaining share of a particle's extinction at this share of its lifetime: all of it for the first 70 %, then less,
+/// steadily, to zero.
 inline double remaining_extinction(double lifetime_share) {
   return lifetime_share <= 0.7 ? 1.0 : lifetime_share >= 1.0 ? 0.0 : (1.0 - lifetime_share) / 0.3;
 }

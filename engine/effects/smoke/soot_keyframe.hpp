@@ -1,8 +1,8 @@
 #pragma once
-/// Soot on walls, on the wire and as a screen draws it. The format is written down in SMOKE.md.
+/// Soot on walls, on the wire and on a screen. The format is written down in SMOKE.md.
 ///
-/// All soot of a smoke is one EffectKeyframe: the box of cells that have any, in 64 levels, in runs. It is renewed while
-/// smoke still leaves more; at rest it costs nothing.
+/// All soot of a smoke is one EffectKeyframe: the box of cells that have any, in 64 levels, in runs. It is renewed
+/// while smoke still leaves more; at rest it costs nothing.
 
 #include "engine/core/expected.hpp"
 #include "engine/effects/smoke/smoke_state.hpp"
@@ -13,7 +13,7 @@ namespace septet::smoke {
 inline constexpr std::uint16_t soot_kind = 3;
 inline constexpr std::uint32_t soot_effect_id = 0x00800000;
 inline constexpr int soot_levels = 64;
-/// More cells than this are not sent: the keyframe stays as it was.
+/// Limits: with more cells the keyframe stays as it was.
 inline constexpr std::size_t max_soot_cells = 1 << 17, max_soot_bytes = 16 * 1024;
 
 /// A box of cells; x runs fastest.
@@ -24,15 +24,15 @@ struct SootKeyframe {
   std::vector<std::uint8_t> level;  ///< 0 to soot_levels − 1; see soot_of.
 };
 
-/// State::soot of a level: its square, so that thin layers, which show most, are told apart best.
+/// State::soot of a level: its square, so that thin layers, which show most, have the finest levels.
 inline float soot_of(std::uint8_t level) {
   const float share = static_cast<float>(level) / (soot_levels - 1);
   return share * share;
 }
 
-/// Nothing where there is no soot of a whole level, or more than the limits allow.
+/// Empty where there is no soot of a whole level, or more than the limits allow.
 Bytes encode_soot(const State& state);
-/// Refuses anything that the encoder would not write; safe on hostile bytes.
+/// Error: bytes that the encoder would not write; safe on hostile bytes.
 Expected<SootKeyframe> decode_soot(std::span<const std::byte> bytes);
 
 }  // namespace septet::smoke

@@ -15,12 +15,12 @@ struct Padded {
   int nx, ny, nz;
   explicit Padded(const Grid& grid) : nx(grid.nx + 2 * pad), ny(grid.ny + 2 * pad), nz(grid.nz + 2 * pad) {}
   std::size_t size() const { return static_cast<std::size_t>(nx) * ny * nz; }
-  /// Of the grid's cell (0, j, k).
+  /// Index of the grid's cell (0, j, k).
   std::ptrdiff_t row(int j, int k) const { return static_cast<std::ptrdiff_t>(k + pad) * ny * nx + in_layer(j); }
   std::ptrdiff_t in_layer(int j) const { return static_cast<std::ptrdiff_t>(j + pad) * nx + pad; }
 };
 
-/// What lies outside the grid never changes: written once, when the memory is made.
+/// Values outside the grid never change: written once, when the memory is made.
 void fill_outside(const Grid& grid, const Padded& padded, std::vector<float>& attraction) {
   for (int k = -pad; k < grid.nz + pad; ++k)
     for (int j = -pad; j < grid.ny + pad; ++j)
@@ -28,7 +28,8 @@ void fill_outside(const Grid& grid, const Padded& padded, std::vector<float>& at
         attraction[padded.row(j, k) + i] = is_open(grid, i, j, k) ? 1.0f : -1.0f;
 }
 
-/// From sums over 3 cells of a row (differences, sums, magnitudes) and of those beside it, `y` numbers apart, to 3 × 3.
+/// Adds sums over 3 cells of a row (differences, sums, magnitudes) and those of the rows beside it, `y` numbers apart,
+/// to sums over 3 × 3.
 void add_rows(int count, std::ptrdiff_t y, const float* __restrict d, const float* __restrict s,
               const float* __restrict m, float* __restrict along_x, float* __restrict along_y, float* __restrict sum,
               float* __restrict magnitude) {
@@ -136,7 +137,7 @@ void convolve(int count, const Padded& padded, const float* attraction, const Ar
   }
 }
 
-/// Two numbers to the nearest, without a branch (what is converted is positive), the first in the lower half.
+/// Rounds two numbers to the nearest, branch-free (the converted values are positive), the first in the lower half.
 std::uint32_t packed(float first, float second) {
   constexpr float most = greatest_velocity / velocity_quantum;
   const auto half = [](float value) {
@@ -147,7 +148,7 @@ std::uint32_t packed(float first, float second) {
   return (half(first) & 0xffffu) | (half(second) << 16);
 }
 
-/// Whole words, because vectors of halves are put between each other one by one.
+/// Whole words, because interleaving vectors of halves is done one by one.
 void pack(int count, const Span& __restrict span, const float* __restrict attraction, CellVelocity* out) {
   alignas(32) std::uint32_t words[4 * span_cells];
   for (int i = 0; i < count; ++i) {
@@ -168,7 +169,7 @@ void look_up_row(int count, const std::uint16_t* __restrict density, const std::
   }
 }
 
-/// The attraction of every cell, and which rows have particles.
+/// Looks up the attraction of every cell, and marks the rows that have particles.
 void look_up(const State& state, std::span<const float> table, const Padded& padded, VelocityField& field) {
   const Grid& grid = state.grid;
   for (int k = 0; k < grid.nz; ++k)

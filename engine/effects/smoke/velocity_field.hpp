@@ -1,9 +1,9 @@
 #pragma once
 /// The paper's update, once per cell instead of once per particle.
 ///
-/// All particles of a cell read the same 46 cells, so figure 1 is a convolution of the attraction with the pattern. It is
-/// linear in the bias: the sum over what lies above is kept apart, and a particle adds it times its own bias. The sums
-/// over the 3×3×3 block are made from sums along rows, then in layers. Equal to `mean_sample` but for rounding.
+/// All particles of a cell read the same 46 cells, so figure 1 is a convolution of the attraction with the pattern. It
+/// is linear in the bias: the sum over the samples above is kept apart, and a particle adds it times its own bias. The
+/// sums over the 3×3×3 block are made from sums along rows, then in layers. Equal to `mean_sample` but for rounding.
 
 #include <array>
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace septet::smoke {
 
 struct State;
 
-/// Of one cell: the velocity of a particle in it is (rest + bias·above), in multiples of `velocity_quantum` cells/s.
-/// Small, because a tick's time goes into reading these.
+/// One cell of the field: the velocity of a particle in it is (rest + bias·above), in multiples of `velocity_quantum`
+/// cells/s. Small, because a tick's time goes into reading these.
 struct CellVelocity {
   std::int16_t rest[3];
   std::int16_t crowding;  ///< max(0, ½ − f) of the cell itself, which the 46 samples do not see, in the same multiples.
@@ -24,10 +24,11 @@ struct CellVelocity {
 };
 static_assert(sizeof(CellVelocity) == 16, "a particle's look-up is a quarter of a cache line");
 inline constexpr float velocity_quantum = 1.0f / 256.0f;
-/// Of one sum; beyond it is cut off.
+/// Limit of one sum; larger ones are clamped.
 inline constexpr float greatest_velocity = 127.0f;
 
-/// Sums of the attraction over some cells around each of a layer: the differences along x and y, the sum, the sum of magnitudes.
+/// Sums of the attraction over some cells around each of a layer: the differences along x and y, the sum, the sum of
+/// magnitudes.
 struct LayerSums {
   std::vector<float> along_x, along_y, sum, magnitude;
 };
@@ -41,7 +42,7 @@ struct VelocityField {
   std::vector<std::uint8_t> row_used;
 };
 
-/// From State::density and State::full.
+/// Computes the field from State::density and State::full.
 void update_velocity_field(const State& state, std::span<const float> table, VelocityField& field);
 
 }  // namespace septet::smoke

@@ -1,8 +1,8 @@
 #pragma once
-/// What smoke hides: extinction and the transmittance of lines of sight.
+/// Visibility through smoke: extinction and the transmittance of lines of sight.
 ///
-/// Extinction of a cell is the sum of its particles' cross-sections over its volume (1/m); transmittance along a line is
-/// exp(−∫ extinction ds) (Beer and Lambert). What a screen draws follows the same cross-sections (keyframe.hpp).
+/// Extinction of a cell is the sum of its particles' cross-sections over its volume (1/m); transmittance along a line
+/// is exp(−∫ extinction ds) (Beer and Lambert). A screen's picture uses the same cross-sections (smoke_keyframe.hpp).
 
 #include <optional>
 
@@ -16,8 +16,8 @@ double extinction_per_m(const State& state, const Vec3& world_m);
 /// Share of the light that passes from one place to the other, 0 to 1. Walls do not count.
 double transmittance(const State& state, const Vec3& from_m, const Vec3& to_m);
 
-/// How far something is seen through this extinction: 3 over it for what reflects, 8 over it for lamps and lit signs
-/// (Jin, "Visibility through fire smoke"). Unlimited (nothing) without smoke.
+/// Distance at which an object is seen through this extinction: 3 over it for reflecting ones, 8 over it for lamps and
+/// lit signs (Jin, "Visibility through fire smoke"). Empty (unlimited) without smoke.
 std::optional<double> visibility_m(double extinction_per_m, bool shines);
 
 }  // namespace septet::smoke

@@ -19,7 +19,7 @@ struct LaneVector {
   const Lanes& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
   Lanes& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
 };
-/// By columns.
+/// Stored by columns.
 struct LaneMatrix {
   std::array<LaneVector, 3> column;
   const Lanes& operator()(int row, int col) const { return column[col][row]; }
@@ -102,8 +102,8 @@ inline void add(Block& block, const std::array<std::array<Lanes, lanes>, 3>& col
   for (int c = 0; c < 3; ++c) block.column[c] += columns[c][k];
 }
 
-/// A bound of the part of a symmetric stress that pulls: ½ (S + |S|), with |S| from above by the
-/// polynomial 0.135 + 1.93 x² − 1.065 x⁴ of S over its norm; 0.135 of the norm too much at most.
+/// A bound of the tensile part of a symmetric stress: ½ (S + |S|), with |S| from above by the polynomial 0.135 + 1.93
+/// x² − 1.065 x⁴ of S over its norm; at most 0.135 of the norm too large.
 LaneMatrix tensile_bound(const LaneMatrix& stress, const Lanes& norm) {
   const Lanes scale = 1.0 / norm.max(1e-300);
   LaneMatrix s;

@@ -1,10 +1,9 @@
 #pragma once
 /// Cholesky factorisation of a BlockMatrix, with the structure found once and reused every step.
 ///
-/// The rows are expected in a fill-reducing order (Eigen's AMD, see `fill_reducing_order`). The
-/// numeric part is the up-looking method (Davis 2006, Direct Methods for Sparse Linear Systems,
-/// ch. 4) over 3×3 blocks: one index per nine numbers and a register per column, which is what
-/// makes it worth having beside Eigen's scalar SimplicialLLT.
+/// The rows are expected in a fill-reducing order (Eigen's AMD, see `fill_reducing_order`). The numeric part is the
+/// up-looking method (Davis 2006, Direct Methods for Sparse Linear Systems, ch. 4) over 3×3 blocks: one index per nine
+/// numbers and a register per column, its advantage over Eigen's scalar SimplicialLLT.
 
 #include <span>
 #include <utility>
@@ -20,10 +19,10 @@ std::vector<int> fill_reducing_order(int node_count, std::span<const std::pair<i
 /// Pattern of a matrix whose node pairs (either order, repeats allowed) are coupled.
 BlockPattern block_pattern(int node_count, std::span<const std::pair<int, int>> edges);
 
-/// Where the factor's blocks are: by columns for the solve, and by rows for the factorisation.
+/// Positions of the factor's blocks: by columns for the solve, and by rows for the factorisation.
 struct FactorPattern {
   std::vector<int> column_start, row;             ///< Strictly lower blocks by column.
-  std::vector<int> row_start, row_column, place;  ///< Row k: its columns, and their place above.
+  std::vector<int> row_start, row_column, place;  ///< Row k: its columns, and their positions above.
 };
 FactorPattern factor_pattern(const BlockPattern& pattern);
 
@@ -34,7 +33,7 @@ struct BlockFactor {
   std::vector<PaddedBlock<Scalar>> lower;  ///< In FactorPattern's column order.
 };
 
-/// Answers false where the matrix is not positive definite (then the factor is unusable).
+/// Returns false where the matrix is not positive definite (then the factor is unusable).
 bool factorise(const BlockPattern& pattern, const FactorPattern& structure, const BlockMatrix& matrix,
                BlockFactor<double>& factor);
 

@@ -1,10 +1,9 @@
 #pragma once
-/// Symmetric sparse matrices of 3×3 blocks, one block row per node: the systems that the stepper
-/// assembles and solves.
+/// Symmetric sparse matrices of 3×3 blocks, one block row per node: the systems that the stepper assembles and solves.
 ///
-/// A column of a block is padded to four numbers, and so is every vector's node, so that one column
-/// is one AVX register; the padding stays zero. Only the diagonal and the strictly lower blocks are
-/// kept, by rows, columns ascending.
+/// A column of a block is padded to four numbers, and so is every vector's node, so that one column is one AVX
+/// register; the padding stays zero. Only the diagonal and the strictly lower blocks are stored, by rows, columns
+/// ascending.
 
 #include <array>
 #include <vector>
@@ -24,11 +23,11 @@ using BlockVector = std::vector<Eigen::Array4d>;
 inline Block zero_block() { return {{Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()}}; }
 inline Eigen::Array4d padded(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z(), 0.0}; }
 
-/// Where the strictly lower blocks are.
+/// Positions of the strictly lower blocks.
 struct BlockPattern {
   int node_count = 0;
   std::vector<int> row_start;  ///< node_count + 1 entries.
-  std::vector<int> column;     ///< Of each block; ascending within a row.
+  std::vector<int> column;     ///< Column of each block; ascending within a row.
 
   /// Index of the block (row, column), which must exist.
   int slot(int row, int col) const;

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be measured on an elastic body: energies, momenta, volumes, stresses.
+/// Measures of an elastic body: energies, momenta, volumes, stresses.
 
 #include <Eigen/Core>
 

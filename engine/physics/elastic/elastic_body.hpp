@@ -24,10 +24,10 @@ struct Element {
   /// F = [x₁−x₀, x₂−x₀, x₃−x₀] · rest_inverse. Plastic flow replaces it by rest_inverse · Fp⁻¹.
   Eigen::Matrix3d rest_inverse;
   double rest_volume_m3 = 0.0;
-  std::array<int, 6> slots{};  ///< Of the blocks (1,0) (2,0) (2,1) (3,0) (3,1) (3,2).
+  std::array<int, 6> slots{};  ///< Slots of the blocks (1,0) (2,0) (2,1) (3,0) (3,1) (3,2).
 };
 
-/// The factor at rest that preconditions large bodies, and what it was made for.
+/// The factor at rest that preconditions large bodies, and the parameters it was made with.
 struct RestFactor {
   bool valid = false;
   double step_scale_s2 = 0.0;  ///< Δt²/γ.
@@ -36,7 +36,7 @@ struct RestFactor {
   BlockFactor<float> in_single;
 };
 
-/// Vectors that one step fills and the next reuses, so that a step allocates nothing.
+/// Workspace of one step, reused by the next, so that a step allocates nothing.
 struct StepWorkspace {
   BlockMatrix matrix;
   BlockVector right_side, solution, residual, direction, image, preconditioned;
@@ -49,12 +49,12 @@ struct ElasticBody {
   // State.
   std::vector<Eigen::Vector3d> position_m, velocity_mps;
   std::vector<Eigen::Vector3d> force_n;    ///< External, besides gravity; stays until changed.
-  std::vector<std::uint8_t> fixed;         ///< 1: the node keeps its velocity, whatever pulls at it.
+  std::vector<std::uint8_t> fixed;         ///< 1: the node keeps its velocity, whatever the forces on it.
   std::vector<double> contact_impulse_ns;  ///< Normal impulse of the last step, for friction.
 
-  /// Cauchy stress that carried the last step's impulses, of each element; filled where
-  /// StepSettings::keep_stress asks for it. In a stiff body it is the only trace of a blow, because
-  /// the strain that remains after the step is nearly none.
+  /// Cauchy stress that carried the last step's impulses, of each element; filled where StepSettings::keep_stress is
+  /// set. In a stiff body it is the only trace of an impact, because the strain that remains after the step is nearly
+  /// zero.
   std::vector<Eigen::Matrix3d> step_stress_pa;
 
   // Constant, except where fracture or plastic flow rewrites it.
@@ -67,23 +67,23 @@ struct ElasticBody {
   // Derived from the elements.
   BlockPattern pattern;
   FactorPattern factor_structure;
-  std::vector<Eigen::Matrix3d> rotation;  ///< Of each node from rest, followed from step to step.
+  std::vector<Eigen::Matrix3d> rotation;  ///< Rotation of each node from rest, followed from step to step.
   RestFactor rest_factor;
   StepWorkspace workspace;
 
   int node_count() const { return static_cast<int>(position_m.size()); }
 };
 
-/// A body at rest in the mesh's shape; refuses an invalid mesh or material.
+/// A body at rest in the mesh's shape. Error: an invalid mesh or material.
 Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh, const ElasticMaterial& material);
 
-/// Finds what follows from the elements' nodes: the equations' structure, and each element's place in it.
+/// Derives the equations' structure from the elements' nodes, and each element's position in it.
 void derive_structure(ElasticBody& body);
 
-/// To be called after `fixed` or the elements' rest shapes have been changed.
+/// Call after changes of `fixed` or of the elements' rest shapes.
 void invalidate_rest_factor(ElasticBody& body);
 
-/// Makes every node within the box [low, high] of the rest shape fixed.
+/// Fixes every node within the box [low, high] of the rest shape.
 void fix_nodes(ElasticBody& body, const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);
 
 }  // namespace septet::elastic

@@ -5,7 +5,7 @@ namespace septet::elastic {
 
 struct ElasticMaterial {
   double young_modulus_pa = 1e9;
-  double poisson_ratio = 0.25;  ///< Below one half: at exactly one half the primal form has no limit.
+  double poisson_ratio = 0.25;  ///< Must be below one half: at exactly one half the primal form has no limit.
   double density_kgpm3 = 1000.0;
 };
 

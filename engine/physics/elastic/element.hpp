@@ -1,12 +1,12 @@
 #pragma once
-/// What one tetrahedron does: strain, stress, forces on its nodes and its stiffness blocks.
+/// One tetrahedron: strain, stress, forces on its nodes and its stiffness blocks.
 ///
-/// Green strain E = ½(FᵀF − I), St. Venant–Kirchhoff stress S = λ tr(E) I + 2μE (second
-/// Piola–Kirchhoff). With shape gradients g_a and h_a = F g_a the force on node a is −V F S g_a, and
-/// Jᵀ D J, the stiffness without its geometric part, has the blocks
+/// Green strain E = ½(FᵀF − I), St. Venant–Kirchhoff stress S = λ tr(E) I + 2μE (second Piola–Kirchhoff). With shape
+/// gradients g_a and h_a = F g_a the force on node a is −V F S g_a, and Jᵀ D J, the stiffness without its geometric
+/// part, has the blocks
 ///     K_ab = V [λ h_a h_bᵀ + μ h_b h_aᵀ + μ (g_a·g_b) F Fᵀ].
-/// D is the tensor for shear strains ε₁₂ counted twice: Servin et al. print μ for 4μ (eq. 14), which
-/// makes shear four times too soft.
+/// D is the tensor for shear strains ε₁₂ counted twice: Servin et al. print μ for 4μ (eq. 14), which makes shear four
+/// times too soft.
 
 #include <array>
 

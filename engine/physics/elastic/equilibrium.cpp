@@ -22,8 +22,8 @@ BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
     if (geometric) add_geometric_stiffness(e, second_piola_stress(green_strain(f), lame), matrix);
   }
   for (int i = 0; i < body.node_count(); ++i) {
-    // A trace of a spring at every node holds a body that is free to turn; it slows Newton's
-    // iteration by nothing that shows and leaves the equilibrium where it is.
+    // A weak spring at every node holds a body that is free to turn; it slows Newton's iteration by nothing visible and
+    // leaves the equilibrium where it is.
     Block& d = matrix.diagonal[i];
     const double spring = 1e-13 * (d.column[0][0] + d.column[1][1] + d.column[2][2]);
     for (int c = 0; c < 3; ++c) d.column[c][c] += spring;
@@ -61,7 +61,7 @@ EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gra
       return report;
     solve(body.factor_structure, factor, move);
 
-    // Halve the move until the potential falls: far from equilibrium a full one may overshoot.
+    // Halve the step until the potential falls: far from equilibrium a full one may overshoot.
     const auto start = body.position_m;
     const double before = potential_j(body, gravity_mps2);
     double largest = 0.0;

@@ -13,8 +13,7 @@ struct EquilibriumReport {
   int iterations = 0;
 };
 
-/// Moves the free nodes until `force_n`, gravity and the internal forces balance. The nodes'
-/// velocities become zero.
+/// Moves the free nodes until `force_n`, gravity and the internal forces balance. Sets the nodes' velocities to zero.
 EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2, int max_iterations = 40);
 
 }  // namespace septet::elastic

@@ -9,7 +9,7 @@
 namespace septet::elastic {
 namespace {
 
-/// Errors below this speed (root mean square over the mass) are of no interest to anybody.
+/// Errors below this speed (root mean square over the mass) do not matter.
 constexpr double speed_tolerance_mps = 1e-8;
 /// Largest ratio of stiffness to mass that a factor in single precision may precondition: beyond
 /// it, rounding drowns the rigid motion.
@@ -82,7 +82,7 @@ void follow_rotations(ElasticBody& body) {
     for (int c = 0; c < 3; ++c) mean.col(c) = body.workspace.mean_deformation[i].column[c].head<3>().matrix();
     const double size = std::cbrt(std::abs(mean.determinant()));
     if (!(mean.determinant() > 0.0) || !(size > 0.2 * mean.norm() / std::sqrt(3.0)))
-      continue;  // Flattened or inverted: yesterday's rotation is the better guess.
+      continue;  // Flattened or inverted: the last step's rotation is the better guess.
     // Newton's iteration for the polar factor (Higham 1986): Q ← ½(Q + Q⁻ᵀ).
     Eigen::Matrix3d q = mean / size;
     for (int iteration = 0; iteration < 8; ++iteration) {

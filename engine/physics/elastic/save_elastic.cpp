@@ -4,10 +4,10 @@
 
 namespace septet::elastic {
 
-// Left out are the places in the equations.
+// Left out are the positions in the equations.
 SEPTET_MEMBER_GROUPS(Element, hashed(nodes, rest_inverse, rest_volume_m3), left_out(slots))
-// Left out are the material and what follows from the elements; the factor at rest is made again when it is wanted. Kept is what a body
-// was made of, and what was made of the hashed.
+// Left out are the material and data derived from the elements; the factor at rest is made again when it is needed.
+// Kept are the body's construction, and results of hashed members.
 SEPTET_MEMBER_GROUPS(ElasticBody, hashed(position_m, velocity_mps),
                      kept(force_n, fixed, contact_impulse_ns, step_stress_pa), left_out(material),
                      kept(rest_position_m, mass_kg, elements, body_node_of_mesh_node),
@@ -15,7 +15,7 @@ SEPTET_MEMBER_GROUPS(ElasticBody, hashed(position_m, velocity_mps),
 
 namespace {
 
-/// Far beyond what a body of debris can have in any of its numbers, in SI units but for stresses and stiffness.
+/// Bound far beyond every number of a body of debris, in SI units except for stresses and stiffness.
 constexpr double most = 1e7;
 
 template <class Matrix>

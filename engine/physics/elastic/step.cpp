@@ -28,7 +28,7 @@ void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double 
   }
 }
 
-/// Angular momentum about the centre that the forces and contacts of this step leave to the body.
+/// Angular momentum about the centre after the forces and contacts of this step.
 Eigen::Vector3d expected_angular_momentum(const ElasticBody& body, const RigidMotion& before, double dt,
                                           std::span<const NodeContact> contacts) {
   Eigen::Vector3d result = before.angular_momentum_nms;
@@ -38,8 +38,8 @@ Eigen::Vector3d expected_angular_momentum(const ElasticBody& body, const RigidMo
   return result;
 }
 
-/// Moves the body along the arcs of its rigid rotation: positions and velocities turn by exp(Δt ω),
-/// and ω then changes to what the angular momentum asks for, as a rigid body's does.
+/// Moves the body along the arcs of its rigid rotation: positions and velocities turn by exp(Δt ω), and ω then changes
+/// to follow the angular momentum, as a rigid body's does.
 void move_along_arcs(ElasticBody& body, double dt, const Eigen::Vector3d& angular_momentum_nms) {
   RigidMotion motion = rigid_motion(body);
   const Eigen::Vector3d spin = motion.angular_velocity_radps;
@@ -60,9 +60,9 @@ void move_along_arcs(ElasticBody& body, double dt, const Eigen::Vector3d& angula
     body.velocity_mps[i] += change.cross(body.position_m[i] - motion.centre_m);
 }
 
-/// A contact in the same regularised form as the strain: φ is the gap, its stiffness is large, and
-/// it acts while the gap would close. Friction is a viscous block whose strength is Coulomb's at
-/// the present sliding speed, so that it never turns the motion round.
+/// A contact in the same regularised form as the strain: φ is the gap, its stiffness is large, and it acts while the
+/// gap would close. Friction is a viscous block whose strength is Coulomb's at the present sliding speed, so that it
+/// never reverses the motion.
 struct ActiveContact {
   NodeContact* contact;
   double normal_rate_kg, normal_impulse_ns, tangent_rate_kg;
@@ -85,7 +85,7 @@ std::vector<ActiveContact> add_contacts(ElasticBody& body, const StepSettings& s
     const double normal_speed = relative.dot(c.normal);
     const Eigen::Vector3d predicted = relative + dt * settings.gravity_mps2;
     if (c.gap_m + dt * predicted.dot(c.normal) > 0.0) continue;
-    // Deep overlaps are let out at no more than 2 m/s, so that a spawn inside a wall is no shot.
+    // Deep overlaps are released at no more than 2 m/s, so that a spawn inside a wall is no shot.
     const double gap = std::max(c.gap_m, -2.0 * dt / gamma);
     ActiveContact a{&c, 0, 0, 0};
     a.normal_rate_kg = contact_stiffness * m / gamma;
@@ -103,7 +103,7 @@ std::vector<ActiveContact> add_contacts(ElasticBody& body, const StepSettings& s
   return active;
 }
 
-/// Replaces the rows of fixed nodes by "keeps its velocity" and moves their columns to the right.
+/// Replaces the rows of fixed nodes by "keeps its velocity" and moves their columns to the right-hand side.
 void hold_fixed_nodes(ElasticBody& body) {
   StepWorkspace& w = body.workspace;
   if (std::ranges::find(body.fixed, std::uint8_t{1}) == body.fixed.end()) return;
@@ -213,7 +213,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
     if (v.allFinite())
       body.velocity_mps[i] = v;
     else
-      ++report.bad_numbers;  // The node goes on as it did.
+      ++report.bad_numbers;  // The node keeps its velocity.
   }
   for (const ActiveContact& a : active) {
     const NodeContact& c = *a.contact;
@@ -228,7 +228,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
     move_along_arcs(body, settings.step_s, expected_angular_momentum(body, before, settings.step_s, contacts));
   else
     for (int i = 0; i < body.node_count(); ++i) body.position_m[i] += settings.step_s * body.velocity_mps[i];
-  report.bad_numbers += reset_bad_nodes(body);  // Whoever looks at the body now is to see none.
+  report.bad_numbers += reset_bad_nodes(body);  // Other code reads the body from here on.
   return report;
 }
 

@@ -1,21 +1,21 @@
 #pragma once
-/// One step of the regularised stepper of Servin, Lacoursière and Melin ("Interactive simulation of
-/// elastic deformable materials", 2006) in its primal form.
+/// One step of the regularised stepper of Servin, Lacoursière and Melin ("Interactive simulation of elastic deformable
+/// materials", 2006) in its primal form.
 ///
 /// Their eq. 20, with the multiplier eliminated and α⁻¹ = D, is
 ///     (M + Δt²/γ JᵀDJ) v⁺ = M v + Δt F − Δt JᵀDφ,   x⁺ = x + Δt v⁺,   γ = (½ + β/Δt)⁻¹,
-/// three unknowns a node instead of nine a tetrahedron, symmetric and positive definite. It is
-/// linearly implicit Euler without the geometric stiffness, the term that delays a swinging body;
-/// rigid motion is therefore untouched. Stiff modes are multiplied by 1−γ each step: β = 0 rings at
-/// the step's own frequency for ever, β = Δt/2 kills them in one step.
+/// three unknowns a node instead of nine a tetrahedron, symmetric and positive definite. It is linearly implicit Euler
+/// without the geometric stiffness, the term that delays a swinging body; rigid motion is therefore untouched. Stiff
+/// modes are multiplied by 1−γ each step: β = 0 rings at the step's own frequency for ever, β = Δt/2 kills them in one
+/// step.
 ///
-/// Prestress stays explicit, which tension beyond about 4ρ/(Δt²|g|²) would not survive: those
-/// elements, and only those, get the tensile part of their geometric stiffness, on the change of
-/// velocity: (M + Δt²/γ (JᵀDJ + K_g)) v⁺ = (M + Δt²/γ K_g) v + …, so that spin is not slowed.
+/// Prestress stays explicit, which is unstable for tension beyond about 4ρ/(Δt²|g|²): those elements, and only those,
+/// get the tensile part of their geometric stiffness, on the change of velocity, so that spin is not slowed:
+///     (M + Δt²/γ (JᵀDJ + K_g)) v⁺ = (M + Δt²/γ K_g) v + …
 ///
-/// A free body that spins moves along arcs: its rigid rotation is taken out of the update of
-/// positions and applied exactly, with the centrifugal force in its place. Along straight lines,
-/// 10 rad/s at 15 ms would stretch a body by one per cent, which breaks everything but rubber.
+/// A free body that spins moves along arcs: its rigid rotation is taken out of the update of positions and applied
+/// exactly, with the centrifugal force in its place. Along straight lines, 10 rad/s at 15 ms would stretch a body by
+/// one per cent, which breaks everything but rubber.
 
 #include <span>
 
@@ -37,11 +37,11 @@ struct StepSettings {
   double damping_ratio = 0.2;  ///< β/Δt; 0 conserves, 0.5 damps stiff modes within one step.
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -septet::gravity_mps2};
   bool tension_stiffness = true;
-  bool follow_spin = true;   ///< Of bodies without fixed nodes; false is the published update.
+  bool follow_spin = true;   ///< For bodies without fixed nodes; false is the published update.
   bool keep_stress = false;  ///< Fill ElasticBody::step_stress_pa.
   Solver solver = Solver::automatic;
   int direct_limit = 400;
-  double tolerance = 1e-5;  ///< Of the energy norm of the error, relative to the first guess's.
+  double tolerance = 1e-5;  ///< Bound on the error's energy norm, relative to the first guess's.
   int max_iterations = 400;
 };
 
@@ -52,13 +52,13 @@ struct NodeContact {
   double gap_m = 0.0;
   Eigen::Vector3d surface_velocity_mps{0.0, 0.0, 0.0};
   double friction = 0.0;                      ///< Coulomb's coefficient.
-  Eigen::Vector3d impulse_ns{0.0, 0.0, 0.0};  ///< Out: what the surface gave to the node.
+  Eigen::Vector3d impulse_ns{0.0, 0.0, 0.0};  ///< Out: impulse of the surface on the node.
 };
 
 struct StepReport {
-  int iterations = 0;  ///< Of the conjugate gradients; 0 where the solve was direct.
+  int iterations = 0;  ///< Iterations of the conjugate gradients; 0 where the solve was direct.
   bool converged = true;
-  int bad_numbers = 0;    ///< Nodes whose numbers went bad and were reset.
+  int bad_numbers = 0;    ///< Nodes reset because of NaN or infinite numbers.
   int inverted = 0;       ///< Elements with det F ≤ 0 at the start of the step.
   int under_tension = 0;  ///< Elements that got geometric stiffness.
 };
@@ -66,8 +66,8 @@ struct StepReport {
 /// Advances the body by one step. Contacts have at most one entry per node and surface.
 StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::span<NodeContact> contacts = {});
 
-/// Nodes with numbers that are not finite go back to their rest place in the body's mean motion. Returns how many. A step ends with it;
-/// so does whatever moves nodes after one.
+/// Resets nodes with non-finite numbers to their rest place in the body's mean motion; returns their number. A step
+/// ends with it; call it after moving nodes elsewhere, too.
 int reset_bad_nodes(ElasticBody& body);
 
 inline double gamma_of(const StepSettings& s) { return 1.0 / (0.5 + s.damping_ratio); }

@@ -22,8 +22,8 @@ struct TetrahedralMesh {
 /// images so that their faces agree. The box starts at the origin.
 TetrahedralMesh lattice_mesh(const Eigen::Vector3i& cells, const Eigen::Vector3d& size_m);
 
-/// Refuses a mesh without nodes or tetrahedra, an index out of range, a number that is not finite,
-/// a flat tetrahedron and a node that belongs to none.
+/// Error: a mesh without nodes or tetrahedra, an index out of range, a non-finite number, a flat tetrahedron or a node
+/// that belongs to none.
 Expected<void> validate(const TetrahedralMesh& mesh);
 
 /// Signed volume: positive where the fourth node is on the side of (b−a) × (c−a).

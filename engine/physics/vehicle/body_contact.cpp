@@ -4,14 +4,14 @@
 
 namespace septet::vehicle {
 namespace {
-// Of the bumpers, whose corners these are: an approach angle of 15 degrees over a metre of overhang. Lower, and a saloon that brakes
-// in a bend would scrape the ground with its outer front corner at 6 m/s².
+// Clearance of the bumpers, whose corners these are: an approach angle of 15 degrees over a metre of overhang. Lower,
+// and a saloon that brakes in a bend would scrape the ground with its outer front corner at 6 m/s².
 constexpr double bumper_clearance_m = 0.25;
 constexpr double stiffness_npm = 4e5;
 constexpr double damping_nspm = 8e3;
 constexpr double body_friction = 0.5;
-constexpr double buried_m = 0.5;  ///< Deeper, the force grows no more, and lifts the corner out no faster than…
-constexpr double out_mps = 1.0;   ///< …this: nobody came there by his own way, so nothing is stored.
+constexpr double buried_m = 0.5;  ///< Deeper, the force grows no more, and lifts the corner out no faster than out_mps.
+constexpr double out_mps = 1.0;   ///< Slow: such a depth is not driven into, so no energy is stored.
 }  // namespace
 
 void add_body_contact(const VehicleParameters& parameters, const Ground& ground, const VehicleState& state,

@@ -4,17 +4,17 @@
 #include "engine/physics/vehicle/controls.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
 
-// Anti-lock, traction and stability control after van Zanten 2000 ("Bosch ESP systems: 5 years of
-// experience"), each reduced to its idea: hold a slip, hold the driven wheels' slip, hold the yaw
-// rate that the steering asks for. On split friction the yaw moment of the brakes is built up with
-// delay (Bosch Automotive Handbook, "Yaw-moment build-up delay").
+// Anti-lock, traction and stability control after van Zanten 2000 ("Bosch ESP systems: 5 years of experience"), each
+// reduced to its idea: hold a slip, hold the driven wheels' slip, hold the yaw rate of the driver's steering. On split
+// friction the yaw moment of the brakes is built up with delay (Bosch Automotive Handbook, "Yaw-moment build-up
+// delay").
 
 namespace septet::vehicle {
 namespace {
 
 constexpr double control_from_mps = 1.5;
 
-/// Share of the wheel's forward speed that rolling lacks: 1 is locked, negative is spinning.
+/// Slip of a braked wheel, a share of its forward speed: 1 is locked, negative is spinning.
 double braking_slip(const VehicleParameters& parameters, const VehicleState& state, int wheel,
                     const Vec3& velocity_mps) {
   const double side_m = 0.5 * side_of(wheel) * parameters.suspension[axle_of(wheel)].track_m;
@@ -33,15 +33,16 @@ void advance_anti_lock(const VehicleParameters& parameters, const Vec3& velocity
     double& release = state.brakes.release[i];
     release = std::clamp(release + dt_s * rate, 0.0, 0.98);
   }
-  // Select low: both rear wheels brake as the one that grips less, which keeps the rear axle's grip
-  // sideways where friction is split.
+  // Select low: both rear wheels brake as the one with less grip, which keeps the rear axle's grip sideways where
+  // friction is split.
   double& rear_left = state.brakes.release[2];
   double& rear_right = state.brakes.release[3];
   rear_left = rear_right = std::max(rear_left, rear_right);
 }
 
-/// Where one side grips less and its front wheel is released, the other front wheel's pressure follows it down and rises again
-/// only as fast as the car does not turn: the driver has the time to steer against it.
+/// Delays the yaw moment where one side has less grip and its front wheel is released: the other front wheel's pressure
+/// follows it down and rises again only as fast as the car does not turn, so that the driver has the time to steer
+/// against it.
 void delay_yaw_moment(double yaw_rate_radps, double dt_s, BrakeState& brakes) {
   constexpr double bearable_radps = 0.01, rise_per_s = 0.8, fall_per_s = 6.0, gain_per_rad = 25.0;
   constexpr double least = 0.02;
@@ -57,7 +58,7 @@ void delay_yaw_moment(double yaw_rate_radps, double dt_s, BrakeState& brakes) {
   brakes.release[high] = std::max(brakes.release[high], brakes.release[1 - high] - brakes.front_difference);
 }
 
-/// Share of the engine's torque to take away: what the fastest driven wheel turns too fast.
+/// Share of the engine's torque to remove, by the excess speed of the fastest driven wheel.
 double traction_cut(const VehicleParameters& parameters, const VehicleState& state, const Vec3& velocity_mps) {
   const double speed_mps = std::max(std::abs(velocity_mps.x), 1.0);
   double over_mps = 0.0;
@@ -66,9 +67,8 @@ double traction_cut(const VehicleParameters& parameters, const VehicleState& sta
   return std::clamp(0.7 * (over_mps - std::max(0.08 * speed_mps, 0.5)), 0.0, 1.0);
 }
 
-/// One wheel is braked when the car turns more (outer front) or less (inner rear) than the driver
-/// steers.
-/// Answers whether it acts.
+/// Brakes one wheel when the car turns more (outer front) or less (inner rear) than the driver steers. Returns true
+/// while it acts.
 bool advance_stability_control(const VehicleParameters& parameters, const Vec3& velocity_mps, double dt_s,
                                VehicleState& state) {
   bool acts = false;

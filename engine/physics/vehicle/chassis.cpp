@@ -8,9 +8,8 @@
 #include "engine/physics/vehicle/tyre.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 
-// Velocities are advanced with forces at the old positions, positions with the new velocities
-// (symplectic Euler); brakes and tyres are implicit in wheel spin and in deflection. Left out:
-// gyroscopic moments of the wheels.
+// Velocities are advanced with forces at the old positions, positions with the new velocities (symplectic Euler);
+// brakes and tyres are implicit in wheel spin and in deflection. Left out: gyroscopic moments of the wheels.
 
 namespace septet::vehicle {
 namespace {
@@ -24,8 +23,8 @@ struct WheelLoad {
   Vec3 force_n{0.0};
   Vec3 aligning_nm{0.0};
   Vec3 rolling_n{0.0};             ///< Part of force_n along the wheel's heading.
-  double rolling_torque_nm = 0.0;  ///< What that part turns the wheel with, against its spin.
-  double lean_nm = 0.0;            ///< Of the load on a contact that gave way sideways.
+  double rolling_torque_nm = 0.0;  ///< Torque of that part on the wheel, against its spin.
+  double lean_nm = 0.0;            ///< Moment of the load on a contact shifted sideways.
   double shaft_torque_nm = 0.0;    ///< Drive and brake together, about the spin axis.
   double brake_torque_nm = 0.0;    ///< The brake's share.
 };
@@ -42,8 +41,8 @@ double spin_wheel(double spin_radps, double torque_nm, double brake_nm, double i
   return free_radps - taken_radps;
 }
 
-/// The plane that carries a wheel: its ground, or the one that touches an edge across the line from there to the wheel's centre
-/// (`edge_m` stays set).
+/// The plane that carries a wheel: its ground, or the one that touches an edge across the line from there to the
+/// wheel's centre (`edge_m` stays set).
 WheelGround carrying_plane(const WheelGround& ground, const Vec3& centre_m, const Vec3& forward) {
   WheelGround result = ground;
   result.edge_m.reset();
@@ -52,7 +51,7 @@ WheelGround carrying_plane(const WheelGround& ground, const Vec3& centre_m, cons
   const double ahead_m = glm::dot(to_centre, forward) / glm::length(forward);
   const double up_m = glm::dot(to_centre, ground.normal);
   const double distance_m = std::hypot(ahead_m, up_m);
-  constexpr double least_up_m = 0.05;  // Higher than the hub it is a wall: the hull meets those.
+  constexpr double least_up_m = 0.05;  // A higher edge than the hub is a wall: the hull meets it.
   if (up_m < least_up_m || distance_m >= glm::dot(ground.normal, centre_m - ground.point_m)) return result;
   result.normal = glm::normalize(up_m * ground.normal + ahead_m / glm::length(forward) * forward);
   result.point_m = centre_m - distance_m * result.normal;
@@ -81,11 +80,11 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
           ? Vec3(centre_m.x, side_of(index) * 0.5 * parameters.suspension[axle_of(index)].track_m, centre_m.z)
           : centre_m;
   const double height_m = glm::dot(met.normal, state.world_from_body * measured_m - met.point_m);
-  // Deeper than that the rim would be flat; the force stays what it is there.
+  // From 0.6 of the radius on the rim would be flat; the force stays at its value there.
   const double deflection_m = std::min(tyre.radius_m - height_m, 0.6 * tyre.radius_m);
   const Vec3 across = glm::cross(axis, normal);
   const double across_size = glm::length(across);
-  // Nothing to stand on: in the air, or the wheel lies on its side or above the car.
+  // False in the air, or where the wheel lies on its side or above the car.
   const bool touching = deflection_m > 0.0 && normal.z > 0.3 && across_size > 0.3;
 
   const double effective_radius_m =
@@ -102,7 +101,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
                              ? std::cos(wheel.steer_rad) * body_forward + std::sin(wheel.steer_rad) * body_left
                              : across / across_size;
     const Vec3 left = glm::cross(normal, forward);
-    // A round wheel's lowest point lies under its centre, however the body pitches; sideways it lies where the axle leads it.
+    // A round wheel's lowest point lies under its centre, however the body pitches; sideways it follows the axle.
     load.contact_m = centre_m - height_m * normal;
     if (!met.edge_m) {
       load.contact_m.y = load.place.contact_left_m;
@@ -111,8 +110,8 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     const SuspensionParameters& suspension = parameters.suspension[axle_of(index)];
     Vec3 path_mps = wheel.travel_rate_mps * Vec3(load.place.contact_slope, 1.0);
     if (suspension.rigid_axle) {
-      // Its joint hangs on the axle: the lower the wheel's centre, the deeper the joint lies under the contact, which moves only
-      // as the axle leans.
+      // Its joint hangs on the axle: the lower the wheel's centre, the deeper the joint lies under the contact, which
+      // moves only as the axle leans.
       load.place.contact_slope.y +=
           side_of(index) * (height_m - known.centre_z_m[axle_of(index)]) / (0.5 * suspension.track_m);
       path_mps.y = 0.5 * (wheel.travel_rate_mps - opposite_rate_mps) * load.place.contact_slope.y;
@@ -121,7 +120,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     const double out_mps = glm::dot(patch_mps, normal);
     double load_n = std::max(
         0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) - tyre.vertical_damping_nspm * out_mps);
-    // A wheel whose hub lies under the ground did not come there on its own way: it is lifted out slowly, not thrown.
+    // A wheel whose hub lies under the ground has not been driven there: it is lifted out slowly, not thrown.
     constexpr double most_out_mps = 1.0;
     if (height_m < 0.0) load_n *= std::clamp(1.0 - out_mps / most_out_mps, 0.0, 1.0);
     TyreContact contact;
@@ -223,12 +222,12 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     moment_nm.x += contact.y * tyre_n.z - contact.z * tyre_n.y + load.lean_nm;
     moment_nm.y += contact.z * tyre_n.x - contact.x * tyre_n.z;
     if (!parameters.as_published)
-      moment_nm.y += load.rolling_torque_nm - load.shaft_torque_nm;  // What spins the wheel.
+      moment_nm.y += load.rolling_torque_nm - load.shaft_torque_nm;  // Torque that spins the wheel.
     moment_nm.z += parameters.as_published ? published_yaw_moment_nm(parameters, known, i, up, tyre_n)
                                            : contact.x * tyre_n.y - contact.y * tyre_n.x;
 
-    // A rigid axle leans about its one joint: both wheels' forces work on either wheel's travel, their sum at the contacts'
-    // height over the joint, their difference on the lean that there is.
+    // A rigid axle leans about its one joint: both wheels' forces work on either wheel's travel, their sum at the
+    // contacts' height over the joint, their difference on the present lean.
     const SuspensionParameters& suspension = parameters.suspension[axle_of(i)];
     double sideways_n = tyre_n.y * place.contact_slope.y;
     if (suspension.rigid_axle) {

@@ -1,13 +1,12 @@
 #pragma once
-/// From the driver's controls to what acts on the chassis: steering column, engine and gearbox,
-/// brakes. One step each; all read the state of the last step and change only their own part of it.
+/// Controls to chassis inputs: steering column, engine and gearbox, brakes. One step each; all read the state of the
+/// last step and change only their own part of it.
 
 #include "engine/physics/vehicle/vehicle.hpp"
 
 namespace septet::vehicle {
 
-/// Moves the steering column on and returns the mean road-wheel angle. Also sets the torque that
-/// the driver feels.
+/// Advances the steering column and returns the mean road-wheel angle. Also sets the driver's steering torque.
 double advance_steering(const VehicleParameters& parameters, double steering_wheel_rad, double speed_mps, double dt_s,
                         VehicleState& state);
 
@@ -18,11 +17,10 @@ std::array<double, wheel_count> advance_powertrain(const VehicleParameters& para
 /// Speed of the gearbox's output shaft before the final drive, rad/s, from the driven wheels.
 double output_shaft_radps(const VehicleParameters& parameters, const VehicleState& state);
 
-/// The gear that the automatic chooses at a steady speed with little throttle.
+/// The automatic's gear at a steady speed with little throttle.
 int cruising_gear(const PowertrainParameters& powertrain, double output_radps);
 
-/// Pedal, parking brake, anti-lock, traction and stability control: friction torque at each wheel,
-/// N m.
+/// Pedal, parking brake, anti-lock, traction and stability control: friction torque at each wheel, N m.
 std::array<double, wheel_count> advance_brakes(const VehicleParameters& parameters, const DriverInput& input,
                                                const Vec3& velocity_mps, double dt_s, VehicleState& state);
 

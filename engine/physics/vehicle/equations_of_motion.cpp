@@ -50,7 +50,7 @@ Coordinates accelerations(const VehicleParameters& parameters, const Statics& st
   for (int i = 0; i < 3; ++i) mass[i][i] = statics.sprung_mass_kg;
   mass[3][3] = parameters.body.inertia_kgm2.x;
   mass[4][4] = parameters.body.inertia_kgm2.y;
-  std::array<BodyCoordinates, wheel_count> coupling;  // Of a travel with the body.
+  std::array<BodyCoordinates, wheel_count> coupling;  // Coupling of a travel with the body.
   std::array<double, wheel_count> inverse_travel_mass;
   for (int wheel = 0; wheel < wheel_count; ++wheel) {
     const double mass_kg = parameters.suspension[axle_of(wheel)].unsprung_mass_kg;

@@ -1,13 +1,12 @@
 #pragma once
-/// The accelerations of body and wheel hops that given forces cause.
+/// Accelerations of body and wheel hops under given forces.
 ///
-/// Coordinates: the body's velocity in its own axes (x, y, z), its roll and pitch rates, and the
-/// four rates of travel. With J_i the row that takes them to the velocity of wheel centre i, the
-/// kinetic energy has the matrix M = diag(sprung mass, inertia) + Σ m_i J_iᵀ J_i, and M ·
-/// acceleration = generalised force (Lagrange; Roberson and Schwertassek 1988, chapter 5). Yaw
-/// stands beside it: its inertia is given for the whole car, and the centres of the sprung mass and
-/// of the whole car are taken to coincide in plan. Gravity accelerates all masses alike and is left
-/// out: linear accelerations here are what an accelerometer feels.
+/// Coordinates: the body's velocity in its own axes (x, y, z), its roll and pitch rates, and the four rates of travel.
+/// With J_i the row that takes them to the velocity of wheel centre i, the kinetic energy has the matrix M =
+/// diag(sprung mass, inertia) + Σ m_i J_iᵀ J_i, and M · acceleration = generalised force (Lagrange; Roberson and
+/// Schwertassek 1988, chapter 5). Yaw stands beside it: its inertia is given for the whole car, and the centres of the
+/// sprung mass and of the whole car are taken to coincide in plan. Gravity accelerates all masses alike and is left
+/// out: linear accelerations here are those of an accelerometer.
 
 #include <array>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What of a car has failed by itself: no collision broke it. Plain data, and what it makes of the car's parameters. Pure.
+/// Faults of a car without a collision: plain data, and their effect on the car's parameters. Pure.
 ///
 /// A tyre that loses its air is damage of a wheel (wheel_damage.hpp).
 
@@ -9,21 +9,22 @@
 namespace septet::vehicle {
 
 struct Faults {
-  bool anti_lock =
-      false;  ///< The unit of the brakes' control has switched itself off: no anti-lock, traction or stability control.
+  /// The brakes' control unit has switched itself off: no anti-lock, traction or stability control.
+  bool anti_lock = false;
   bool misfire = false;  ///< One cylinder does not fire: its share of the torque is missing, it is dragged along.
 
   bool any() const { return anti_lock || misfire; }
   bool operator==(const Faults&) const = default;
 };
 
-/// The car with these faults.
+/// The car's parameters with these faults.
 VehicleParameters with_faults(const VehicleParameters& parameters, const Faults& faults);
 
-/// What a control that has just switched itself off leaves: full pressure where the driver brakes, none where he does not.
+/// Sets the brakes' state after their control has switched itself off: full pressure while the driver brakes, otherwise
+/// zero.
 void release_controls(VehicleState& state);
 
-/// The wheel's tyre begins to lose its air, as if it had been cut; or it is another one, whole.
+/// Cuts the wheel's tyre, so that it begins to lose its air; change_tyre fits a whole one.
 void puncture(WheelState& wheel);
 void change_tyre(WheelState& wheel);
 

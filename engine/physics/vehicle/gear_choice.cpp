@@ -67,11 +67,11 @@ void advance_gear(const PowertrainParameters& powertrain, const DriverInput& inp
     return;
   }
   int gear = wanted_gear(powertrain, input, pedal, output_radps, state);
-  // Against the motion no gear goes in, but one that is in stays in: who rolls back on a hill is pulled up it again.
+  // Against the motion no gear engages, but an engaged one stays: a car that rolls back on a hill is pulled up it
+  // again.
   const bool fresh = gear * state.gear <= 0;
   if (fresh && ((gear < 0 && !reverse_allowed) || (gear > 0 && !forward_allowed))) gear = 0;
-  // A gear that would run the engine past its limit is refused, and so is one with the clutch
-  // closed.
+  // A gear that would run the engine past its limit is refused, and so is one with the clutch closed.
   if (gear >= 1 && output_radps * powertrain.gear_ratio[gear - 1] > powertrain.most_radps && gear < state.gear)
     gear = state.gear;
   const bool clutch_needed =

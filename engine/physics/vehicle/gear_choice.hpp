@@ -1,5 +1,5 @@
 #pragma once
-/// Which gear is engaged, and when it changes.
+/// The engaged gear, and its changes.
 
 #include "engine/physics/vehicle/vehicle_parameters.hpp"
 #include "engine/physics/vehicle/vehicle_state.hpp"
@@ -7,9 +7,8 @@
 
 namespace septet::vehicle {
 
-/// Moves a shift in progress on, or begins one. `pedal` is the accelerator; `output_radps` the
-/// speed of the gearbox's output. A direction that is not allowed (the car rolls the other way)
-/// engages neutral.
+/// Advances a shift in progress, or begins one. `pedal` is the accelerator; `output_radps` the speed of the gearbox's
+/// output. A direction against the car's motion engages neutral.
 void advance_gear(const PowertrainParameters& powertrain, const DriverInput& input, double pedal, double output_radps,
                   bool reverse_allowed, bool forward_allowed, double dt_s, PowertrainState& state);
 

@@ -6,15 +6,14 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::vehicle {
 namespace {
 
-constexpr double blow_s = 0.25;  // The blow itself is over by then; what follows is sliding.
+constexpr double blow_s = 0.25;  // End of the impact itself; later contact is sliding.
 constexpr double let_go_s = 0.1, forgotten_s = 0.5;
-constexpr double joint_m = 0.15;  // By so much more than before a next stretch may enter.
+constexpr double joint_m = 0.15;  // Limit of the extra depth with which a next stretch is met.
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 Vec2 left_of(const Vec2& v) { return {-v.y, v.x}; }
@@ -62,7 +61,7 @@ Plan plan_of(const BodyParameters& body, const VehicleState& state) {
       plan.mass_centre_m + (0.5 * body.length_m - body.rear_overhang_m - body.mass_centre_x_m) * plan.forward;
   plan.half_m = {0.5 * body.length_m, 0.5 * body.width_m};
   const double ground_m = state.world_from_body.position_m.z - body.mass_centre_z_m;
-  plan.low_m = ground_m + 0.2;  // Lower is what the wheels climb.
+  plan.low_m = ground_m + 0.2;  // The wheels climb lower obstacles.
   plan.high_m = ground_m + body.height_m;
   return plan;
 }
@@ -73,7 +72,7 @@ struct Contact {
   std::size_t zone = 0;
 };
 
-/// The obstacle as a round thing at `middle_m`. `face`: in and out, the side of the hull that it came through.
+/// The obstacle as a circle at `middle_m`. `face`: in and out, the side of the hull through which it came.
 std::optional<Contact> round_contact(const Plan& plan, const Vec2& middle_m, double radius_m, Vec2& face) {
   const Vec2 local = plan.to_local(middle_m);
   const Vec2 nearest = glm::clamp(local, -plan.half_m, plan.half_m);
@@ -95,7 +94,7 @@ std::optional<Contact> round_contact(const Plan& plan, const Vec2& middle_m, dou
   return Contact{plan.to_world(local), -plan.direction_to_world(face), to_face_m + radius_m, plan.zone(surface)};
 }
 
-/// Whatever of the hull is behind the line: its corners.
+/// Visits the parts of the hull behind the line: its corners.
 template <class Visit>
 void for_each_line_contact(const Plan& plan, const Obstacle& line, double side, const Visit& visit) {
   const Vec2 along_m = line.to_m - line.from_m;
@@ -233,7 +232,7 @@ class Step {
     std::uint32_t run;
     double depth_m;
   };
-  std::vector<Entered> entered_;  // How deep in this step.
+  std::vector<Entered> entered_;  // Depths in this step.
 };
 
 }  // namespace
@@ -251,7 +250,5 @@ void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle>
   for (const Obstacle& obstacle : obstacles) step.meet(obstacle);
   step.finish();
 }
-
-void hash_hull(StateHash& hash, const HullState& hull) { hash_members(hash, hull); }
 
 }  // namespace septet::vehicle

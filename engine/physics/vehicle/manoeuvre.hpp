@@ -1,10 +1,9 @@
 #pragma once
-/// The standard manoeuvres: what a test track does to a car, done to ours. Each starts from settled
-/// straight running, returns its figures and the time series they come from, and is a pure
-/// function.
+/// The standard manoeuvres of test tracks. Each starts from settled straight running, returns its figures and the time
+/// series behind them, and is a pure function.
 ///
-/// Angles of steer are those of the road wheels in the mean of the axle: hand wheel over steering
-/// ratio, by ISO 8855. Left turns, unless said otherwise.
+/// Angles of steer are those of the road wheels in the mean of the axle: hand wheel over steering ratio, by ISO 8855.
+/// Left turns, unless said otherwise.
 
 #include <optional>
 #include <string>
@@ -21,7 +20,7 @@ namespace septet::vehicle {
 /// One instant, in the axes of ISO 8855.
 struct ManoeuvreSample {
   double time_s = 0.0;
-  double x_m = 0.0, y_m = 0.0;  ///< Of the centre of the sprung mass.
+  double x_m = 0.0, y_m = 0.0;  ///< Place of the centre of the sprung mass.
   double heading_rad = 0.0;
   double steer_rad = 0.0;  ///< Hand wheel over ratio.
   double speed_mps = 0.0;
@@ -33,11 +32,11 @@ struct ManoeuvreSample {
 };
 
 struct ManoeuvreReport {
-  std::string manoeuvre;  ///< As on the command line.
+  std::string manoeuvre;  ///< Name on the command line.
   std::string standard;
   std::vector<Figure> figures;
   std::vector<ManoeuvreSample> series;
-  /// Why the figures say nothing about the car, or a figure is missing: "60 mph was not reached in 100 s: …".
+  /// Reasons why the figures do not describe the car, or a figure is missing: "60 mph was not reached in 100 s: …".
   std::vector<std::string> faults;
 
   /// The figure of this name; it must exist.
@@ -46,54 +45,51 @@ struct ManoeuvreReport {
 
 struct ManoeuvreOptions {
   double speed_mps = 0.0;  ///< 0: the manoeuvre's usual speed.
-  double friction = 0.0;   ///< 0: that of the surface for which the tyre is given.
+  double friction = 0.0;   ///< 0: that of the surface of the tyre's data.
   double steer_rad = 0.0;  ///< Amplitude of step steer and sine with dwell; 0: found by the manoeuvre.
   double settle_s = 8.0;   ///< Straight running before the manoeuvre begins.
-  /// Unset: on for the sine with dwell, which is its test, and for given inputs; off otherwise. Only
-  /// where the car has one.
+  /// Absent: on for the sine with dwell, which is its test, and for given inputs; off otherwise. Only where the car has
+  /// one.
   std::optional<bool> stability_control;
 };
 
-/// ISO 4138: constant speed (100 km/h), steering wheel turned slowly until the front axle slides or
-/// a wheel lifts. Figures at 2 and 4 m/s² and slopes between 1 and 3: understeer gradient, yaw
-/// gain, sideslip, roll.
+/// ISO 4138: constant speed (100 km/h), steering wheel turned slowly until the front axle slides or a wheel lifts.
+/// Figures at 2 and 4 m/s² and slopes between 1 and 3: understeer gradient, yaw gain, sideslip, roll.
 ManoeuvreReport steady_circle(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// ISO 7401: step to the angle that gives 4 m/s², at 0.4 rad/s of the road wheels, throttle frozen
-/// (80 km/h).
+/// ISO 7401: step to the angle that gives 4 m/s², at 0.4 rad/s of the road wheels, throttle frozen (80 km/h).
 ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// ISO 3888-1: double lane change (80 km/h) behind a driver who looks 0.6 s ahead, throttle frozen.
+/// ISO 3888-1: double lane change (80 km/h) by a driver who looks 0.6 s ahead, throttle frozen.
 ManoeuvreReport double_lane_change(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// ISO 19365: sine with dwell, 0.7 Hz, 0.5 s, at 80 km/h in neutral throttle; amplitude 5 times the
-/// angle for 0.3 g.
+/// ISO 19365: sine with dwell, 0.7 Hz, 0.5 s, at 80 km/h in neutral throttle; amplitude 5 times the angle for 0.3 g.
 ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// ISO 21994: full stop (100 km/h) with the anti-lock system, or without one with every wheel held
-/// at its best slip.
+/// ISO 21994: full stop (100 km/h) with the anti-lock system, or without one with every wheel held at its best slip.
 ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
 /// Rolling out in neutral (120 km/h) down to 20 km/h.
 ManoeuvreReport coast_down(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// Full throttle from rest for 100 s: 0–60 mph, 0–100 km/h and top speed. What was not reached is a fault and no figure.
+/// Full throttle from rest for 100 s: 0–60 mph, 0–100 km/h and top speed. A speed that was not reached is a fault and
+/// no figure.
 ManoeuvreReport acceleration(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// What the driver does from `time_s` on; between two rows steering wheel and pedals change evenly.
+/// The driver's controls from `time_s` on; between two rows steering wheel and pedals change linearly.
 struct TimedInput {
   double time_s = 0.0;
   DriverInput input;
 };
-/// Anybody's own inputs, from settled straight running at options.speed_mps (0: at rest) to the last row's time: the peaks of
-/// what the car does. `rows`: at least two, times ascending.
+/// Drives given inputs, from settled straight running at options.speed_mps (0: at rest) to the last row's time: the
+/// peaks of the car's response. `rows`: at least two, times ascending.
 ManoeuvreReport drive_inputs(const VehicleParameters& parameters, const ManoeuvreOptions& options,
                              const std::vector<TimedInput>& rows);
 
-/// Appends what every manoeuvre has to fear: numbers that are not finite, a car that turned over or spun.
+/// Appends the faults possible in every manoeuvre: non-finite numbers, a car that turned over or spun.
 void find_faults(ManoeuvreReport& report);
 
-/// By its name on the command line: steady-circle, step-steer, double-lane-change, sine-with-dwell,
+/// Runs a manoeuvre by its name on the command line: steady-circle, step-steer, double-lane-change, sine-with-dwell,
 /// stop, coast-down, acceleration.
 Expected<ManoeuvreReport> run_manoeuvre(std::string_view name, const VehicleParameters& parameters,
                                         const ManoeuvreOptions& options);

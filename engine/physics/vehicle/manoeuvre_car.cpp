@@ -32,8 +32,7 @@ void ManoeuvreCar::advance_with_torques(const ChassisInput& chassis) {
 
 void ManoeuvreCar::hold_speed(double speed_mps) {
   const double error_mps = speed_mps - outputs(parameters_, state_).speed_mps;
-  // A pedal of 1 moves a light car without an engine ten times harder than the S80 in its highest
-  // gear.
+  // A pedal of 1 moves a light car without an engine ten times harder than the S80 in its highest gear.
   const double gain = parameters_.powertrain.transmission == Transmission::direct ? 0.3 : 1.0;
   integral_ = std::clamp(integral_ + 0.5 * gain * error_mps * manoeuvre_step_s, 0.0, 1.0);
   input_.accelerator = std::clamp(gain * error_mps + integral_, 0.0, 1.0);

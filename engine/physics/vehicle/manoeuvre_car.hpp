@@ -1,6 +1,6 @@
 #pragma once
-/// A car on a level test track, with the few things that every manoeuvre does: hold a speed, freeze
-/// the throttle, record.
+/// A car on a level test track, with the operations common to all manoeuvres: hold a speed, freeze the throttle,
+/// record.
 
 #include <functional>
 
@@ -17,13 +17,13 @@ class ManoeuvreCar {
   /// Rolls straight ahead at this speed, settled for options.settle_s with the speed held.
   ManoeuvreCar(const VehicleParameters& parameters, const ManoeuvreOptions& options, double speed_mps);
 
-  /// One step with these road-wheel angle; pedals as left by hold_speed, freeze or input().
+  /// Advances by one step with this road-wheel angle; pedals as left by hold_speed, freeze or input().
   void advance(double steer_rad);
-  /// As advance, but with given wheel torques instead of pedals.
+  /// Like advance, but with given wheel torques instead of pedals.
   void advance_with_torques(const ChassisInput& chassis);
   /// Sets the accelerator so as to hold this speed from the next step on.
   void hold_speed(double speed_mps);
-  /// Keeps the gear that is in.
+  /// Keeps the present gear.
   void hold_gear();
   DriverInput& input() { return input_; }
 
@@ -32,7 +32,7 @@ class ManoeuvreCar {
   double time_s() const { return static_cast<double>(steps_) * manoeuvre_step_s; }
   double friction() const { return ground_[0].friction; }
   ManoeuvreSample sample() const;
-  /// Sets the clock to zero and the origin here, and forgets the series.
+  /// Sets the clock to zero and the origin here, and clears the series.
   void begin();
   /// Takes a sample when one is due.
   void record();

@@ -7,7 +7,7 @@
 #include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/manoeuvre_car.hpp"
 
-// Given inputs; and what every manoeuvre has to fear.
+// Given inputs; and the faults possible in every manoeuvre.
 
 namespace septet::vehicle {
 namespace {

@@ -11,9 +11,8 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-/// Middle of the lanes of ISO 3888-1: 15 m straight, 30 m over, 25 m beside, 25 m back, 30 m
-/// straight. The lanes' edges lie 3.5 m apart; the second lane is 0.1 car widths wider than the
-/// first, so that its middle lies further out.
+/// Middle of the lanes of ISO 3888-1: 15 m straight, 30 m over, 25 m beside, 25 m back, 30 m straight. The lanes' edges
+/// lie 3.5 m apart; the second lane is 0.1 car widths wider than the first, so that its middle lies further out.
 double lane_change_path_m(double x_m, double width_m) {
   const double offset_m = 3.5 + 0.05 * width_m;
   const auto rise = [](double part) {
@@ -27,7 +26,7 @@ double lane_change_path_m(double x_m, double width_m) {
 
 ManoeuvreReport double_lane_change(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
   constexpr double preview_s = 0.6, lag_s = 0.05, most_rate_radps = 0.4;
-  constexpr double driver_understeer = 0.0025;  // What the driver expects, rad per m/s².
+  constexpr double driver_understeer = 0.0025;  // Understeer expected by the driver, rad per m/s².
   constexpr double run_up_m = 60.0, length_m = 140.0;
   const double speed_mps = options.speed_mps > 0.0 ? options.speed_mps : 80.0 / 3.6;
   ManoeuvreCar car(parameters, options, speed_mps);

@@ -103,12 +103,12 @@ ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreO
     slow.speed_mps = speed_mps;
     steer_rad = steady_circle(parameters, slow).figure("steer at 4 m/s2");
   }
-  const double side =
-      steer_rad < 0.0 ? -1.0 : 1.0;  // Response times and overshoots are those of the side that is steered to.
+  // Response times and overshoots are those of the side of the steering.
+  const double side = steer_rad < 0.0 ? -1.0 : 1.0;
   const double steered_s = std::abs(steer_rad) / rate_radps;
   ManoeuvreCar car(parameters, options, speed_mps);
   car.begin();
-  while (car.time_s() < 6.0) {  // The throttle stays where straight running left it.
+  while (car.time_s() < 6.0) {  // The throttle keeps its position of straight running.
     car.record();
     car.advance(side * std::min(std::abs(steer_rad), car.time_s() * rate_radps));
   }

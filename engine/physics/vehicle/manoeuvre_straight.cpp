@@ -50,7 +50,7 @@ ChassisInput ideal_braking(const ManoeuvreCar& car, double best_slip, double spe
   return chassis;
 }
 
-/// A manoeuvre with the wheel held straight that ends beside its lane was none.
+/// Adds a fault where a manoeuvre with the wheel held straight ends beside its lane.
 void require_straight(ManoeuvreReport& report) {
   constexpr double half_lane_m = 1.75, most_turn_rad = 0.2;
   double aside_m = 0.0, turn_rad = 0.0;

@@ -8,10 +8,9 @@ namespace septet::vehicle {
 namespace {
 
 constexpr double reverse_inhibit_mps = 2.0;
-constexpr double winding_s = 0.02;  // Of the driveline: a jolt of about 7 Hz when the clutch bites.
+constexpr double winding_s = 0.02;  // Time constant of the driveline: a jolt of about 7 Hz when the clutch bites.
 
-/// Shares of the drive torque; they are also the weights of the wheels' speeds in the
-/// differentials.
+/// Shares of the drive torque; they are also the weights of the wheels' speeds in the differentials.
 std::array<double, wheel_count> wheel_shares(const PowertrainParameters& powertrain) {
   const double front = 0.5 * powertrain.front_share, rear = 0.5 - front;
   return {front, front, rear, rear};
@@ -23,7 +22,7 @@ double ratio_of(const PowertrainParameters& powertrain, int gear) {
   return gear < 0 ? -powertrain.reverse_ratio : powertrain.gear_ratio[gear - 1];
 }
 
-/// Torque of the engine towards what pedal, idle control and limiter ask for.
+/// Torque of the engine towards the demand of pedal, idle control and limiter.
 double engine_torque_nm(const PowertrainParameters& powertrain, double pedal, double dt_s, PowertrainState& state) {
   const double speed = state.engine_radps;
   if (!state.engine_running) {
@@ -49,14 +48,14 @@ double clutch_torque_nm(double capacity_nm, double engine_nm, double slip_radps,
   return std::clamp(closing_nm, -capacity_nm, capacity_nm);
 }
 
-/// What a standing engine holds: friction, and the compression of a cylinder. Assumed: 15 N m for each, so that 90 N m
-/// turn a three-litre six over, of the order of what its starter needs.
+/// Torque that a standing engine holds: friction, and the compression of a cylinder. Assumed: 15 N m for each, so that
+/// 90 N m turn a three-litre six over, of the order of its starter's torque.
 double standing_torque_nm(const PowertrainParameters& powertrain) {
   return 15.0 * powertrain.cylinders - powertrain.closed_torque_nm.held(0.0);
 }
 
-/// Speed of an engine that does not run, after one step with `load_nm` taken from it. Its friction only slows it. It is never
-/// said to turn backwards, as nothing behind it asks.
+/// Speed of a stopped engine after one step with `load_nm` taken from it. Its friction only slows it. It never turns
+/// backwards, as nothing behind it requires that.
 double spin_stalled(const PowertrainParameters& powertrain, double engine_radps, double load_nm, double dt_s) {
   const double friction_nm =
       engine_radps < 1.0 ? standing_torque_nm(powertrain) : -powertrain.closed_torque_nm.held(engine_radps);
@@ -141,7 +140,7 @@ std::array<double, wheel_count> advance_powertrain(const VehicleParameters& para
   Coupling coupling;
   if (powertrain.transmission == Transmission::manual) {
     double capacity = powertrain.clutch_capacity_nm * clutch_closed(powertrain, input, state);
-    if (!state.engine_running && state.engine_radps < 1.0)  // More turns it over.
+    if (!state.engine_running && state.engine_radps < 1.0)  // A higher load turns it over.
       capacity = std::min(capacity, standing_torque_nm(powertrain));
     coupling.engine_nm = coupling.input_nm = clutch_torque_nm(
         capacity, engine_nm, slip_radps, powertrain.engine_inertia_kgm2, shaft_inertia, dt_s, state.clutch_nm);

@@ -36,8 +36,8 @@ double published_yaw_moment_nm(const VehicleParameters& parameters, const Static
 }
 
 double published_yaw_acceleration(double yaw_radps2, const Vec3& up, const Vec3& omega_radps, double pitch_radps2) {
-  const double turned_radps2 =
-      omega_radps.x * (up.z * omega_radps.y - up.y * omega_radps.z);  // By the turning of `up`.
+  // Contribution of the turning of `up`.
+  const double turned_radps2 = omega_radps.x * (up.z * omega_radps.y - up.y * omega_radps.z);
   return (yaw_radps2 - turned_radps2 - up.y * pitch_radps2) / std::max(up.z, 0.1);
 }
 

@@ -3,8 +3,7 @@
 
 #include "engine/physics/vehicle/tyre.hpp"
 
-// The formula stands in axes with y to the right and z down, as published; one change of sign at
-// the door.
+// The formula has axes with y to the right and z down, as published; signs change once, at its entry.
 
 namespace septet::vehicle {
 namespace {
@@ -58,8 +57,7 @@ TyreForce published_force(const TyreParameters& tyre, const TyreContact& contact
   TyreForce result;
   result.transport_mps = std::abs(contact.forward_mps) + 1e-4;
   result.slip = -contact.sliding_mps / result.transport_mps;
-  // Slip of a locked wheel is 1; at rest any creep would count as sliding, so the formula sees no
-  // more than spinning.
+  // Slip of a locked wheel is 1; at rest any creep would count as sliding, so the formula sees at most spinning.
   const double drive = std::clamp(result.slip.x, -1.0, 10.0);
   const double slip_angle = std::atan(result.slip.y);  // Already mirrored: slip has the sign opposite to velocity.
   const double inclination = contact.inclination_rad;
@@ -71,7 +69,7 @@ TyreForce published_force(const TyreParameters& tyre, const TyreContact& contact
 
   const Vec2 slope_n{p.p_kx1 * contact.load_n, std::abs(p.p_ky1) * contact.load_n};
   result.stiffness_npm = slope_n / p.relaxation_length_m;
-  // Near zero slip the shifts would make the secant meaningless; there the slope stands for it.
+  // Near zero slip the shifts would make the secant meaningless; the slope replaces it there.
   for (int i = 0; i < 2; ++i) {
     const double slip = std::abs(result.slip[i]);
     const bool small = slip * slope_n[i] < 0.5 * scale * p.p_dy1 * contact.load_n;

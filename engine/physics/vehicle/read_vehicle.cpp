@@ -14,8 +14,7 @@
 namespace septet::vehicle {
 namespace {
 
-/// Reads the entries of one file, remembers the first thing that is wrong, and knows which entries
-/// nobody asked for.
+/// Reads the entries of one file, remembers the first error, and knows which entries were never read.
 class Entries {
  public:
   Entries(const toml::table& root, std::string_view name) : root_(root), name_(name) {}
@@ -50,7 +49,7 @@ class Entries {
     if (!value) fail("is missing", path, "give one of the words in vehicles/README.md");
     return value.value_or("");
   }
-  /// Points whose y lies in a range, beyond which nothing that anybody builds is found.
+  /// Points whose y lies in a range that holds all existing cars.
   void table(std::string_view path, Table& out, double low, double high) {
     const toml::table* entry = find(path);
     if (!entry) return;
@@ -87,7 +86,7 @@ class Entries {
       error_ = Error{std::move(what), fmt::format("{}, {}", document::place_of(nearest(path), name_), path),
                      std::move(remedy)};
   }
-  /// Every entry that has a value or points and was not asked for is a misspelling.
+  /// Every entry with a value or points that was never read is a misspelling.
   void refuse_unknown() { refuse_unknown(root_, ""); }
 
  private:
@@ -107,7 +106,7 @@ class Entries {
     }
     return entry;
   }
-  /// The entry, or where it is missing the innermost table that it belongs into.
+  /// The entry, or where it is missing the innermost table to which it belongs.
   const toml::node& nearest(std::string_view path) const {
     for (;;) {
       if (const auto found = root_.at_path(path)) return *found.node();

@@ -17,8 +17,7 @@ double advance_steering(const VehicleParameters& parameters, double steering_whe
   const double hand_rad = std::clamp(steering_wheel_rad, -steering.lock_rad, steering.lock_rad);
   const double road_rad = column.column_rad / steering.ratio;
 
-  // Moment of the tyres about the two kingpins, positive to the left: the caster pulls the wheels
-  // straight.
+  // Moment of the tyres about the two kingpins, positive to the left: the caster pulls the wheels straight.
   double kingpin_nm = -steering.centring_nmprad * road_rad;
   double parking_nm = 0.0;
   for (int wheel = 0; wheel < 2; ++wheel) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the suspension holds a wheel, and with what force.
+/// Kinematics and force of the suspension.
 
 #include <array>
 
@@ -24,10 +24,10 @@ Statics statics(const VehicleParameters& parameters);
 /// One wheel against the body, in the body's axes from the centre of the sprung mass.
 struct WheelPlace {
   Vec3 centre_m{0.0};
-  double contact_left_m =
-      0.0;  ///< The contact lies on the ground, ahead of the mass centre as far as the wheel's centre stands over it.
+  /// The contact lies on the ground, as far ahead of the mass centre as the wheel's centre above it.
+  double contact_left_m = 0.0;
   Vec2 contact_slope{0.0};  ///< d(forward, left)/d travel of the contact's path.
-  Vec2 centre_slope{0.0};   ///< Of the centre's path.
+  Vec2 centre_slope{0.0};   ///< d(forward, left)/d travel of the centre's path.
   Vec3 spin_axis{0.0, 1.0, 0.0};
 };
 
@@ -35,11 +35,11 @@ struct WheelPlace {
 WheelPlace place_wheel(const VehicleParameters& parameters, const Statics& statics, int wheel, const WheelState& state,
                        double steer_rad);
 
-/// Steer of one wheel: its share of the mean angle, toe, what the forces of the last step bend, and what a strike has bent.
+/// Steer of one wheel: its share of the mean angle, toe, compliance under the last step's forces, and the bend of a
+/// strike.
 double wheel_steer_rad(const VehicleParameters& parameters, int wheel, const WheelState& state, double mean_steer_rad);
 
-/// Upward force on the body (and downward on the wheel), spring, bump stop, damper and anti-roll
-/// bar, N.
+/// Upward force on the body (and downward on the wheel), spring, bump stop, damper and anti-roll bar, N.
 double suspension_force_n(const VehicleParameters& parameters, const Statics& statics, int wheel,
                           const std::array<WheelState, wheel_count>& wheels);
 

@@ -1,8 +1,7 @@
 #pragma once
 /// A measured curve of at most sixteen points: linear between them, straight on beyond the ends.
 ///
-/// Fixed size, so that parameters are plain data and a look-up touches two cache lines. A table
-/// without points is zero.
+/// Fixed size, so that parameters are plain data and a look-up touches two cache lines. A table without points is zero.
 
 #include <array>
 #include <cstddef>

@@ -20,8 +20,7 @@ double at_load(double at_nominal, double at_double, double load_ratio) {
 
 SlipCurve curve_at(const SlipCurve& nominal, const SlipCurve& twice, double load_ratio, double friction_ratio,
                    double firmness) {
-  // Beyond two and a half times the nominal load the parabola is no longer trusted: proportional
-  // from there.
+  // The parabola holds up to two and a half times the nominal load: proportional from there.
   const double q = std::min(load_ratio, 2.5);
   const double beyond = load_ratio / q;
   const double slip_load = std::clamp(q, 0.2, 2.5);
@@ -47,8 +46,7 @@ double force_at(const SlipCurve& curve, double slip) {
   return curve.sliding_force_n;
 }
 
-/// The curve in the direction (cosine, sine) of normalised slip, whose unit is `unit` of plain
-/// slip.
+/// The curve in the direction (cosine, sine) of normalised slip, whose unit is `unit` of plain slip.
 SlipCurve join(const SlipCurve& x, const SlipCurve& y, Vec2 unit, Vec2 direction) {
   const auto mean = [&](double along, double across) {
     const double a = along * direction.x, b = across * direction.y;
@@ -66,8 +64,7 @@ SlipCurve join(const SlipCurve& x, const SlipCurve& y, Vec2 unit, Vec2 direction
 double trail(const LoadSensitiveTyre& tyre, double length_m, double friction_ratio, double lateral_slip) {
   const double zero = tyre.trail_zero_slip * friction_ratio;
   const double part = std::min(std::abs(lateral_slip) / zero, 1.0);
-  // Falls to zero and stays a little negative past it, as the sliding patch's force moves in front
-  // of the middle.
+  // Falls to zero and stays a little negative past it, as the sliding patch's force moves in front of the middle.
   const double shape = (1.0 - part) * (1.0 + part - 2.0 * part * part) - 0.05 * part * part;
   return tyre.trail_over_length * length_m * shape;
 }

@@ -1,27 +1,26 @@
 #pragma once
 /// Steady tyre forces over slip, and their relaxation.
 ///
-/// Slip is s = −v_s/v_T with v_s the velocity of the contact patch over the ground and v_T the
-/// transport velocity, so that positive slip makes a positive force (forward, left). At rest v_T
-/// vanishes and slip grows without bound, yet the product v_T · F(s) stays finite; that is all that
-/// the relaxation uses, hence no special case at standstill.
+/// Slip is s = −v_s/v_T with v_s the velocity of the contact patch over the ground and v_T the transport velocity, so
+/// that positive slip makes a positive force (forward, left). At rest v_T vanishes and slip grows without bound, yet
+/// the product v_T · F(s) stays finite; that is all that the relaxation uses, hence no special case at standstill.
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/physics/vehicle/tyre_parameters.hpp"
 
 namespace septet::vehicle {
 
-/// What a contact demands of its tyre.
+/// State of a contact, the input of its tyre.
 struct TyreContact {
   double load_n = 0.0;
-  double friction = 0.9;         ///< Of the surface.
+  double friction = 0.9;         ///< Peak friction of the surface.
   Vec2 sliding_mps{0.0};         ///< Velocity of the patch over the ground: forward, left.
   double rolling_mps = 0.0;      ///< Wheel spin times effective radius.
   double forward_mps = 0.0;      ///< Velocity of the wheel along its heading.
   double inclination_rad = 0.0;  ///< Against the ground's normal, positive leans to the right.
-  double length_m = 0.1;         ///< Of the contact patch.
-  double firmness =
-      1.0;  ///< Share that is left of slopes and stiffness: less where air is lost. Not of the published tyre.
+  double length_m = 0.1;         ///< Length of the contact patch.
+  /// Remaining share of slopes and stiffness: less where air is lost. Not of the published tyre.
+  double firmness = 1.0;
 };
 
 /// Steady force at one slip.
@@ -31,7 +30,7 @@ struct TyreForce {
   Vec2 slip{0.0};
   double transport_mps = 0.0;  ///< v_T.
   Vec2 secant_n{0.0};          ///< |force over slip|, at zero slip the slope.
-  Vec2 stiffness_npm{0.0};     ///< Of the patch against the rim, and its damping.
+  Vec2 stiffness_npm{0.0};     ///< Stiffness of the patch against the rim, and its damping.
   Vec2 damping_nspm{0.0};
 };
 
@@ -48,9 +47,9 @@ inline TyreForce steady_force(const TyreParameters& tyre, const TyreContact& con
   return tyre.published ? published_force(tyre, contact) : load_sensitive_force(tyre, contact);
 }
 
-/// Moves the patch's deflection on by `dt_s` and returns the force that it carries (Rill 2006,
-/// "First order tire dynamics", eq. 15): (d v_T + f) dy/dt = v_T (F(s) − c y), force c y + d dy/dt;
-/// implicit in y, so stable at every speed. The force never exceeds what the surface can hold.
+/// Advances the patch's deflection by `dt_s` and returns the force that it carries (Rill 2006, "First order tire
+/// dynamics", eq. 15): (d v_T + f) dy/dt = v_T (F(s) − c y), force c y + d dy/dt; implicit in y, so stable at every
+/// speed. The force never exceeds the surface's limit.
 Vec2 relax(const TyreForce& steady, double most_force_n, double dt_s, Vec2& deflection_m);
 
 }  // namespace septet::vehicle

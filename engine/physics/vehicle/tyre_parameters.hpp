@@ -1,6 +1,5 @@
 #pragma once
-/// Parameters of the two tyres: the one that cars drive on, and the published one that verifies the
-/// chassis.
+/// Parameters of the two tyres: the one that cars drive on, and the published one that verifies the chassis.
 
 namespace septet::vehicle {
 
@@ -23,16 +22,15 @@ struct LoadSensitiveTyre {
   double trail_over_length = 0.0;  ///< Pneumatic trail over contact length at zero slip and nominal load.
   double trail_zero_slip = 0.2;    ///< Lateral slip at which the trail vanishes.
   double camber_slip = 0.0;        ///< Lateral slip that gives the same force as one radian of inclination.
-  double longitudinal_stiffness_npm =
-      0.0;  ///< Of the standing contact patch against the rim; sets the relaxation length.
+  /// Stiffness of the standing contact patch against the rim; sets the relaxation length.
+  double longitudinal_stiffness_npm = 0.0;
   double lateral_stiffness_npm = 0.0;
   double longitudinal_damping_nspm = 0.0;
   double lateral_damping_nspm = 0.0;
 };
 
-/// Magic Formula as in CommonRoad vehicle models 3.0.2 (M. Althoff and G. Würsching 2020,
-/// appendix): forces proportional to load. Names of the coefficients are those of Pacejka. Without
-/// aligning torque.
+/// Magic Formula as in CommonRoad vehicle models 3.0.2 (M. Althoff and G. Würsching 2020, appendix): forces
+/// proportional to load. Names of the coefficients are those of Pacejka. Without aligning torque.
 struct PublishedTyre {
   double p_cx1 = 0, p_dx1 = 0, p_dx3 = 0, p_ex1 = 0, p_kx1 = 0, p_hx1 = 0, p_vx1 = 0;
   double r_bx1 = 0, r_bx2 = 0, r_cx1 = 0, r_ex1 = 0, r_hx1 = 0;
@@ -43,12 +41,12 @@ struct PublishedTyre {
 };
 
 struct TyreParameters {
-  bool published = false;  ///< Which of the two below counts.
+  bool published = false;  ///< Selects one of the two below.
   LoadSensitiveTyre load_sensitive;
   PublishedTyre magic_formula;
   double reference_friction = 0.9;  ///< Friction of the surface on which the forces above hold.
   double radius_m = 0.0;            ///< Unloaded.
-  double rim_radius_m = 0.0;        ///< Of the flange, the rim's outermost.
+  double rim_radius_m = 0.0;        ///< Radius of the flange, the rim's outermost part.
   double vertical_stiffness_npm = 0.0;
   double vertical_damping_nspm = 0.0;
   double rolling_resistance = 0.0;        ///< Force over load at walking speed.

@@ -15,7 +15,7 @@ double bounded(double value, double low, double high) {
   return std::isfinite(value) ? std::clamp(value, low, high) : std::clamp(0.0, low, high);
 }
 
-/// Controls within their bounds, whatever the device sent.
+/// Clamps controls to their bounds.
 DriverInput bounded(DriverInput input) {
   input.steering_wheel_rad = bounded(input.steering_wheel_rad, -50.0, 50.0);
   for (double* pedal : {&input.accelerator, &input.brake, &input.clutch}) *pedal = bounded(*pedal, 0.0, 1.0);
@@ -43,7 +43,7 @@ bool finite(const Ground& ground) {
   return result;
 }
 
-/// What remains of a state after a bad step: the place, what is broken, and nothing moving.
+/// The state after a bad step: its place and damage remain, and all motion is zero.
 VehicleState halted(const VehicleState& state) {
   VehicleState result;
   result.world_from_body = state.world_from_body;

@@ -9,7 +9,7 @@
 namespace septet::vehicle {
 
 SEPTET_MEMBERS(WheelDamage, rim_bend_m, lost_air)
-// Of the last step's, force and aligning torque bend the suspension in the next one; the others are only told.
+// Force and aligning torque of the last step bend the suspension in the next one; the other outputs are only reported.
 SEPTET_MEMBER_GROUPS(WheelState, hashed(travel_m, travel_rate_mps, spin_rad, spin_radps, deflection_m, damage),
                      kept(squeeze_m), hashed(force_n, aligning_nm), kept(steer_rad, slip, slip_angle_rad))
 SEPTET_MEMBERS(SteeringState, column_rad, torque_nm)

@@ -7,21 +7,21 @@ namespace {
 
 /// Assumed: a tread with its belt of 12 mm on a sidewall of 8 mm, squeezed by a quarter.
 constexpr double pinched_rubber_m = 0.015;
-/// Assumed: what an inflated tyre carries that is not air; a flat one keeps it.
+/// Assumed: share of an inflated tyre's load on its carcass; a flat one keeps it.
 constexpr double carcass_share = 0.15;
-/// Of pinched rubber and rim. Assumed: ten times a tyre.
+/// Stiffness of pinched rubber and rim. Assumed: ten times a tyre.
 constexpr double rim_stiffness_npm = 2.0e6;
-/// Above it the rim bends. Assumed: three times what such a wheel is rated for, 650 kg.
+/// Above it the rim bends. Assumed: three times the rating of such a wheel, 650 kg.
 constexpr double rim_bears_n = 20e3;
 /// Derived: 30 litres through a cut of 3 cm², at the speed of sound in it: V / (0.58 · 343 m/s · A).
 constexpr double leak_s = 0.5;
 /// Assumed: 0.3 degrees for a rim that is bent by 10 mm, 1.1 degrees at most.
 constexpr double toe_out_radpm = 0.5, most_toe_out_rad = 0.02;
 
-/// Of the tyre's stiffness.
+/// Carried share of the tyre's stiffness.
 double carried_share(const WheelDamage& damage) { return 1.0 - (1.0 - carcass_share) * damage.lost_air; }
 
-/// How far rubber and rim are pressed together.
+/// Compression of rubber and rim together.
 double rim_m(const TyreParameters& tyre, const WheelDamage& damage, double deflection_m) {
   return std::max(0.0, deflection_m - sidewall_m(tyre) - damage.rim_bend_m);
 }

@@ -9,14 +9,12 @@
 #include <glm/vec4.hpp>
 
 #include "engine/instant/participants.hpp"
+#include "engine/light/records.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
 
-/// The twin of Contact in shaders/contact.vert.
-struct ContactRecord {
-  glm::vec4 middle{0.0f}, ahead{0.0f}, aside{0.0f}, light{0.0f};
-};
+using light::ContactRecord;
 
 struct ContactPass {
   VkPipeline pipeline = VK_NULL_HANDLE;

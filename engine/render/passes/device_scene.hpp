@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/instant/scene_summary.hpp"
+#include "engine/light/records.hpp"
 #include "engine/render/mip_chain.hpp"
 #include "engine/render/passes/draw_list.hpp"
 #include "engine/render/passes/static_geometry.hpp"
@@ -15,18 +16,10 @@
 
 namespace septet::render {
 
-/// The twin of shaders/material.glsl.
-struct MaterialConstants {
-  glm::vec4 base_color{1.0f};  ///< rgb, opacity.
-  glm::vec4 emission{0.0f};    ///< rgb, roughness.
-  glm::vec4 surface{0.0f};     ///< Metallic, reflectance at normal incidence, clear coat, takes paint.
-  glm::vec4 light{1.0f};       ///< Share of the sky that the surface sees, retroreflection, columns and rows of
-                               ///< pictures.
-  glm::vec4 more{1.0f, 0.0f, 0.0f, 0.0f};  ///< Share of light from around, lit by night.
-};
+using light::MaterialConstants;
 
 struct DeviceMaterial {
-  MaterialConstants constants;
+  MaterialConstants constants{};
   std::int32_t image = -1;  ///< −1: none.
   bool cut = false, blended = false, glossy = false, coated = false, wettable = false, stripe = false,
        two_sided = false;  ///< Opaque, and seen from both sides.

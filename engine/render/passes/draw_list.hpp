@@ -17,20 +17,13 @@
 #include "engine/instant/level_fade.hpp"
 #include "engine/instant/placed_mesh.hpp"
 #include "engine/instant/view.hpp"
+#include "engine/light/instance_record.hpp"
 #include "engine/render/words.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::render {
 
-/// What a vertex shader takes for each instance: see shaders/instances.glsl and surface.vert.
-struct InstanceRecord {
-  glm::vec4 row0{0.0f}, row1{0.0f}, row2{0.0f};
-  glm::vec4 tint{1.0f};  ///< Paint; how much of the material's emission shines.
-  glm::vec4 light{
-      1.0f};  ///< x: share of the sky. y: snow lies on it. z: number of its participant. w: its height over the road.
-  glm::vec2 shown{0.0f, 1.0f};  ///< Thresholds of the pixels that show it: instant::LevelFade.
-};
-static_assert(sizeof(InstanceRecord) == 88);
+using light::InstanceRecord;
 
 /// What the vertex shader takes for a mesh whose origin lies at `origin_m` from the eye.
 InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m, const instant::LevelFade& fade = {});

@@ -6,8 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/instant/headlight_beam.hpp"
-#include "engine/instant/wet_road.hpp"
+#include "engine/light/beam.hpp"
+#include "engine/light/wet_road.hpp"
 #include "engine/render/passes/billboards.hpp"
 #include "engine/render/passes/shaders.hpp"
 
@@ -37,9 +37,9 @@ constexpr float glow_integral = 0.133f;
 
 /// How many times the dipped beam's light goes this way (unit, from the lamp) with the main beam beside it.
 float main_beam_times(const LampGlow& glow, const glm::vec3& way) {
-  namespace beam = instant::beam;
   if (!glow.beam || glow.main_beam <= 0.0f) return 1.0f;
-  return std::max(1.0f, beam::share(glow.facing, way, glow.main_beam) / std::max(beam::share(glow.facing, way), 1e-6f));
+  return std::max(1.0f, light::beam_share(glow.facing, way, glow.main_beam, 1.0f) /
+                            std::max(light::dipped_share(glow.facing, way, 1.0f), 1e-6f));
 }
 
 /// The glow of a lamp, whatever lies between it and the eye; black where it faces away.
@@ -95,9 +95,7 @@ std::vector<WetLampRecord> wet_lamp_records(std::span<const LampGlow> glows, con
   std::vector<WetLampRecord> records;
   if (wetness <= 0.0f) return records;
   // The mirror image of what stands over the road holds the lens already, as sharply as film and puddles show it.
-  const float sharp = !lenses_mirrored ? 0.0f
-                                       : glm::mix(instant::film_share * wetness, 0.95f,
-                                                  0.25f * std::clamp(2.0f * wetness - 1.0f, 0.0f, 1.0f));
+  const float sharp = !lenses_mirrored ? 0.0f : light::water_covers(wetness, light::puddle_share(wetness));
   for (const LampGlow& glow : glows) {
     const glm::vec3 relative(glow.position_m - eye_m);
     const float distance_m = glm::length(glm::vec2(relative));

@@ -7,21 +7,12 @@
 
 #include "engine/instant/atmosphere.hpp"
 #include "engine/instant/participants.hpp"
+#include "engine/light/records.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
 
-/// The twin of Glow in shaders/glow.vert.
-struct GlowRecord {
-  glm::vec4 position_size{0.0f};  ///< Relative to the eye; radius, m.
-  glm::vec4 color{0.0f};          ///< Radiance at its middle.
-};
-
-/// The twin of shaders/wet_lamp.vert.
-struct WetLampRecord {
-  glm::vec4 position_size{0.0f};  ///< Relative to the eye; radius of the lens, m.
-  glm::vec4 energy_road{0.0f};    ///< Radiance times area; height of the road below the lamp, relative to the eye, m.
-};
+using light::GlowRecord, light::WetLampRecord;
 
 struct GlowPass {
   VkPipeline pipeline = VK_NULL_HANDLE, wet = VK_NULL_HANDLE;

@@ -46,7 +46,7 @@ void draw_glass(IcePass& pass, PassContext& context, std::span<const ice::IceBod
     const ice::IceBody& body = bodies[i];
     const Vec3 place = body.origin_m - eye_m;
     if (body.look.on_glass == ice::OnGlass::nothing || (glm::length(place) < reach_m) != near) continue;
-    IceConstants constants;
+    IceConstants constants{};
     constants.origin = glm::vec4(glm::vec3(place), body.look.share_of_sky);
     const auto count = static_cast<std::uint32_t>(body.vertices.size() / 3 * 3);
     vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS,

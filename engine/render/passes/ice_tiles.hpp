@@ -13,20 +13,18 @@
 #include <glm/vec4.hpp>
 
 #include "engine/instant/instant.hpp"
+#include "engine/light/records.hpp"
 #include "engine/render/words.hpp"
 
 namespace septet::render {
 
-/// The twin of Ice in shaders/ice.glsl.
-struct IceConstants {
-  glm::vec4 u{0.0f}, v{0.0f}, forward{0.0f}, origin{0.0f}, blend{0.0f}, absorption{0.0f}, rectangle{0.0f}, beyond{0.0f};
-};
+using light::IceConstants;
 
 struct IceTile {
   std::uint32_t body = 0, view = 0;  ///< Indices of Instant::ice and Instant::views.
   std::uint32_t around = 0;          ///< Which of the frame's surroundings it is in.
   PixelRectangle rectangle;
-  IceConstants constants;
+  IceConstants constants{};
   std::vector<std::uint32_t> beyond;  ///< Bodies behind it that light from it may meet, the nearest few, if it is to.
 };
 

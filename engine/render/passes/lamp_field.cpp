@@ -75,11 +75,6 @@ LampField lamp_field(std::span<const StandingLamp> lamps, const Vec2& corner_m) 
   return field;
 }
 
-float lamplight(const glm::vec4& texel, const glm::vec3& normal) {
-  const glm::vec3 toward(texel);
-  return std::max(0.0f, glm::dot(toward, normal)) + 0.25f * std::max(0.0f, std::abs(texel.w) - glm::length(toward));
-}
-
 std::vector<std::uint64_t> packed(const LampField& field) {
   std::vector<std::uint64_t> texels;
   texels.reserve(field.texels.size());

@@ -36,9 +36,6 @@ struct LampField {
 Vec2 lamp_field_corner(const Vec3& eye_m);
 LampField lamp_field(std::span<const StandingLamp> lamps, const Vec2& corner_m);
 
-/// What shaders/lamplight.glsl makes of a texel.
-float lamplight(const glm::vec4& texel, const glm::vec3& normal);
-
 /// As half floats for the device.
 std::vector<std::uint64_t> packed(const LampField& field);
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 
 namespace septet::render {
 namespace {
@@ -31,10 +31,10 @@ bool may_reach(const NearLight& light, const glm::vec2& middle_m) {
   const float angle = std::acos(std::clamp(glm::dot(way, ahead) / (distance_m * level), -1.0f, 1.0f)) -
                       std::asin(std::min(1.0f, around_m / distance_m));
   if (angle > 1.57f) return false;
-  // A beam's share falls aside of it as 1/(1 + 59·tan²) (instant/headlight_beam.hpp); a slope of the road tilts it a little. The main
+  // A beam's share falls aside of it as 1/(1 + 59·tan²) (engine/light/beam.hpp); a slope of the road tilts it a little. The main
   // beam falls more steeply.
   const float aside = std::tan(std::max(0.0f, angle - 0.05f));
-  return light.intensity * (1.0f + instant::beam::main_peak * light.main_beam) /
+  return light.intensity * (1.0f + light::main_beam_peak * light.main_beam) /
              ((1.0f + 59.0f * aside * aside) * (nearest_m * nearest_m + 1.0f)) >=
          LightClusters::least_irradiance;
 }

@@ -7,15 +7,13 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/light/records.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
 namespace {
 
-/// The twin of Corner in shaders/mirror_glass.vert.
-struct GlassRecord {
-  glm::vec4 position, at;
-};
+using light::GlassRecord;
 
 VkExtent2D extent_of(std::span<const MirrorGlass> mirrors) {
   VkExtent2D extent{1, 1};

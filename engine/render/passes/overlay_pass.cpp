@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/light/records.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
@@ -13,10 +14,7 @@ constexpr std::uint32_t atlas_width = 1024, atlas_height = 512;
 constexpr std::uint32_t padding = 2;
 constexpr double em_per_line = 0.78;  // Size of the letters to the height of the line's box.
 
-/// The twin of Quad in shaders/overlay.vert.
-struct QuadConstants {
-  glm::vec4 ndc, uv, color, kind;
-};
+using light::QuadConstants;
 
 glm::vec4 premultiplied(const glm::vec4& color) { return {glm::vec3(color) * color.a, color.a}; }
 

@@ -30,7 +30,7 @@ struct TargetFormats {
   /// Linear radiance in the units of instant/atmosphere.hpp, before exposure. Half floats reach from starlight to the sun's disc.
   VkFormat radiance = VK_FORMAT_R16G16B16A16_SFLOAT;
   VkFormat picture =
-      VK_FORMAT_R8G8B8A8_UNORM;  ///< Holds sRGB codes: the tone curve encodes, at no cost (shaders/tone_curve.glsl).
+      VK_FORMAT_R8G8B8A8_UNORM;  ///< Holds sRGB codes: the tone curve encodes, at no cost (engine/light/tone_curve.hpp).
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
   bool marks =

@@ -12,16 +12,12 @@
 #include <glm/vec4.hpp>
 
 #include "engine/instant/instant.hpp"
+#include "engine/light/records.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
 
-/// The twin of shaders/precipitation.vert.
-struct StreakRecord {
-  glm::vec4 from_width{0.0f};     ///< Relative to the eye; width, m.
-  glm::vec4 along_opacity{0.0f};  ///< To its end, m; opacity.
-  glm::vec4 radiance{0.0f};
-};
+using light::StreakRecord;
 
 /// Those that a view may see; none where nothing falls. Below 274.65 K it falls as snow.
 std::vector<StreakRecord> streak_records(const Instant& instant, const FrameView& view, const Vec3& eye_m);

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
 
-#include "engine/instant/wet_road.hpp"
+#include "engine/light/wet_road.hpp"
 #include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/light_clusters.hpp"
@@ -26,7 +26,7 @@ constexpr float still_range_m = 120.0f, vehicle_range_m = 250.0f;
 constexpr DetailOf mirrored_detail{{0.0f, 3.0f}, {40.0f, 2.0f}};
 
 /// Deviation of the tilts of the film's facets along the way of the light, rad: of stones as rough as it is.
-constexpr float film_spread_rad = 0.7f * instant::film_roughness * instant::film_roughness;
+constexpr float film_spread_rad = 0.7f * light::film_roughness * light::film_roughness;
 
 constexpr std::uint32_t half(std::uint32_t px) { return std::max(1u, (px + 1) / 2); }
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
+#include "engine/light/records.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
@@ -14,11 +14,7 @@ namespace {
 
 constexpr std::uint32_t cut_bit = 1, fading_bit = 2;
 
-/// The twin of Cascade in shaders/shadow.vert and shadow.frag.
-struct CascadeConstants {
-  glm::mat4 clip_from_relative;
-  glm::vec2 first_texel;
-};
+using light::CascadeConstants;
 
 }  // namespace
 
@@ -67,7 +63,7 @@ void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScen
   vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
   vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
   if (!draws.list.empty()) bind_instances(context, draws.records);
-  const CascadeConstants constants{clip_from_relative(cascade), cascade.first_texel};
+  const CascadeConstants constants{clip_from_relative(cascade), glm::vec4(cascade.first_texel, 0.0f, 0.0f)};
   push_constants(context, std::as_bytes(std::span(&constants, 1)));
   VkPipeline bound_pipeline = VK_NULL_HANDLE;
   SurfaceDraw bound;

@@ -18,7 +18,7 @@ void destroy_sky_pass(SkyPass& pass, const vulkan::Device& device);
 void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry);
 
 /// Rows of the sky's texture: the table, and below it one for each step of roughness (instant/sky_by_roughness.hpp).
-inline constexpr std::uint32_t sky_rows = SkyTable::rows * (1 + instant::roughness_steps);
+inline constexpr std::uint32_t sky_rows = SkyTable::rows * (1 + light::roughness_steps);
 /// As half floats, RGBA, for a texture of SkyTable's columns and of `sky_rows`.
 std::vector<std::uint64_t> packed(const SkyLight& light);
 

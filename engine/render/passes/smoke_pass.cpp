@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/light/lamplight.hpp"
 #include "engine/render/passes/billboards.hpp"
 #include "engine/render/passes/shaders.hpp"
 
@@ -56,7 +57,7 @@ class Coverage {
 
 glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& light) {
   const glm::vec3 around = 0.5f * (light.sky_irradiance + light.ground_irradiance) + 0.35f * light.light_irradiance;
-  const glm::vec3 irradiance = around * share_of_sky + instant::roofed_irradiance * (1.0f - share_of_sky);
+  const glm::vec3 irradiance = around * share_of_sky + light::roofed_irradiance * (1.0f - share_of_sky);
   return puff.albedo * irradiance / std::numbers::pi_v<float> + instant::flame_radiance * (puff.glow * puff.glow);
 }
 

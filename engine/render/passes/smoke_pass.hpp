@@ -9,17 +9,13 @@
 #include <vector>
 
 #include "engine/instant/atmosphere.hpp"
+#include "engine/light/records.hpp"
 #include "engine/render/passes/device_scene.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
 
-/// The twin of Puff in shaders/smoke.vert.
-struct PuffRecord {
-  glm::vec4 position_radius{0.0f};  ///< Relative to the eye; radius of what is drawn, m.
-  glm::vec4 radiance_depth{0.0f};   ///< Light that it scatters and gives off; optical depth through its middle.
-  glm::vec4 turn{0.0f};             ///< x: where in the noise its pattern lies.
-};
+using light::PuffRecord;
 
 struct SmokePass {
   VkPipeline pipeline = VK_NULL_HANDLE;

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/light/records.hpp"
 #include "engine/render/passes/shaders.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
 #include "engine/render/passes/whole_target.hpp"
@@ -16,13 +17,8 @@
 namespace septet::render {
 namespace {
 
-/// The twin of Reprojection in shaders/temporal.frag.
-struct Reprojection {
-  glm::mat4 before_from_now;  ///< Clip coordinates.
-  glm::vec4 viewport;         ///< Left, top, width, height, pixels.
-  glm::vec4 more;  ///< x: from radiance to the tone curve. y: 1 where there is a frame before. zw: sample_offset_px.
-};
-static_assert(sizeof(Reprojection) <= vulkan::push_constant_bytes);
+using light::ReprojectionConstants;
+static_assert(sizeof(ReprojectionConstants) <= vulkan::push_constant_bytes);
 
 constexpr double longest_step_s = 0.25, longest_way_m = 25.0;
 
@@ -68,7 +64,7 @@ void draw_resolved(const TemporalPass& pass, PassContext& context, const FrameTa
     const SeenView& view = now.views[n];
     const PixelRectangle& at = view.viewport;
     set_viewport(context, at);
-    Reprojection constants{
+    ReprojectionConstants constants{
         glm::mat4(1.0f), {at.x, at.y, at.width, at.height}, {exposure, 0.0f, sample_offset_px(pass.frame)}};
     if (pass.before) {
       constants.before_from_now = before_from_now(pass.before->views[n], view);

@@ -15,7 +15,7 @@ void create_tone_mapping_pass(ToneMappingPass& pass, const vulkan::Device& devic
 void destroy_tone_mapping_pass(ToneMappingPass& pass, const vulkan::Device& device);
 
 /// From `radiance`, with the samples of the formats, into all of `target`; both have this size. `exposure`: from radiance to
-/// the tone curve (engine/instant/tone_curve.hpp).
+/// the tone curve (engine/light/tone_curve.hpp).
 void draw_tone_mapped(const ToneMappingPass& pass, PassContext& context, VkImageView radiance, VkImageView target,
                       std::uint32_t width, std::uint32_t height, float exposure);
 

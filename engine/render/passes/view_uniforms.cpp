@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/instant/clouds.hpp"
+#include "engine/light/wet_road.hpp"
 
 namespace septet::render {
 namespace {
@@ -64,10 +65,10 @@ void set_water(ViewUniforms& uniforms, const Vec3& eye_m, const Instant& instant
   if (instant.road)
     uniforms.road = glm::vec4(instant.road->normal,
                               static_cast<float>(glm::dot(Vec3(instant.road->normal), instant.road->point_m - eye_m)));
-  uniforms.water = glm::vec4(within_tile(eye_m, instant::puddle_tile_m), mirror.present ? 1.0f : 0.0f,
+  uniforms.water = glm::vec4(within_tile(eye_m, light::puddle_tile_m), mirror.present ? 1.0f : 0.0f,
                              mirror.present && instant.environment.rain_mm_per_h > 0.0 ? 1.0f : 0.0f);
   uniforms.target = glm::vec4(1.0f / static_cast<float>(mirror.width), 1.0f / static_cast<float>(mirror.height),
-                              within_tile(eye_m, instant::ripple_tile_m));
+                              within_tile(eye_m, light::ripple_tile_m));
 }
 
 }  // namespace

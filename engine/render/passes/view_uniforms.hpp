@@ -1,38 +1,18 @@
 #pragma once
-/// What the shaders of one view know: the twin of shaders/view.glsl, and how it is filled.
-
-#include <array>
-#include <span>
+/// What the shaders of one view know: light::ViewUniforms, and how it is filled.
 
 #include <glm/mat4x4.hpp>
-#include <glm/vec4.hpp>
+#include <glm/vec2.hpp>
 
 #include "engine/instant/instant.hpp"
+#include "engine/light/view_record.hpp"
 #include "engine/render/passes/lamp_field.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/words.hpp"
 
 namespace septet::render {
 
-inline constexpr std::size_t most_headlights = 10, most_beacons = 4;
-
-struct ViewUniforms {
-  glm::mat4 clip_from_relative;
-  glm::mat4 shadow_from_relative;
-  glm::vec4 far_from_near;
-  glm::vec4 light_direction, light_irradiance, sky_irradiance, ground_irradiance, sun_direction, sun_level;
-  std::array<glm::vec4, 7> irradiance;
-  glm::vec4 ray_middle, ray_right, ray_down;
-  glm::vec4 billboard_right, billboard_up;
-  glm::vec4 weather, wind;
-  std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
-  glm::vec4 soot_x, soot_y, soot_z, soot_size;
-  glm::vec4 lamp_field, lamp_hue;
-  glm::vec4 road, water, target;
-  glm::vec4 offset;
-  std::array<glm::vec4, most_beacons> beacon_position, beacon_intensity;
-};
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 21 + 2 * most_headlights + 6 + 4 + 2 * most_beacons) * 16);
+using light::most_headlights, light::most_beacons, light::ViewUniforms;
 
 /// Where the wet road's mirror image of a view lies in a picture.
 struct RoadMirror {

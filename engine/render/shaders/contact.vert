@@ -2,14 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 
-// Where a body hides the sky from the ground that it stands on. The host's twin is ContactRecord in passes/contact_pass.hpp.
-struct Contact {
-  vec4 middle;  // Relative to the eye, on the ground; height of the body, m.
-  vec4 ahead;   // Unit; half its length, m.
-  vec4 aside;   // Unit; half its width, m.
-  vec4 light;   // Clearance below it, m; share of the sky.
-};
-layout(set = 0, binding = 1, std430) readonly buffer Contacts { Contact contacts[]; };
+#include "engine/light/records.hpp"
+
+layout(set = 0, binding = 1, std430) readonly buffer Contacts { ContactRecord contacts[]; };
 
 layout(location = 0) out vec2 out_at;
 layout(location = 1) out vec3 out_relative;
@@ -19,7 +14,7 @@ layout(location = 3) flat out vec4 out_up;    // Unit; share of the sky.
 const float reach = 1.6;  // Of its height.
 
 void main() {
-  Contact contact = contacts[gl_InstanceIndex];
+  ContactRecord contact = contacts[gl_InstanceIndex];
   const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
   vec2 half_size = vec2(contact.ahead.w, contact.aside.w);
   out_at = corners[gl_VertexIndex] * (half_size + reach * contact.middle.w);

@@ -2,18 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 
-// A lamp's glow: a square that faces the viewer. The host's twin is GlowRecord in passes/glow_pass.hpp.
-struct Glow {
-  vec4 position_size;  // Relative to the eye; radius, m.
-  vec4 color;          // Radiance of the glow at its middle.
-};
-layout(set = 0, binding = 1, std430) readonly buffer Glows { Glow glows[]; };
+#include "engine/light/records.hpp"
+
+layout(set = 0, binding = 1, std430) readonly buffer Glows { GlowRecord glows[]; };
 
 layout(location = 0) out vec2 out_at;
 layout(location = 1) flat out vec3 out_color;
 
 void main() {
-  Glow glow = glows[gl_InstanceIndex];
+  GlowRecord glow = glows[gl_InstanceIndex];
   const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
   vec2 at = corners[gl_VertexIndex];
   vec3 middle = glow.position_size.xyz;

@@ -55,13 +55,6 @@ vec3 face_normal(ivec2 texel, float depth, vec3 way, float outwards) {
   return dot(n, n) > 0.0 ? normalize(n) : n;
 }
 
-float exact_fresnel(float cosine) {
-  float beyond = sqrt(max(1.0 - into_ice * into_ice * (1.0 - cosine * cosine), 0.0));
-  float s = (into_ice * cosine - beyond) / (into_ice * cosine + beyond);
-  float p = (into_ice * beyond - cosine) / (into_ice * beyond + cosine);
-  return 0.5 * (s * s + p * p);
-}
-
 // Light on its way through the body, from `way` within: marched through the layers (Oliveira and Brauwers, "Real-Time
 // Refraction Through Deformable Objects", 2007) to the face where it leaves, or is wholly reflected and goes on; having
 // left, it may meet ice again, of which a share is mirrored.
@@ -97,21 +90,21 @@ vec3 followed(vec3 way) {
     float length_m = in_ice ? before : after;
     if (length_m == 0.0 || !in_ice) is_inside(place + way * length_m, last);
     place += way * length_m;
-    if (in_ice) share *= exp(-ice.absorption.rgb * length_m);
+    if (in_ice) share *= transmittance(ice.absorption.rgb, length_m);
     vec3 n = face_normal(last, dot(place, ice.forward.xyz), way, in_ice ? 1.0 : -1.0);
     if (dot(n, n) == 0.0) break;
     if (in_ice) {
       vec3 out_way = refracted(way, -n, out_of_ice);
       if (out_way == vec3(0.0)) {
-        way = reflect(way, n);
+        way = mirrored_way(way, n);
         continue;
       }
       way = out_way;
       if (beyond == 0) break;
       in_ice = false;
     } else {
-      float mirrored = exact_fresnel(abs(dot(way, n)));
-      light += share * mirrored * around(reflect(way, n));
+      float mirrored = fresnel(abs(dot(way, n)), into_ice);
+      light += share * mirrored * around(mirrored_way(way, n));
       share *= 1.0 - mirrored;
       way = refracted(way, n, into_ice);
       in_ice = true;
@@ -147,11 +140,7 @@ void main() {
     seen = followed(refracted(eye, facing, into_ice));
   } else if (thin == 0) {
     vec3 turned = facing;
-    if (two_sided != 0) {
-      // Equation 1.
-      vec3 sum = ice.blend.x * n + ice.blend.y * textureLod(ice_back, at, 0.0).xyz;
-      if (dot(sum, sum) > 1e-6) turned = normalize(sum);
-    }
+    if (two_sided != 0) turned = blended_normal(n, textureLod(ice_back, at, 0.0).xyz, ice.blend.x, ice.blend.y);
     seen = around(refracted(eye, turned, into_ice));
   }
   if (filled != 0) {
@@ -160,8 +149,8 @@ void main() {
     hidden += (1.0 - hidden) * inside.a;
   }
   // Equation 4, or Fresnel's.
-  float share = (quality != 0 || thin != 0 ? exact_fresnel(cosine) : (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine)) * ice.blend.w;
-  vec3 radiance = mix(seen, around(reflect(eye, facing)), share);
+  float share = (quality != 0 || thin != 0 ? fresnel(cosine, into_ice) : paper_fresnel(cosine)) * ice.blend.w;
+  vec3 radiance = mix(seen, around(mirrored_way(eye, facing)), share);
   hidden += (1.0 - hidden) * share;
   vec3 h = normalize(view.light_direction.xyz - eye);
   vec3 sunlight = view.light_irradiance.rgb * ice.origin.w;

@@ -45,11 +45,7 @@ void main() {
   float share = 0.0;
   if (quality != 0) {
     // A thin gap of air: twice a face's share, and all of it beyond the limit of total reflection.
-    vec3 in_ice = eye;
-    float cosine = abs(dot(n, in_ice)), square = 1.0 - out_of_ice * out_of_ice * (1.0 - cosine * cosine);
-    float beyond = sqrt(max(square, 0.0)), s = (out_of_ice * cosine - beyond) / (out_of_ice * cosine + beyond);
-    float p = (out_of_ice * beyond - cosine) / (out_of_ice * beyond + cosine);
-    float once = square < 0.0 ? 1.0 : 0.5 * (s * s + p * p);
+    float once = fresnel(abs(dot(n, eye)), out_of_ice);
     // Cracks touch here and there.
     share = 0.8 * (2.0 * once / (1.0 + once)) * smoothstep(0.2, 0.6, textureLod(noise, place.xy * 0.23, 0.0).r);
     radiance += share * around(reflect(eye, n));

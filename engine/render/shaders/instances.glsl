@@ -1,10 +1,6 @@
-// One drawn instance, as vertex attributes that change once an instance: a software device reads those far faster than a
-// storage buffer. The host's twin is InstanceRecord in passes/draw_list.hpp.
+// What an instance does with its mesh.
 
-layout(location = 3) in vec4 row0;  // Rows of relative_from_object, scale included.
-layout(location = 4) in vec4 row1;
-layout(location = 5) in vec4 row2;
-layout(location = 8) in vec2 shown;  // Thresholds of the pixels that show it, see fade.glsl.
+#include "engine/light/instance_record.hpp"
 
 vec3 placed(vec3 position) {
   vec4 p = vec4(position, 1.0);

@@ -8,16 +8,16 @@ vec3 above_road(vec3 toward, float sum, vec3 relative) {
   return toward * vec3(1.0, 1.0, below) * (below * nearer * nearer);
 }
 
-// What standing lamps throw on a surface: the twin of lamplight in passes/lamp_field.hpp. w: how far a roofed place is lit by them here, 0 to 1.
+// What standing lamps throw on a surface. w: how far a roofed place is lit by them here, 0 to 1.
 vec4 standing_lamps(vec3 relative, vec3 n, float share_of_sky) {
   // A wall's light is that of the road before it: beyond stand other lamps.
   vec2 at = (relative.xy + 1.5 * n.xy) * view.lamp_field.z + view.lamp_field.xy, edge = abs(at - 0.5);
   float fade = clamp((0.5 - max(edge.x, edge.y)) * 6.0, 0.0, 1.0);
   vec4 texel = textureLod(lamp_field, at, 0.0);
-  float sum = abs(texel.w), from_all_sides = 0.25 * max(0.0, sum - length(texel.xyz));
+  float sum = abs(texel.w), even = from_all_sides(texel);
   bool roofed = texel.w < 0.0;
   if (roofed) texel.xyz = above_road(texel.xyz, sum, relative);
-  float light = fade * (max(0.0, dot(texel.xyz, n)) + from_all_sides);
+  float light = fade * lamplight(texel.xyz, even, n);
   light *= roofed ? view.lamp_hue.w * (1.0 - share_of_sky) : view.lamp_field.w * share_of_sky;
   return vec4(view.lamp_hue.rgb * light, roofed ? fade * min(1.0, 8.0 * sum * view.lamp_hue.w) : 0.0);
 }

@@ -1,12 +1,6 @@
-// The material of one draw. The host's twin is MaterialConstants in passes/surface_pass.hpp.
+// The material of one draw.
 
-layout(push_constant) uniform Material {
-  vec4 base_color;  // rgb, opacity.
-  vec4 emission;    // rgb, roughness.
-  vec4 surface;     // Metallic, reflectance at normal incidence, clear coat, takes paint.
-  vec4 light;       // Share of the sky that the surface sees, retroreflection cd/(lx m²), columns and rows of pictures.
-  vec4 more;        // Share of light from around, lit by night.
-} material;
+#include "engine/light/microfacets.hpp"
+#include "engine/light/records.hpp"
 
-// Of a clear coat: the twins of those in engine/scene/resolved_scene.hpp.
-const float coat_reflectance = 0.04, coat_roughness = 0.1;
+layout(push_constant) uniform Material { MaterialConstants material; };

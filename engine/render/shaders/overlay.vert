@@ -1,11 +1,9 @@
 #version 460
 
-layout(push_constant) uniform Quad {
-  vec4 ndc;    // Left, top, right, bottom.
-  vec4 uv;     // The same in the atlas.
-  vec4 color;  // sRGB, premultiplied.
-  vec4 kind;   // x: 1 text from the atlas, 0 a plain box.
-} quad;
+#extension GL_GOOGLE_include_directive : require
+#include "engine/light/records.hpp"
+
+layout(push_constant) uniform Quad { QuadConstants quad; };
 
 layout(location = 0) out vec2 out_uv;
 

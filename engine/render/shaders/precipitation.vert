@@ -2,19 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 
-// A drop's streak, turned to the eye about its length. The host's twin is StreakRecord in passes/precipitation_pass.hpp.
-struct Streak {
-  vec4 from_width;
-  vec4 along_opacity;
-  vec4 radiance;
-};
-layout(set = 0, binding = 1, std430) readonly buffer Streaks { Streak streaks[]; };
+#include "engine/light/records.hpp"
+
+layout(set = 0, binding = 1, std430) readonly buffer Streaks { StreakRecord streaks[]; };
 
 layout(location = 0) out float out_across;
 layout(location = 1) flat out vec4 out_color;
 
 void main() {
-  Streak streak = streaks[gl_InstanceIndex];
+  StreakRecord streak = streaks[gl_InstanceIndex];
   const vec2 corners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1), vec2(-1, 1));
   vec2 at = corners[gl_VertexIndex];
   vec3 place = streak.from_width.xyz + streak.along_opacity.xyz * at.y;

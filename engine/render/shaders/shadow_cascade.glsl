@@ -1,6 +1,5 @@
-// The cascade that is drawn. The host's twin is CascadeConstants in passes/shadow_pass.cpp.
+// The cascade that is drawn.
 
-layout(push_constant) uniform Cascade {
-  mat4 clip_from_relative;
-  vec2 first_texel;  // Number of its corner's texel over the world: a pattern that came along with the eye would crawl.
-} cascade;
+#include "engine/light/records.hpp"
+
+layout(push_constant) uniform Cascade { CascadeConstants cascade; };

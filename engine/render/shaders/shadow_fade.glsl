@@ -5,4 +5,4 @@
 
 layout(location = 0) in vec4 uv_shown;
 
-bool casts_here() { return is_shown(uv_shown.zw, mod(gl_FragCoord.xy + cascade.first_texel, 1024.0)); }
+bool casts_here() { return is_shown(uv_shown.zw, mod(gl_FragCoord.xy + cascade.first_texel.xy, 1024.0)); }

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
+#include "engine/light/clouds.hpp"
 
 layout(constant_id = 0) const uint clouded = 0;
 layout(constant_id = 1) const uint starry = 0;
@@ -8,11 +9,10 @@ layout(constant_id = 1) const uint starry = 0;
 layout(location = 0) in vec3 direction;
 layout(location = 0) out vec4 result;
 
-// The noise holds ranks: a share of the sky as large as the cover lies above its limit. The square undoes the images' code.
-float cloud_density(vec2 at) {
-  float rank = textureLod(noise, at, 0.0).r;
-  float limit = 1.0 - view.sun_level.w;
-  return smoothstep(limit - 0.08, limit + 0.34, rank * rank);
+// The square undoes the images' code.
+float density_at(vec2 place) {
+  float root = textureLod(noise, place, 0.0).r;
+  return cloud_density(root * root, view.sun_level.w);
 }
 
 void main() {
@@ -28,15 +28,10 @@ void main() {
 
   float cover = 0.0;
   if (clouded != 0) {
-    // Clouds on a plane 1.6 km up; the noise repeats after 9 km.
-    vec2 at = (d.xy * (1600.0 / (max(d.z, 0.0) + 0.12)) + view.wind.xy) / 9000.0;
-    float density = cloud_density(at);
-    float beyond = cloud_density(at + view.sun_direction.xy * 0.012);
-    float light = exp2(-1.5 * beyond - 0.5 * density);
-    float forward = max(toward_sun, 0.0) * max(toward_sun, 0.0);
-    vec3 white = view.light_irradiance.rgb * (0.46 * light * (1.0 + 1.2 * forward * forward * forward)) +
-                 view.sky_irradiance.rgb * (0.24 + 0.16 * light);
-    cover = density * smoothstep(0.015, 0.16, d.z) * (0.95 - 0.45 * view.sun_level.z);
+    vec2 place = cloud_place(d, view.wind.xy);
+    float density = density_at(place), beyond = density_at(cloud_sunward(place, view.sun_direction.xyz));
+    vec3 white = cloud_radiance(density, beyond, toward_sun, view.light_irradiance.rgb, view.sky_irradiance.rgb);
+    cover = cloud_hides(density, d.z, view.sun_level.z);
     radiance = mix(radiance, white, cover);
   }
   if (starry != 0) {

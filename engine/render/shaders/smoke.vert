@@ -2,13 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 
-// A puff of smoke: a square that faces the viewer. The host's twin is PuffRecord in passes/smoke_pass.hpp.
-struct Puff {
-  vec4 position_radius;  // Relative to the eye; radius, m.
-  vec4 radiance_depth;   // Its light; optical depth through its middle.
-  vec4 turn;
-};
-layout(set = 0, binding = 1, std430) readonly buffer Puffs { Puff puffs[]; };
+#include "engine/light/records.hpp"
+
+layout(set = 0, binding = 1, std430) readonly buffer Puffs { PuffRecord puffs[]; };
 
 layout(location = 0) out vec2 out_at;
 layout(location = 1) flat out vec4 out_radiance_depth;
@@ -16,7 +12,7 @@ layout(location = 2) flat out vec4 out_shift_fog;  // xy: place in the noise. z:
 layout(location = 3) flat out vec3 out_fog;
 
 void main() {
-  Puff puff = puffs[gl_InstanceIndex];
+  PuffRecord puff = puffs[gl_InstanceIndex];
   const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
   vec2 at = corners[gl_VertexIndex];
   vec3 middle = puff.position_radius.xyz;

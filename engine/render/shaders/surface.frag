@@ -2,11 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "material.glsl"
-#include "headlights.glsl"
 #include "sunlit.glsl"
 #include "lamplight.glsl"
 #include "wet_road.glsl"
 #include "fade.glsl"
+#include "engine/light/beam.hpp"
+#include "engine/light/microfacets.hpp"
+#include "engine/light/ruts.hpp"
+#include "engine/light/snow.hpp"
+#include "engine/light/soot.hpp"
 
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
 layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
@@ -40,7 +44,7 @@ layout(location = 0) out vec4 result;
 layout(set = 0, binding = 1, std430) readonly buffer Soot { uint soot[]; };  // Four cells each.
 
 float soot_in(ivec3 cell, ivec3 size) {
-  int at = (cell.z * size.y + cell.y) * size.x + cell.x;
+  int at = soot_index(cell, size);
   return float((soot[at >> 2] >> ((at & 3) * 8)) & 255u) / 255.0;
 }
 
@@ -49,14 +53,10 @@ float soot_cover() {
   vec4 place = vec4(relative, 1.0);
   vec3 at = vec3(dot(view.soot_x, place), dot(view.soot_y, place), dot(view.soot_z, place));
   ivec3 size = ivec3(view.soot_size.xyz), low = ivec3(floor(at));
-  if (any(lessThan(low, ivec3(0))) || any(greaterThanEqual(low, size - 1))) return 0.0;
+  if (!in_soot(low, size)) return 0.0;
   vec3 share = at - vec3(low);
   float sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    ivec3 step = ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-    vec3 weight = mix(1.0 - share, share, vec3(step));
-    sum += weight.x * weight.y * weight.z * soot_in(low + step, size);
-  }
+  for (int n = 0; n < 8; ++n) sum += soot_weight(share, soot_corner(n)) * soot_in(low + soot_corner(n), size);
   return sum;
 }
 
@@ -86,13 +86,12 @@ vec4 headlight(vec4 position, vec4 direction, vec3 n) {
   vec3 to_surface = relative - position.xyz;
   float square = dot(to_surface, to_surface);
   vec3 ray = to_surface * inversesqrt(square);
-  float light = position.w * beam_share(direction.xyz, ray, (lamps & 4) != 0 ? direction.w : 0.0, square + 1.0);
-  // Rough asphalt sends more light back than a matt surface would at so low an angle.
-  float facing = max(0.0, -dot(n, ray)) * 0.7 + 0.3;
-  vec3 lit = vec3(1.0, 0.93, 0.80) * facing;
+  float share = (lamps & 4) != 0 ? beam_share(direction.xyz, ray, direction.w, square + 1.0) : dipped_share(direction.xyz, ray, square + 1.0);
+  float light = position.w * share;
+  vec3 lit = headlight_color * beam_facing(max(0.0, -dot(n, ray)));
   if (retroreflective == 0) return vec4(light * lit, 0.0);
   float back = 1.0 - dot(ray, normalize(relative));  // Half the square of the angle between lamp and eye.
-  return light * vec4(lit, 1.0 / (1.0 + back * 26000.0));
+  return light * vec4(lit, beam_returned(back));
 }
 
 // Irradiance from headlights, and in w what of the lamps beside the eye comes back to it from retroreflectors, per unit of retroreflection: as lx.
@@ -125,10 +124,8 @@ vec3 beacons(vec3 n) {
 // Microfacets' sun (GGX, with Kelemen's visibility 1/(4·vh²)), per unit of irradiance on them.
 vec3 shine(vec3 facet, vec3 to_eye, vec3 f0, float roughness) {
   vec3 h = normalize(view.light_direction.xyz + to_eye);
-  float a2 = roughness * roughness * roughness * roughness;
-  float nh = max(dot(facet, h), 0.0), vh = max(dot(to_eye, h), 1e-3);
-  float d = nh * nh * (a2 - 1.0) + 1.0;
-  return min((f0 + (1.0 - f0) * fifth_power(1.0 - vh)) * (a2 / (pi * d * d) * 0.25 / (vh * vh)), vec3(40.0));
+  float vh = max(dot(to_eye, h), 1e-3), density = ggx_density(max(dot(facet, h), 0.0), roughness * roughness);
+  return min(schlick(f0, vh) * (density * 0.25 / (vh * vh)), vec3(40.0));
 }
 
 // Share of an even sky that a layer mirrors: a fit to GGX with Smith's masking and Schlick's Fresnel, within 0.03 for roughness up to 0.7.
@@ -162,15 +159,11 @@ void main() {
 
   float snow_lies = 0.0;
   if (snowy != 0) {
-    float snow = smoothstep(0.35, 0.8, n.z);
-    // Leaves wither, and snow lies on twigs whichever way their picture looks. Wheels keep two tracks of a lane bare.
-    if (cut != 0) {
-      albedo = mix(albedo, vec3(0.11, 0.09, 0.07) * (0.4 + 2.0 * albedo.g), 0.9 * view.weather.y);
-      snow = max(snow, 0.35);
-    }
-    if (road != 0 && textured != 0) snow *= 1.0 - 0.7 * smoothstep(0.13, 0.07, abs(abs(uv.x - 0.5) - 0.23));
+    float snow = cut != 0 ? twigs_hold_snow(n.z) : holds_snow(n.z);
+    if (cut != 0) albedo = withered(albedo, view.weather.y);
+    if (road != 0 && textured != 0) snow *= snow_beside_ruts(uv.x);
     snow_lies = view.weather.y * share_of_sky * snow * snowed;
-    albedo = mix(albedo, vec3(0.85, 0.88, 0.92), snow_lies);
+    albedo = snowy_albedo(albedo, snow_lies);
   }
   float wet = 0.0, under_water = 0.0;
   vec2 slope = vec2(0.0);
@@ -181,7 +174,7 @@ void main() {
     float footprint_m = sqrt(max(dot(across, across), dot(down, down)));
     under_water = puddle(ground, footprint_m, textured != 0 ? rut_at(uv.x) : 0.0, wet);
     slope = under_water * ripple_slope(relative.xy, footprint_m);
-    albedo *= (1.0 - 0.55 * wet) * (1.0 - 0.3 * under_water);
+    albedo = wet_albedo(albedo, wet, under_water);
   }
 
   vec3 to_light = view.light_direction.xyz;
@@ -194,14 +187,14 @@ void main() {
   // Roads lie level, in the open.
   vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : irradiance_on(n) * (share_of_sky * material.more.x);
   // The lamps of a roofed place: their light from all sides, and near the eye their pools in it.
-  float between_pools = 0.24 * (1.0 - share_of_sky);
+  float between_pools = 1.0 - share_of_sky;
   if ((lamps & 2) != 0) {
     vec4 thrown = standing_lamps(relative, n, share_of_sky);
     // Lamps below a ceiling leave it to what the road sends back.
     between_pools *= (1.0 - 0.7 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
     ambient += thrown.rgb * material.more.x;
   }
-  ambient += vec3(1.5, 1.3, 1.0) * between_pools;
+  ambient += irradiance_between_pools * between_pools;
   if ((lamps & 8) != 0) ambient += beacons(n);
   vec3 irradiance = sunlight * diffuse + ambient;
   vec3 radiance = albedo * (1.0 - material.surface.x) / pi;
@@ -209,25 +202,24 @@ void main() {
     vec4 beams = headlights(n);
     irradiance += beams.rgb;
     radiance *= irradiance;
-    // Water over beads mirrors the light away.
     if (retroreflective != 0)
-      radiance += base.rgb * min(material.light.y * beams.w * (stripe != 0 ? 1.0 - 0.8 * wet : 1.0), 2.0 * view.light_irradiance.w);
+      radiance += base.rgb * min(material.light.y * beams.w * (stripe != 0 ? wet_beads_return(wet) : 1.0), 2.0 * view.light_irradiance.w);
   } else {
     radiance *= irradiance;
   }
 
   if (glossy != 0 && road != 0) {
     // The water's film.
-    float r = mix(0.12, 0.03, under_water);
+    float r = water_roughness(under_water);
     vec3 facet = normalize(n - vec3(slope, 0.0));
     float cosine = clamp(dot(facet, to_eye), 0.0, 1.0);
-    float fresnel = 0.02 + (0.98 - r) * fifth_power(1.0 - cosine);
+    float fresnel = water_reflectance + (1.0 - water_reflectance - r) * fifth_power(1.0 - cosine);
     vec3 mirrored = reflect(-to_eye, facet);
     vec3 around = sky_radiance(normalize(vec3(mirrored.xy, max(mirrored.z, 0.02)))) * share_of_sky + under_roof * (1.0 - share_of_sky);
     vec4 near_by = mirrored_on_road(normalize(relative.xy), slope, under_water);
     around = around * (1.0 - near_by.a) + near_by.rgb;
-    radiance += fresnel * around * mix(0.36 * wet, 0.95, under_water);
-    radiance += shine(facet, to_eye, vec3(0.02), r) * sunlight * (max(facing, 0.0) * wet);
+    radiance += fresnel * around * water_covers(wet, under_water);
+    radiance += shine(facet, to_eye, vec3(water_reflectance), r) * sunlight * (max(facing, 0.0) * wet);
   } else if (glossy != 0) {
     // What a layer mirrors does not reach the one below it, on its way in as on its way out.
     float cosine = clamp(dot(n, to_eye), 0.0, 1.0);

@@ -12,8 +12,6 @@ layout(constant_id = 12) const uint over_frames = 0;  // passes/temporal_pass.hp
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec3 normal;
-layout(location = 6) in vec4 tint;   // rgb: paint. a: how much of the material's emission shines.
-layout(location = 7) in vec4 light;  // Share of the sky that reaches it, whether snow lies on it, number of its participant, its height over the road.
 
 layout(location = 0) out vec3 out_relative;
 layout(location = 1) out vec3 out_normal;

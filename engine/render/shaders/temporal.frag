@@ -1,15 +1,13 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "engine/light/records.hpp"
 
 // What this frame and those before have seen of a pixel: see passes/temporal_pass.hpp.
 
 layout(set = 0, binding = 5) uniform sampler2D radiance;   // Of this frame; alpha: marks.
 layout(set = 0, binding = 17) uniform sampler2D history;   // Of the frame before, resolved; alpha: marks.
 layout(set = 0, binding = 18) uniform sampler2D depth;     // Reversed; 0: the sky.
-layout(push_constant) uniform Reprojection {
-  mat4 before_from_now;  // Clip coordinates.
-  vec4 viewport;         // Left, top, width, height, pixels.
-  vec4 more;             // x: from radiance to the tone curve. y: 1 where there is a frame before. zw: how far what stands still is shifted, pixels.
-};
+layout(push_constant) uniform Reprojection { ReprojectionConstants reprojection; };
 
 layout(location = 0) out vec4 result;
 
@@ -17,10 +15,10 @@ const float least_mark = 0.25;  // What hides less is kept from trailing by its 
 
 // Brought within 0 and 1, so that one bright sample does not outweigh all others (Karis), and back.
 vec3 weighed(vec3 light) {
-  light = max(light, vec3(0.0)) * more.x;
+  light = max(light, vec3(0.0)) * reprojection.more.x;
   return light / (1.0 + max(light.r, max(light.g, light.b)));
 }
-vec3 unweighed(vec3 w) { return w / (max(1.0 - max(w.r, max(w.g, w.b)), 1e-4) * more.x); }
+vec3 unweighed(vec3 w) { return w / (max(1.0 - max(w.r, max(w.g, w.b)), 1e-4) * reprojection.more.x); }
 
 // Of the frame before, between its pixels: Catmull and Rom's spline, which blurs less than a line from pixel to pixel, by five samples that are
 // themselves between two (Jimenez, "Filmic SMAA", 2016, leaves the corners out likewise).
@@ -55,14 +53,14 @@ void main() {
   }
   // Alone, what stands still is put back where it is; what does not was not shifted.
   bool still = now.a <= least_mark;
-  vec3 alone = still ? textureLod(radiance, (gl_FragCoord.xy + more.zw) / vec2(last + 1), 0.0).rgb : now.rgb;
+  vec3 alone = still ? textureLod(radiance, (gl_FragCoord.xy + reprojection.more.zw) / vec2(last + 1), 0.0).rgb : now.rgb;
   result = vec4(alone, still ? 0.0 : 1.0);
-  if (more.y == 0.0 || !still) return;
+  if (reprojection.more.y == 0.0 || !still) return;
   // An edge goes with what is nearer.
-  vec4 before = before_from_now * vec4((gl_FragCoord.xy - viewport.xy) / viewport.zw * 2.0 - 1.0, nearest, 1.0);
-  vec2 then = (before.xy / before.w * 0.5 + 0.5) * viewport.zw;
-  if (before.w <= 0.0 || any(lessThan(then, vec2(0.5))) || any(greaterThan(then, viewport.zw - 0.5))) return;
-  then += viewport.xy;
+  vec4 before = reprojection.before_from_now * vec4((gl_FragCoord.xy - reprojection.viewport.xy) / reprojection.viewport.zw * 2.0 - 1.0, nearest, 1.0);
+  vec2 then = (before.xy / before.w * 0.5 + 0.5) * reprojection.viewport.zw;
+  if (before.w <= 0.0 || any(lessThan(then, vec2(0.5))) || any(greaterThan(then, reprojection.viewport.zw - 0.5))) return;
+  then += reprojection.viewport.xy;
   if (textureLod(history, then / vec2(textureSize(history, 0)), 0.0).a > least_mark) return;
   vec3 seen = clamp(seen_before(then), least, most);
   // What moves over the screen is blurred a little each time that it is taken over: it is taken over less often.

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "tone_curve.glsl"
+#include "engine/light/tone_curve.hpp"
 
 layout(set = 0, binding = 5) uniform sampler2D radiance;
 layout(push_constant) uniform Exposure { vec4 exposure; };  // x: from radiance to the tone curve.

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "tone_curve.glsl"
+#include "engine/light/tone_curve.hpp"
 
 // With four samples a pixel each is mapped before they are averaged: a glint that covers one of them would whiten them all.
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
+#include "engine/light/wet_road.hpp"
 
 layout(location = 0) in vec2 at;
 layout(location = 1) flat in vec3 color;
@@ -33,7 +34,7 @@ void main() {
   // A facet of the water sends the lamp to the eye if it is tilted by half of what the two angles to the road differ.
   float tilt = 0.5 * (grazing - heights.y / (heights.z - at.y)) / 0.06;
   float side = at.x * heights.z / (heights.w * at.y);
-  float mirrored = 0.02 + 0.98 * fifth_power(1.0 - grazing);
+  float mirrored = schlick(vec3(water_reflectance), grazing).x;
   float share = is_hidden() ? 0.0 : exp2(-1.44 * (tilt * tilt + side * side));
   result = vec4(color * (mirrored * share), smoothstep(0.001, 0.01, share));
 }

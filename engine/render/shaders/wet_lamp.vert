@@ -2,12 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 
-// A lamp that a wet road mirrors: a strip of the road between the lamp's foot and the eye's. The host's twin is WetLampRecord in passes/glow_pass.hpp.
-struct WetLamp {
-  vec4 position_size;  // Relative to the eye; radius of the lens, m.
-  vec4 energy_road;    // Radiance times area of what is mirrored; height of the road relative to the eye, m.
-};
-layout(set = 0, binding = 1, std430) readonly buffer WetLamps { WetLamp lamps[]; };
+#include "engine/light/records.hpp"
+
+layout(set = 0, binding = 1, std430) readonly buffer WetLamps { WetLampRecord lamps[]; };
 
 layout(location = 0) out vec2 out_at;  // Metres to the side of its middle and on the way to the lamp.
 layout(location = 1) flat out vec3 out_color;  // Radiance in the middle of a perfect mirror.
@@ -15,7 +12,7 @@ layout(location = 2) flat out vec4 out_heights;  // Eye over the road, lamp over
 layout(location = 3) flat out vec4 out_before;   // To the lamp on the level, the depth of what stands a metre before it, and the height of its road from the eye, m.
 
 void main() {
-  WetLamp lamp = lamps[gl_InstanceIndex];
+  WetLampRecord lamp = lamps[gl_InstanceIndex];
   const vec2 corners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1), vec2(-1, 1));
   vec2 at = corners[gl_VertexIndex];
   float road = lamp.energy_road.w, distance_m = length(lamp.position_size.xy);

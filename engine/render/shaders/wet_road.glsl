@@ -1,18 +1,16 @@
-// Water on a road: the twin of engine/instant/wet_road.hpp.
+// Water on a road as a view has it: engine/light/wet_road.hpp, with what the device holds of puddles, ripples and the mirror image.
+
+#include "engine/light/wet_road.hpp"
 
 layout(set = 0, binding = 13) uniform sampler2D mirror_image;  // What the road mirrors, where the road is seen; alpha: there is something.
 layout(set = 0, binding = 19) uniform sampler2D mirror_spread; // The same, as rough as the film is.
 layout(set = 0, binding = 14) uniform sampler2D ripples;       // Slopes of water.
 
-// 1 where wheels run, across a lane's image.
-float rut_at(float u) { return smoothstep(0.12, 0.05, abs(abs(u - 0.5) - 0.23)); }
-
 // Share of a place under water; further off, where a pixel is wider than a puddle, the mean.
 float puddle(vec2 ground, float footprint_m, float rut, float wetness) {
-  float share = 0.25 * clamp(2.0 * wetness - 1.0, 0.0, 1.0);
-  float root = textureLod(noise, ground / 48.0, 0.0).r;
-  float here = smoothstep(1.0 - share, 1.05 - share, root * root + 0.12 * rut) * step(1e-6, share);
-  return mix(here, share, smoothstep(0.4, 2.5, footprint_m));
+  float share = puddle_share(wetness);
+  float root = textureLod(noise, ground / puddle_tile_m, 0.0).r;
+  return mix(puddle_at(root * root, rut, share), share, smoothstep(0.4, 2.5, footprint_m));
 }
 
 // Slope of the water's surface: rings of rain, as long as a pixel tells them apart.

@@ -4,7 +4,8 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/effects/ice/ice_body.hpp"
+#include "engine/instant/ice_body.hpp"
+#include "engine/light/instance_record.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::render::vulkan {
@@ -98,20 +99,21 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   add_stage(VK_SHADER_STAGE_VERTEX_BIT, description.vertex_code);
   add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, description.fragment_code);
 
-  using scene::SurfaceVertex;
+  using light::InstanceRecord, scene::SurfaceVertex;
   const std::array<VkVertexInputBindingDescription, 2> buffers{
-      {{0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX}, {1, instance_stride, VK_VERTEX_INPUT_RATE_INSTANCE}}};
+      {{0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX},
+       {1, sizeof(InstanceRecord), VK_VERTEX_INPUT_RATE_INSTANCE}}};
   const std::array<VkVertexInputAttributeDescription, 9> attributes{{
       {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, position_m)},
       {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SurfaceVertex, uv)},
-      {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
-      {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 16},
-      {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 32},
-      {8, 1, VK_FORMAT_R32G32_SFLOAT, 80},
+      {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, row0)},
+      {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, row1)},
+      {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, row2)},
+      {8, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(InstanceRecord, shown)},
       // What shadows go without comes last.
       {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, normal)},
-      {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 48},
-      {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 64},
+      {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, tint)},
+      {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, light)},
   }};
   VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   using ice::IceVertex;

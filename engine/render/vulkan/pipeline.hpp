@@ -49,11 +49,9 @@ void destroy_pipeline_layout(PipelineLayout& layout, const Device& device);
 /// `data`: no blending, and alpha is stored like the other three. `layer`: as `over`, onto a picture with an alpha of its own.
 enum class Blend : std::uint8_t { none, over, add, data, layer };
 /// What the vertex shader takes. Buffer 0, scene::SurfaceVertex: position, texture coordinates and normal at locations 0, 1,
-/// 2. Buffer 1, once an instance: five vectors of four floats at locations 3 to 7. `shadow` goes without the normal and the
+/// 2. Buffer 1, once an instance: light::InstanceRecord, at the locations that it says. `shadow` goes without the normal and the
 /// last two vectors. `ice`: one buffer of ice::IceVertex, position, normal and place at rest at locations 0, 1, 2.
 enum class VertexInput : std::uint8_t { none, shadow, surface, ice };
-
-inline constexpr std::uint32_t instance_stride = 88;
 
 struct PipelineDescription {
   std::span<const std::uint32_t> vertex_code, fragment_code;  ///< SPIR-V; no fragment code: depth only.

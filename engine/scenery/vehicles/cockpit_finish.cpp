@@ -10,27 +10,30 @@ namespace {
 
 struct InsideLook {
   const char* name;
-  glm::vec3 color;  ///< Linear Rec. 709; what little light comes in by the windows is in it.
+  glm::vec3 color;  ///< Linear Rec. 709.
   float roughness;
+  /// Of the sky's light what comes in by the windows to where it mostly lies: found by the ray tracer (tests/images/cabin_slow_test.cpp).
+  float ambient_share;
   float metallic = 0.0f;
   float glow = 0.0f;  ///< Of the picture's own colours.
 };
 
 /// In the order of CockpitFinish.
-constexpr std::array<InsideLook, 13> inside_looks{{
-    {"paint", {0.85f, 0.85f, 0.85f}, 0.28f},
-    {"soft", {0.060f, 0.060f, 0.062f}, 0.95f},
-    {"panel", {0.19f, 0.165f, 0.135f}, 0.9f},
-    {"lining", {0.30f, 0.28f, 0.25f}, 0.95f},
-    {"leather", {0.055f, 0.050f, 0.047f}, 0.62f},
-    {"skin", {0.55f, 0.34f, 0.25f}, 0.7f},
-    {"cloth", {0.10f, 0.13f, 0.19f}, 0.95f},
-    {"gloss", {0.012f, 0.012f, 0.014f}, 0.3f},
-    {"metal", {0.34f, 0.34f, 0.35f}, 0.45f, 0.6f},
-    {"rubber", {0.014f, 0.014f, 0.014f}, 0.9f},
-    {"dial faces", {0.75f, 0.75f, 0.75f}, 0.9f, 0.0f, 0.42f},
-    {"signs", {0.60f, 0.60f, 0.60f}, 0.9f, 0.0f, 0.80f},
-    {"water", {0.62f, 0.64f, 0.66f}, 0.3f},
+constexpr std::array<InsideLook, 14> inside_looks{{
+    {"paint", {0.85f, 0.85f, 0.85f}, 0.28f, 1.0f},
+    {"soft", {0.060f, 0.060f, 0.062f}, 0.95f, 0.55f},
+    {"panel", {0.19f, 0.165f, 0.135f}, 0.9f, 0.25f},
+    {"lining", {0.30f, 0.28f, 0.25f}, 0.95f, 0.55f},
+    {"leather", {0.055f, 0.050f, 0.047f}, 0.62f, 0.25f},
+    {"skin", {0.55f, 0.34f, 0.25f}, 0.7f, 0.25f},
+    {"cloth", {0.10f, 0.13f, 0.19f}, 0.95f, 0.25f},
+    {"gloss", {0.012f, 0.012f, 0.014f}, 0.3f, 0.2f},
+    {"metal", {0.34f, 0.34f, 0.35f}, 0.45f, 0.2f, 0.6f},
+    {"rubber", {0.014f, 0.014f, 0.014f}, 0.9f, 0.2f},
+    {"dial faces", {0.75f, 0.75f, 0.75f}, 0.9f, 0.15f, 0.0f, 0.42f},
+    {"signs", {0.60f, 0.60f, 0.60f}, 0.9f, 0.3f, 0.0f, 0.80f},
+    {"water", {0.62f, 0.64f, 0.66f}, 0.3f, 1.0f},
+    {"carpet", {0.06f, 0.06f, 0.065f}, 0.95f, 0.05f},
 }};
 
 }  // namespace
@@ -43,6 +46,7 @@ Palette add_cockpit_finishes(scene::SceneBuilder& builder) {
     material.base_color = look.color;
     material.roughness = look.roughness;
     material.metallic = look.metallic;
+    material.ambient_share = look.ambient_share;
     material.emission = glm::vec3(look.glow);
     if (i == index_of(CockpitFinish::water)) {
       material.opacity = 0.65f;

@@ -21,6 +21,7 @@ enum class CockpitFinish : std::uint32_t {
   dial_faces,  ///< Lit from behind, as the signs.
   signs,
   water,  ///< Drops on the windscreen.
+  carpet,
 };
 
 constexpr std::uint32_t index_of(CockpitFinish finish) { return static_cast<std::uint32_t>(finish); }

@@ -9,7 +9,7 @@ namespace septet::scenery {
 geometry::PolygonMesh dashboard();
 /// The faces of the instruments (engine/world/instrument_panel.hpp).
 geometry::PolygonMesh instrument_faces();
-/// Pillars, the roof's edge, sun visors and the doors below their windows.
+/// What encloses the cabin, seen from within: pillars with the doors' frames, roof, sun visors, doors below their windows, floor and bulkheads.
 geometry::PolygonMesh cabin_frame();
 /// In its own frame: it turns about x, which points away from the driver, and its top is at z.
 geometry::PolygonMesh steering_wheel();

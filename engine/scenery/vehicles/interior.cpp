@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
@@ -5,6 +8,7 @@
 #include "engine/scenery/vehicles/car_body.hpp"
 #include "engine/scenery/vehicles/cockpit_finish.hpp"
 #include "engine/scenery/vehicles/cockpit_parts.hpp"
+#include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 #include "engine/world/instrument_panel.hpp"
 
@@ -13,21 +17,16 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// The bonnet: what of the body's shown surface lies before the windscreen and looks up.
-geometry::PolygonMesh bonnet(const VehicleModel& model) {
+/// The body below its windows and without its roof, in whose place the cabin's frame stands: bonnet and, in the mirrors, flanks.
+geometry::PolygonMesh body_below_windows(const VehicleModel& model, std::uint32_t material) {
   const CarShape shape = car_shape(model);
   const geometry::PolygonMesh body = shown_surface(car_body_cage(model, shape, 1), 1);
-  const auto cowl = static_cast<float>(model.wheelbase_m) - shape.cowl_m;
   MeshBuilder builder;
-  builder.material = index_of(CockpitFinish::paint);
+  builder.material = material;
   for (const glm::vec3& p : body.vertices_m) builder.vertex(p);
   for (const auto& corners : body.polygons) {
-    const glm::vec3 middle = (body.vertices_m[corners[0]] + body.vertices_m[corners[2]]) * 0.5f;
-    const glm::vec3 area = glm::cross(body.vertices_m[corners[2]] - body.vertices_m[corners[0]],
-                                      body.vertices_m[corners[3]] - body.vertices_m[corners[1]]);
-    const bool ahead = middle.x > cowl - 0.08f && middle.z > 0.5f && middle.z < shape.hood_rear_m + 0.02f &&
-                       area.z > 0.35f * glm::length(area);
-    if (ahead) builder.quad(corners[0], corners[1], corners[2], corners[3]);
+    const float middle_z = 0.5f * (body.vertices_m[corners[0]].z + body.vertices_m[corners[2]].z);
+    if (middle_z < shape.hood_rear_m + 0.02f) builder.quad(corners[0], corners[1], corners[2], corners[3]);
   }
   return builder.take();
 }
@@ -61,12 +60,26 @@ VehicleParts sample_of(CockpitFinish finish) {
 VehicleParts interior_parts() {
   const VehicleModel& model = vehicle_models()[*find_vehicle_model("volvo-s80")];
   VehicleParts parts;
-  parts.push_back({"bonnet", bonnet(model), 0, {Placement{}}});
+  parts.push_back({"body", body_below_windows(model, index_of(CockpitFinish::paint)), 0, {Placement{}}});
   parts.push_back({"dashboard", dashboard(), 0, {Placement{}}});
   parts.push_back({"instruments", instrument_faces(), 0, {Placement{}}});
   parts.push_back({"frame", cabin_frame(), 0, {Placement{}}});
   parts.push_back({"steering wheel", steering_wheel(), 0, {on_column()}});
   seen_from_within(parts);
+  // It is what shades the cabin. Dashboard and wheel are finer than a shadow's texels.
+  std::ranges::find(parts, "frame", &VehiclePart::name)->places.front().casts_shadow = true;
+  return parts;
+}
+
+VehicleParts shell_parts() {
+  const VehicleModel& model = vehicle_models()[*find_vehicle_model("volvo-s80")];
+  VehicleParts parts{{"body", body_below_windows(model, index_of(Finish::paint)), 0, {Placement{}}}};
+  for (VehiclePart& part : vehicle_parts(model)) {
+    const bool is_fixed = part.places.front().role == scene::PartRole::fixed;
+    if (is_fixed || part.places.front().visible_from_m > 0.0f) continue;
+    for (Placement& place : part.places) place.visible_to_m = vehicles_until_m;
+    parts.push_back(std::move(part));
+  }
   return parts;
 }
 

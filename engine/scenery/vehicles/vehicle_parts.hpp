@@ -47,8 +47,11 @@ VehicleParts bicycle_parts(const VehicleModel& model);
 VehicleParts motorcycle_parts(const VehicleModel& model);
 VehicleParts pedestrian_parts(const VehicleModel& model);
 /// What the driver of the S80 sees of his own car: bonnet, dashboard, pillars, steering wheel. Materials are CockpitFinish indices, here
-/// and in the next four.
+/// and in all that follow but the next.
 VehicleParts interior_parts();
+/// What else of that car throws shadows and shines while its inside is drawn: wheels, lamps, the body without what the cabin's frame stands for.
+/// The whole body, of a model that looks like it from outside, would stand among the dashboard and keep light from it. Materials are Finish indices.
+VehicleParts shell_parts();
 VehicleParts hands_parts();       ///< The driver's hands; they turn as the wheel does.
 VehicleParts instrument_parts();  ///< The faces of the instruments alone, for a screen that shows nothing else.
 VehicleParts water_parts();       ///< Of the material of drops on the windscreen.

@@ -64,6 +64,7 @@ void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models) {
     } else {
       add_prototype(builder, palette, known, model.name, vehicle_parts(model));
     }
+  add_prototype(builder, palette, known, "shell/volvo-s80", shell_parts());
   const Palette inside = add_cockpit_finishes(builder);
   KnownShapes known_inside;
   add_prototype(builder, inside, known_inside, "interior/volvo-s80", interior_parts());

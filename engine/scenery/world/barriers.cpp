@@ -5,6 +5,7 @@
 #include "engine/geometry/noise.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/roadside/barrier_lines.hpp"
+#include "engine/roadside/obstacle_profile.hpp"
 #include "engine/scenery/world/far_road.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
@@ -27,6 +28,13 @@ constexpr float leaf_tile_m = 1.2f;    ///< What a hedge shows of the texture of
 constexpr std::uint64_t hedge_seed = 17;
 /// What PathFrame::length_m of `frames` counts in.
 constexpr float frame_m = 4.0f;
+constexpr float obstacle_top_m(ObstacleKind kind) { return static_cast<float>(roadside::profile_of(kind).height_m); }
+constexpr float rail_top_m = obstacle_top_m(ObstacleKind::guard_rail),
+                jersey_top_m = obstacle_top_m(ObstacleKind::concrete_barrier),
+                parapet_top_m = obstacle_top_m(ObstacleKind::parapet),
+                marker_top_m = obstacle_top_m(ObstacleKind::marker_post),
+                noise_wall_top_m = obstacle_top_m(ObstacleKind::noise_wall);
+
 float stretch(const Barrier& barrier, double s_m) {
   const double share = barrier.height_at(s_m) / roadside::usual_height_m(barrier.form);
   return std::abs(share - 1.0) < least_change ? 1.0f : static_cast<float>(share);
@@ -64,8 +72,8 @@ constexpr std::array<glm::vec2, 8> jersey{{{-0.30f, -0.05f},
                                            {0.30f, -0.05f},
                                            {0.30f, 0.08f},
                                            {0.14f, 0.34f},
-                                           {0.09f, 0.90f},
-                                           {-0.09f, 0.90f},
+                                           {0.09f, jersey_top_m},
+                                           {-0.09f, jersey_top_m},
                                            {-0.14f, 0.34f},
                                            {-0.30f, 0.08f}}};
 /// The W of a guard rail towards traffic at the left of the profile, folded round its back.
@@ -75,8 +83,9 @@ constexpr std::array<glm::vec2, 7> rail_left{{{-0.05f, 0.44f},
                                               {-0.08f, 0.56f},
                                               {0.0f, 0.60f},
                                               {-0.08f, 0.66f},
-                                              {-0.05f, 0.75f}}};
-constexpr std::array<glm::vec2, 4> rail_simple{{{-0.04f, 0.44f}, {0.02f, 0.44f}, {0.02f, 0.75f}, {-0.04f, 0.75f}}};
+                                              {-0.05f, rail_top_m}}};
+constexpr std::array<glm::vec2, 4> rail_simple{
+    {{-0.04f, 0.44f}, {0.02f, 0.44f}, {0.02f, rail_top_m}, {-0.04f, rail_top_m}}};
 
 /// A profile for the other side of the road, still counter-clockwise.
 template <std::size_t N>
@@ -209,7 +218,7 @@ struct BarrierPen {
       const std::array<glm::vec2, 4> bar{{{-0.03f, z}, {0.03f, z}, {0.03f, z + 0.06f}, {-0.03f, z + 0.06f}}};
       extrude_into(near, Ground::metal, bar, path, true);
     }
-    add_posts(posts, path, Ground::metal, {-0.04f, -0.04f, 0.3f}, {0.04f, 0.04f, 1.2f});
+    add_posts(posts, path, Ground::metal, {-0.04f, -0.04f, 0.3f}, {0.04f, 0.04f, parapet_top_m});
   }
 };
 
@@ -219,7 +228,7 @@ void add_marker_posts(MeshBuilder& builder, const WorldContext& world, const Roa
     const std::vector<PathFrame> path = frames(world, tile, line, roadside::marker_post_step_m);
     if (path.empty()) continue;
     const std::vector<PathFrame> one{path.front()};
-    add_posts(builder, one, Ground::post, {-0.05f, -0.06f, -0.3f}, {0.05f, 0.06f, 1.05f});
+    add_posts(builder, one, Ground::post, {-0.05f, -0.06f, -0.3f}, {0.05f, 0.06f, marker_top_m});
     add_posts(builder, one, Ground::metal_dark, {-0.055f, -0.065f, 0.72f}, {0.055f, 0.065f, 0.95f});
     add_posts(builder, one, Ground::reflector, {-0.06f, -0.03f, 0.76f}, {0.06f, 0.03f, 0.91f});
   }
@@ -228,9 +237,10 @@ void add_marker_posts(MeshBuilder& builder, const WorldContext& world, const Roa
 void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
   for (const BesideLine& line : roadside::noise_walls(world.roads, tile)) {
     const auto path = frames(world, tile, line, roadside::noise_wall_step_m);
-    constexpr std::array<glm::vec2, 4> panel{{{-0.09f, -0.9f}, {0.09f, -0.9f}, {0.09f, 3.6f}, {-0.09f, 3.6f}}};
+    constexpr std::array<glm::vec2, 4> panel{
+        {{-0.09f, -0.9f}, {0.09f, -0.9f}, {0.09f, noise_wall_top_m}, {-0.09f, noise_wall_top_m}}};
     extrude_into(builder, Ground::noise_wall, panel, path, true);
-    add_posts(builder, path, Ground::metal_dark, {-0.1f, -0.16f, -0.9f}, {0.1f, 0.16f, 3.75f});
+    add_posts(builder, path, Ground::metal_dark, {-0.1f, -0.16f, -0.9f}, {0.1f, 0.16f, noise_wall_top_m + 0.15f});
   }
 }
 
@@ -238,7 +248,8 @@ void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadT
 
 void draw_far_barriers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
   for (const roadside::Barrier& barrier : roadside::barriers(world.roads, tile)) {
-    constexpr std::array<glm::vec2, 4> wall{{{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
+    constexpr std::array<glm::vec2, 4> wall{
+        {{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, jersey_top_m}, {-0.1f, jersey_top_m}}};
     const bool high =
         barrier.form == BarrierForm::wall || barrier.form == BarrierForm::fence || barrier.form == BarrierForm::hedge;
     const auto profile = barrier.form == BarrierForm::rail ? rail_simple

@@ -5,6 +5,7 @@
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
+#include "engine/roadside/obstacle_profile.hpp"
 #include "engine/roadside/obstacles.hpp"
 #include "engine/roadside/signals.hpp"
 #include "engine/scenery/world/sign_faces.hpp"
@@ -27,9 +28,10 @@ void add_bar(MeshBuilder& builder, Ground ground, const glm::vec3& low, const gl
 geometry::PolygonMesh frame_mesh(double width_m) {
   MeshBuilder builder;
   const auto half_width = static_cast<float>(width_m / 2);
+  constexpr auto half_leg_m = static_cast<float>(roadside::profile_of(ObstacleKind::gantry_leg).radius_m);
   for (const double leg : roadside::gantry_legs_m(width_m)) {
     const auto y = static_cast<float>(leg);
-    add_bar(builder, Ground::metal, {-0.28f, y - 0.2f, -1.5f}, {0.28f, y + 0.2f, beam_high_m});
+    add_bar(builder, Ground::metal, {-half_leg_m, y - 0.2f, -1.5f}, {half_leg_m, y + 0.2f, beam_high_m});
   }
   for (const float x : {-0.45f, 0.45f})
     for (const float z : {beam_low_m, beam_high_m - 0.14f})

@@ -14,7 +14,7 @@ std::optional<IceEdges> edges_at(const road::RoadNetwork& roads, const BlackIce&
   const road::LaneSection& section = road::section_at(road, s_m);
   if (ice.lane == 0 || !section.has_lane(ice.lane)) return std::nullopt;
   const road::LaneBorders lane = road::lane_borders(road, section, ice.lane, s_m);
-  // Rounded over three metres at the ends, and nowhere straight.
+  // Length of the rounded ends; no edge is straight.
   constexpr double end_m = 3.0;
   const double from_end = std::min({along_m, ice.length_m - along_m, end_m}) / end_m;
   const double width = std::sqrt(std::max(0.0, 1.0 - (1.0 - from_end) * (1.0 - from_end)));

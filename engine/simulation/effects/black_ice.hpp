@@ -1,5 +1,5 @@
 #pragma once
-/// Black ice on a lane: where it is, for the wheels that roll over it and for those who draw it.
+/// Black ice on a lane: its outline, for the wheels that roll over it and for the pictures.
 
 #include <optional>
 
@@ -8,25 +8,25 @@
 
 namespace septet::simulation {
 
-/// A stretch of a lane that is under ice, within its borders.
+/// A stretch of a lane under ice, within its borders.
 struct BlackIce {
   road::RoadIndex road = 0;
   std::int32_t lane = 0;
   double s_m = 0.0, length_m = 0.0;
-  double thickness_m = 0.004;  ///< At first.
+  double thickness_m = 0.004;  ///< Initial thickness.
 };
 
-/// Where its edges lie at a station, in t: it freezes outwards from where water stood, and narrows towards its ends.
-/// Nothing off its ends, and where the road has no such lane.
+/// Edges of the ice at a station, in t: it freezes outwards from standing water, and narrows towards its ends. Empty
+/// beyond its ends, and where the road has no such lane.
 struct IceEdges {
   double right_t_m = 0.0, left_t_m = 0.0;
 };
 std::optional<IceEdges> edges_at(const road::RoadNetwork& roads, const BlackIce& ice, double s_m);
 
-/// Whether a place of the road is under what is left of it.
+/// True where the remaining ice covers a place of the road.
 bool is_iced(const road::RoadNetwork& roads, const BlackIce& ice, double thawed_kh, const road::RoadPosition& place);
 
-/// As it is drawn.
+/// The ice as a sheet to be drawn.
 ice::Sheet sheet_of(const road::RoadNetwork& roads, const BlackIce& ice);
 
 }  // namespace septet::simulation

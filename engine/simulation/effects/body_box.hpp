@@ -1,12 +1,13 @@
 #pragma once
-/// A vehicle as what hits it sees it.
+/// A vehicle's body as a box, for contacts.
 
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::simulation {
 
-/// A vehicle's body as a box, from its ground clearance to its roof; bonnet and windscreen of cars and vans are one slope. World frame.
+/// A vehicle's body as a box, from its ground clearance to its roof; bonnet and windscreen of cars and vans are one
+/// slope. World frame.
 debris::Box body_box(const Participant& participant);
 
 }  // namespace septet::simulation

@@ -70,7 +70,7 @@ void crash_with_vehicle(const Participant& car, const Participant& other, const 
   memory.parts[other.id] = std::move(blow.second.parts);
 }
 
-/// With the motion that the car had at the first touch; its hull has taken the blow itself.
+/// Uses the car's motion at the first touch; its hull has taken the impact itself.
 void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch, const debris::ContactWorld& world,
                          CrashMemory& memory, debris::State& debris, Random& random, CrashOutcome& outcome) {
   if (touch.closing_speed_mps < debris::least_crash_speed_mps) return;
@@ -80,7 +80,7 @@ void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch
   blow.first.box.velocity_mps = touch.velocity_mps;
   blow.point_m = touch.point_m;
   blow.normal = touch.normal;
-  constexpr double half_m = 0.5;  // So much of it is hit.
+  constexpr double half_m = 0.5;  // Half width of the struck area.
   blow.second.box.world_from_box = {touch.point_m - half_m * touch.normal,
                                     orientation_from_angles(std::atan2(touch.normal.y, touch.normal.x), 0.0, 0.0)};
   blow.second.box.half_size_m = Vec3(half_m);
@@ -118,7 +118,7 @@ std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b)
     const double side = apart < 0.0 ? -1.0 : 1.0;
     contact.normal = {side * axis.x, side * axis.y, 0.0};
   }
-  // Between what of each box lies nearest to the other one's middle.
+  // Midpoint between the point of each box nearest to the other one's middle.
   const auto nearest = [](const debris::Box& box, const Vec3& point) {
     const Vec3 local = inverse(box.world_from_box) * point;
     return box.world_from_box * glm::clamp(local, -box.half_size_m, box.half_size_m);

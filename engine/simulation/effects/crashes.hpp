@@ -1,9 +1,10 @@
 #pragma once
-/// Crashes as the effects see them: who touched whom, along which normal, and what broke off.
+/// Crashes for the effects: the pair in contact, the normal, and the parts broken off.
 ///
-/// Vehicles are boxes. The first tick of a contact is the crash; parts that broke off are remembered, so that no car loses
-/// the same bumper twice. The driver's car takes the blow of another vehicle here (a plastic one along the normal), and that
-/// of what stands beside the road in vehicle::advance_hull; everybody else is moved by traffic or by the storyboard.
+/// Vehicles are boxes. The first tick of a contact is the crash; broken-off parts are remembered, so that no car loses
+/// the same bumper twice. The driver's car takes the impact of another vehicle here (a plastic one along the normal),
+/// and that of obstacles beside the road in vehicle::advance_hull; all other participants are moved by traffic or by
+/// the storyboard.
 
 #include <map>
 #include <vector>
@@ -15,20 +16,21 @@
 
 namespace septet::simulation {
 
-/// What each vehicle that has crashed still carries.
+/// Parts that each crashed vehicle still carries.
 using MountedParts = std::map<ParticipantId, std::vector<debris::MountedPart>>;
 
 struct CrashMemory {
-  std::vector<ParticipantId> struck_by_driver;  ///< Since the effects' last step, as they were met: for the next one.
-  std::vector<vehicle::HullTouch> struck_standing;  ///< Likewise, of what stands beside the road.
+  /// Vehicles met by the driver's car since the effects' last step, in order of contact: for the next step.
+  std::vector<ParticipantId> struck_by_driver;
+  std::vector<vehicle::HullTouch> struck_standing;  ///< Likewise, of obstacles beside the road.
   MountedParts parts;
 };
 
-/// A windscreen that a crash shook.
+/// A windscreen shaken by a crash.
 struct ShakenGlass {
   ParticipantId vehicle = 0;
-  bool gone = false;    ///< It is in its car no more.
-  double across = 0.5;  ///< Where it was hit: 0 at its right, 1 at its left.
+  bool gone = false;    ///< Broken out of its car.
+  double across = 0.5;  ///< Place of the impact: 0 at its right, 1 at its left.
   double closing_mps = 0.0;
 };
 
@@ -40,7 +42,7 @@ struct CrashOutcome {
   std::vector<MadeDent> dents;
 };
 
-/// Two boxes as rectangles on the ground: do they overlap, and if so, where and which way out (shortest, from b to a)?
+/// Contact of two boxes as rectangles on the ground: overlap, place, and normal (shortest, from b to a).
 struct BoxContact {
   Vec3 point_m{0.0};
   Vec3 normal{1.0, 0.0, 0.0};
@@ -50,7 +52,7 @@ std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b)
 
 double vehicle_mass_kg(const Participant& participant);
 
-/// Works out the crashes of the driver's car that `memory` names.
+/// Computes the crashes of the driver's car that `memory` names.
 CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,
                              const debris::ContactWorld& world, CrashMemory& memory, debris::State& debris,
                              Random& random);

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/roadside/obstacle_profile.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/world/vehicle_body.hpp"
@@ -16,6 +17,9 @@ namespace septet::simulation {
 namespace {
 
 using Outline = std::vector<Vec2>;  ///< Convex, counter-clockwise, in plan.
+
+constexpr double narrowest_dent_m = 0.08;         ///< Half its width.
+constexpr double longer_than_a_vehicle_m = 10.0;  ///< Half the length of a wall or rail, as far as a dent goes.
 
 bool can_be_dented(const Participant& participant) {
   switch (vehicle_models()[participant.model].kind) {
@@ -42,7 +46,7 @@ Outline outline_of(const Participant& vehicle) {
   return rectangle(Vec2(box.world_from_box.position_m), glm::normalize(Vec2(x)), box.half_size_m.x, box.half_size_m.y);
 }
 
-/// What both cover (Sutherland and Hodgman 1974).
+/// Intersection of both outlines (Sutherland and Hodgman 1974).
 Outline common(Outline outline, const Outline& with) {
   for (std::size_t i = 0; i < with.size() && !outline.empty(); ++i) {
     const Vec2 from = with[i], edge = with[(i + 1) % with.size()] - from;
@@ -69,7 +73,8 @@ std::pair<double, double> extent(const Outline& outline, const Vec2& axis) {
   return extent;
 }
 
-/// Of `vehicle`, pushed along `inwards` as deep as `depth_m` by what has the outline `other` and has come in as far as it will.
+/// Adds a dent to `vehicle`, pushed along `inwards` by an obstacle of outline `other`, which has come in to its final
+/// depth of `depth_m`.
 void add_dent(const Participant& vehicle, const Vec2& inwards, double depth_m, const Outline& other, double top_m,
               std::vector<MadeDent>& made) {
   if (!(depth_m > 0.0) || !can_be_dented(vehicle)) return;
@@ -83,17 +88,16 @@ void add_dent(const Participant& vehicle, const Vec2& inwards, double depth_m, c
   const Vec2 middle = face * inwards + 0.5 * (low + high) * along;
   const Vec3 place_m = vehicle_from_world * Vec3(middle, vehicle.world_from_vehicle.position_m.z),
              way = vehicle_from_world.orientation * Vec3(inwards, 0.0);
-  constexpr double narrowest_m = 0.08;
   MadeDent& dent = made.emplace_back();
   dent.vehicle = vehicle.id;
   dent.dent.place_m = Vec2(place_m);
   dent.dent.heading_rad = std::atan2(way.y, way.x);
   dent.dent.depth_m = depth_m;
-  dent.dent.half_width_m = std::max(narrowest_m, 0.5 * (high - low));
+  dent.dent.half_width_m = std::max(narrowest_dent_m, 0.5 * (high - low));
   dent.dent.top_m = std::min(top_m, vehicle_models()[vehicle.model].height_m);
 }
 
-/// How high a vehicle reaches that is met from the way `outwards` of it: as its bonnet before its slope, else as all of it.
+/// Height of a vehicle at its side that faces `outwards`: of its bonnet before its slope, else of the whole body.
 double struck_height_m(const Participant& vehicle, const Vec2& outwards) {
   const VehicleModel& model = vehicle_models()[vehicle.model];
   const Vec3 local = inverse(vehicle.world_from_vehicle).orientation * Vec3(outwards, 0.0);
@@ -106,36 +110,23 @@ Outline moved_by(Outline outline, const Vec2& way_m) {
   return outline;
 }
 
-/// Half the breadth and the height of what stands; nothing for what yields.
-struct Standing {
+/// Half the breadth and the height of an obstacle as it dents a body; nothing for one that yields.
+struct DentingShape {
   double half_breadth_m = 0.0, high_m = 0.0;
 };
-std::optional<Standing> standing(ObstacleKind kind) {
-  constexpr double long_m = 10.0, high_m = 4.0;
+std::optional<DentingShape> denting_shape(ObstacleKind kind) {
+  const roadside::ObstacleProfile profile = roadside::profile_of(kind);
+  if (profile.yielding_kg > 0.0) return std::nullopt;
   switch (kind) {
-    case ObstacleKind::guard_rail:
-    case ObstacleKind::ground_face:
-      return Standing{long_m, 0.75};
-    case ObstacleKind::concrete_barrier:
-      return Standing{long_m, 0.9};
-    case ObstacleKind::parapet:
-      return Standing{long_m, 1.2};
-    case ObstacleKind::noise_wall:
-    case ObstacleKind::tunnel_wall:
-    case ObstacleKind::portal:
-    case ObstacleKind::house:
-      return Standing{long_m, high_m};
     case ObstacleKind::gantry_leg:
-      return Standing{0.28, high_m};
     case ObstacleKind::tree:
-      return Standing{0.2, high_m};
     case ObstacleKind::post:
-      return Standing{0.08, high_m};
-    case ObstacleKind::marker_post:
-    case ObstacleKind::bush:
-      return std::nullopt;
+      return DentingShape{std::max(profile.radius_m, narrowest_dent_m), profile.height_m};
+    case ObstacleKind::ground_face:  // Its height is not known; a bumper's is chosen, as of a rail.
+      return DentingShape{longer_than_a_vehicle_m, roadside::profile_of(ObstacleKind::guard_rail).height_m};
+    default:
+      return DentingShape{longer_than_a_vehicle_m, profile.height_m};
   }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -157,13 +148,13 @@ std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant
 
 std::vector<MadeDent> dents_of_touch(const Participant& vehicle, const vehicle::HullTouch& touch) {
   std::vector<MadeDent> made;
-  const auto what = standing(touch.kind);
+  const auto what = denting_shape(touch.kind);
   const Vec2 away(touch.normal);
   if (!what || !(glm::length(away) > 0.5)) return made;
   const Vec2 inwards = glm::normalize(away);
   const double depth_m = debris::residual_crush_m(touch.closing_speed_mps);
   constexpr double thick_m = 1.0;
-  // Its face is where the vehicle has been met; from there the vehicle comes on.
+  // Its face is at the place of contact; the vehicle comes on from there.
   const Vec2 middle_m = Vec2(touch.point_m) + (depth_m + 0.02 - thick_m) * inwards;
   add_dent(vehicle, inwards, depth_m, rectangle(middle_m, inwards, thick_m, what->half_breadth_m), what->high_m, made);
   return made;

@@ -14,13 +14,13 @@
 namespace septet::simulation {
 namespace {
 
-constexpr double standing_reach_m = 7.0;  // Of debris, to what stands beside the road.
+constexpr double standing_reach_m = 7.0;  // From debris to obstacles beside the road.
 
 Vec3 middle_of(const debris::Piece& piece) {
   return 0.5 * (debris::from_eigen(piece.body.position_m.front()) + debris::from_eigen(piece.body.position_m.back()));
 }
 
-/// An obstacle as a box; the endless reach as far up and down as the place needs.
+/// An obstacle as a box; an endless one extends as far up and down as the place needs.
 debris::Box box_of(const Obstacle& obstacle, double at_z_m) {
   const double low = std::max(obstacle.low_m, at_z_m - 20.0), high = std::min(obstacle.high_m, at_z_m + 20.0);
   const Vec2 along = obstacle.to_m - obstacle.from_m, middle = 0.5 * (obstacle.from_m + obstacle.to_m);
@@ -50,7 +50,7 @@ debris::GroundPoint surface_below(const road::RoadNetwork& roads, double frictio
       found->second = {surface->height_m, surface->normal, 1.0};
       state.surface_hint = surface->position;
     } else {
-      found->second.height_m = -1e9;  // Off the world: what falls there is gone.
+      found->second.height_m = -1e9;  // Outside the world: debris that falls there is removed.
     }
   }
   debris::GroundPoint point = found->second;

@@ -16,13 +16,13 @@
 namespace septet::simulation {
 namespace {
 
-/// In the order of debris::Part.
+/// Names in the order of debris::Part.
 constexpr std::array<std::string_view, debris::part_count> part_name_table{
     "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab"};
 
 Vec3 place_of(const debris::Piece& piece) { return debris::from_eigen(piece.body.position_m.front()); }
 
-/// What is far from the driver, fell off the world or is over the limit is gone.
+/// Removes debris that is far from the driver, has fallen off the world or is over the limit.
 void retire(const EffectsWorld& world, debris::State& debris) {
   const auto driver = std::ranges::find(world.participants, world.driver, &Participant::id);
   if (driver == world.participants.end()) return;
@@ -98,7 +98,7 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
   const double whole_m = debris::part_recipe(*part).size_m.z, roof = entity.box.centre_m.z + 0.5 * entity.box.height_m;
   double left = 1.0;
   if (*part == debris::Part::ice_slab) left = release_slab(vehicle, {action.x_m, action.y_m}, whole_m, state.ice);
-  constexpr double least_left = 0.1;  // Thinner, it runs off as water.
+  constexpr double least_left = 0.1;  // Thinner ice runs off as water.
   if (left < least_left) return;
   const double half = 0.5 * left * whole_m;
   const Quat& turn = from.world_from_entity.orientation;
@@ -145,7 +145,7 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
 
   StateHash hash;
   hash.add(state.hash);
-  // What is new of the smoke; its keyframes follow wholly from it.
+  // Hashes the smoke's new keyframes, which follow wholly from it.
   for (const EffectKeyframe& keyframe : state.fires.keyframes)
     if (keyframe.tick == world.tick) hash.add_bytes(keyframe.data);
   for (const ice::Pane& pane : state.ice.panes) {
@@ -188,11 +188,12 @@ void show_damage(const EffectsState& state, std::vector<Participant>& participan
 }
 
 double obstacle_height_m(const EffectsState& state, const Vec3& surface_point_m) {
-  constexpr double patch_m = 0.12, climbed_m = 0.10;  // Half a tyre's width; what a tyre takes without the rim.
+  // Half a tyre's width; the height that a tyre climbs without the rim.
+  constexpr double patch_m = 0.12, climbed_m = 0.10;
   const auto highest = debris::highest_debris_m(state.debris, surface_point_m.x, surface_point_m.y, patch_m);
   if (!highest) return 0.0;
   const double height = *highest - surface_point_m.z;
-  return height > 1.0 ? 0.0 : std::clamp(height, 0.0, climbed_m);  // What is in the air is no obstacle.
+  return height > 1.0 ? 0.0 : std::clamp(height, 0.0, climbed_m);  // Debris in the air is no obstacle.
 }
 
 }  // namespace septet::simulation

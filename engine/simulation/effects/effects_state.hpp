@@ -1,5 +1,5 @@
 #pragma once
-/// What changes of a drive's effects, and what they see of the world. The stage that advances it: effects_stage.hpp.
+/// State of a drive's effects, and their view of the world. The stage that advances it: effects_stage.hpp.
 
 #include <cstdint>
 #include <optional>
@@ -20,8 +20,8 @@
 namespace septet::simulation {
 
 inline constexpr Tick effects_step_ticks = 2;
-inline constexpr std::size_t most_pieces = 96;   ///< What lies furthest from the driver goes first.
-inline constexpr double debris_reach_m = 600.0;  ///< Debris further from the driver is gone.
+inline constexpr std::size_t most_pieces = 96;   ///< Beyond that, the piece furthest from the driver is removed first.
+inline constexpr double debris_reach_m = 600.0;  ///< Debris further from the driver is removed.
 
 struct EffectsState {
   debris::State debris;
@@ -31,17 +31,17 @@ struct EffectsState {
   IceState ice;
   Random random{0};
   PublishedEffects published;
-  std::uint64_t hash =
-      0;  ///< Of all steps so far, chained: two drives that ever differed in their effects differ in it.
-  /// The road's surface as one plane per square metre where debris has been: a memory, and no state.
+  /// Hash of all steps so far, chained: two drives that ever differed in their effects differ in it.
+  std::uint64_t hash = 0;
+  /// The road's surface as one plane per square metre near debris: a cache, not state.
   std::unordered_map<std::uint64_t, debris::GroundPoint> surface_memory;
   std::optional<road::RoadPosition> surface_hint;
 };
 
-/// What the stage sees of the world.
+/// The stage's view of the world.
 struct EffectsWorld {
   const road::RoadNetwork& roads;
-  const roadside::Obstacles* obstacles = nullptr;  ///< What stands beside the roads; none without.
+  const roadside::Obstacles* obstacles = nullptr;  ///< Obstacles beside the roads; null: there are none.
   const std::vector<Participant>& participants;    ///< Ascending id, as they are at `tick`.
   const Environment& environment;
   ParticipantId driver = 0;

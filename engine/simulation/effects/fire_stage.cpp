@@ -14,7 +14,7 @@ namespace septet::simulation {
 namespace {
 
 constexpr double cell_m = 1.0, upwind_m = 110.0, downwind_m = 110.0;
-/// All smoke together, beside what debris may take: net::max_tick_bytes holds both.
+/// Limit of all smoke together, beside the debris' limit: net::max_tick_bytes holds both.
 constexpr std::size_t most_keyframe_bytes = 140 * 1024;
 
 /// Soot grows over minutes: once a second is often enough.
@@ -43,13 +43,13 @@ RigidTransform lower_corner(const RigidTransform& place, int ny) {
   return {place * Vec3(-upwind_m, -0.5 * ny * cell_m, -0.5), place.orientation};
 }
 
-/// Where it burns: over the bonnet of a car, at the front of the load of anything bigger.
+/// Seat of the fire: over the bonnet of a car, at the front of the load of anything bigger.
 Vec3 seat_of_fire(const Participant& vehicle) {
   const VehicleModel& model = vehicle_models()[vehicle.model];
   return vehicle.world_from_vehicle * Vec3(model.front_m() - 0.25 * model.length_m, 0.0, 0.85 * model.height_m);
 }
 
-/// What a burning vehicle gives off; values and sources in fires.toml.
+/// Emissions of a burning vehicle; values and sources in fires.toml.
 struct Source {
   double radius_m, heat, lifetime_s;
   std::array<float, 3> albedo;
@@ -125,14 +125,14 @@ smoke::Grid grid_around(const road::RoadNetwork& roads, const RigidTransform& wo
     constexpr std::uint8_t open =
         smoke::open_x_low | smoke::open_x_high | smoke::open_y_low | smoke::open_y_high | smoke::open_z_high;
     RigidTransform corner = lower_corner(world_from_vehicle, ny);
-    corner.position_m.z += 0.5;  // Without a roof the road is the box's floor.
+    corner.position_m.z += 0.5;  // Without a roof the road is the grid's floor.
     return smoke::make_grid(corner, cell_m, nx, ny, nz, open);
   }
   const road::Road& road = roads.roads[place->position.road];
   const bool left = place->position.t_m > 0.0;
   const road::RoadExtent extent = road::road_extent(road, place->position.s_m);
   const double width = left ? extent.left_t_m : -extent.right_t_m, middle = 0.5 * (left ? width : -width);
-  // Wide enough for the road's curve within the box.
+  // Wide enough for the road's curve within the grid.
   const int ny = static_cast<int>(std::ceil(width + 8.0)), nz = 8;
   const RigidTransform along =
       road::world_from_road(road::evaluate(roads, {place->position.road, place->position.s_m, middle}));
@@ -169,7 +169,7 @@ void advance_fires(const std::vector<Participant>& participants, const Environme
   const Vec3 wind = environment.wind_speed_mps *
                     Vec3(std::cos(environment.wind_direction_rad), std::sin(environment.wind_direction_rad), 0.0);
   const smoke::Grid& grid = state.smoke->grid;
-  // In a tube only the wind along it blows, and less.
+  // In a tube only the wind along its axis blows, and is weaker.
   const Vec3 axis = grid.world_from_grid.orientation * Vec3(1.0, 0.0, 0.0);
   const bool tube = (grid.open_faces & smoke::open_z_high) == 0;
   smoke::advance_smoke(*state.smoke, tube ? 0.4 * glm::dot(wind, axis) * axis : wind, obstacles_in(grid, participants),

@@ -16,7 +16,7 @@
 namespace septet::simulation {
 namespace {
 
-/// Between a roof and the slab on it: what it is spilled with (spill).
+/// Gap between a roof and the slab on it, as in spill().
 constexpr double over_roof_m = 0.02;
 
 bool overlap(const ice::LyingSlab& a, const ice::LyingSlab& b) {
@@ -24,7 +24,7 @@ bool overlap(const ice::LyingSlab& a, const ice::LyingSlab& b) {
          std::abs(a.foot_m.y - b.foot_m.y) < 0.5 * (a.size_m.y + b.size_m.y);
 }
 
-/// Nothing for a slab that finds no room on the roof: it appears when it is spilled.
+/// Skips a slab that finds no room on the roof: it appears when it is spilled.
 void lay(const scenario::EffectAction& action, const scenario::Entity& entity, ParticipantId vehicle,
          ice::StillIce& still) {
   ice::LyingSlab slab;
@@ -41,7 +41,8 @@ void lay(const scenario::EffectAction& action, const scenario::Entity& entity, P
     still.slabs.push_back(slab);
 }
 
-/// The edge from `from_m` to `to_m` in rows of some metres, as screens tell near from far.
+/// Hangs icicles along the edge from `from_m` to `to_m`, in rows of some metres, as screens choose their detail by
+/// distance.
 void hang(const Vec3& from_m, const Vec3& to_m, double longest_m, std::uint64_t seed, ice::StillIce& still) {
   constexpr double row_m = 4.0;
   const double length_m = glm::length(to_m - from_m);
@@ -85,7 +86,7 @@ void hang_at_bridge(const road::RoadNetwork& roads, road::RoadIndex index, const
     }
 }
 
-/// 0 to 1, as the scenario's Init says last.
+/// Frost of the scenario's Init, its last value, 0 to 1.
 double frost_asked_for(const scenario::Scenario& scenario) {
   double share = 0.0;
   for (const scenario::InitAction& action : scenario.init)
@@ -98,7 +99,7 @@ void renew(EffectKeyframe& keyframe, std::uint32_t id, std::uint16_t kind, Bytes
   if (data != keyframe.data) keyframe = {id, kind, std::move(data), shows};
 }
 
-/// The keyframes tell what there is; one that has told of something also tells that it is gone.
+/// Renews the keyframes of panes; one that has been non-empty also shows that its panes are gone.
 void tell_panes(Tick shows, IceState& state) {
   if (!state.panes.empty() || !state.glass_keyframe.data.empty())
     renew(state.glass_keyframe, ice::glass_effect_id, ice::glass_keyframe_kind, ice::encode_glass(state.panes), shows);
@@ -133,7 +134,7 @@ IceState initial_ice(const road::RoadNetwork& roads, const scenario::Scenario& s
         (structure.kind == road::RoadStructure::Kind::tunnel ? hang_at_tunnel : hang_at_bridge)(roads, i, structure,
                                                                                                 seed, state.still);
   }
-  // The world may stand at its first instant until the driver is ready: it has its ice then, too.
+  // The world may stand at its first instant until the driver is ready: its ice is shown then, too.
   tell_panes(0, state);
   tell_still_ice(0, state);
   return state;
@@ -145,7 +146,7 @@ void freeze(const road::RoadNetwork& roads, const scenario::EffectAction& action
   const BlackIce black{*road, action.lane, action.s_m, action.length_m, action.thickness_m};
   ice::Sheet sheet = sheet_of(roads, black);
   if (sheet.left_m.size() < 2) return;
-  // What lies there from now on is as thick as it says, whatever has thawed before.
+  // From now on the ice has its stated thickness, whatever has thawed before.
   sheet.thickness_m += ice::melt_m_per_kh * state.still.thawed_kh;
   state.black.push_back(black);
   state.black.back().thickness_m = sheet.thickness_m;

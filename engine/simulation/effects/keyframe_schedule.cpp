@@ -7,7 +7,7 @@
 namespace septet::simulation {
 namespace {
 
-/// Keeps the keyframes of what is still offered, and makes room for what is new.
+/// Keeps the keyframes of effects still offered, and makes room for new ones.
 PublishedEffects carried_over(std::span<const EffectOffer> offers, PublishedEffects& old) {
   PublishedEffects result;
   std::size_t j = 0;

@@ -1,9 +1,10 @@
 #pragma once
-/// Which effects get a new keyframe in this tick: a rate for each, an upper limit on bytes for all, turns taken fairly.
+/// Chooses the effects that get a new keyframe in this tick: a rate for each, an upper limit on bytes for all, turns
+/// taken fairly.
 ///
-/// A keyframe stays in every snapshot until the effect's next one replaces it. What rests costs nothing after its last one
-/// has arrived, and whoever joins late gets them all. Where the limit does not suffice, the effects that have waited longest
-/// come first. Pure functions over plain data; the same offers give the same keyframes.
+/// A keyframe stays in every snapshot until the effect's next one replaces it. A resting effect costs nothing after its
+/// last one has arrived, and a late joiner gets them all. Where the limit does not suffice, the effects that have
+/// waited longest come first. Pure functions over plain data; the same offers give the same keyframes.
 
 #include <cstdint>
 #include <functional>
@@ -18,8 +19,8 @@ namespace septet::simulation {
 struct EffectOffer {
   std::uint32_t id = 0;
   std::uint16_t kind = 0;
-  Tick interval_ticks = 4;  ///< Between its keyframes while it moves.
-  bool settled = false;     ///< It looks as it did in its last offer, and will until this is false.
+  Tick interval_ticks = 4;  ///< Interval between its keyframes while it moves.
+  bool settled = false;     ///< It looks as in its last offer, and will until this is false.
   std::function<Bytes()> encode;
 };
 
@@ -31,14 +32,15 @@ struct PublishedEffect {
 };
 
 struct PublishedEffects {
-  std::vector<EffectKeyframe> keyframes;  ///< Ascending id: what a snapshot carries.
-  std::vector<PublishedEffect> channels;  ///< Of the same ids.
+  std::vector<EffectKeyframe> keyframes;  ///< Ascending id: the snapshot's list.
+  std::vector<PublishedEffect> channels;  ///< Channels of the same ids.
 };
 
 struct KeyframeLimits {
-  /// New bytes per call, of which there is one every 1/60 s. They travel in each tick until the screens have acknowledged one.
+  /// New bytes per call, every 1/60 s. They travel in each tick until the screens have acknowledged one.
   std::size_t fresh_bytes = 24 * 1024;
-  /// Of all keyframes together, so that whoever has no baseline gets them, and the smoke, in one tick (net::max_tick_bytes).
+  /// Bytes of all keyframes together, so that a screen without a baseline gets them, and the smoke, in one tick
+  /// (net::max_tick_bytes).
   std::size_t total_bytes = 88 * 1024;
 };
 
@@ -49,8 +51,8 @@ struct PublishReport {
   int waiting = 0;  ///< Due, but over the limit.
 };
 
-/// Brings `published` up to the effects on offer (ascending id), which show the instant `shows`. An effect that is offered
-/// no more is gone at once.
+/// Brings `published` up to the effects on offer (ascending id), which show the instant `shows`. An effect that is no
+/// longer offered is removed at once.
 PublishReport publish(std::span<const EffectOffer> offers, Tick shows, const KeyframeLimits& limits,
                       PublishedEffects& published);
 

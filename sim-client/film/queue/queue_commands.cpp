@@ -79,7 +79,7 @@ Expected<int> cancel_films(const QueueArguments& arguments) {
   auto queue = queue_of(arguments);
   if (!queue) return tl::unexpected(queue.error());
   const auto films = queue->films();
-  // All or none.
+  // All or nothing: every number is checked first.
   for (const std::uint64_t number : arguments.numbers) {
     const auto film = std::ranges::find(films, number, &QueuedFilm::number);
     if (film == films.end())

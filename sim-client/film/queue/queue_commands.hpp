@@ -11,13 +11,13 @@
 namespace septet::film {
 
 struct QueueArguments {
-  std::filesystem::path folder;        ///< Of the queue; empty: the usual one.
-  std::vector<std::string> film;       ///< Words of a film's command line; none: only go on with those that wait.
+  std::filesystem::path folder;        ///< The queue's; empty: the default one.
+  std::vector<std::string> film;       ///< Words of a film's command line; empty: only go on with those that wait.
   bool make = false;                   ///< Make the films in this program.
-  std::vector<std::uint64_t> numbers;  ///< Of films to cancel.
+  std::vector<std::uint64_t> numbers;  ///< Films to cancel.
 };
 
-/// Adds a film, if one is given, and sees to it that somebody makes those that wait. `out`: of that film.
+/// Adds a film, if one is given, and makes sure that a program makes those that wait. `out`: of that film.
 Expected<int> queue_film(const QueueArguments& arguments, const std::filesystem::path& out);
 Expected<int> show_queue(const QueueArguments& arguments);
 Expected<int> cancel_films(const QueueArguments& arguments);

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using namespace std::chrono_literals;
-/// Who asks whether somebody works holds the lock for a moment.
+/// A query for a running maker holds the lock for a moment.
 constexpr double patience_for_lock_s = 2.0;
 constexpr std::size_t films_remembered = 100;
 
@@ -61,7 +61,7 @@ Expected<bool> make_one(const FilmQueue& queue, QueuedFilm film) {
   film.state = FilmState::begun;
   if (auto written = queue.write(film); !written) return tl::unexpected(written.error());
   std::vector<std::string> arguments = film.arguments;
-  // Whoever has made it may still be at its last tile.
+  // The program that made it may still be at its last tile.
   if (const auto folder = pictures_folder(film.out); goes_on && folder) FilmFolder::wait_until_free(*folder);
   if (goes_on && std::find(arguments.begin(), arguments.end(), "--resume") == arguments.end())
     arguments.emplace_back("--resume");
@@ -82,7 +82,7 @@ Expected<bool> make_one(const FilmQueue& queue, QueuedFilm film) {
     stopped = program::should_stop();
   }
   if (!exit) {
-    // It finishes what it is at: a tile, a picture.
+    // It finishes its present piece of work: a tile, a picture.
     child->send_signal(SIGTERM);
     const double until_s = program::monotonic_s() + 20.0;
     while (!(exit = child->poll()) && program::monotonic_s() < until_s) std::this_thread::sleep_for(50ms);
@@ -101,7 +101,7 @@ Expected<bool> make_one(const FilmQueue& queue, QueuedFilm film) {
   return !stopped;
 }
 
-/// Films that nobody waits for any more.
+/// Removes the records of the oldest finished films.
 void forget_old(const FilmQueue& queue) {
   std::vector<QueuedFilm> films = queue.films();
   std::erase_if(
@@ -137,7 +137,7 @@ Expected<void> make_queued_films(const FilmQueue& queue) {
       }
       forget_old(queue);
     }
-    // Whoever has added one since has seen the lock held.
+    // A film added meanwhile found the lock held.
     const auto films = queue.films();
     if (std::none_of(films.begin(), films.end(), [&](const QueuedFilm& film) {
           return film.state == FilmState::waiting && !queue.is_to_be_cancelled(film.number);
@@ -154,7 +154,7 @@ Expected<void> start_making_films(const FilmQueue& queue) {
   const pid_t first = ::fork();
   if (first < 0) return failure(std::strerror(errno), program, "close other programs: the system starts no more");
   if (first == 0) {
-    // A child of nobody that waits for it, in a session of its own: neither a terminal's end nor Ctrl-C reaches it.
+    // Detached, in a session of its own: neither a terminal's end nor Ctrl-C reaches it.
     ::setsid();
     if (::fork() != 0) ::_exit(0);
     const int none = ::open("/dev/null", O_RDWR), file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);

@@ -6,11 +6,11 @@
 
 namespace septet::film {
 
-/// Makes films until none waits, or a stop signal comes: then the film goes on when this is called again. Does nothing where
-/// another program makes them.
+/// Makes films until the queue is empty, or a stop signal comes: then the next call resumes the film. Does nothing
+/// while another program makes them.
 Expected<void> make_queued_films(const FilmQueue& queue);
 
-/// Starts that in a program of its own, which goes on after this one, without a terminal.
+/// Starts make_queued_films in a program of its own, which outlives this one and has no terminal.
 Expected<void> start_making_films(const FilmQueue& queue);
 
 }  // namespace septet::film

@@ -95,7 +95,8 @@ FrameWriter::Quality FrameWriter::quality() {
 Expected<void> FrameWriter::write(Job& job) {
   std::error_code error;
   if (!job.tiles) {
-    // Who looks sees a whole file; without one the film is made none the less. It may be whole and gone by now.
+    // A reader sees a whole file; a failure to write it does not stop the film. The frame may be whole and its tiles
+    // gone by now.
     if (!fs::exists(job.kept_in, error)) return {};
     if (const auto kept = KeptTiles::open(job.kept_in, tiles_))
       (void)write_picture(preview_, assembled(options_, *kept, tiles_));

@@ -1,5 +1,5 @@
 #pragma once
-/// Makes pictures of the tiles of whole frames, on a thread of its own, so that who deals tiles does not wait for it.
+/// Turns the tiles of whole frames into pictures on a thread of its own, so that the master does not wait for it.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,18 +16,18 @@ namespace septet::film {
 
 class FrameWriter {
  public:
-  /// All but `session` outlive it. Its end writes what is queued.
+  /// All but `session` outlive it. The destructor writes the rest of the queue.
   FrameWriter(const FilmOptions& options, const FilmFolder& folder, const logging::SessionInfo& session,
               std::span<const instant::PixelRectangle> tiles);
 
   /// Queues the frame whose tiles are all there, and removes their file once the picture is whole; waits while four are
-  /// queued. Answers the first failure of an earlier one.
+  /// queued. Returns the first failure of an earlier one.
   Expected<void> finish(std::uint64_t frame, KeptTiles tiles, std::filesystem::path kept_in);
-  /// preview.png in the folder, of what there is of a frame; not while pictures wait.
+  /// Writes preview.png in the folder from the tiles at hand; not while pictures wait.
   void show_preview(std::filesystem::path kept_in);
-  /// Until everything is written; the preview is gone then. The first failure.
+  /// Waits until everything is written, and removes the preview. Returns the first failure.
   Expected<void> wait();
-  /// Of the pictures that are written so far.
+  /// Quality of the pictures written so far.
   struct Quality {
     double pixels = 0.0, samples = 0.0, squared_errors = 0.0;
     std::uint64_t bad_samples = 0;
@@ -37,7 +37,7 @@ class FrameWriter {
  private:
   struct Job {
     std::uint64_t frame = 0;
-    std::optional<KeptTiles> tiles;  ///< None: a preview.
+    std::optional<KeptTiles> tiles;  ///< Empty: a preview.
     std::filesystem::path kept_in;
   };
   Expected<void> write(Job& job);
@@ -48,7 +48,7 @@ class FrameWriter {
   ExrFacts exr_facts_;
   std::span<const instant::PixelRectangle> tiles_;
   const std::filesystem::path preview_;
-  std::mutex mutex_;  ///< Of the quality.
+  std::mutex mutex_;  ///< Guards the quality.
   Quality quality_;
   JobThread<Job> thread_;
 };

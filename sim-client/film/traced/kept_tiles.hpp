@@ -1,8 +1,8 @@
 #pragma once
-/// The tiles of a frame that is not whole yet, in a file beside the pictures: what a program that is killed has finished is not
-/// traced again.
+/// The tiles of an unfinished frame, in a file beside the pictures: tiles finished by a killed program are not traced
+/// again.
 ///
-/// Each tile has its place in the file and a hash; a place that was never written, or half, is no tile. One thread.
+/// Each tile has its place in the file and a hash; a place never written, or half written, counts as empty. One thread.
 
 #include <filesystem>
 #include <optional>
@@ -16,7 +16,7 @@ namespace septet::film {
 
 class KeptTiles {
  public:
-  /// Makes the file, or takes what is there.
+  /// Creates the file, or opens the present one.
   static Expected<KeptTiles> open(const std::filesystem::path& file, std::span<const instant::PixelRectangle> tiles);
   KeptTiles(KeptTiles&& other) noexcept;
   KeptTiles& operator=(KeptTiles&&) = delete;
@@ -24,7 +24,7 @@ class KeptTiles {
 
   /// `encoded` as encode_tile makes it. Error: the disk is full.
   Expected<void> put(std::uint32_t tile, std::span<const std::byte> encoded);
-  /// Nothing where it is not there.
+  /// Empty if the tile is not there.
   std::optional<TracedTile> read(std::uint32_t tile) const;
 
  private:

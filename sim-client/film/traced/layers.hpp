@@ -1,8 +1,8 @@
 #pragma once
-/// What an OpenEXR picture of a traced frame holds beside its light, and the picture made of a frame's pixels.
+/// Channels of an OpenEXR picture of a traced frame beside its light, and the picture made of a frame's pixels.
 ///
-/// R, G, B are linear Rec. 709 after exposure, 1 being white; the header's whiteLuminance says how many cd/m² that is. FILM.md has the
-/// table of the layers and of the header.
+/// R, G, B are linear Rec. 709 after exposure, 1 being white; the header's whiteLuminance gives that in cd/m². FILM.md
+/// has the table of the layers and of the header.
 
 #include <cstdint>
 #include <optional>
@@ -15,16 +15,16 @@
 
 namespace septet::film {
 
-/// Puts "depth,normal" or "all" into the set. What is wrong with it, or nothing.
+/// Parses "depth,normal" or "all" into the set. Returns the fault, or an empty string.
 std::string read_layers(const std::string& text, std::set<Layer>& layers);
 /// Their names as read_layers takes them.
 std::string layers_text(const std::set<Layer>& layers);
 
-/// What the header says of the session and the frame, beside what each tile knows (FrameFacts).
+/// Facts of the session and the frame for the header, beside those that each tile carries (FrameFacts).
 struct ExrFacts {
   std::string septet, session, drive_seeds;
   double ticks_per_second = 120.0, frames_per_second = 25.0;
-  std::uint64_t frame = 0;  ///< Its number, which is its noise's seed.
+  std::uint64_t frame = 0;  ///< Its number, also the seed of its noise.
   std::uint32_t samples = 0;
 };
 

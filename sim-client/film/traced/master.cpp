@@ -29,7 +29,7 @@ constexpr int own_worker = 0;
 constexpr std::size_t part_bytes = 1 << 20, longest_told_script_bytes = 1 << 22;
 constexpr double ask_again_after_s = 0.005;
 
-/// The way between the master and the worker that is a thread of the same program.
+/// Mailbox between the master and the worker that is a thread of the same program.
 class OwnWorkersMail : public Machines {
  public:
   int own_number() const override { return own_worker; }
@@ -83,9 +83,9 @@ class Master {
     std::size_t in_schedule = 0;
     double heard_s = 0.0;
     bool is_prepared = false, is_lost = false, has_given_up = false;
-    bool traces = false;        ///< As `is_prepared` and the others ask; then it is in the schedule.
+    bool traces = false;        ///< After `is_prepared` and a request for work; then it is in the schedule.
     bool is_ready = false;      ///< For a frame.
-    double asks_again_s = 0.0;  ///< There was nothing for it.
+    double asks_again_s = 0.0;  ///< There was no work for it.
   };
 
   Expected<void> obey(const Mail& mail);
@@ -126,7 +126,7 @@ class Master {
   raytrace::BucketSchedule schedule_;
   FrameWriter writer_;
   PhotonExchange photons_;
-  std::vector<std::uint64_t> numbers_;  ///< Of frames, as their pictures are called.
+  std::vector<std::uint64_t> numbers_;  ///< Frame numbers, as in their pictures' names.
   std::vector<Worker> workers_;
   std::map<std::size_t, KeptTiles> kept_;
   OwnWorkersMail own_;
@@ -137,7 +137,7 @@ class Master {
   double came_ = 0.0;
 };
 
-/// What is there already.
+/// Takes over finished pictures and tiles.
 Expected<void> Master::take_up() {
   if (!options_.resume) return {};
   std::error_code ignored;
@@ -238,7 +238,8 @@ void Master::take_in_or_out(Worker& worker) {
     send(worker.number, run_message(Word::soon, {*frame, 0, 0}));
 }
 
-/// A worker that is gone is seen at once on this machine, and by its silence on another. One that speaks again is back.
+/// A worker that is gone is noticed at once on this machine, and by its silence on another. A worker that sends again
+/// is back.
 void Master::look_who_is_there() {
   for (Worker& each : workers_) {
     if (each.number == own_worker || each.is_lost || each.has_given_up) continue;
@@ -311,8 +312,8 @@ void Master::tell_quality() {
 }
 
 void Master::deal() {
-  // Where speeds are measured, those of all: to read a session and to make the first frame ready takes programs that share a machine
-  // far longer than machines.
+  // With emulated speeds (a benchmark) dealing waits for all workers: reading the session and preparing the first frame
+  // takes programs that share a machine far longer than separate machines.
   const auto can_begin = [](const Worker& each) { return each.traces && each.is_ready; };
   if (others_ && pace_of_test() && statistics_.begun_s == 0.0 &&
       std::ranges::count_if(workers_, can_begin) < others_->count())
@@ -321,7 +322,7 @@ void Master::deal() {
     if (!each.traces || now_s_ < each.asks_again_s || !schedule_.is_free(each.in_schedule)) continue;
     const auto deal = schedule_.deal(each.in_schedule, now_s_);
     if (!deal) {
-      // To look whose run could be split takes a while: not again at each tile that comes.
+      // Searching for a run to split takes a while: not again at each tile that arrives.
       each.asks_again_s = now_s_ + ask_again_after_s;
       continue;
     }

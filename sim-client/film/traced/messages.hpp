@@ -1,9 +1,10 @@
 #pragma once
-/// What master and workers of a film say to each other: one byte for the kind, then what belongs to it. Both are of one build, which
-/// the first message makes sure of; bytes from another program are checked all the same.
+/// Messages between the master and the workers of a film: one byte for the kind, then the content. Both are of one
+/// build, which the first message checks; bytes from another program are validated nevertheless.
 ///
-/// A worker says hello and is told the film; it asks for the session's file, part by part; once it has all that it needs it gets
-/// runs of tiles, and each tile goes back as soon as it is traced; before that, photons go around (photon_exchange.hpp). Every second each says that it is still there.
+/// A worker says hello and receives the film; it requests the session's file, part by part; then it gets runs of tiles,
+/// and each tile goes back as soon as it is traced; before that, photons are exchanged (photon_exchange.hpp). Each
+/// sends a sign of life every second.
 
 #include <optional>
 #include <span>
@@ -17,34 +18,34 @@
 
 namespace septet::film {
 
-/// Master and workers say every second that they are there; whoever is silent for a minute is given up.
+/// Master and workers send a sign of life every second; one that is silent for a minute is given up.
 inline constexpr double still_there_every_s = 1.0, longest_silence_s = 60.0;
 
 enum class Word : std::uint8_t {
-  hello,           ///< Worker: which Septet it is; threads; its process.
-  film,            ///< Master: what is filmed, how long the session's file is, its process.
-  part_wanted,     ///< Worker: from which byte of that file on.
-  part,            ///< Master: from which byte on, and bytes.
+  hello,           ///< Worker: its build of Septet; threads; its process.
+  film,            ///< Master: the film, the length of the session's file, its process.
+  part_wanted,     ///< Worker: first byte wanted of that file.
+  part,            ///< Master: first byte, and bytes.
   prepared,        ///< Worker: it can trace.
-  soon,            ///< Master: a frame of which it is likely to get tiles first, to be made ready meanwhile.
-  run,             ///< Master: frame, first tile, end; in the stead of the run before.
-  shorter_run,     ///< Master: frame, end. Of the run that it has.
-  photons_wanted,  ///< Worker: a frame that it makes ready (PhotonQuestion).
-  shoot,           ///< Master: which buckets of photons (PhotonRun).
+  soon,            ///< Master: a frame whose tiles the worker is likely to get first, to be prepared meanwhile.
+  run,             ///< Master: frame, first tile, end; replaces the run before.
+  shorter_run,     ///< Master: frame, end. Shortens the present run.
+  photons_wanted,  ///< Worker: a frame that it prepares (PhotonQuestion).
+  shoot,           ///< Master: buckets of photons to shoot (PhotonRun).
   photons,         ///< Worker, and master on to others: frame, bucket, photons.
-  ready,           ///< Worker: a frame, and how many seconds it took to begin it.
-  tile,            ///< Worker: frame, tile, seconds of a processor that it took, and the tile (encode_tile).
-  failed,          ///< Worker: why it gives up.
+  ready,           ///< Worker: a frame, and the seconds that its preparation took.
+  tile,            ///< Worker: frame, tile, seconds of processor time, and the tile (encode_tile).
+  failed,          ///< Worker: reason for giving up.
   still_there,     ///< Both: nothing new.
-  end,             ///< Master: no more is to be done; 1 where some are lost.
+  end,             ///< Master: no more work; 1 if some was lost.
 };
 
 /// The tiles of a film's frames: squares of this many pixels, rows from the top.
 inline constexpr std::uint32_t tile_side_px = 16;
-/// Where they lie; with sets of samples all of the first set, then all of the second, and so on.
+/// Their rectangles; with sets of samples all of the first set, then all of the second, and so on.
 std::vector<instant::PixelRectangle> tiles_of(const FilmOptions& options);
 
-/// What is known of a whole frame, beside its pixels.
+/// Facts of a whole frame, beside its pixels.
 struct FrameFacts {
   double simulated_time_s = 0.0;
   double ev100 = 0.0;
@@ -57,10 +58,10 @@ struct TracedTile {
   std::vector<raytrace::TracedPixel> pixels;
 };
 
-/// With a hash, so that a half-written one is known. Tiles of equally many pixels are equally many bytes.
+/// Carries a hash, so that a half-written tile is detected. Tiles of equal pixel counts have equal sizes.
 Bytes encode_tile(const FrameFacts& facts, std::span<const raytrace::TracedPixel> pixels);
 std::size_t encoded_tile_size(std::size_t pixels);
-/// Nothing where the bytes are not such a tile of this many pixels, whole.
+/// Empty unless the bytes are a whole tile of this many pixels.
 std::optional<TracedTile> decode_tile(std::span<const std::byte> bytes, std::size_t pixels);
 
 Bytes message(Word word);
@@ -69,10 +70,10 @@ struct Hello {
   unsigned threads = 1;
   program::ProcessMark process;
 };
-/// Nothing where it is another Septet.
+/// Empty if it is another Septet.
 std::optional<Hello> read_hello(ByteReader& reader);
 
-/// What all that a worker has to know is, but for the session's bytes.
+/// Everything that a worker needs except the session's bytes.
 struct FilmTold {
   FilmOptions options;  ///< Without files.
   std::optional<std::string> script;

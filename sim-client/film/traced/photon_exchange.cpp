@@ -19,7 +19,7 @@ static_assert(std::is_trivially_copyable_v<Photon> && sizeof(Photon) == 12 * siz
 constexpr std::uint32_t most_buckets = 1 << 20;
 constexpr std::size_t runs_at_once = 2;
 
-/// Nothing where the bytes are no photons.
+/// Empty if the bytes are not photons.
 std::optional<std::vector<Photon>> decode_photons(std::span<const std::byte> bytes) {
   if (bytes.size() % sizeof(Photon) != 0) return std::nullopt;
   std::vector<Photon> photons(bytes.size() / sizeof(Photon));
@@ -79,7 +79,7 @@ std::vector<PhotonExchange::Post> PhotonExchange::ask(int worker, const PhotonQu
   if (!shared) return {{worker, shoot_message(whole)}};
   Frame& frame = frames_[question.frame];
   if (frame.messages.empty()) frame.messages.resize(question.buckets), frame.dealings.resize(question.buckets);
-  // Who sees another frame there has its own photons.
+  // A worker with another count of buckets there uses its own photons.
   if (frame.messages.size() != question.buckets) return {{worker, shoot_message(whole)}};
   frame.wanted_by.insert(worker);
   if (question.fresh)

@@ -1,13 +1,14 @@
 #pragma once
-/// Photons of a frame in buckets, shot by all who trace that frame and gathered by each: the third kind of bucket of Johansson et al.,
-/// "Distributed Ray Tracing in an Open Source Environment".
+/// Photons of a frame in buckets, shot by all workers of that frame and gathered by each: the third kind of bucket of
+/// Johansson et al., "Distributed Ray Tracing in an Open Source Environment".
 ///
-/// A worker that has begun a frame asks the master for photons to shoot. It sends back what it has shot and asks again; the master hands
-/// each bucket on to the others that want the frame. When no bucket is left, those are dealt again that have not come: nobody waits
-/// for a slow worker longer than it takes to shoot its buckets, and one that is lost costs nothing else. A frame that one worker traces
-/// alone is not shared: photons on the wire are 48 bytes each, often more than shooting them costs.
+/// A worker that has begun a frame asks the master for photons to shoot. It sends the result back and asks again; the
+/// master forwards each bucket to the other workers of the frame. When no bucket is left, missing ones are dealt again:
+/// the wait for a slow worker is at most the time to shoot its buckets, and a lost worker costs no more. A frame traced
+/// by one worker alone is not shared: photons on the wire are 48 bytes each, often dearer than shooting them.
 ///
-/// Photons are a function of the frame and their number (engine/raytrace/photons.hpp), so it changes no bit who has shot which, nor how often.
+/// Photons are a function of the frame and their number (engine/raytrace/photons.hpp), so the result is the same to the
+/// bit whichever worker shoots them, and however often.
 
 #include <cstdint>
 #include <deque>
@@ -22,12 +23,12 @@
 
 namespace septet::film {
 
-/// What a worker asks for.
+/// Request of a worker.
 struct PhotonQuestion {
   std::uint64_t frame = 0;
-  std::uint32_t buckets = 0;  ///< That the frame has.
+  std::uint32_t buckets = 0;  ///< Number of the frame's buckets.
   std::uint32_t threads = 1;
-  bool fresh = true;  ///< The first for this frame: all that is there is to be sent.
+  bool fresh = true;  ///< First request for this frame: all present buckets are to be sent.
 };
 Bytes question_message(const PhotonQuestion& question);
 std::optional<PhotonQuestion> read_photon_question(ByteReader& reader);
@@ -36,7 +37,7 @@ std::optional<PhotonQuestion> read_photon_question(ByteReader& reader);
 struct PhotonRun {
   std::uint64_t frame = 0;
   std::uint32_t first = 0, end = 0;
-  bool alone = false;  ///< Nobody else wants them.
+  bool alone = false;  ///< No other worker wants them.
 };
 Bytes shoot_message(const PhotonRun& run);
 std::optional<PhotonRun> read_photon_run(ByteReader& reader);
@@ -44,27 +45,27 @@ std::optional<PhotonRun> read_photon_run(ByteReader& reader);
 /// One bucket's photons.
 Bytes photons_message(std::uint64_t frame, std::uint32_t bucket, std::span<const raytrace::Photon> photons);
 
-/// The master's part. One thread.
+/// The master's part of the exchange. One thread.
 class PhotonExchange {
  public:
   struct Post {
     int to = 0;
     Bytes bytes;
   };
-  /// `shared`: others will trace this frame, too.
+  /// `shared`: other workers trace this frame, too.
   std::vector<Post> ask(int worker, const PhotonQuestion& question, bool shared);
-  /// A worker has shot some (the rest of its message).
+  /// Takes photons that a worker has shot (the rest of its message).
   std::vector<Post> take(int worker, ByteReader& reader);
-  /// The frame is whole.
+  /// Called when the frame is whole.
   void forget(std::uint64_t frame) { frames_.erase(frame); }
   std::size_t frames() const { return frames_.size(); }
-  /// Buckets that have come, of all frames.
+  /// Buckets received, of all frames.
   std::uint64_t gathered() const { return gathered_; }
 
  private:
   struct Frame {
-    std::vector<Bytes> messages;          ///< By bucket, as it came; empty: not there.
-    std::vector<std::uint32_t> dealings;  ///< How often each was dealt.
+    std::vector<Bytes> messages;          ///< By bucket, as received; empty: not there.
+    std::vector<std::uint32_t> dealings;  ///< Number of times that each was dealt.
     std::set<int> wanted_by;
   };
   std::map<std::uint64_t, Frame> frames_;
@@ -79,14 +80,14 @@ class PhotonGathering {
 
   std::uint64_t frame() const { return frame_; }
   void told(const PhotonRun& run);
-  /// What others have shot (the rest of a message).
+  /// Takes photons shot by others (the rest of a message).
   void came(ByteReader& reader);
-  /// What is to be asked of the master now, before the next call of `shoot`.
+  /// Request to send to the master now, before the next call of `shoot`.
   std::optional<Bytes> question();
-  /// Shoots as many buckets at once as there are threads, of what was told. Messages for the master.
+  /// Shoots as many of the assigned buckets at once as there are threads. Returns messages for the master.
   std::vector<Bytes> shoot();
   bool has_work() const { return !runs_.empty() && missing_ > 0; }
-  /// All are there, and the tracer has them.
+  /// True once all are there and the tracer has them.
   bool is_whole();
 
  private:
@@ -96,7 +97,7 @@ class PhotonGathering {
   std::vector<raytrace::PhotonBucket> buckets_;
   std::vector<std::optional<std::vector<raytrace::Photon>>> photons_;
   std::size_t missing_;
-  /// What is shot now, and what then: the next is asked for before this is done, so that no thread waits for the answer.
+  /// Run being shot, and the next: it is requested before the first is done, so that no thread waits for the reply.
   std::deque<PhotonRun> runs_;
   bool is_first_ = true, waits_for_answer_ = false, is_alone_ = false;
 };

@@ -36,15 +36,15 @@ using namespace std::chrono_literals;
 constexpr std::size_t most_words_bytes = 600;
 constexpr int most_fruitless_starts = 3;
 
-/// Some program was ended by a signal: mpirun's own status tells so as shells do.
+/// True if a program was ended by a signal: mpirun's own status tells so as shells do.
 bool is_of_signal(const program::ChildExit& end) { return end.signal != 0 || (end.code > 128 && end.code < 128 + 65); }
 
-/// Standard error of mpirun: what the programs say, and what it says itself.
+/// Standard error of mpirun: the output of the programs and its own.
 class Said {
  public:
   explicit Said(fs::path file) : file_(std::move(file)) {}
 
-  /// Shows what is new.
+  /// Prints the new part.
   void show(program::ProgressLine& progress) {
     std::ifstream stream(file_, std::ios::binary);
     stream.seekg(static_cast<std::streamoff>(read_));
@@ -62,7 +62,7 @@ class Said {
       says_why_ |= line.starts_with("septet: ");
     }
   }
-  /// Of the programs that are started next.
+  /// Clears the output for the next start.
   void begin_anew() { words_of_mpirun_.clear(), says_why_ = false; }
   const std::string& words_of_mpirun() const { return words_of_mpirun_; }
   bool says_why() const { return says_why_; }
@@ -87,7 +87,7 @@ std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
 }
 
 struct StartEnd {
-  std::optional<int> status;  ///< Of the film's first program; nothing: it was lost.
+  std::optional<int> status;  ///< Of the film's first program; empty: it was lost.
   program::ChildExit of_mpirun;
   bool hosts_changed = false;
 };
@@ -152,7 +152,7 @@ Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string
   program::catch_stop_signals();
   program::ProgressLine progress;
   Said said(log);
-  int fruitless = 0;  // Starts one after another that have brought nothing.
+  int fruitless = 0;  // Consecutive starts without progress.
   for (bool first = true;; first = false) {
     const auto before = newest_in(*folder);
     said.begin_anew();

@@ -45,7 +45,7 @@ class TracingThreads {
     changed_.notify_all();
   }
 
-  /// None is in any hands: a new frame may be begun.
+  /// True if no tile is being traced: a new frame may be begun.
   bool is_idle() {
     const std::lock_guard lock(mutex_);
     return next_ >= end_ && busy_ == 0;
@@ -65,7 +65,7 @@ class TracingThreads {
     const std::lock_guard lock(mutex_);
     end_ = std::min(end_, end);
   }
-  /// Messages about tiles that are done; waits a moment for one, if told to.
+  /// Messages about finished tiles; with `waits`, waits a moment for one.
   std::deque<Bytes> done(bool waits) {
     std::unique_lock lock(mutex_);
     if (waits && done_.empty()) came_.wait_for(lock, pause);
@@ -114,7 +114,7 @@ class TracingThreads {
   std::optional<double> pace_;
   std::mutex mutex_;
   std::condition_variable changed_, came_;
-  std::size_t frame_ = 0;  ///< Written while nothing is in any hands.
+  std::size_t frame_ = 0;  ///< Written while no tile is being traced.
   FrameFacts facts_;
   std::uint32_t next_ = 0, end_ = 0;
   unsigned busy_ = 0;
@@ -123,10 +123,10 @@ class TracingThreads {
   std::vector<std::jthread> threads_;  ///< Last: they use the rest.
 };
 
-/// What the master has said, until it says end.
+/// Messages of the master, until its end.
 class Listening {
  public:
-  /// `master_process`: who must still be there where that can be seen.
+  /// `master_process`: the process that must exist where that can be seen.
   explicit Listening(Machines& machines, program::ProcessMark master_process = {})
       : machines_(machines), master_process_(std::move(master_process)), asked_s_(program::monotonic_s()) {}
 
@@ -145,7 +145,7 @@ class Listening {
     }
     const double now_s = program::monotonic_s();
     if (now_s < asked_s_ + still_there_every_s) return true;
-    // A machine that slept has heard nothing meanwhile, which says nothing.
+    // A machine that slept has heard nothing meanwhile, which proves nothing.
     silent_s_ += std::min(now_s - asked_s_, 2.0 * still_there_every_s);
     asked_s_ = now_s;
     machines_.send(master, message(Word::still_there));
@@ -163,7 +163,7 @@ class Listening {
   double asked_s_, silent_s_ = 0.0;
 };
 
-/// Waits for the film, then for the session's bytes. Nothing: the master has said end before.
+/// Waits for the film, then for the session's bytes. Empty: the master has ended before.
 Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path& folder) {
   std::optional<FilmTold> told;
   std::ofstream session(folder / "session.sqlite", std::ios::binary);
@@ -201,7 +201,7 @@ Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path&
   return told;
 }
 
-/// Makes the tracer ready for one frame.
+/// Prepares the tracer for one frame.
 Expected<void> begin_frame(FilmFrames& frames, std::size_t frame, const FilmOptions& options,
                            const instant::SceneSummary& summary, raytrace::RayTracer& tracer) {
   const FilmFrame& of_film = frames.plan().frames[frame];
@@ -268,7 +268,7 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
   TracingThreads tracing(*tracer, tiles, options, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
   std::optional<std::size_t> frame, soon;
-  std::optional<PhotonGathering> photons;  ///< Of a frame that is being made ready.
+  std::optional<PhotonGathering> photons;  ///< Of a frame in preparation.
   double begun_s = 0.0;
   machines.send(master, message(Word::prepared));
   Listening listening(machines, master_process);
@@ -326,7 +326,8 @@ int serve_master(Machines& machines) {
   const auto served = serve(machines, master_process);
   if (served) return 0;
   machines.send(master, error_message(served.error()));
-  // mpirun ends all where one ends with another status than 0, or before the rest: the film goes on without this one.
+  // mpirun ends all programs if one ends with another status than 0, or before the rest: the film goes on without this
+  // one.
   Listening listening(machines, master_process);
   while (true) {
     const auto goes_on = listening.listen([](Word, ByteReader&) {});

@@ -1,5 +1,5 @@
 // septet-figures: figures 3, 8, 9, 10 and 11 of Servin, Lacoursière and Melin (2006) as SVG, all but the first drawn
-// from Septet's own stepper, each with the paper's claim and what came out here.
+// from Septet's own stepper, each with the paper's claim and the result.
 
 #include <time.h>
 
@@ -28,8 +28,8 @@ using document::Stroke;
 
 struct Plot {
   std::string title, x_label, y_label;
-  std::string claim;     ///< What the paper says.
-  std::string measured;  ///< What came out here.
+  std::string claim;     ///< The paper's claim.
+  std::string measured;  ///< The result.
   std::vector<Series> series;
   std::optional<Range> y;
 };

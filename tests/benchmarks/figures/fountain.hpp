@@ -1,7 +1,7 @@
 #pragma once
-/// A fountain in the Cornell box, after figure 6 of Johansson et al., "Distributed Ray Tracing in an Open Source Environment": one closed
-/// body of clear water, a jet that falls back over its own top into a pool, with ripples and drops. A surface of revolution about z with
-/// waves; the paper's was a level set of a fluid simulation.
+/// A fountain in the Cornell box, after figure 6 of Johansson et al., "Distributed Ray Tracing in an Open Source
+/// Environment": one closed body of clear water, a jet that falls back over its own top into a pool, with ripples and
+/// drops. A surface of revolution about z with waves; the paper's was a level set of a fluid simulation.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,8 @@
 
 namespace septet::raytrace {
 
-/// Adds a closed surface of revolution: points of the outline (radius, height) from one end of the axis to the other, upwards.
+/// Adds a closed surface of revolution: points of the outline (radius, height) from one end of the axis to the other,
+/// upwards.
 inline void add_turned(std::vector<scene::SurfaceVertex>& soup, const std::vector<glm::vec2>& outline, int spokes,
                        const glm::vec3& foot_m, float ripple_m) {
   const auto at = [&](std::size_t ring, int spoke) {
@@ -54,7 +55,8 @@ inline std::vector<ClearBody> fountain(int spokes) {
   ClearBody water{.index = 1.333f, .absorption_per_m = glm::vec3(0.35f, 0.08f, 0.05f)};
   const int steps = spokes / 2;
   std::vector<glm::vec2> outline;
-  // The pool's bottom and rim, its surface with rings of waves inwards, the jet, its crown that falls back, and the top.
+  // The pool's bottom and rim, its surface with rings of waves inwards, the jet, its crown that falls back, and the
+  // top.
   outline.emplace_back(0.0f, 0.01f);
   outline.emplace_back(0.78f, 0.01f);
   const auto line = [&](int count, const auto& point) {

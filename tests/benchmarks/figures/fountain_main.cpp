@@ -1,7 +1,8 @@
-// septet-fountain FOLDER [--size N] [--samples N] [--photons N] [--nodes N]: figure 6 of Johansson et al., "Distributed Ray Tracing in an
-// Open Source Environment": a fountain in the Cornell box with photons and final gather, what its parts cost, and the speed-up of
-// both passes over the number of nodes. The paper's size is 1600. Buckets of photons and of pixels are traced once, each with its
-// measured cost; nodes of one speed are dealt these costs first come first served, which is said in the figure.
+// septet-fountain FOLDER [--size N] [--samples N] [--photons N] [--nodes N]: figure 6 of Johansson et al., "Distributed
+// Ray Tracing in an Open Source Environment": a fountain in the Cornell box with photons and final gather, the cost of
+// its parts, and the speed-up of both passes over the number of nodes. The paper's size is 1600. Buckets of photons and
+// of pixels are traced once, each with its measured cost; nodes of one speed are dealt these costs first come first
+// served, as the figure states.
 #include <algorithm>
 #include <cstdint>
 #include <ctime>

@@ -28,7 +28,7 @@ double process_time_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-/// One way to draw, and what its frames took.
+/// A method of drawing, and its frame times.
 struct Way {
   std::string name;
   IceOptions options;
@@ -49,7 +49,7 @@ Way way(std::string name, double share, const char* object = "cube") {
   return made;
 }
 
-/// Each way draws a frame in turn, `rounds` times.
+/// Each method draws a frame in turn, `rounds` times.
 Expected<void> measure(std::vector<Way>& ways, int rounds) {
   struct Drawn {
     render::Renderer renderer;
@@ -83,7 +83,7 @@ Expected<void> write(const std::filesystem::path& path, const document::ChartPag
   return {};
 }
 
-/// Figure 6: three objects, with and without what is inside.
+/// Figure 6: three objects, with and without their inside.
 Expected<void> objects_figure(const std::filesystem::path& folder) {
   std::vector<Way> ways;
   for (const char* object : {"sphere", "cube", "teapot"})
@@ -116,7 +116,7 @@ Expected<void> objects_figure(const std::filesystem::path& folder) {
        .notes = {}});
 }
 
-/// Figure 7: two-sided or not, surroundings drawn anew or not.
+/// Figure 7: two-sided or not, surroundings redrawn or not.
 Expected<void> two_sided_figure(const std::filesystem::path& folder) {
   std::vector<Way> ways;
   for (const bool kept : {false, true})
@@ -148,7 +148,7 @@ Expected<void> two_sided_figure(const std::filesystem::path& folder) {
                 .notes = {}});
 }
 
-/// What the text says of costs, in one run.
+/// Costs in the text, in one run.
 Expected<void> cost_table(const std::filesystem::path& folder) {
   std::vector<Way> ways;
   for (const double share : {fifth, full}) {

@@ -1,7 +1,7 @@
 #pragma once
-/// The swinging cube of Servin et al. (section 3): side 1 m, eight particles of 1 kg, 18 springs of
-/// U = ½k((l−L)/L)², one top corner fixed, g = 10 m/s². Two steppers in dense form, for comparison only: Septet's own
-/// has no springs. That a body swings in time with it is tests/engine/physics/elastic/pendulum_slow_test.cpp's.
+/// The swinging cube of Servin et al. (section 3): side 1 m, eight particles of 1 kg, 18 springs of U = ½k((l−L)/L)²,
+/// one top corner fixed, g = 10 m/s². Two steppers in dense form, for comparison only: Septet's own has no springs.
+/// tests/engine/physics/elastic/pendulum_slow_test.cpp proves that a body swings in time with it.
 
 #include <array>
 #include <cmath>
@@ -40,7 +40,7 @@ inline Cube make_cube() {
   return cube;
 }
 
-/// `gamma` is that of the regularised stepper.
+/// `gamma` belongs to the regularised stepper.
 inline void step(Cube& cube, Stepper stepper, double dt, double gamma) {
   using Matrix = Eigen::Matrix<double, 24, 24>;
   using Vector = Eigen::Matrix<double, 24, 1>;
@@ -76,7 +76,7 @@ inline void step(Cube& cube, Stepper stepper, double dt, double gamma) {
   cube.x += dt * cube.v;
 }
 
-/// Of the corner opposite to the fixed one, over time, the start included.
+/// Height of the corner opposite to the fixed one, over time, including the start.
 inline std::vector<double> heights(Stepper stepper, double dt, double duration_s, double gamma) {
   Cube cube = make_cube();
   std::vector<double> result{cube.x[3 * opposite_corner + 2]};

@@ -1,4 +1,4 @@
-"""How fast the ray tracer is beside Mitsuba 3.9.1 (PyPI), on the Cornell box and on an exported motorway: samples a second and core, in
+"""Speed of the ray tracer beside Mitsuba 3.9.1 (PyPI), on the Cornell box and on an exported motorway: samples a second and core, in
 one run.
 
     python3 -m venv V && V/bin/pip install mitsuba==3.9.1 numpy pillow
@@ -71,7 +71,7 @@ def septet_motorway_rate(program, folder):
 
 
 def compare(name, rounds, septet_rate, arguments):
-    """Whether the bar is held."""
+    """True if the bound is kept."""
     rates = {"septet": [], **{variant: [] for variant in AT_LEAST}}
     for _ in range(rounds):
         rates["septet"].append(septet_rate())

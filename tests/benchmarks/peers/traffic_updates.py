@@ -25,7 +25,7 @@ LORRY = (11.9, 2.55, 23.5, 1.7, 0.7, 2.0, 2.5)
 
 
 def ring_network(folder, length):
-    """A ring of eight edges, so that nobody's route passes an edge twice in a row."""
+    """A ring of eight edges, so that no route passes an edge twice in a row."""
     radius, parts = length / (2 * math.pi), 8
     with open(f"{folder}/n.xml", "w") as nodes, open(f"{folder}/e.xml", "w") as edges:
         nodes.write("<nodes>")

@@ -212,7 +212,7 @@ TEST_CASE("a controller off the bus is a lost bus until it says that it is back,
     if (says_so) {
       bus.notice = CanNotice{{"on the bus again", "test0", "nothing to do"}, false};
       run(sender, 2.0, 2.05, nullptr);
-      CHECK(sender.is_lost());  // What had been queued waits.
+      CHECK(sender.is_lost());  // The queued frames wait.
     }
     bus.is_full = false;
     run(sender, 2.05, 2.2, nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-/// A CAN bus without hardware: what is sent is kept, what is to be heard is given.
+/// A CAN bus without hardware: sent frames are kept, frames to be heard are given.
 
 #include <deque>
 #include <memory>

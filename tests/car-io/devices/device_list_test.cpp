@@ -94,10 +94,10 @@ TEST_CASE("of a wheel it is said whether evdev or HID PID moves it and what rule
                  fmt::format("HID_ID=0003:0000346E:0000000{}\n", number));
     machine.file(machine.dev / fmt::format("input/event{}", number), "");
   };
-  wheel(1, "f00000000 0", false);  // Nothing but what a gamepad has.
-  wheel(2, "0", true);             // One whose force the kernel does not know.
+  wheel(1, "f00000000 0", false);  // A plain gamepad.
+  wheel(2, "0", true);             // One without force in the kernel's driver.
   wheel(3, "0", true);             // Another, which may be opened.
-  wheel(4, "3003c0000 0", true);   // One whose force it knows: evdev is the way.
+  wheel(4, "3003c0000 0", true);   // One with force in the kernel's driver: by evdev.
   wheel(5, "107030000 0", false);  // A gamepad that rumbles.
   machine.file(machine.dev / "hidraw3", "");
   const auto found = machine.list();

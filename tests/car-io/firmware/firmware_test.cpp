@@ -119,7 +119,7 @@ TEST_CASE("a report that comes before the first step after a long silence does n
   const Actuators all{.fan = 1.0, .vibration = 1.0, .vibration_hz = 30.0};
   car.tell_for(1500, all, 0.5);
   REQUIRE_FALSE(car.is_off());
-  car.now_ms += 10'000;  // Nobody steps.
+  car.now_ms += 10'000;  // Without a step.
   car.tell(all, 0.5);
   car.run(1);
   CHECK(car.is_off());
@@ -146,7 +146,7 @@ TEST_CASE("a report at rest beside a wheel that is still pulled arms nothing") {
   car.readings.buttons = 1u << SEPTET_EMERGENCY_STOP_BIT;
   car.run(1);
   car.readings.buttons = 0;
-  car.tell_for(500, {}, 0.5);  // A host that knows of no stop, and whose car stands.
+  car.tell_for(500, {}, 0.5);  // A host that knows no stop, and whose car stands.
   CHECK(car.is_off());
   car.tell_for(20, {}, 0.0);
   CHECK_FALSE(car.is_off());

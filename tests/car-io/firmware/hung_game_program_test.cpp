@@ -1,4 +1,4 @@
-// A program that serves a game hangs and goes on, with the firmware's core behind what writes to it.
+// A program that serves a game hangs and goes on, with the firmware's core as its device.
 
 #include <chrono>
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace septet::car_io {
 namespace {
 
-/// What `septet-car serve` does, with a game that pulls the wheel; the car's time goes on with the reports that it takes.
+/// `septet-car serve` with a game that pulls the wheel; the car's time goes on with the reports that it takes.
 struct ServedCar {
   ServedCar() {
     car.run(60);

@@ -3,7 +3,7 @@
 
     needs_nothing_test.py COMPILER FOLDER
 
-Each file is compiled alone, as for a controller without an operating system; what it calls must be in one of the others.
+Each file is compiled alone, as for a controller without an operating system; its callees must be in one of the others.
 """
 import pathlib
 import subprocess

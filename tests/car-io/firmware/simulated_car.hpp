@@ -1,5 +1,5 @@
 #pragma once
-/// The firmware's core as a HID device on the host: what a microcontroller's port would do, on a clock of the test's own.
+/// The firmware's core as a HID device on the host, in place of a microcontroller's port, on a clock of the test's own.
 
 #include <array>
 #include <cstdint>

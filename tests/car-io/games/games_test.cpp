@@ -114,7 +114,7 @@ TEST_CASE("a format of one's own says which numbers of the datagram mean reverse
   CHECK(gear(keys, 1) == 1.0);
   CHECK(gear(keys, 6) == 6.0);
   CHECK(gear("", 0) == 0.0);
-  // A game that counts from one more names its numbers as it sends them, whatever they are moved by.
+  // A game that counts from one more names its numbers as sent, before any offset.
   CHECK(gear("offset = -1\nreverse = 0\n", 0) == -1.0);
   CHECK(gear("offset = -1\nreverse = 255\n", 255) == -1.0);
   CHECK(gear("offset = -1\nreverse = 255\n", 1) == 0.0);
@@ -382,7 +382,7 @@ TEST_CASE("an emergency stop cuts a game's force at once and it waits for the re
   now_s += 0.005;
   told = drive.actuate(car, effects, now_s);
   CHECK(told.steering == 0.0);
-  CHECK_FALSE(is_rest(told));  // Else what writes would think that it was re-armed.
+  CHECK_FALSE(is_rest(told));  // Otherwise the writer would be re-armed.
   car.switches.emergency_stop = false;
   run(2.0);
   CHECK(told.steering == 0.0);
@@ -394,7 +394,7 @@ TEST_CASE("an emergency stop cuts a game's force at once and it waits for the re
   car.is_stale = true;
   run(0.21);
   CHECK(told.steering == 0.0);
-  // By the word of somebody at the console, but not while the switch is pressed.
+  // From the terminal, but not while the switch is pressed.
   car = reading();
   car.switches.emergency_stop = true;
   run(0.01);

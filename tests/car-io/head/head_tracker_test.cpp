@@ -22,7 +22,7 @@ namespace {
 
 constexpr double tick_s = 1.0 / 120.0;
 
-/// As OpenTrack sends it.
+/// In OpenTrack's form.
 std::vector<std::byte> datagram_of(const TrackedPose& pose) {
   std::vector<std::byte> bytes(sizeof pose);
   std::memcpy(bytes.data(), pose.data(), bytes.size());

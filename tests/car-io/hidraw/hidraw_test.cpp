@@ -55,7 +55,7 @@ class MockedCar {
                     "MINOR={}\nA: dev=240:{}\\n\n"
                     "L: device=../../../0003:1209:0001.0001\n",
                     hidraw_path(), minor_, node, minor_, minor_));
-    // hidapi takes a file for a hidraw device where it answers this one.
+    // hidapi recognises a hidraw device by this ioctl.
     GError* error = nullptr;
     const std::string ioctls =
         fmt::format("@DEV {} (HIDRAW)\nHIDIOCGRDESCSIZE 0 {:02X}000000\n", node, descriptor.size());
@@ -79,7 +79,7 @@ class MockedCar {
     return poll(&waiting, 1, 0) > 0;
   }
   Bytes receive() {
-    // The mocked node is a stream: what is read at once may be several reports, so as much as one is read.
+    // The mocked node is a stream: one read may return several reports, so the length of one is read.
     Bytes bytes(actuators_report_bytes);
     const ssize_t count = read(fd_, bytes.data(), bytes.size());
     bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
@@ -137,7 +137,7 @@ TEST_CASE("hidapi finds reads writes and loses a car and the connection finds it
 
   const auto actuators = encode_actuators({.fan = 0.25}, 1);
   {
-    // As the thread that writes does it: a second handle on the same device.
+    // Like the writing thread: a second handle on the same device.
     const auto writer = open_hid_device(HidAddress{});
     REQUIRE(writer.has_value());
     REQUIRE((*writer)->write(actuators));
@@ -201,7 +201,8 @@ TEST_CASE("a closed terminal stops fan and shaker as Ctrl-C does, also where the
     };
     CHECK(wait_for([&] { return fan > 0.49 || ended; }));
     REQUIRE_FALSE(ended);
-    // A stopped program can do nothing (that is what the device's watchdog is for); the signal is obeyed once it goes on.
+    // A stopped program can do nothing (that is what the device's watchdog is for); the signal is obeyed once it goes
+    // on.
     if (is_stopped) {
       kill(child, SIGSTOP);
       REQUIRE(waitpid(child, &status, WUNTRACED) == child);
@@ -210,7 +211,7 @@ TEST_CASE("a closed terminal stops fan and shaker as Ctrl-C does, also where the
     if (is_stopped) kill(child, SIGCONT);
     CHECK(wait_for([&] { return ended; }));
     if (!ended) kill(child, SIGKILL);
-    // What was sent last may still be on its way through the mocked kernel.
+    // The last command may still be in the mocked kernel.
     wait_for([&] { return fan == 0.0 && vibration == 0.0; });
     CHECK(WIFEXITED(status));
     CHECK(fan == 0.0);

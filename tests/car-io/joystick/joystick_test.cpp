@@ -51,7 +51,7 @@ struct Wheel {
   };
 };
 
-/// What a person does who is asked for each control in turn.
+/// Acts as a person asked for each control in turn.
 std::vector<rig::JoystickControl> learn(Wheel& wheel) {
   std::vector<rig::JoystickControl> controls;
   const auto ask = [&](const std::string& name, auto act) {
@@ -105,7 +105,7 @@ TEST_CASE("a joystick is learnt and what is learnt is a rig's table that drives 
   CHECK(car.poll(0.02).input.selector == GearSelector::drive);
   wheel.state.axes[0].value = 32760;
   CHECK(car.poll(0.03).input.steering_wheel_rad == 0.0);
-  CHECK_FALSE(car.poll(60.0).is_stale);  // Nothing moves, and it is there.
+  CHECK_FALSE(car.poll(60.0).is_stale);  // Nothing moves, and it is present.
 }
 
 TEST_CASE("a joystick that is pulled out is lost and found again") {

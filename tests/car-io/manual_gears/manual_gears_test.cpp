@@ -1,4 +1,4 @@
-// A learner at the keys of a car with a clutch: what the keys ask for, and what the car makes of it.
+// A learner at the keys of a car with a clutch: requests of the keys, and the car's behaviour.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using vehicle::Ground, vehicle::VehicleParameters, vehicle::VehicleState;
 
 constexpr double tick_s = 1.0 / 120.0;
 
-/// Somebody at the keys of the manual S80.
+/// A driver at the keys of the manual S80.
 struct Learner {
   VehicleParameters car = vehicle::read_car("volvo-s80-manual");
   Ground ground = vehicle::level_ground();
@@ -128,7 +128,7 @@ TEST_CASE("a clutch dropped in gear at idle stalls the engine and the clutch pre
   learner.hold({.brake = true}, 1.0);
   CHECK_FALSE(learner.state.powertrain.engine_running);
   learner.hold({.accelerate = true, .brake = true}, 1.0);
-  CHECK_FALSE(learner.state.powertrain.engine_running);  // Gas alone starts nothing.
+  CHECK_FALSE(learner.state.powertrain.engine_running);  // The accelerator alone does not start it.
   learner.hold({.brake = true, .clutch = true}, 1.0);
   CHECK(learner.state.powertrain.engine_running);
   CHECK(learner.state.powertrain.engine_radps > 0.7 * learner.car.powertrain.idle_radps);

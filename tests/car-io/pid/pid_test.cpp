@@ -19,7 +19,7 @@ std::span<const std::byte> descriptor() { return std::as_bytes(std::span(pid_whe
 
 PidReports reports() { return find_pid_reports(read_hid_fields(descriptor()).value()).value(); }
 
-/// The way to a simulated wheel, by a clock that stands where the test puts it.
+/// Access to a simulated wheel, by a clock set by the test.
 struct Table {
   explicit Table(std::size_t room = 8) : wheel(room) {}
   SimulatedPidWheel wheel;
@@ -84,7 +84,7 @@ TEST_CASE(
     PidWheel motor(table.open(), reports());
     CHECK(motor.set_condition(PidCondition::damper, 0.1).value());
     CHECK(motor.set_condition(PidCondition::friction, 0.04).value());
-    CHECK_FALSE(motor.set_condition(PidCondition::spring, 0.0).value());  // None is asked for, none is made.
+    CHECK_FALSE(motor.set_condition(PidCondition::spring, 0.0).value());  // Not requested, not created.
     for (const double force : {0.25, -0.5, 1.0, 0.0, 0.75}) {
       CHECK(motor.set_force(force).value());
       CHECK(table.wheel.playing(1, table.now_s) == doctest::Approx(force));

@@ -153,7 +153,7 @@ TEST_CASE(
       errors.add(name + " s", found->position.s_m - number(row, "s_m"), slack, row, "x_m", "y_m");
       errors.add(name + " t", found->position.t_m - number(row, "t_m"), slack, row, "x_m", "y_m");
 
-      // A hint from a metre before gives the same answer.
+      // A hint from a metre before gives the same result.
       const RoadPosition hint{found->position.road, found->position.s_m - 1.0, found->position.t_m};
       const auto hinted = locate(network, point, &hint);
       REQUIRE(hinted.has_value());

@@ -38,7 +38,7 @@ inline Curve read_curve(const std::string& file) {
   return curve;
 }
 
-/// y where x first rises through `at`.
+/// y at the first place where x rises through `at`.
 inline double where(const std::vector<double>& x, double at, const std::vector<double>& y) {
   for (std::size_t i = 1; i < x.size(); ++i)
     if (x[i - 1] < at && x[i] >= at) return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);

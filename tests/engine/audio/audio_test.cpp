@@ -204,7 +204,7 @@ TEST_CASE("The road's unevenness shakes as ISO 8608 says: 3 dB for twice the spe
   CHECK(decibels(band(low(30.0, {.unevenness_m3 = class_a_m3}), 8.0, 40.0) / at_15) == relative(3.0, 0.2));
   CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_b_m3}), 8.0, 40.0) / at_15) == relative(6.0, 0.1));
   CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_d_m3}), 8.0, 40.0) / at_15) == relative(18.0, 0.1));
-  // As much in each hertz of what a shaker plays of it.
+  // Equal power per hertz of a shaker's share.
   CHECK(std::abs(decibels(band(good, 10.0, 18.0) / band(good, 20.0, 28.0))) < 3.0);
   CHECK(decibels(band(good, 150.0, 1000.0) / at_15) < -30.0);
 }

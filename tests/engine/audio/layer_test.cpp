@@ -105,7 +105,7 @@ TEST_CASE("A hard blow breaks glass, a soft one does not, and pieces clatter") {
     return voices[std::size_t(OwnVoice::crash)];
   };
   const auto soft = blow(2.0, 0), hard = blow(8.0, 0), clatter = blow(0.0, 20);
-  // When the blow itself has died away it is glass that is still heard.
+  // After the impact itself has decayed the glass is still heard.
   const auto glassy = [](const std::vector<float>& sound) {
     const auto late = after(sound, 0.3);
     return decibels(power_within(late, 3500.0, 6000.0) / power_within(late, 200.0, 1500.0));

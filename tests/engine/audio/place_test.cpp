@@ -1,4 +1,4 @@
-// Where sounds come from, and what lies between: others, their sirens, the car's wall and the air, tunnels, loudspeakers.
+// Places of sounds, and their paths: others, their sirens, the car's wall and the air, tunnels, loudspeakers.
 
 #include <algorithm>
 #include <array>
@@ -118,7 +118,7 @@ TEST_CASE("Of 5.1 channels the one for low frequencies has what shakes and nothi
       60, [&](int) { return hear(behind, nullptr, {}, {}); }, surround);
   CHECK(mean_square(siren[4]) > 4.0 * mean_square(siren[0]));
   CHECK(mean_square(siren[3]) < 1e-6);
-  // What shakes is cut: its channel alone is silent, and does not click on its way there.
+  // The shaker is cut: its channel alone is silent, and does not click in between.
   const auto cut = played(
       120,
       [](int tick) {

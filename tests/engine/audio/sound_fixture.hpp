@@ -18,10 +18,10 @@ namespace septet::audio {
 
 using HeardAt = std::function<Heard(int tick)>;
 
-/// A car that stands with its engine off.
+/// A standing car with its engine off.
 inline Heard quiet() { return {}; }
 
-/// A car that rolls at a steady speed.
+/// A car rolling at a steady speed.
 inline Heard cruising(double speed_mps, double engine_hz, double load) {
   Heard heard;
   heard.car.running = engine_hz > 0.0;
@@ -32,7 +32,7 @@ inline Heard cruising(double speed_mps, double engine_hz, double load) {
   return heard;
 }
 
-/// Each voice's samples, by its place among the own voices; other voices behind them in one.
+/// Each voice's samples, by its index among the own voices; other voices behind them in one.
 inline std::vector<std::vector<float>> voices_of(int ticks, const HeardAt& heard, const CarSound& car = {},
                                                  int skipped = 60) {
   State state = start(car, Random(1));

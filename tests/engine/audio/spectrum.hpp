@@ -1,5 +1,5 @@
 #pragma once
-/// What a sound holds, for tests: power at a frequency, spectrum, A-weighted level.
+/// Properties of a sound, for tests: power at a frequency, spectrum, A-weighted level.
 
 #include <algorithm>
 #include <cmath>

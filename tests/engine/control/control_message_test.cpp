@@ -140,7 +140,7 @@ TEST_CASE("controls that no driver can give are refused and never sent") {
     return bytes;
   };
   CHECK_FALSE(is_refused(with_byte(34, 4)));
-  CHECK(is_refused(with_byte(34, 5)));  // No such place of the selector.
+  CHECK(is_refused(with_byte(34, 5)));  // No such position of the selector.
   CHECK(is_refused(with_byte(34, 0xff)));
   CHECK_FALSE(is_refused(with_byte(36, 0xff)));
   CHECK(is_refused(with_byte(36, 2)));  // Nor of the stalk.

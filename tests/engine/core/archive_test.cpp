@@ -1,4 +1,4 @@
-// What the lists of members say: what is kept, what is hashed, and what is neither.
+// Lists of members: saved, hashed, and neither.
 #include "engine/core/archive.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-/// Nine ways in which a mesh of 15,300 faces changes its shape: what Table 1 of the paper is repeated with.
+/// Nine deformations of a mesh of 15,300 faces: the cases for repeating the paper's Table 1.
 
 #include <cmath>
 #include <functional>
@@ -23,7 +23,7 @@ namespace morphs {
 
 using Shape = std::function<glm::vec3(const glm::vec3& direction)>;
 
-/// A sphere's mesh, 90 segments by 86 rings, whose vertices `from` and `to` put somewhere else.
+/// A sphere's mesh, 90 segments by 86 rings, with vertices moved by `from` and `to`.
 inline std::vector<MovingFace> sphere_faces(const Shape& from, const Shape& to) {
   constexpr int segments = 90, rings = 86;
   constexpr float pi = 3.14159265f;

@@ -33,7 +33,7 @@ std::string bytes_of(const std::vector<T>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)};
 }
 
-/// Says what a file is; each text is JSON, and what is not said is that of one triangle.
+/// Text of a file; each part is JSON, and defaults are those of one triangle.
 struct File {
   std::string positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
   std::string nodes = R"([{"mesh":0}])";
@@ -58,7 +58,7 @@ Expected<Model> read(const std::string& bytes) {
 }
 Expected<Model> read(const File& file) { return read(file.text()); }
 
-/// What the error says, or nothing.
+/// The error's text, or empty.
 std::string refused(const std::string& bytes) {
   const auto model = read(bytes);
   if (model) return "";
@@ -206,7 +206,7 @@ TEST_CASE("a texture lies by the coordinates that it names, scaled, turned and m
   CHECK(is_near(uvs(R"(,"texCoord":1)")[0], 0.5f, 0.1f));
   CHECK(is_near(uvs(transformed(R"("offset":[0.5,0.25])"))[0], 0.75f, 0.25f));
   CHECK(is_near(uvs(transformed(R"("scale":[2,3])"))[1], 1.5f, 0.0f));
-  // A quarter turn counter-clockwise, v pointing down: what lay to the right lies above.
+  // A quarter turn counter-clockwise, v pointing down: the right lies above.
   CHECK(is_near(uvs(transformed(R"("rotation":1.5707963267948966)"))[1], 0.0f, -0.75f));
   CHECK(is_near(uvs(transformed(R"("scale":[2,1],"rotation":1.5707963267948966,"offset":[0.1,1])"))[1], 0.1f, -0.5f));
   CHECK(is_near(uvs(transformed(R"("texCoord":1,"offset":[0.5,0])"))[1], 1.1f, 0.1f));

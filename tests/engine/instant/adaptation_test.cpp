@@ -9,7 +9,7 @@
 #include "engine/instant/atmosphere.hpp"
 #include "engine/instant/headlight_beam.hpp"
 #include "engine/instant/standing_lamps.hpp"
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 
 namespace septet::instant {
 namespace {
@@ -26,19 +26,19 @@ SkyLight light_under(double elevation_deg, double clouds, double snow = 0.0, dou
 
 float luminance_of(const glm::vec3& color) { return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
-/// What a display is given of level ground of that albedo, without lamps.
+/// Displayed level ground of that albedo, without lamps.
 float shown_ground(const SkyLight& light, float albedo) {
   const float level = luminance_of(light.sky_irradiance) +
                       luminance_of(light.light_irradiance) * std::max(0.0f, light.light_direction.z);
   return light.exposure * albedo * level / glm::pi<float>();
 }
 
-/// Of the sky, the mean of what a level surface sees.
+/// Sky of the display, the mean over a level surface's view.
 float shown_sky(const SkyLight& light) {
   return light.exposure * luminance_of(light.sky_irradiance) / glm::pi<float>();
 }
 
-float code(float exposed) { return 255.0f * display_code(glm::vec3(exposed)).g; }
+float code(float exposed) { return 255.0f * light::display_code(glm::vec3(exposed)).g; }
 
 }  // namespace
 
@@ -54,7 +54,7 @@ TEST_CASE("an eye's gain grows and what it makes of light falls, at every step f
     CHECK(now.night >= before.night);
     CHECK(now.street_lamps >= before.street_lamps);
     CHECK(now.gain() * lux < before.gain() * lux_before);
-    // No step is seen: 3 % less light is never a tenth less, or anything else but slowly more.
+    // No visible step: 3 % less light is never a tenth less, and otherwise slowly more.
     CHECK(now.gain() < 1.04f * before.gain());
     CHECK(now.night - before.night < 0.02f);
     before = now, lux_before = lux;

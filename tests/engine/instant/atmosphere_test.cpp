@@ -69,7 +69,7 @@ TEST_CASE("a low sun gives the light that is told of it and not that light dimme
   const double high = brightness_of_sun(0.75, 80000.0);
   CHECK(brightness_of_sun(0.05, 1500.0) / high == relative(1500.0 / 80000.0, 0.05));
   CHECK(brightness_of_sun(0.3, 35000.0) / high == relative(35000.0 / 80000.0, 0.05));
-  // Who leaves it as it is by day means the same sun, lower.
+  // Leaving the exposure unchanged by day means the same sun, lower.
   CHECK(brightness_of_sun(0.05, 80000.0) < 0.5 * high);
 }
 

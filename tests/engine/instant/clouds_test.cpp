@@ -54,8 +54,8 @@ TEST_CASE("a clear sky has no clouds and the more the weather has the more are s
     before = seen;
   }
   CHECK(before > 0.45);
-  CHECK(cloud_seen(noise, sky(), 1.0, glm::vec2(0.0f), {1.0f, 0.0f, 0.0f}).cover ==
-        0.0f);  // None below the horizon's haze.
+  // No clouds below the horizon's haze.
+  CHECK(cloud_seen(noise, sky(), 1.0, glm::vec2(0.0f), {1.0f, 0.0f, 0.0f}).cover == 0.0f);
 }
 
 TEST_CASE("clouds drift with the wind and come back after nine kilometres") {
@@ -66,7 +66,7 @@ TEST_CASE("clouds drift with the wind and come back after nine kilometres") {
   const glm::vec2 drift = cloud_drift_m(windy, 60.0);
   CHECK(drift.x == doctest::Approx(-1200.0));
   CHECK(drift.y == doctest::Approx(0.0).scale(1));
-  // What stood overhead stands further along x.
+  // Clouds overhead have moved further along x.
   const float z = 0.8f, per_m = (z + 0.12f) / 1600.0f;
   const glm::vec3 overhead{-0.3f, 0.0f, z}, later{-0.3f + 300.0f * per_m, 0.0f, z};
   CHECK(cloud_seen(noise, sky(), 0.9, {-300.0f, 0.0f}, later).cover ==

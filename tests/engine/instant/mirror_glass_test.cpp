@@ -33,7 +33,7 @@ OffAxisView left_screen(const Vec3& eye_m) {
   return *off_axis_view({{1.35, 1.294, 0.788}, {2.15, 0.832, 0.788}, {1.35, 1.294, 1.352}}, eye_m);
 }
 
-/// Place in the mirror's picture that the glass shows where the eye sees `place_m` of it: of the triangle before it.
+/// Place in the mirror's picture that the glass shows at `place_m` of it, from the eye: of the triangle before it.
 std::optional<Vec2> shown_there(const MirrorGlass& mirror, const Vec3& eye_m, const Vec3& place_m) {
   for (std::size_t i = 0; i + 2 < mirror.corners.size(); i += 3) {
     const auto* c = &mirror.corners[i];
@@ -47,7 +47,7 @@ std::optional<Vec2> shown_there(const MirrorGlass& mirror, const Vec3& eye_m, co
   return std::nullopt;
 }
 
-/// Where the picture has a point of the car's frame.
+/// Place of a point of the car's frame in the picture.
 Vec2 in_picture(const MirrorGlass& mirror, const Vec3& point_m) {
   const OffAxisView& view = mirror.picture.projection;
   const glm::dvec4 clip = view.clip_from_eye_relative * glm::dvec4(point_m - view.eye_m, 1.0);
@@ -88,7 +88,7 @@ TEST_CASE("what lies further to the left behind the car is further to the left i
     };
     CHECK(seen_at({-20, 5, 1}).x < seen_at({-20, 3, 1}).x);
     CHECK(seen_at({-20, 4, 2}).y < seen_at({-20, 4, 0}).y);
-    // And the picture, which looks back, has it the other way round.
+    // The picture, which looks back, is mirrored.
     const auto mirror = mirror_glass(door_glass(), radius_m, left_screen(usual_eye_m), full_hd);
     REQUIRE(mirror);
     CHECK(in_picture(*mirror, {-20, 5, 1}).x > in_picture(*mirror, {-20, 3, 1}).x);

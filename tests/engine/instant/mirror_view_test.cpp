@@ -20,7 +20,8 @@ ScreenCorners glass() {
   return {corner(-1, -1), corner(1, -1), corner(-1, 1)};
 }
 
-/// Where the way from the eye over the plane to the point is shortest (Fermat), found by stepping: the law of reflection without images.
+/// Point with the shortest path from the eye over the plane to the point (Fermat), found by stepping: the law of
+/// reflection without images.
 Vec3 reflection_point(const ScreenCorners& corners, const Vec3& eye_m, const Vec3& point_m) {
   const Vec3 right = glm::normalize(corners.lower_right_m - corners.lower_left_m);
   const Vec3 up = glm::normalize(corners.upper_left_m - corners.lower_left_m);

@@ -106,7 +106,7 @@ TEST_CASE("who walks puts one leg before the other, repeats himself each stride,
   CHECK(glm::length(foot(PartRole::shin_left, 0.7) - foot(PartRole::shin_left, 0.7 + 4 * quarter)) < 1e-9);
   for (int i = 0; i < 64; ++i) {
     const double phase = i * 0.1;
-    // A foot is lifted, but no higher than one steps, and one of the two is near the ground.
+    // A foot is lifted, but no higher than a step, and one of the two is near the ground.
     const double left = foot(PartRole::shin_left, phase).z, right = foot(PartRole::shin_right, phase).z;
     CHECK(std::min(left, right) < 0.16);
     CHECK(std::max(left, right) < 0.36);

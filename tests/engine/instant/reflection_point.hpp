@@ -1,5 +1,5 @@
 #pragma once
-/// Where a mirror shows what, found without the law of reflection: light takes the shortest way (Fermat).
+/// Image of a point in a mirror, found without the law of reflection: light takes the shortest path (Fermat).
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 namespace septet::instant {
 
-/// The place on the glass over which the way from the eye to the point is shortest, found by stepping; radius 0: flat.
+/// Place on the glass with the shortest path from the eye over it to the point, found by stepping; radius 0: flat.
 inline Vec3 reflection_point(const ScreenCorners& corners, double radius_m, const Vec3& eye_m, const Vec3& point_m) {
   const Vec3 along = corners.lower_right_m - corners.lower_left_m, upward = corners.upper_left_m - corners.lower_left_m;
   const Vec3 right = glm::normalize(along), up = glm::normalize(upward),

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/instant/instant.hpp"
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
 
@@ -151,10 +151,10 @@ TEST_CASE("a description depends on its input alone and headlights are in it onl
 }
 
 TEST_CASE("light far brighter than white still differs on the display and darkness is black") {
-  CHECK(display_code(glm::vec3(0.0f)).g == 0.0f);
-  CHECK(display_code(glm::vec3(0.18f)).g == relative(0.5, 0.05));
-  CHECK(display_code(glm::vec3(8.0f)).g > display_code(glm::vec3(4.0f)).g);
-  CHECK(display_code(glm::vec3(1e6f)).g <= 1.0f);
+  CHECK(light::display_code(glm::vec3(0.0f)).g == 0.0f);
+  CHECK(light::display_code(glm::vec3(0.18f)).g == relative(0.5, 0.05));
+  CHECK(light::display_code(glm::vec3(8.0f)).g > light::display_code(glm::vec3(4.0f)).g);
+  CHECK(light::display_code(glm::vec3(1e6f)).g <= 1.0f);
 }
 
 }  // namespace septet::instant

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
 
-/// What surfaces mirror in a direction; the sun's azimuth is x.
+/// Mirrored light of surfaces in a direction; the sun's azimuth is x.
 glm::vec3 mirrored(const SkyLight& light, const SkyTable& table, const glm::vec3& direction) {
   SkyLight as_table;
   as_table.sun_direction = light.sun_direction;
@@ -33,7 +33,7 @@ glm::dvec3 summed(const SkyLight& light, const glm::vec3& axis, double roughness
   constexpr int steps = 160;
   for (int i = 0; i < steps; ++i)
     for (int j = 0; j < steps; ++j) {
-      // Half the angle from the axis to the light; D(h)·cos h·sin h, of which the light's cosine is what counts.
+      // Half the angle from the axis to the light; D(h)·cos h·sin h, weighted with the light's cosine.
       const double half = (i + 0.5) / steps * 0.25 * turn_rad * 0.5, around = (j + 0.5) / steps * turn_rad;
       const double cosine = std::cos(half), d = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
       const double counts = cosine * std::sin(half) / (d * d) * std::cos(2.0 * half);
@@ -61,12 +61,12 @@ SkyLight low_sun() {
 
 TEST_CASE("what a surface mirrors is the sky's mean over its microfacets, for every roughness and direction") {
   const SkyLight light = low_sun();
-  const std::array<SkyTable, roughness_steps> tables = sky_by_roughness(light);
-  for (std::uint32_t step = 1; step < roughness_steps; ++step)
+  const std::array<SkyTable, light::roughness_steps> tables = sky_by_roughness(light);
+  for (std::uint32_t step = 1; step < light::roughness_steps; ++step)
     for (const glm::vec3& way : {glm::vec3(0, 0.1f, 1), glm::vec3(1, 0, 0.3f), glm::vec3(-1, 0.4f, 0.1f),
                                  glm::vec3(0.2f, 1, -0.3f), glm::vec3(-0.6f, 0.5f, -1)}) {
       const glm::vec3 direction = glm::normalize(way);
-      const glm::dvec3 expected = summed(light, direction, double(roughness_step) * step);
+      const glm::dvec3 expected = summed(light, direction, double(light::roughness_step) * step);
       const glm::vec3 found = mirrored(light, tables[step], direction);
       CAPTURE(step);
       CAPTURE(way.x);
@@ -77,7 +77,7 @@ TEST_CASE("what a surface mirrors is the sky's mean over its microfacets, for ev
 
 TEST_CASE("a mirror shows the sky's own table, and below the horizon the ground and not the haze before it") {
   const SkyLight light = low_sun();
-  const std::array<SkyTable, roughness_steps> tables = sky_by_roughness(light), again = sky_by_roughness(light);
+  const std::array<SkyTable, light::roughness_steps> tables = sky_by_roughness(light), again = sky_by_roughness(light);
   const glm::vec3 up = glm::normalize(glm::vec3(1, 0, 0.2f)), down = glm::normalize(glm::vec3(1, 0, -0.1f));
   CHECK(mirrored(light, tables[0], up) == sky_radiance(light, up));
   CHECK(glm::distance(mirrored(light, tables[0], down), light.ground_irradiance / 3.14159f) <

@@ -1,5 +1,5 @@
 #pragma once
-/// A plate that stands upright before the eye, its front or its back to it.
+/// A plate standing upright before the eye, facing it with its front or its back.
 
 #include <cstdint>
 

@@ -89,7 +89,7 @@ TEST_CASE("a client is live for exactly half a second of silence and nobody ackn
   tracker.advance_to(0.5625);
   CHECK_FALSE(tracker.is_live(1));
   CHECK(tracker.live_count() == 1);
-  tracker.acknowledge(7, 3, 0.6);  // Of somebody who never joined.
+  tracker.acknowledge(7, 3, 0.6);  // From a client that never joined.
   CHECK(tracker.live_count() == 1);
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("a client that is not on the list learns that and no more and the oper
                                     [](const auto& event) { return event.kind == ServerEvent::Kind::refused; });
   REQUIRE(refused != site.server_events.end());
   CHECK(refused->reason.find(to_text(identity_of(200).public_key())) != std::string::npos);
-  // Without end, but rarely: at most every five seconds, and the operator is told every half minute.
+  // Without end, but rarely: at most every five seconds, and the operator is notified every half minute.
   site.run(60.0, 0.01);
   const auto knocks = site.server->counters().not_allowed;
   site.run(60.0, 0.01);
@@ -105,7 +105,7 @@ TEST_CASE("what speaks another version of the protocol is told which one is spok
   CHECK(answer->bytes.size() < hello.size());
   CHECK(answer->bytes[0] == hello[0]);
   CHECK(answer->bytes[1] == std::byte{1});
-  // And the other way round: the server is of another version.
+  // And vice versa: the server is of another version.
   site.server.reset();
   site.add_client(0, 100);
   for (int i = 0; i < 100; ++i) {
@@ -132,7 +132,7 @@ TEST_CASE(
   }
   CHECK(site.count(ServerEvent::Kind::connected) == 1);
   CHECK(site.count(ServerEvent::Kind::refused) == 1);
-  // Its machine has lost its power: nothing is said any more.
+  // Its machine has lost its power: it is silent.
   site.hung[0] = true;
   site.run(3.0);
   CHECK(site.clients[1]->state() == ClientState::connected);
@@ -192,7 +192,7 @@ TEST_CASE("a client is not taken for silent while the server was busy itself") {
   const ClientId first = site.id_of(0);
   site.add_client(1, Site::client_key(0));
   site.run(0.3);
-  // For a while the clients talk and nobody reads.
+  // For a while the clients send and the server does not read.
   auto busy = std::move(site.server);
   site.run(0.9);
   site.server = std::move(busy);

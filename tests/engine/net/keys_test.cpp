@@ -35,7 +35,7 @@ TEST_CASE("the first start makes a key file that only the owner can read and the
   CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
 }
 
-/// What the kernel says of the memory around an address ("VmFlags"), empty where it tells nothing.
+/// The kernel's flags of the memory around an address ("VmFlags"), empty if unavailable.
 std::string memory_flags(const void* address) {
   std::ifstream maps("/proc/self/smaps");
   const auto wanted = reinterpret_cast<std::uintptr_t>(address);
@@ -57,7 +57,7 @@ TEST_CASE("a secret key lies in memory that no core file takes, and so does each
     CHECK(identity->secret_key() == one.secret_key());
     CHECK(memory_flags(identity->secret_key().data()).find(" dd ") != std::string::npos);
   }
-  CHECK(memory_flags(&one).find(" dd ") == std::string::npos);  // The question can be answered otherwise.
+  CHECK(memory_flags(&one).find(" dd ") == std::string::npos);  // Proves that the flag can be absent.
 }
 
 TEST_CASE("a key file that others can read or that is damaged is refused with a remedy") {
@@ -117,7 +117,7 @@ TEST_CASE("a list that changes is read anew when it is whole and the known one h
   replace(a + b);
   AllowedClientsWatch watch(file);
   double now_s = 10.0;
-  // How many looks it takes, and what they bring.
+  // Number of looks, and their result.
   const auto looks = [&](int count) {
     std::optional<Expected<std::vector<AllowedClient>>> result;
     for (int i = 0; i < count && !result; ++i) result = watch.changed(now_s += 0.25);

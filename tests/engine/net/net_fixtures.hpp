@@ -1,6 +1,5 @@
 #pragma once
-// What the network tests share: keys from numbers, payloads from seeds, and a simulated site of one
-// server and clients.
+// Shared by the network tests: keys from numbers, payloads from seeds, and a simulated site of one server and clients.
 
 #include <memory>
 #include <string>
@@ -44,7 +43,8 @@ inline std::string text_of(const Bytes& bytes) { return {reinterpret_cast<const 
 inline const Address server_address{0x0a000001, 4750};
 inline Address client_address(std::uint32_t number) { return {0x0a000100 + number, 5000}; }
 
-// One server and clients on a simulated network, each on a machine with a clock of its own; client n has identity 100 + n.
+// One server and clients on a simulated network, each on a machine with a clock of its own; client n has identity 100 +
+// n.
 class Site {
  public:
   Site(std::size_t how_many, const NetworkFaults& faults, const ChannelLimits& limits = {})
@@ -80,12 +80,12 @@ class Site {
 
   double server_clock_s() const { return server_machine->clock_s(now_s); }
   double client_clock_s(std::size_t n) const { return client_machines[n]->clock_s(now_s); }
-  // By how much client n takes the server's clock for ahead of what it shows, in true time.
+  // Error of client n's estimate of the server's clock, in true time.
   double clock_error_s(std::size_t n) const {
     return clients[n]->clock().server_time_s(client_clock_s(n)) - server_clock_s();
   }
 
-  // Moves everything on by `duration_s` in steps of 1 ms.
+  // Advances everything by `duration_s` in steps of 1 ms.
   void run(double duration_s, double step_s = 0.001) {
     const double end_s = now_s + duration_s;
     while (now_s < end_s) {

@@ -24,7 +24,7 @@ struct Lane {
   SendResult enqueue(std::uint64_t seed, AddressKey key = no_address_key) {
     return sender.enqueue(share(random_bytes(1000, seed)), key);
   }
-  // Sends what may be sent and says how many packets that were.
+  // Sends as much as allowed and returns the number of packets.
   std::size_t send(double now_s, std::size_t most = ~std::size_t{0}) {
     std::size_t packets = 0;
     for (; packets < most && sender.wants_to_send(); ++packets) {

@@ -65,15 +65,15 @@ TEST_CASE("a client that looks only sixty times a second at what has arrived kno
 
 TEST_CASE("the estimate of a clock is the middle of what all pings leave") {
   ClockEstimate clock;
-  clock.add(10.0, 110.003, 10.020);  // The way back was slow: the offset is between 99.983 and 100.003.
-  clock.add(10.1, 110.118, 10.120);  // The way there: between 99.998 and 100.018.
+  clock.add(10.0, 110.003, 10.020);  // The path back was slow: the offset is between 99.983 and 100.003.
+  clock.add(10.1, 110.118, 10.120);  // The path there: between 99.998 and 100.018.
   CHECK(clock.pings() == 2);
   CHECK(clock.offset_s() == relative(100.0005, 1e-6));
   CHECK(clock.uncertainty_s() == relative(0.0025 + 0.00001, 0.01));
-  // What an old ping said counts for less and less: two clocks drift apart.
+  // An old ping counts for less and less: two clocks drift apart.
   for (int k = 1; k <= 10; ++k) clock.add(10.0 + k, 110.0105 + k, 10.020 + k);
   CHECK(clock.uncertainty_s() > 0.0025 + 0.0015);
-  // One that cannot be true if the others are: a clock was set.
+  // One that contradicts the others: a clock was set.
   clock.add(30.0, 180.001, 30.002);
   CHECK(clock.pings() == 1);
   CHECK(clock.offset_s() == relative(150.0, 1e-6));

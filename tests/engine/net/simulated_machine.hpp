@@ -1,6 +1,6 @@
 #pragma once
-/// A machine of a simulated site: it has its own clock, which shows another time than the true one and runs fast or slow, and
-/// sockets whose arrivals are told by that clock. Programs on it are pumped with `clock_s`, never with the true time.
+/// A machine of a simulated site: its own clock, with an offset and a drift from true time, and sockets whose arrivals
+/// are stamped by that clock. Programs on it are pumped with `clock_s`, never with the true time.
 
 #include <cstdint>
 #include <memory>
@@ -14,14 +14,15 @@ namespace septet::net {
 
 class SimulatedMachine {
  public:
-  /// `drift`: by how much the clock runs too fast, 100e-6 at most for a quartz. The machine stays where it is while sockets are open.
+  /// `drift`: relative excess rate of the clock, 100e-6 at most for a quartz. The machine must not move while sockets
+  /// are open.
   SimulatedMachine(BadNetwork& network, std::uint32_t ip, double ahead_s, double drift)
       : network_(network), ip_(ip), ahead_s_(ahead_s), drift_(drift) {}
   SimulatedMachine(const SimulatedMachine&) = delete;
   SimulatedMachine& operator=(const SimulatedMachine&) = delete;
 
   double clock_s(double true_s) const { return ahead_s_ + (1.0 + drift_) * true_s; }
-  /// From one instant to the next it shows so much more. Steady clocks never go back.
+  /// Sets the clock forward by this amount. Steady clocks never go back.
   void set_clock_forward(double by_s) { ahead_s_ += by_s; }
 
   std::unique_ptr<DatagramSocket> open(std::uint16_t port) { return wrap(network_.open({ip_, port})); }
@@ -53,8 +54,8 @@ class SimulatedMachine {
   double ahead_s_, drift_;
 };
 
-/// A machine whose clock agrees with nobody's: up to three hours ahead and up to 100 ppm too fast or too slow. The way to it from
-/// `peer_ip` and the way back take unlike shares of the network's latency.
+/// A machine whose clock agrees with no other: up to three hours ahead and up to 100 ppm too fast or too slow. The
+/// paths from and to `peer_ip` take unequal shares of the network's latency.
 inline std::unique_ptr<SimulatedMachine> machine_of_its_own(BadNetwork& network, std::uint32_t ip,
                                                             std::uint32_t peer_ip, Random& random) {
   const double share = random.uniform(0.7, 1.3);

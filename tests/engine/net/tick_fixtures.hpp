@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the tick lane share: datagrams as a publisher makes them, and a receiver that follows a session.
+// Shared by the tests of the tick lane: datagrams as a publisher makes them, and a receiver that follows a session.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace septet::net {
 
 inline const Address group{0xef070707, 4750};
 
-// Keeps what a publisher sends.
+// Keeps a publisher's datagrams.
 class Recorder final : public DatagramSocket {
  public:
   bool send(const Address&, std::span<const std::byte> bytes) override {

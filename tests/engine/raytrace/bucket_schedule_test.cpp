@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t side_tiles = 57;  ///< 900 pixels in tiles of 16.
 
-/// What a tile costs, 1 to 20: a patch in the picture's middle is dear, as glass before a simple room.
+/// Cost of a tile, 1 to 20: a patch in the picture's middle is dear, as glass before a simple room.
 double cost_of(std::uint32_t tile) {
   const double x = (tile % side_tiles) / double(side_tiles) - 0.55, y = (tile / side_tiles) / double(side_tiles) - 0.6;
   return 1.0 + 19.0 * std::exp(-12.0 * (x * x + y * y));
@@ -34,7 +34,7 @@ struct Ended {
   std::size_t missing = 0;
 };
 
-/// Workers of one thread that trace until everything is there. The master notices no death.
+/// Workers of one thread that trace until all tiles are there. Deaths are not reported to the master.
 Ended simulate(std::size_t frames, const std::vector<Simulated>& workers, Dealing dealing, double ready_s = 0.0,
                bool tells_cost = true) {
   BucketSchedule schedule(frames, side_tiles * side_tiles, {.dealing = dealing});
@@ -87,7 +87,7 @@ Ended simulate(std::size_t frames, const std::vector<Simulated>& workers, Dealin
     }
     const auto next = std::min_element(states.begin(), states.end(),
                                        [](const State& a, const State& b) { return a.done_s < b.done_s; });
-    // Whoever is idle asks now and then.
+    // An idle worker asks now and then.
     const double asks_s = 0.02 * all / speed / static_cast<double>(frames);
     if (next->done_s > now_s + asks_s) {
       now_s += asks_s;
@@ -143,7 +143,7 @@ TEST_CASE("equal workers are used to 97 percent") {
 }
 
 TEST_CASE("workers that take long to make ready for a frame are used as well for a film") {
-  // As long as a fiftieth of what a frame takes one of middling speed.
+  // As long as a fiftieth of a frame's time for an average worker.
   const Ended film = simulate(40, mixed(15), Dealing::split, 4.0);
   MESSAGE("efficiency ", film.efficiency);
   CHECK(film.efficiency >= 0.9);
@@ -158,7 +158,7 @@ TEST_CASE(
     const Ended film = simulate(30, mixed(15), Dealing::split, work / speed / times);
     MESSAGE("a frame in ", times, " times the time to make ready: ", film.efficiency);
     CHECK(film.efficiency >= 0.95);
-    // One picture is made ready before anything is dealt.
+    // One picture is prepared before the first deal.
     CHECK(simulate(1, mixed(15), Dealing::split, work / speed / times).efficiency >= 0.95);
   }
 }

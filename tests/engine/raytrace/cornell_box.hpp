@@ -1,5 +1,6 @@
 #pragma once
-/// The Cornell box, and what a scene for the ray tracer is made of: an even sky, a view, triangles. For tests, benchmarks and peers.
+/// The Cornell box, and parts of scenes for the ray tracer: an even sky, a view, triangles. For tests, benchmarks and
+/// peers.
 
 #include <array>
 #include <cmath>
@@ -14,7 +15,7 @@
 
 namespace septet::raytrace {
 
-/// The same radiance from everywhere, and no sun.
+/// The same radiance from all directions, and no sun.
 inline std::shared_ptr<const instant::SkyLight> even_sky(float radiance) {
   instant::SkyLight light;
   light.table.radiance.assign(std::size_t{instant::SkyTable::columns} * instant::SkyTable::rows, glm::vec3(radiance));
@@ -26,7 +27,7 @@ inline instant::Instant instant_from(const Vec3& eye_m, double angle_rad, std::u
                                      std::shared_ptr<const instant::SkyLight> light) {
   instant::Instant instant;
   instant.light = std::move(light);
-  instant.environment.cloud_cover = 0.0;  // The sky is what its table says.
+  instant.environment.cloud_cover = 0.0;  // The sky is that of its table.
   instant::FrameView view;
   view.projection = instant::symmetric_view(eye_m, 0.0, 0.0, angle_rad, angle_rad);
   view.viewport = {0, 0, side_px, side_px};
@@ -42,8 +43,8 @@ inline void add_triangle(scene::SurfaceMesh& mesh, const std::array<glm::vec3, 3
   }
 }
 
-/// The Cornell box as Mitsuba 3 ships it (`mi.cornell_box()`): 36 triangles, x to the right, y up, the camera at z = 3.9. Here z is
-/// up and the camera looks along x.
+/// The Cornell box as Mitsuba 3 ships it (`mi.cornell_box()`): 36 triangles, x to the right, y up, the camera at z =
+/// 3.9. Here z is up and the camera looks along x.
 inline scene::ResolvedScene cornell_box() {
   scene::ResolvedScene scene;
   const auto add_material = [&](const glm::vec3& color, const glm::vec3& emission = glm::vec3(0.0f)) {
@@ -51,7 +52,7 @@ inline scene::ResolvedScene cornell_box() {
     material.base_color = color;
     material.roughness = 1.0f;
     material.emission = emission;
-    material.two_sided = emission == glm::vec3(0.0f);  // As all rectangles there; some look away.
+    material.two_sided = emission == glm::vec3(0.0f);  // As all rectangles there; some face away.
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
   };
@@ -97,7 +98,7 @@ inline instant::Instant before_cornell_box(std::uint32_t side_px) {
   return instant_from({-3.9, 0.0, 0.0}, 39.3077 * std::numbers::pi / 180.0, side_px, even_sky(0.0f));
 }
 
-/// As the peers' figures were taken: six edges, a box filter, no early ends.
+/// Settings of the peers' figures: six edges, a box filter, no early ends.
 inline TraceSettings cornell_settings(std::uint32_t samples, std::uint64_t seed = 0) {
   return {.samples = samples, .paths = {.longest = 6, .roulette_from = 100}, .filter = Filter::box, .seed = seed};
 }

@@ -30,7 +30,7 @@ TEST_CASE("a hit names the place, its distance and its triangle, also where seve
     const bool found = geometry->intersect(down, hit);
     CHECK(found == (n < 3));
     CHECK(geometry->unshadowed(down) == (n < 4 ? 0.0f : 1.0f));
-    // What no eye sees is there for what it stands around.
+    // Invisible geometry still acts on its surroundings.
     if (!found) CHECK(geometry->intersect(down, hit, From::surface));
     CHECK(hit.place == n);
     CHECK(hit.triangle == 0);

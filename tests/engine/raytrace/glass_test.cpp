@@ -1,4 +1,4 @@
-/// What lies on glass, by paths; tests/engine/render/glass_slow_test.cpp has the rasteriser's.
+/// Coverings of glass, by paths; tests/engine/render/glass_slow_test.cpp has the rasteriser's.
 
 #include <cmath>
 #include <cstdint>
@@ -68,7 +68,7 @@ TEST_CASE("what lies behind thin frost is seen through it by Beer's law, and sha
     // Feathers let through more than an even layer of their mass would.
     CHECK(clear >= even);
     CHECK(clear <= even + 0.2);
-    // On a second sheet behind it, thick, as much of the sun falls as is let through, and what is scattered on the way.
+    // A second sheet behind it, thick, gets the transmitted sunlight and the light scattered on the path.
     auto sun = *even_sky(0.0f);
     sun.light_direction = glm::vec3(-1.0f, 0.0f, 0.0f);
     sun.light_irradiance = glm::vec3(1.0f);
@@ -99,8 +99,8 @@ TEST_CASE("a star's cracks mirror the sky within the blow's reach, and beyond it
     }
   CHECK(beyond == 0);
   CHECK(changed > 40);
-  CHECK(mean_of(cracked).radiance.x <=
-        mean_of(clear).radiance.x * 1.0001);  // Under an even sky nothing gives more than it gets.
+  // Under an even sky nothing gives more than it gets.
+  CHECK(mean_of(cracked).radiance.x <= mean_of(clear).radiance.x * 1.0001);
   CHECK(mean_of(cracked).radiance.x > 0.97);
 }
 

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::raytrace {
@@ -33,7 +33,7 @@ const glm::vec3 place_m(0.5f, 0.3f, 0.1f), way_m(1.0f, 0.2f, 0.0f);
 float strength(const instant::Headlight& light) {
   const glm::vec3 way = place_m - glm::vec3(light.position_m - origin_m) - half_open * way_m;
   const float square = glm::dot(way, way);
-  return light.intensity * instant::beam::share(light.direction, way / std::sqrt(square), light.main_beam) /
+  return light.intensity * light::beam_share(light.direction, way / std::sqrt(square), light.main_beam, 1.0f) /
          (square + 1.0f);
 }
 

@@ -1,4 +1,4 @@
-// Light of lamps, sky and sun through the whole tracer, and what rough surfaces make of it, against closed forms.
+// Light of lamps, sky and sun through the whole tracer, and its reflection by rough surfaces, against closed forms.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -37,7 +37,7 @@ std::array<glm::vec3, 4> wall(float x, float half_m) {
   return {glm::vec3(x, -half_m, -half_m), {x, -half_m, half_m}, {x, half_m, half_m}, {x, half_m, -half_m}};
 }
 
-/// A needle's view of one point of it, along a way in the plane of x and y.
+/// A needle's view of one point of it, along a path in the plane of x and y.
 instant::Instant needle(const Vec3& at_m, double aside_rad, std::shared_ptr<const instant::SkyLight> light) {
   const Vec3 eye_m = at_m - 4.0 * Vec3(std::cos(aside_rad), std::sin(aside_rad), 0.0);
   instant::Instant instant = instant_from(eye_m, 1e-4, 8, std::move(light));
@@ -66,7 +66,8 @@ TEST_CASE("a lamp lights a wall by the rectangle's form factor however rough the
   scene::ResolvedScene scene;
   add_part(scene, wall(5.0f, 3.0f), white);
   scene.instances.push_back({.mesh = 1});
-  // It faces the wall at a distance of 1 m: beside the way of the eye, and so far aside that light comes and goes at 80°.
+  // It faces the wall at a distance of 1 m: beside the way of the eye, and so far aside that light comes and goes at
+  // 80°.
   for (const float y0 : {0.2f, 5.5f}) {
     const float y1 = y0 + 1.3f, z0 = -0.5f, z1 = 0.8f;
     scene.meshes.resize(1);

@@ -38,7 +38,7 @@ Compared compared(const scene::ResolvedScene& scene, const TraceSettings& settin
   return result;
 }
 
-/// What a path meets on its way differs where rounding takes it past an edge.
+/// A path may hit other surfaces where rounding takes it past an edge.
 void check_same(const scene::ResolvedScene& scene, const TraceSettings& settings) {
   const Compared result = compared(scene, settings);
   CHECK(result.share_same > 0.97);

@@ -72,15 +72,15 @@ TEST_CASE("an edge that moves while the shutter is open is a linear ramp as long
   later.parts = {sheet};
   const TraceSettings settings{.samples = 64, .filter = Filter::box};
   CHECK(off_ramp(traced_until(scene, instant, later, settings), 0.5 * side_px, 0.5 * side_px + 1.5 * px_of_m) < 0.03);
-  // Somebody else's sheet, or nobody's, does not show which way it went: the edge is sharp.
+  // The sheet of another participant, or of none, has no known motion: its edge is sharp.
   later.parts.front().number = 6;
   const double sharp = 0.5 * side_px;
   CHECK(off_ramp(traced_until(scene, instant, later, settings), sharp - 1e-3, sharp + 1e-3) < 0.03);
-  // A camera that moves to the left smears what stands.
+  // A camera that moves to the left blurs standing objects.
   instant::Instant from_left = instant;
   from_left.views.front().projection.eye_m.y += 1.0;
   CHECK(off_ramp(traced_until(scene, instant, from_left, settings), sharp, sharp + px_of_m) < 0.03);
-  // Shutter or not, what does not move is as sharp, and has the same light.
+  // With or without a shutter, still objects are as sharp, and have the same light.
   CHECK(off_ramp(traced_until(scene, instant, instant, settings), sharp - 1e-3, sharp + 1e-3) < 0.03);
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("a pixel's motion is the way of what it shows in the picture by the ca
   };
   constexpr std::uint32_t on_sheet = 10, in_sky = 30;
   const double px_of_slope = px_of_m * distance_m;
-  // The camera moves to the left and up: what stands goes to the right and down, the sky nowhere.
+  // The camera moves to the left and up: standing objects go to the right and down, the sky stays.
   instant::Instant later = instant;
   later.views.front().projection.eye_m += Vec3(0.0, 1.0, 0.5);
   CHECK(motion(later, on_sheet).x == relative(px_of_m, 1e-4));
@@ -126,7 +126,7 @@ TEST_CASE("a pixel's motion is the way of what it shows in the picture by the ca
   // It is behind the camera then.
   later.parts.front().origin_m.x = -9.0;
   CHECK(motion(later, on_sheet) == glm::vec2(0.0f));
-  // Nothing is smeared for it.
+  // It is not blurred.
   later = instant;
   later.views.front().projection.eye_m.y += 1.0;
   const double sharp = 0.5 * side_px;
@@ -190,7 +190,7 @@ TEST_CASE("debris that turns over while the shutter is open has the normals of i
       to{{{1, 3, -2}, {-2, -3, -1}, {2.5, 0, 4}}};
   instant.loose = {loose(from)};
   later.loose = {loose(to)};
-  // It is also carried along; told from there.
+  // It is also carried along; measured from there.
   later.loose.front().mesh.origin_m = {0.0, 0.0, 1.0};
   for (scene::SurfaceVertex& vertex : later.loose.front().mesh.vertices) vertex.position_m.z -= 1.0f;
   const TracedPicture picture = traced_until(scene, instant, later, {.samples = 512});

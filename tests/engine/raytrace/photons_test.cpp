@@ -11,6 +11,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/light/fresnel.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 #include "tests/relative.hpp"
 
@@ -84,13 +85,14 @@ instant::Instant under_sun(const Vec3& eye_m, double angle_rad, std::uint32_t si
   return instant;
 }
 
-/// Share of a parallel beam on a ball's disc that comes out of it again: along each chord R + T² a / (1 − R a).
+/// Share of a parallel beam on a ball's disc that leaves it again: along each chord R + T² a / (1 − R a).
 double let_through(float index, double absorption_per_m, double radius_m) {
   constexpr int rings = 4000;
   double sum = 0.0;
   for (int n = 0; n < rings; ++n) {
     const double square = (n + 0.5) / rings;  // Rings of one area.
-    const double reflected = fresnel(static_cast<float>(std::sqrt(1.0 - square)), index);
+    const double reflected =
+        light::fresnel(static_cast<float>(std::sqrt(1.0 - square)), static_cast<float>(1.0 / index));
     const double clear = std::exp(-absorption_per_m * radius_m * 2.0 * std::sqrt(1.0 - square / (index * index)));
     sum += reflected + (1.0 - reflected) * (1.0 - reflected) * clear / (1.0 - reflected * clear);
   }
@@ -114,7 +116,8 @@ TEST_CASE("photons carry what their lamp gives into a closed box, and what its w
     double sum = 0.0;
     for (const Photon& photon : all_photons(*tracer)) sum += double(photon.power.x);
     const double power = std::numbers::pi * 7.0 * 4.0 * double(lamp_m) * double(lamp_m);
-    // Photons have two edges fewer than the whole path. What falls on the lamp's black back is lost: a share of 0.03 a time at most.
+    // Photons have two edges fewer than the whole path. Light on the lamp's black back is lost: a share of 0.03 a time
+    // at most.
     double known = 0.0;
     for (std::uint32_t edge = 0; edge < longest - 2; ++edge) known += power * std::pow(0.5, edge);
     CAPTURE(longest);
@@ -154,7 +157,7 @@ TEST_CASE("a plane under a bare lamp has by its photons the light of the rectang
       const double off = found / known - 1.0;
       CAPTURE(x);
       CAPTURE(y);
-      // Of so many photons: 1/√n, and what the light curves over the disc.
+      // For this many photons: 1/√n, and the curvature of the light over the disc.
       CHECK(std::abs(off) < 4.0 / std::sqrt(nearest - 1.0) + 0.01);
       squares += off * off, sum_known += known, sum_found += found, ++places;
     }
@@ -182,7 +185,7 @@ TEST_CASE("a ball of glass sends on what it lets through, and where two stand in
   const double beam = std::numbers::pi * 0.25 * 30000.0 / (double(away_m) * double(away_m));
   const double one = energy({ball_of(1.5f, 0.4f, 0.5f, {0.0, 0.0, 0.0})});
   CHECK(one / (beam * let_through(1.5f, 0.4, 0.5)) == relative(1.0, 0.01));
-  // One in the other's shadow, clear: all that falls on the first goes on, through both.
+  // One in the other's shadow, clear: all light on the first passes through both.
   const double both = energy({ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, 0.0}), ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, -1.5})});
   CHECK(both / beam == relative(1.0, 0.015));
 }
@@ -195,7 +198,7 @@ TEST_CASE("under a ball of glass the sun makes a bright spot in a shadow, with t
   const auto instant = under_sun({0.0, 0.0, 40.0}, 2.0 * std::atan(0.5 * side_m / 41.2), side_px, 3.0f);
   TraceSettings settings{.samples = 16, .paths = {.longest = 6}, .filter = Filter::box};
   const TracedPicture open = traced(scene, instant, settings);
-  // It hides a part of its own spot: that is seen through it.
+  // It covers a part of its own spot: that part is visible through it.
   const std::vector<ClearBody> glass{ball_of(1.5f, 0.0f, 1.0f, {0.0, 0.0, 0.0})};
   const TracedPicture without = traced(scene, instant, settings, glass);
   settings.photons.caustic = 30000;
@@ -207,7 +210,8 @@ TEST_CASE("under a ball of glass the sun makes a bright spot in a shadow, with t
   for (const TracedPixel& pixel : with.pixels) brightest = std::max(brightest, pixel.radiance.x);
   CHECK(brightest > 5.0 * open_floor);
   CHECK(with.bad_samples == 0);
-  // What comes down, by the light of the floor's places: through two surfaces each, so the shadow's light is nearly there again.
+  // Light from above, by the light of the floor's places: through two surfaces each, so the shadow's light is nearly
+  // there again.
   auto tracer = RayTracer::create(scene);
   REQUIRE(tracer.has_value());
   tracer->begin(instant, settings, glass);

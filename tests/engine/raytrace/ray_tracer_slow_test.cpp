@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/light/fresnel.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 #include "tests/relative.hpp"
 
@@ -15,7 +16,8 @@ TEST_CASE("the Cornell box has the light that other renderers find in it") {
   const glm::dvec3 known(0.2339, 0.1402, 0.0599);
   MESSAGE("means ", mean.radiance.x, " ", mean.radiance.y, " ", mean.radiance.z, ", sigma ", mean.sigma);
   CHECK(picture.bad_samples == 0);
-  // Sigma is that of the luminance; a channel's is about as large for its size. The known figures end with their fourth digit.
+  // Sigma is that of the luminance; a channel's is about as large for its size. The known figures end with their fourth
+  // digit.
   const double luminance_mean = glm::dot(known, glm::dvec3(0.2126, 0.7152, 0.0722));
   for (int c = 0; c < 3; ++c) {
     CAPTURE(c);
@@ -61,7 +63,7 @@ TEST_CASE("a picture that is told its error has it and tells it") {
   const TracedPicture a = traced(cornell_box(), instant, settings);
   settings.seed = 2;
   const TracedPicture b = traced(cornell_box(), instant, settings);
-  // What it would have with many more samples.
+  // Its value with many more samples.
   const TracedPicture reference = traced(cornell_box(), instant, cornell_settings(1024, 3));
   double told = 0.0, found = 0.0, against_reference = 0.0, samples = 0.0, most = 0.0;
   for (std::size_t n = 0; n < a.pixels.size(); ++n) {
@@ -95,7 +97,7 @@ TEST_CASE("a white ball under an even sky cannot be told from the sky") {
   const glm::dvec3 mean = mean_of(picture).radiance;
   MESSAGE("the furnace is off by ", mean.x / 2.0 - 1.0);
   CHECK(std::abs(mean.x / 2.0 - 1.0) < 1e-3);
-  // Under a layer that reflects, light is only ever lost.
+  // Under a reflecting layer light is only lost.
   white.roughness = 0.3f;
   const double layered = mean_of(traced(ball_scene(white), instant, {.samples = 64})).radiance.x;
   CHECK(layered < 2.001);
@@ -122,7 +124,8 @@ TEST_CASE("within a ball that shines and reflects the light is the sum of a geom
 }
 
 TEST_CASE("through a ball of ice under an even sky goes what Fresnel and Beer and Lambert let through") {
-  // Along a chord: R + T² a (1 + R a + …), a = exp(−σ c), where each inner reflection meets the surface at the same angle.
+  // Along a chord: R + T² a (1 + R a + …), a = exp(−σ c), where each inner reflection meets the surface at the same
+  // angle.
   const float index = 1.31f, absorption_per_m = 0.4f;
   ClearBody ice{.index = index, .absorption_per_m = glm::vec3(absorption_per_m)};
   const scene::SurfaceMesh shape = ball(6);
@@ -144,7 +147,8 @@ TEST_CASE("through a ball of ice under an even sky goes what Fresnel and Beer an
         const double square = across * across + down * down;
         double light = 1.0;
         if (square < 1.0) {
-          const double reflected = fresnel(static_cast<float>(std::sqrt(1.0 - square)), index);
+          const double reflected =
+              light::fresnel(static_cast<float>(std::sqrt(1.0 - square)), static_cast<float>(1.0 / index));
           const double clear = std::exp(-absorption_per_m * 2.0 * std::sqrt(1.0 - square / (index * index)));
           light = reflected + (1.0 - reflected) * (1.0 - reflected) * clear / (1.0 - reflected * clear);
         }

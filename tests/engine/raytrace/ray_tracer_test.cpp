@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 #include "tests/relative.hpp"
 
@@ -89,7 +89,7 @@ TEST_CASE("a sample is the same bit for bit whichever samples beside it are aske
 TEST_CASE("a mirrored view is the view with left and right exchanged") {
   const scene::ResolvedScene box = cornell_box();
   instant::Instant plain = before_cornell_box(24), mirrored = plain;
-  // Nothing but what is seen first counts, and it is the same for every sample of a pixel's middle.
+  // Only the first surface counts, and it is the same for every sample of a pixel's middle.
   plain.views[0].projection.left_slope *= 1.3;
   mirrored.views[0].projection.left_slope *= 1.3;
   mirrored.views[0].mirrored = true;
@@ -172,7 +172,7 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   for (scene::MeshPart& part : scene.meshes[1].parts) part.material = 1;
   scene.instances.push_back(scene.instances[0]);
   scene.instances[1].mesh = 1;
-  // Where one is seen three quarters of the way through the band.
+  // At three quarters of the band.
   const double eye_m = 8.0;
   scene.instances[0].visible_to_m = scene.instances[1].visible_from_m =
       static_cast<float>(eye_m) / (1.0f + 0.5f * instant::fade_half_band);
@@ -186,6 +186,27 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   CHECK(share == relative(0.25, 0.05));
   CHECK(nearer == relative(share, 0.05));
   CHECK(further == relative(share + 3.0 * (1.0 - share), 0.02));
+}
+
+TEST_CASE("soot takes the same share of the light of a matt surface, a mirror, lacquer and a lamp") {
+  scene::SurfaceMaterial matt, mirror, lacquer, lamp;
+  matt.base_color = glm::vec3(0.8f);
+  mirror.metallic = 1.0f, mirror.roughness = 0.3f;
+  lacquer.base_color = glm::vec3(0.0f), lacquer.clear_coat = 1.0f;
+  lamp.base_color = glm::vec3(0.0f), lamp.emission = glm::vec3(2.0f);
+  for (const scene::SurfaceMaterial& material : {matt, mirror, lacquer, lamp}) {
+    const scene::ResolvedScene scene = ball_scene(material, 2);
+    instant::Instant instant = instant_from({-4.0, 0.0, 0.0}, 0.2, 16, even_sky(0.25f));
+    const double clean = mean_of(traced(scene, instant, {.samples = 32})).radiance.g;
+    instant.soot.world_from_field.position_m = Vec3(-2.0);
+    instant.soot.nx = instant.soot.ny = instant.soot.nz = 4;
+    instant.soot.cover.assign(64, 102);
+    const double sooty = mean_of(traced(scene, instant, {.samples = 32})).radiance.g;
+    CAPTURE(material.metallic);
+    CAPTURE(material.clear_coat);
+    CHECK(clean > 1e-3);
+    CHECK(sooty / clean == relative(0.6, 0.02));
+  }
 }
 
 TEST_CASE("a part is seen where the mesh is that stands in for its own, and is what it was") {
@@ -239,13 +260,13 @@ TEST_CASE("a point that is out of focus is a disc as wide as its circle of confu
     const double ball_px = ball_m / distance_m * px_of_slope, pixel_moment = 1.0 / 6.0;
     const double expected = 0.5 * (confusion_px * confusion_px + ball_px * ball_px) + pixel_moment;
     CHECK(moment / light == relative(expected, 0.06));
-    // Whatever the focus, as much light comes.
+    // Total light is independent of the focus.
     CHECK(light == relative(pi * ball_px * ball_px, 0.06));
   }
 }
 
 TEST_CASE("what the sun gives and what the sky gives add up whichever is looked at") {
-  // Which kind of light is looked at is a matter of chance; what is found is not.
+  // The kind of light sampled is random; the result is not.
   scene::SurfaceMaterial white;
   white.base_color = glm::vec3(0.5f);
   white.roughness = 1.0f;
@@ -289,8 +310,8 @@ TEST_CASE("a dipped beam lights a wall as its table says in every direction") {
     const glm::vec3 ray(glm::dvec3(std::cos(down_rad) * std::cos(aside_rad), std::cos(down_rad) * std::sin(aside_rad),
                                    -std::sin(down_rad)));
     const double square = 400.0 / (ray.x * ray.x);
-    return 0.5 / std::numbers::pi * intensity * instant::beam::share({1.0f, 0.0f, 0.0f}, ray) *
-           instant::beam::facing(ray.x) / (square + 1.0);
+    return 0.5 / std::numbers::pi * intensity * light::dipped_share({1.0f, 0.0f, 0.0f}, ray, 1.0f) *
+           light::beam_facing(ray.x) / (square + 1.0);
   };
   const double degree = std::numbers::pi / 180.0;
   for (const auto& way : {std::pair{1.7, 0.0}, {4.0, 0.0}, {-4.0, 0.0}, {1.7, 9.0}, {1.7, 20.0}}) {

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/light/fresnel.hpp"
+#include "engine/light/microfacets.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::raytrace {
@@ -28,11 +30,12 @@ glm::vec3 viewer(float degrees) { return from_angles(std::cos(degrees * pi / 180
 TEST_CASE("microfacets cover their surface exactly and seen from anywhere fill its projection") {
   for (const float alpha : {0.15f, 0.3f, 0.7f}) {
     CAPTURE(alpha);
-    CHECK(over_hemisphere([&](const glm::vec3& h) { return ggx_density(h.z, alpha) * h.z; }) == relative(1.0, 2e-3));
+    CHECK(over_hemisphere([&](const glm::vec3& h) { return light::ggx_density(h.z, alpha) * h.z; }) ==
+          relative(1.0, 2e-3));
     for (const float degrees : {5.0f, 40.0f, 75.0f}) {
       const glm::vec3 v = viewer(degrees);
       const double seen = over_hemisphere([&](const glm::vec3& h) {
-        return std::max(0.0f, glm::dot(v, h)) * ggx_density(h.z, alpha) / (1.0f + smith_lambda(v, alpha));
+        return std::max(0.0f, glm::dot(v, h)) * light::ggx_density(h.z, alpha) / (1.0f + smith_lambda(v, alpha));
       });
       CHECK(seen == relative(v.z, 3e-3));
     }
@@ -74,12 +77,12 @@ TEST_CASE("directions are drawn with the density that they say and weighed with 
 }
 
 TEST_CASE("an interface reflects as Fresnel says head-on and at Brewster's angle and beyond the critical one") {
-  CHECK(fresnel(1.0f, 1.5f) == relative(0.04, 1e-5));
-  CHECK(fresnel(1.0f, 1.31f) == relative(0.01801, 1e-3));
+  CHECK(light::fresnel(1.0f, 1.0f / 1.5f) == relative(0.04, 1e-5));
+  CHECK(light::fresnel(1.0f, 1.0f / 1.31f) == relative(0.01801, 1e-3));
   // There only light polarised across the plane is reflected: half of ((n² − 1)/(n² + 1))².
   const float brewster = std::cos(std::atan(1.5f));
-  CHECK(fresnel(brewster, 1.5f) == relative(0.5 * std::pow(1.25 / 3.25, 2), 1e-4));
-  CHECK(fresnel(0.5f, 1.0f / 1.31f) == 1.0f);  // 60° from within ice; the critical angle is 49.8°.
+  CHECK(light::fresnel(brewster, 1.0f / 1.5f) == relative(0.5 * std::pow(1.25 / 3.25, 2), 1e-4));
+  CHECK(light::fresnel(0.5f, 1.31f) == 1.0f);  // 60° from within ice; the critical angle is 49.8°.
 }
 
 TEST_CASE("numbers of a path depend on seed and pixel and sample and are spread evenly") {

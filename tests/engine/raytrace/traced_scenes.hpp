@@ -1,5 +1,5 @@
 #pragma once
-/// Scenes whose light is known: the Cornell box, balls under an even sky, and what the tests of the ray tracer share.
+/// Scenes with a known solution: the Cornell box, balls under an even sky, and shared parts of the ray tracer's tests.
 
 #include <array>
 #include <map>
@@ -52,7 +52,8 @@ inline scene::ResolvedScene ball_scene(const scene::SurfaceMaterial& material, i
   return scene;
 }
 
-/// The same to the eye, with a white image on what is lit: no surface is a matt colour alone, and each path goes by itself.
+/// The same to the eye, with a white image on lit surfaces: no surface is a plain matt colour, and each path is traced
+/// by itself.
 inline scene::ResolvedScene each_alone(scene::ResolvedScene scene) {
   for (scene::SurfaceMaterial& material : scene.materials)
     if (material.emission == glm::vec3(0.0f))
@@ -61,7 +62,7 @@ inline scene::ResolvedScene each_alone(scene::ResolvedScene scene) {
   return scene;
 }
 
-/// As large as the first view, on all cores, with the photons that the settings ask for.
+/// Picture as large as the first view, on all cores, with the photons of the settings.
 inline TracedPicture traced(const scene::ResolvedScene& scene, const instant::Instant& instant,
                             const TraceSettings& settings, std::vector<ClearBody> bodies = {}) {
   auto tracer = RayTracer::create(scene);
@@ -74,7 +75,7 @@ inline TracedPicture traced(const scene::ResolvedScene& scene, const instant::In
 
 struct PictureMean {
   glm::dvec3 radiance{0.0};
-  double sigma = 0.0;  ///< Of the mean's luminance.
+  double sigma = 0.0;  ///< Deviation of the mean's luminance.
 };
 inline PictureMean mean_of(const TracedPicture& picture) {
   PictureMean mean;

@@ -1,4 +1,4 @@
-/// Which sides of a surface are seen: the twin of tests/engine/render/two_sided_slow_test.cpp.
+/// Visible sides of a surface: the counterpart of tests/engine/render/two_sided_slow_test.cpp.
 
 #include <doctest/doctest.h>
 

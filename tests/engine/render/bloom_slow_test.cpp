@@ -1,4 +1,4 @@
-/// Light around what is bright. Software device, validation layer on.
+/// Light around bright pixels. Software device, validation layer on.
 
 #include <cstdint>
 #include <string>
@@ -35,7 +35,7 @@ RadianceImage lit_square(Bloom bloom, Antialiasing antialiasing) {
   REQUIRE(
       renderer.upload(lone_mesh(glowing_material(), square, {world_eye(input.views[0]) + Vec3(4, 0, 0), {1, 0, 0, 0}}))
           .has_value());
-  // Twice: the second frame finds what the first one left.
+  // Twice: the second frame finds the first one's remains.
   REQUIRE(renderer.draw(input).has_value());
   REQUIRE(renderer.draw(input).has_value());
   CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);

@@ -1,4 +1,5 @@
-/// What a clear coat does to a surface, in pictures of a level board under clouds. Software device, validation layer on.
+/// Effect of a clear coat on a surface, in pictures of a level board under clouds. Software device, validation layer
+/// on.
 
 #include <cmath>
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t side_px = 32;
 
-/// Radiance in the middle of a board that is seen `down_rad` below the level.
+/// Radiance in the middle of a board, viewed at `down_rad` below the level.
 struct Board {
   Renderer renderer =
       *Renderer::create({side_px, side_px, DevicePreference::software, true, Antialiasing::none, nullptr});

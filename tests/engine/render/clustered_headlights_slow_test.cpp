@@ -1,4 +1,4 @@
-/// What headlights light, by how many of them do, measured in pictures. Software device, validation layer on.
+/// Light of headlights for each method of lighting, measured in pictures. Software device, validation layer on.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,8 @@ scene::ResolvedScene bare_ground() {
   return lone_mesh(material, mesh, {Vec3(0.0), {1, 0, 0, 0}});
 }
 
-/// So many cars side by side, ten metres apart, their beams along x, seen at night from 60 m above the middle of what they light.
+/// This many cars side by side, ten metres apart, their beams along x, seen at night from 60 m above the middle of the
+/// lit area.
 RadianceImage light_of(Headlights headlights, int cars) {
   Renderer renderer = *Renderer::create({.width = lit_side_px,
                                          .height = lit_side_px,
@@ -56,7 +57,7 @@ RadianceImage light_of(Headlights headlights, int cars) {
                                night.sun_illuminance_lux = 0.0;
                                return night;
                              }())));
-  // Nights are shown so much brighter than they are (instant.cpp: seen_headlights).
+  // Nights are displayed this much brighter than real (instant.cpp: seen_headlights).
   const float bright = instant::beam::pair_intensity * instant::most_light_up;
   for (int i = 0; i < cars; ++i)
     instant.headlights.push_back({Vec3(-30.0, 10.0 * (i - 0.5 * (cars - 1)), 0.65), {1, 0, 0}, bright});
@@ -95,7 +96,7 @@ TEST_CASE(
     "dark") {
   const RadianceImage nearest = light_of(Headlights::nearest, 12), clustered = light_of(Headlights::clustered, 12);
   const RadianceImage dark = light_of(Headlights::nearest, 0);
-  // Row by row downwards x falls, from left to right y does: what the beams throw 25 m ahead of their cars.
+  // Row by row downwards x falls, from left to right y does: the beams' light 25 m ahead of their cars.
   const auto at = [&dark](const RadianceImage& image, double x_m, double y_m) {
     const auto pixel = [](double metres) {
       return static_cast<std::uint32_t>(std::lround(0.5 * lit_side_px * (1.0 - metres / (60.0 * std::tan(1.0)))));

@@ -1,4 +1,4 @@
-/// What a drawn frame shows, read back from its pixels. Software device, validation layer on.
+/// Content of a drawn frame, read back from its pixels. Software device, validation layer on.
 
 #include <cmath>
 #include <functional>
@@ -160,7 +160,7 @@ TEST_CASE("a near headlamp dazzles with its lens and not with a disc a metre wid
     CAPTURE(distance_m);
     CAPTURE(white_m2);
     CHECK(brightest > 150.0);
-    if (distance_m < 10.0) CHECK(white_m2 < 0.35);  // Two lenses and what is white around them.
+    if (distance_m < 10.0) CHECK(white_m2 < 0.35);  // Two lenses and the white around them.
   }
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("a line of text stands in its box and is gone with the next frame") {
 TEST_CASE("only what has a new revision is uploaded again") {
   Studio studio;
   const image::Image before = studio.draw();
-  // A changed image with its old revision is not looked at; with a new one it shows.
+  // A changed image with its old revision is ignored; with a new one it shows.
   for (std::uint8_t& code : studio.reference.scene.images[0].rgba) code = 255;
   studio.reference.scene.revision = 2;
   REQUIRE(studio.renderer.upload(studio.reference.scene).has_value());

@@ -1,5 +1,5 @@
 #pragma once
-/// A bar that glows, drawn across the edge of two screens, and where its pixels say that it meets the edge.
+/// A glowing bar, drawn across the edge of two screens, and its height at the edge, from the pixels.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace septet::render {
 
-/// Brighter than all else at night, so that its pixels are told from everything else.
+/// Brighter than everything else at night, so that its pixels are unambiguous.
 inline scene::SurfaceMaterial glowing_material() {
   scene::SurfaceMaterial glowing;
   glowing.revision = 1;

@@ -1,4 +1,4 @@
-/// Shadows on what the sun's light grazes, measured in a picture. Software device, validation layer on.
+/// Shadows on surfaces grazed by the sun's light, measured in a picture. Software device, validation layer on.
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,8 @@ TEST_CASE("where the sun grazes the foot of a straight barrier its shadow has an
   CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
   image::write_png(build_folder() + "/images/grazing_light.png", *renderer.read_back());
   const RadianceImage light = *renderer.read_radiance();
-  // A row of pixels lies along the barrier: whatever differs along it is the shadow map's doing. The wall ends at row 30, the foot at 110.
+  // A row of pixels lies along the barrier: differences along it come from the shadow map. The wall ends at row 30, the
+  // foot at 110.
   float brightest = 0.0f, darkest = 1e9f, largest_deviation = 0.0f;
   for (std::uint32_t row = 30; row < 110; ++row) {
     float mean = 0.0f, squares = 0.0f;

@@ -1,4 +1,4 @@
-/// What ties a vehicle to its road where no sun throws its shadow. Software device, validation layer on.
+/// Contact of a vehicle with its road without sun shadows. Software device, validation layer on.
 
 #include <cstdint>
 #include <string>
@@ -17,7 +17,8 @@ constexpr std::uint32_t contact_width = 320, contact_height = 200;
 
 float luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
-/// The light beside and below a car that stands 10 m ahead, as a share of that of the empty road: means over 12 × 3 pixels.
+/// The light beside and below a car that stands 10 m ahead, as a share of that of the empty road: means over 12 × 3
+/// pixels.
 struct Ground {
   float below = 0.0f;   ///< Between its rear wheels.
   float beside = 0.0f;  ///< 0.8 m to its right.
@@ -77,7 +78,7 @@ TEST_CASE(
   CHECK(closed.below < 0.5f);
   CHECK(closed.beside > 0.7f);
   CHECK(closed.beside < 0.97f);
-  // Beside it the sun's light arrives as ever.
+  // Beside it the sun's light arrives as before.
   const Ground sunny = ground(renderer, reference, reference_day());
   CAPTURE(sunny.beside);
   CHECK(sunny.beside > 0.93f);

@@ -1,4 +1,5 @@
-/// The dipped and the main beam as they are drawn, in candela and in candela per square metre. Software device, validation layer on.
+/// The dipped and the main beam as they are drawn, in candela and in candela per square metre. Software device,
+/// validation layer on.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ namespace {
 constexpr std::uint32_t side_px = 32;
 constexpr double degree_rad = std::numbers::pi / 180.0;
 
-/// One square of one material, that a pair of headlights lights by night.
+/// One square of one material, lit by a pair of headlights at night.
 struct Lit {
   Renderer renderer =
       *Renderer::create({side_px, side_px, DevicePreference::software, true, Antialiasing::none, nullptr});
@@ -65,7 +66,7 @@ scene::SurfaceMaterial matt(float grey, float retroreflection = 0.0f) {
   return material;
 }
 
-/// A white wall at 25 m, on which what each of two lamps gives in a direction is read, cd.
+/// A white wall at 25 m, for reading each of two lamps' intensity in a direction, cd.
 struct Screen25m {
   const Vec3 eye_m{0.0, 0.0, 1.2};
   Lit wall{matt(0.5f), {25.0f, 0.0f, 1.2f}, {0, -9, 0}, {0, 0, 9}};
@@ -131,7 +132,7 @@ TEST_CASE(
       CHECK(drawn >= point.least);
       CHECK(drawn < ahead);
     }
-  // It lights what hangs over the road, and not the sky.
+  // It lights objects over the road, and not the sky.
   CHECK(main_beam(-1.0, 0.0) > 0.5 * ahead);
   CHECK(main_beam(-6.0, 0.0) < 0.03 * ahead);
 }

@@ -172,7 +172,7 @@ TEST_CASE("in quality mode cracks bend what is seen, absorption takes red before
   behind.origin_m = {3.2, 0.0, 0.0};
   blue.look.seen_beyond = true;
   const RadianceImage both = light_of({behind, blue}), either = light_of({blue, behind});
-  // Two metres of ice, in whatever order they come.
+  // Two metres of ice, in any order.
   const glm::vec3 share = both.at(width / 2, height / 2) / through;
   CHECK(share.r == relative(std::exp(-4.0), 0.15));
   CHECK(share.g == relative(std::exp(-2.0), 0.15));

@@ -1,4 +1,4 @@
-/// What ice mirrors where ice lies in several places, and thin ice over a road. Software device, validation layer on.
+/// Reflections of ice in several places, and thin ice over a road. Software device, validation layer on.
 
 #include <algorithm>
 #include <cmath>

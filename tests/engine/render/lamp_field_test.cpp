@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/light/lamplight.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/relative.hpp"
 
@@ -37,6 +38,11 @@ scene::ResolvedScene hanging_lens(float up_or_down) {
     lens.vertices.push_back({{corner.x, -up_or_down * corner.y, 6.0f}, {0, 0, -up_or_down}, {}});
   lens.indices = {0, 1, 2, 0, 2, 3};
   return instant::lone_mesh(material, lens, {Vec3(100, 50, 20), {1, 0, 0, 0}});
+}
+
+/// On a surface of that normal at a texel's place.
+float lamplight(const glm::vec4& there, const glm::vec3& normal) {
+  return light::lamplight(glm::vec3(there), light::from_all_sides(there), normal);
 }
 
 }  // namespace

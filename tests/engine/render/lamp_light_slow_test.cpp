@@ -1,4 +1,5 @@
-/// How much light of a lamp arrives in a picture, by distance and by way of a wet road, and how much the air takes of it. Software device, validation layer on.
+/// How much light of a lamp arrives in a picture, by distance and over a wet road, and its loss in the air. Software
+/// device, validation layer on.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
@@ -100,7 +101,7 @@ TEST_CASE(
     by_square.push_back(more(lit, dark).r * ahead_m * ahead_m);
     float brightest = 0.0f;
     for (const glm::vec3& pixel : lit.radiance) brightest = std::max(brightest, pixel.r);
-    CHECK(instant::display_code(glm::vec3(brightest * instant.exposure.scale())).r > 0.78f);
+    CHECK(light::display_code(glm::vec3(brightest * instant.exposure.scale())).r > 0.78f);
   }
   for (const double each : by_square) {
     CAPTURE(each);
@@ -144,7 +145,7 @@ TEST_CASE("haze in a tunnel is lit by its lamps and not by the sky, and beyond i
     return drawn(renderer, instant).at(side_px / 2, side_px / 2) / (1.0f - std::exp(-1.0f));
   };
   const glm::vec3 within = haze(0.0f), before = haze(1.0f);
-  CHECK(glm::distance(within, instant::roofed_haze) < 0.01f * glm::length(instant::roofed_haze));
+  CHECK(glm::distance(within, light::roofed_haze) < 0.01f * glm::length(light::roofed_haze));
   CHECK(within.r > 1.3f * within.b);
   CHECK(glm::distance(before, instant::sky_radiance(*instant.light, {0.9998f, 0.0f, 0.02f})) < 0.02f);
 }

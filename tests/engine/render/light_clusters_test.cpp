@@ -16,7 +16,7 @@
 namespace septet::render {
 namespace {
 
-/// The lights that a place relative to the eye asks, by their intensities: told apart by them here.
+/// Lights of a place relative to the eye, distinguished by their intensities.
 std::vector<float> asked_at(const LightClusters& clusters, const glm::vec3& place_m) {
   const float half = 0.5f * LightClusters::side;
   const auto x = static_cast<std::uint32_t>(std::floor(place_m.x / LightClusters::square_m + half)),
@@ -54,7 +54,7 @@ TEST_CASE("whatever lights a place as much as can be seen is on its square's lis
       const glm::vec3 way = place_m - glm::vec3(light.position_m - eye_m);
       const float square = glm::dot(way, way);
       const float arriving = light.intensity *
-                             instant::beam::share(light.direction, way / std::sqrt(square), light.main_beam) /
+                             light::beam_share(light.direction, way / std::sqrt(square), light.main_beam, 1.0f) /
                              (square + 1.0f);
       if (arriving < LightClusters::least_irradiance) continue;
       ++seen;

@@ -1,4 +1,4 @@
-/// What a frame's passes take by the device's clock, where frames are timed. Software device, validation layer on.
+/// Times of a frame's passes by the device's clock, if frames are timed. Software device, validation layer on.
 
 #include <algorithm>
 #include <string_view>

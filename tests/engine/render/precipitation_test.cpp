@@ -9,7 +9,7 @@
 namespace septet::render {
 namespace {
 
-/// What a driver who looks straight ahead out of a car that drives along x sees of it.
+/// Precipitation as seen by a driver who looks straight ahead out of a car that drives along x.
 std::vector<StreakRecord> seen(double rain_mm_per_h, double car_mps, float share_of_sky = 1.0f) {
   static const auto light = std::make_shared<const SkyLight>();
   Instant instant;

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
@@ -43,7 +43,8 @@ FrameInput forward(double elevation_rad) {
   return input;
 }
 
-/// A wall, 800 m wide and high, of squares as large as those of distant land. It glows with `emission` and reflects nothing.
+/// A wall, 800 m wide and high, of squares as large as those of distant land. It glows with `emission` and reflects
+/// nothing.
 void upload_wall(Renderer& renderer, float emission, double away_m) {
   static std::uint64_t revision = 1;
   scene::SurfaceMaterial material = glowing_material();
@@ -86,7 +87,7 @@ TEST_CASE("the picture is the radiance after exposure and the tone curve at ever
     const auto [picture, light, exposure] = shown(renderer, input);
     int most = 0;
     for (std::size_t i = 0; i < light.radiance.size(); ++i) {
-      const glm::vec3 code = 255.0f * display_code(exposure * light.radiance[i]);
+      const glm::vec3 code = 255.0f * light::display_code(exposure * light.radiance[i]);
       for (int c = 0; c < 3; ++c)
         most = std::max(
             most, std::abs(static_cast<int>(std::lround(code[c])) - picture.rgba[4 * i + static_cast<std::size_t>(c)]));

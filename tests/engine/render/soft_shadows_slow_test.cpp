@@ -1,4 +1,4 @@
-/// How wide the edges of shadows are, measured in pictures. Software device, validation layer on.
+/// Widths of shadows' edges, measured in pictures. Software device, validation layer on.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::uint32_t edge_width_px = 320, edge_height_px = 16;
 
-/// Level ground, and a plate at a height above it whose shadow, the sun in the east and half way up, ends on the x axis.
+/// Level ground, and a plate at a height above it whose shadow, the sun in the east and half way up, ends on the x
+/// axis.
 scene::ResolvedScene plate_over_ground(float height_m) {
   scene::SurfaceMesh mesh;
   const auto add_level = [&](float x0, float x1, float y0, float y1, float z) {

@@ -1,4 +1,4 @@
-/// Soot on a wall, read back from its pixels: what it covers is dark, and only there.
+/// Soot on a wall, read back from its pixels: covered parts are dark, others unchanged.
 
 #include <cmath>
 #include <utility>

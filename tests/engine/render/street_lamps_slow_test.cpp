@@ -1,4 +1,4 @@
-/// What standing lamps throw on the ground by night. Software device, validation layer on.
+/// Light of standing lamps on the ground at night. Software device, validation layer on.
 
 #include <cstdint>
 

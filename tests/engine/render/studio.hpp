@@ -1,5 +1,5 @@
 #pragma once
-/// A small picture of the reference road, and what tests measure in it.
+/// A small picture of the reference road, and measurements in it.
 
 #include <cmath>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace septet::render::studio_pictures {
 
 inline constexpr std::uint32_t width = 320, height = 200;
 
-/// The reference road with whatever a test puts on it. Software device, validation layer on, which must have nothing to say.
+/// The reference road with a test's additions. Software device, validation layer on, which must be silent.
 struct Studio {
   Renderer renderer;
   ReferenceScene reference;
@@ -51,17 +51,17 @@ inline glm::dvec3 mean(const image::Image& picture, std::uint32_t x, std::uint32
   return sum / (double(w) * h);
 }
 
-/// Of a colour, codes.
+/// Level of a colour, codes.
 inline double level(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3.0; }
 
-/// Of all codes, alpha's too.
+/// Mean over all codes, alpha's too.
 inline double mean_difference(const image::Image& a, const image::Image& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::abs(int(a.rgba[i]) - int(b.rgba[i]));
   return sum / static_cast<double>(a.rgba.size());
 }
 
-/// Where a world point falls in the picture, pixels.
+/// Pixel of a world point in the picture.
 inline glm::dvec2 pixel_of(const FrameView& view, const Vec3& world_m) {
   const Vec3 car_m = inverse(view.world_from_car) * world_m;
   const glm::dvec4 clip = view.projection.clip_from_eye_relative * glm::dvec4(car_m - view.projection.eye_m, 1.0);

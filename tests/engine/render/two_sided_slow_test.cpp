@@ -1,4 +1,5 @@
-/// Which sides of a surface are drawn: the twin of tests/engine/raytrace/two_sided_test.cpp. Software device, validation layer on.
+/// Drawn sides of a surface: the counterpart of tests/engine/raytrace/two_sided_test.cpp. Software device, validation
+/// layer on.
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-/// What weather and a roof make of a drawn frame, read back from its pixels. Software device, validation layer on.
+/// Effects of weather and a roof on a drawn frame, read back from its pixels. Software device, validation layer on.
 
 #include <cmath>
 #include <cstdint>

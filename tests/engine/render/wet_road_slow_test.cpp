@@ -1,4 +1,4 @@
-/// What a wet road shows, in pictures that are measured.
+/// Pictures of a wet road, measured.
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include "engine/image/png.hpp"
 #include "engine/instant/clouds.hpp"
 #include "engine/instant/wet_road.hpp"
+#include "engine/light/wet_road.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
@@ -75,7 +76,7 @@ FrameInput ahead(const Drawing& drawing, const Environment& environment) {
   return input;
 }
 
-/// Where a place of the world is seen.
+/// Pixel of a place of the world.
 std::pair<double, double> pixel_of(const FrameInput& input, const Vec3& place_m) {
   const Vec3 from_eye = place_m - world_eye(input.views[0]);
   const double scale = 0.5 * width / std::tan(0.5 * across_rad) / from_eye.x;
@@ -91,7 +92,7 @@ glm::dvec3 mean_around(const RadianceImage& picture, std::pair<double, double> a
   return sum / double(count);
 }
 
-/// What a car that is added in this lane, with this word for its picture, makes of the light of a frame.
+/// Change of a frame's light by a car added in this lane, under this name for its picture.
 struct WithoutAndWith {
   FrameInput input;  ///< With it.
   RadianceImage without, with;
@@ -103,7 +104,8 @@ WithoutAndWith add_car(Drawing& drawing, const Environment& environment, double 
   return {input, std::move(without), drawing.draw(input, name)};
 }
 
-/// The red light of the brake lamps of one more car in this lane, of each pixel from the row on where the road is seen at `from_m`; row by row.
+/// The red light of the brake lamps of one more car in this lane, of each pixel from the row on where the road is seen
+/// at `from_m`; row by row.
 std::vector<std::vector<double>> brake_light(Drawing& drawing, FrameInput input, double ahead_m, double from_m,
                                              const std::string& name) {
   DrawnParticipant car = reference_car(drawing.reference, {ahead_m, -1.875, 0.02});
@@ -119,7 +121,8 @@ std::vector<std::vector<double>> brake_light(Drawing& drawing, FrameInput input,
   return rows;
 }
 
-/// By how much the upper tenth of the pixels of the road before the eye differ, beside their mean. Streaks of rain cover fewer.
+/// Difference of the upper tenth of the pixels of the road before the eye, beside their mean. Streaks of rain cover
+/// fewer.
 double moved(const RadianceImage& a, const RadianceImage& b) {
   std::vector<double> away;
   double sum = 0.0;
@@ -138,7 +141,7 @@ Vec3 most_puddles() {
   const std::vector<std::uint8_t> noise = instant::cloud_noise();
   double most = -1.0;
   Vec3 place_m(0.0);
-  for (double from_m = 0.0; from_m < instant::puddle_tile_m; from_m += 1.0) {
+  for (double from_m = 0.0; from_m < light::puddle_tile_m; from_m += 1.0) {
     double sum = 0.0;
     for (double x_m = 3.0; x_m < 8.0; x_m += 0.5)
       for (double y_m = -1.5; y_m < 1.5; y_m += 0.5) sum += instant::puddle(noise, from_m + x_m, y_m - 1.5, 0.0f, 1.0f);
@@ -169,7 +172,7 @@ TEST_CASE("a wet road shows a car upside down below it, as bright as water mirro
     if (wetness == 0.0) {
       CHECK(std::abs(added.g) < 0.01 * mean_around(empty, at, 1).g);
     } else {
-      // The sky that was mirrored there gives way to the body, which is red.
+      // The formerly mirrored sky is replaced by the body, which is red.
       CHECK(added.g < 0.0);
       CHECK(added.r > added.g);
       CHECK((added.r - added.g) / (fresnel * 0.36 * wetness * (body.r - body.g)) == relative(1.0, 0.3));
@@ -197,7 +200,7 @@ TEST_CASE("a gantry is mirrored by the wet road before it") {
   Drawing drawing = Drawing::make();
   FrameInput input = ahead(drawing, overcast(1.0));
   const RadianceImage with = drawing.draw(input, "wet_gantry");
-  input.participants.clear();  // Nobody stands on the road: where it lies is not known.
+  input.participants.clear();  // Without participants on the road its place is unknown.
   const RadianceImage without = drawing.draw(input);
   // Its sign hangs 5.2 to 7.6 m over the road, 45 m ahead.
   const auto at = pixel_of(input, {44.7, -2.0, -6.4});

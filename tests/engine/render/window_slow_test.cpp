@@ -1,4 +1,4 @@
-/// Opens a window where there is a display (xvfb-run gives one) and presents into it.
+/// Opens a window if there is a display (xvfb-run gives one) and presents into it.
 
 #include <cstdlib>
 

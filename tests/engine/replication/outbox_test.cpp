@@ -34,7 +34,7 @@ std::vector<Command> written(Outbox& outbox, const Store& store, std::size_t byt
   return commands;
 }
 
-// How often each vertex is sent.
+// Number of times that each vertex is sent.
 std::vector<int> sendings(const std::vector<Command>& commands, std::size_t vertices) {
   std::vector<int> times(vertices);
   for (const Command& command : commands)

@@ -96,7 +96,7 @@ TEST_CASE("nothing is sent that was not subscribed to") {
   const auto& original = std::get<GeometryData>(wire.store.find(2)->data);
   CHECK(geometry.vertices_m == original.vertices_m);
   CHECK(geometry.polygons[0][0] == geometry::no_vertex);
-  CHECK(geometry.layers.size() == original.layers.size());  // told of, with their defaults
+  CHECK(geometry.layers.size() == original.layers.size());  // announced, with their defaults
   CHECK(geometry.layers.at(2).integers != original.layers.at(2).integers);
 
   const std::size_t before = end.bytes_to_client;
@@ -172,7 +172,7 @@ TEST_CASE("a client that does not acknowledge is sent a window and no more") {
   for (int i = 0; i < 100; ++i)
     sent += wire.server->pump(end.connection, 1u << 20, [](std::span<const std::byte>) { return true; }).bytes;
   CHECK(sent < 64 * 1024);
-  // Of what one that acknowledges is sent.
+  // Traffic to another one that acknowledges.
   auto& other = wire.add("other");
   for (int i = 0; i < 300; ++i) wire.pump(other);
   CHECK(sent < other.bytes_to_client / 4);

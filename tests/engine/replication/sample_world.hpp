@@ -1,5 +1,5 @@
 #pragma once
-/// A world about as large as a motorway's, to measure with.
+/// A world about as large as a motorway's, for measurements.
 
 #include <cmath>
 

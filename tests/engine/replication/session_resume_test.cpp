@@ -1,4 +1,4 @@
-// Which sessions a server goes on with, and what it takes from a client.
+// Sessions that a server resumes, and its acceptance of a client's messages.
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@ using namespace septet::scene;
 
 namespace {
 
-// A client that says what the test says.
+// A client that sends the test's messages.
 struct Raw {
   explicit Raw(const ReplicationOptions& options = {}) : server(store, 1, options) {
     for (NodeId id = 1; id <= 3; ++id) REQUIRE(store.apply(NodeCreate{id, NodeType::object}).has_value());
@@ -121,7 +121,7 @@ TEST_CASE("a batch that comes again is taken once and one that is missing ends t
   CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().size() == 1);
   CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().empty());
   CHECK_FALSE(raw.server.receive(1, replication::encode(CommandBatch{3, 0, change})).has_value());
-  // It is told what has arrived.
+  // It is told its received sequence.
   bool told = false;
   for (const Message& message : raw.hears())
     if (const auto* received = std::get_if<Received>(&message)) told = received->sequence == 1;
@@ -172,7 +172,8 @@ TEST_CASE("commands are packed where that makes them smaller and unpacked to exa
   CHECK(std::get<CommandBatch>(replication::decode(bytes).value()).commands == commands);
   Bytes few(commands.begin(), commands.begin() + 100);
   CHECK(replication::encode(CommandBatch{1, 0, few}).size() == 5 + few.size());
-  // Whoever claims another size is refused: version, kind, sequence, received, packing, then the size as a varint of two bytes.
+  // A claim of another size is refused: version, kind, sequence, received, packing, then the size as a varint of two
+  // bytes.
   REQUIRE(bytes[4] == std::byte{1});
   for (const int by : {-1, 1}) {
     Bytes wrong = bytes;
@@ -194,7 +195,7 @@ TEST_CASE("a small window is enough for a large world because clients acknowledg
   for (int i = 0; i < 400; ++i) wire.build.add_object("", {});
   auto& end = wire.add("left");
   REQUIRE(wire.settle(end));
-  // Nothing is asked for any more: acknowledgements go alone.
+  // No more requests: acknowledgements go alone.
   for (NodeId id = 1; id <= 400; ++id) wire.build.apply(TransformSet{id, {{1.0 * id, 0, 0}}});
   REQUIRE(wire.settle(end));
   CHECK(same_content(end.client->store(), wire.store));
@@ -209,7 +210,7 @@ TEST_CASE("a client takes a batch that comes again once and says hello again whe
   CHECK(client.receive(replication::encode(CommandBatch{1, 0, create})).has_value());
   CHECK(client.receive(replication::encode(CommandBatch{1, 0, create})).has_value());
   CHECK(client.store().nodes().size() == 1);
-  // Before it has asked for anything nothing can be complete.
+  // Before its first request nothing can be complete.
   CHECK(client.receive(replication::encode(Complete{1, 0})).has_value());
   CHECK_FALSE(client.complete());
   CHECK_FALSE(client.receive(replication::encode(CommandBatch{3, 0, create})).has_value());

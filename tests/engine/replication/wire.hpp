@@ -44,7 +44,7 @@ struct Wire {
     server->connect(end.connection, end.identity);
     end.client->connected();
   }
-  /// What is on its way is lost.
+  /// Messages under way are lost.
   void cut(End& end) {
     server->disconnect(end.connection);
     end.client->disconnected();

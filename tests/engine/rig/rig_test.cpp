@@ -143,7 +143,7 @@ TEST_CASE("a wrong rig is refused with its line and column and a remedy") {
       "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
       "0]\nupper_left_m = [2, 0, 2]\n",
       "my.toml:6:16", "rectangle");
-  // Half a degree from a right angle is none.
+  // Half a degree off a right angle is refused.
   refuse(
       "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
       "0]\nupper_left_m = [2, 1.0175, 2]\n",
@@ -179,7 +179,7 @@ TEST_CASE("the keyboard that drives is the named screen's or those at the server
     CHECK(rig.error().what.find(what) != std::string::npos);
   };
   refused(screens + "[car]\nsource = \"keyboard\"\nkeyboard_screen = \"fra\"\n", "\"fra\"");
-  // Nobody could drive.
+  // No seat for a driver.
   refused(one_screen + std::string("machine = \"pc-2\"\n[car]\nsource = \"keyboard\"\n"), "no keyboard drives");
 }
 

@@ -172,7 +172,7 @@ TEST_CASE("what a rig says wrongly of head and mirrors is refused with what and 
   CHECK(with("[[mirror]]\nname = \"m\"\nlower_left_m = [0.7, 0.7, 1]\nlower_right_m = [0.6, 0.9, 1]\nupper_left_m = "
              "[0.7, 0.7, 1.1]\n")
             .find("front") != std::string::npos);
-  // Eyes that may come to stand behind a screen 2 m ahead, or a glass 0.6 m ahead, would see nothing.
+  // Eyes that may come to stand behind a screen 2 m ahead, or a glass 0.6 m ahead, would be blind.
   std::string near = plain_screen;
   for (std::size_t at; (at = near.find("[2,")) != std::string::npos;) near.replace(at, 3, "[0.25,");
   CHECK(refusal(near) == "");

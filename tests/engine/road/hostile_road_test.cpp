@@ -1,5 +1,5 @@
-// Files cut off and altered at random: the reader answers with a network that can be used, or with
-// errors, and never stops the program. The sanitizer builds run this too.
+// Files cut off and altered at random: the reader returns a usable network, or errors, and never stops the program. The
+// sanitizer builds run this too.
 #include <cmath>
 
 #include <doctest/doctest.h>

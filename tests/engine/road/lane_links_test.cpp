@@ -11,7 +11,7 @@
 namespace septet::road {
 namespace {
 
-/// How far the world jumps from one lane position to the next.
+/// Distance of the world's jump from one lane position to the next.
 double gap_m(const RoadNetwork& network, const LanePosition& a, const LanePosition& b) {
   return glm::distance(evaluate_lane(network, a).road.position_m, evaluate_lane(network, b).road.position_m);
 }

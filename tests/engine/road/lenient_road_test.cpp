@@ -1,4 +1,4 @@
-// Files as they live: what the standard allows is silent, what can be repaired is said and read.
+// Real files: forms that the standard allows are silent, repairable faults are read with a finding.
 #include <doctest/doctest.h>
 
 #include "engine/road/lane_geometry.hpp"

@@ -1,5 +1,4 @@
-// Numbers that no road holds: one message with the line, and nothing that is built from the road ever
-// sees them.
+// Numbers impossible for a road: one message with the line, and no later stage ever sees them.
 #include "engine/road/road_limits.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// For every checker rule of the standard that is held against roads: a file that follows it and is
-// silent, the same file with one fault, and an edition that did not know the rule yet.
+// For every checker rule of the standard that is checked on roads: a file that follows it and is silent, the same file
+// with one fault, and an edition that did not know the rule yet.
 #include <set>
 
 #include <doctest/doctest.h>

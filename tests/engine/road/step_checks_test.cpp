@@ -1,4 +1,4 @@
-// Steps within one road: each profile that can make one, from 0.05 m on, with road and s; and what steps on purpose in
+// Steps within one road: each profile that can make one, from 0.05 m on, with road and s; and intended steps in
 // silence.
 #include <algorithm>
 #include <string>

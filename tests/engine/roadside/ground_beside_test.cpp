@@ -1,4 +1,5 @@
-// The land beside the roads as wheels find it: without a jump from the road into the fields, where it is drawn, and as rough as a meadow.
+// The land beside the roads as wheels find it: without a jump from the road into the fields, where it is drawn, and as
+// rough as a meadow.
 #include "engine/roadside/ground_beside.hpp"
 
 #include <algorithm>

@@ -56,7 +56,7 @@ TEST_CASE(
 }
 
 TEST_CASE("nothing that is put beside a road stands on the lanes of another") {
-  // Marker posts of an exit's gore; trees and houses. What a road file itself places stands where it says.
+  // Marker posts of an exit's gore; trees and houses. Objects of the road file itself stay at their places.
   const auto stands_on_lanes = [](const road::RoadNetwork& network) {
     int count = 0;
     const Obstacles obstacles(network, 1);

@@ -179,7 +179,7 @@ TEST_CASE("squares near a place are those whose middle is in reach and no square
 }
 
 TEST_CASE("no house stands nearer to a road than seventy-five metres, nor in a wood, and there are some") {
-  // Nearly a ring: whoever is far enough from the road here may be too near to it there.
+  // Nearly a ring: a place far enough from the road here may be too near to it there.
   road::SmallRoad bend{.length_m = 900.0, .geometry = "<arc curvature=\"0.0065\"/>"};
   const road::RoadNetwork network = road::read_or_fail(bend.xml());
   const RoadShape roads(network, 0.0);

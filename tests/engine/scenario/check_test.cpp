@@ -1,4 +1,4 @@
-/// What `septet check` says of scenarios, catalogs and distributions.
+/// Findings of `septet check` on scenarios, catalogs and distributions.
 
 #include <string>
 

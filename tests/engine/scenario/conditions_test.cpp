@@ -1,10 +1,10 @@
-// Conditions one by one: what holds, and when.
+// Conditions one by one, and their times.
 
 #include <string>
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/entity_distance.hpp"
+#include "engine/scenario/run/entity_distance.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 
@@ -15,7 +15,7 @@ std::string standing(const std::string& entity, int lane, double s_m, double spe
   return private_text(entity, place_text(lane, s_m) + speed_text(speed_mps));
 }
 
-/// Whether A's condition holds at the first look.
+/// True if A's condition holds at the first step.
 bool holds(const std::string& condition, const std::string& init) {
   Drive drive(
       scenario_text(init, story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", condition))))));

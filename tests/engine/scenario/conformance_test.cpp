@@ -17,8 +17,8 @@
 #include <fmt/core.h>
 
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "tests/conformance/conformance_data.hpp"
 
 namespace septet::scenario {
@@ -98,18 +98,18 @@ struct State {
   double heading, speed;
 };
 
-/// Where the reference itself is known to be otherwise.
+/// Known deviations of the reference itself.
 struct Exceptions {
   bool heading = true, height = true, speed = true;  ///< Compared.
   std::vector<double> left_out;                      ///< Times.
   double until_s = 1e300, from_s = 0.0;
-  std::vector<std::string> only;  ///< Entities; none: all.
+  std::vector<std::string> only;  ///< Entities; empty: all.
   double slack_from_s = 1e300, slack_m = 0.0;
 };
 
-/// How far a state is from a row, in units of the tolerances of the README. The trace was
-/// integrated with the speed at the end of each step of 0.01 s, so that its way differs by half a
-/// step times all changes of speed so far, and in a bend its heading by that of the step.
+/// Distance of a state from a row, in units of the tolerances of the README. The trace was integrated with the speed at
+/// the end of each step of 0.01 s, so that its path differs by half a step times all changes of speed so far, and in a
+/// bend its heading by that of the step.
 double misfit(const TraceRow& row, const State& state, const State& next, double speed_changes_mps,
               const Exceptions& but) {
   Vec3 apart = state.position_m - row.position_m;
@@ -195,7 +195,7 @@ void check_against_trace(const std::string& name, const Exceptions& but = {}) {
   if (std::getenv("SEPTET_SHOW_EVENTS") != nullptr) MESSAGE(name << ": worst misfit " << worst << " " << worst_row);
 }
 
-/// When elements start and when they are over, by name and what happens, ascending.
+/// Starts and ends of elements, by name and event, ascending.
 using EventTimes = std::map<std::string, std::vector<double>>;
 
 EventTimes events_of_trace(const std::string& name) {
@@ -218,9 +218,9 @@ EventTimes events_of_run(const Loaded& loaded, double end_s) {
     for (const StoryboardEvent& event : result.events) {
       if (event.transition == ElementTransition::none || event.transition == ElementTransition::skip) continue;
       if (event.transition == ElementTransition::start) started.insert(event.element);
-      // A stop trigger also ends what never began; the trace does not tell of that.
+      // A stop trigger also ends elements that never began; the trace omits those.
       if (!started.contains(event.element)) continue;
-      // Named by its way from the story down; the trace has the last name only, and its own for the storyboard.
+      // Named by its path from the story down; the trace has the last name only, and its own for the storyboard.
       const std::string& way = loaded.scenario.element_names[event.element];
       const auto colons = way.rfind("::");
       const std::string element = way.empty()                   ? "storyBoard"
@@ -241,8 +241,8 @@ std::string text_of(const std::vector<double>& times_s) {
   return times_s.empty() ? " never" : text;
 }
 
-/// Every element starts and is over as often as in the reference, at its times: within 0.02 s and a step more for each event before,
-/// as they may trigger one another. `otherwise`: the events that differ with a reason.
+/// Every element starts and ends as often as in the reference, at its times: within 0.02 s and a step more for each
+/// event before, as they may trigger one another. `otherwise`: the events that differ with a reason.
 void check_events(const std::string& name, const std::set<std::string>& otherwise = {}) {
   EventTimes expected = events_of_trace(name);
   std::set<double> instants_s;
@@ -274,8 +274,8 @@ void check_events(const std::string& name, const std::set<std::string>& otherwis
 }  // namespace
 
 TEST_CASE("every storyboard has the reference's events at the reference's times") {
-  // How an approach within bounds goes the standard leaves open, and with it when the approach is over. Here it takes 1.0 s where the
-  // reference takes 4.8 s; all that waits for it is as much earlier.
+  // The standard leaves open the course of an approach within bounds, and with it its end. Here it takes 1.0 s where
+  // the reference takes 4.8 s; all that waits for it is as much earlier.
   const std::set<std::string> lateral = {"LateralDistanceAct is over",
                                          "LateralDistanceAction is over",
                                          "LateralDistanceMaxAccEvent is over",
@@ -316,7 +316,8 @@ TEST_CASE("left-hand traffic follows the reference trace") { check_against_trace
 TEST_CASE("two plus one road follows the reference trace") { check_against_trace("two_plus_one_road"); }
 
 TEST_CASE("trajectories of lines clothoids and splines follow the reference trace") {
-  // How time goes along a spline between its control points the standard leaves open: there the way is compared, not the time.
+  // The standard leaves open the time along a spline between its control points: there the path is compared, not the
+  // time.
   check_against_trace("trajectory-test", {.until_s = 11.95});
   const auto driven = run(load("trajectory-test"), 24.2).at("Target");
   for (const TraceRow& row : trace("trajectory-test")) {

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/keep_distance.hpp"
-#include "engine/scenario/speed_profile.hpp"
-#include "engine/scenario/synchronize.hpp"
+#include "engine/scenario/run/keep_distance.hpp"
+#include "engine/scenario/run/speed_profile.hpp"
+#include "engine/scenario/run/synchronize.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 
@@ -109,7 +109,7 @@ TEST_CASE("a speed without a time is there as soon as the bounds allow") {
   CHECK(lay_speed_profile(action, 20.0, {none, 2.0, none, 1.0, 1.0}).end_s == doctest::Approx(7.0));
   Drive drive = drive_with(cars(200, 10), profile_text("position", entry("0.5", 50)));
   drive.run_until(2.0);
-  CHECK(drive.a().acceleration_mps2 == doctest::Approx(10.0));  // What the vehicle can do.
+  CHECK(drive.a().acceleration_mps2 == doctest::Approx(10.0));  // The vehicle's limit.
   drive.run_until(3.0);
   CHECK(drive.a().speed_mps == doctest::Approx(50.0));
 }
@@ -291,7 +291,7 @@ TEST_CASE("two entities are at their places at the same time") {
   steady.run_until(15.2);
   CHECK(steady.a().speed_mps == relative(10.0, 0.01));
   CHECK(steady.a().world_from_entity.position_m.x == relative(420.0 - 48.0, 0.001));
-  // The master brakes in the middle: found anew.
+  // The master brakes in the middle: recomputed.
   Drive changed = drive_with(cars(100, 15, -1), meeting("<FinalSpeed><AbsoluteSpeed value=\"12\"/></FinalSpeed>"));
   changed.run_until(10.0);
   changed.state.entities[1].speed_mps = 5.0;

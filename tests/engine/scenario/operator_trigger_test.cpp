@@ -7,7 +7,7 @@
 namespace septet::scenario {
 namespace {
 
-/// Triggers the element whose name ends like this; why not, if not.
+/// Triggers the element whose name ends like this; returns the reason of a refusal.
 std::string trigger(Drive& drive, const std::string& name) {
   for (ElementIndex element = 0; element < drive.scenario.element_names.size(); ++element) {
     if (!drive.scenario.element_names[element].ends_with(name)) continue;

@@ -1,4 +1,4 @@
-/// What moves an entity by a story: its profile of speed, its curve to another lane, its trajectory.
+/// Motion of an entity by a story: its profile of speed, its curve to another lane, its trajectory.
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/random.hpp"
-#include "engine/scenario/expression.hpp"
+#include "engine/scenario/model/expression.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 

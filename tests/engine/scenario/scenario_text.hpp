@@ -6,12 +6,12 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 
 namespace septet::scenario {
 
-/// 2 km, straight along x where nothing else is said, lanes 3.5 m wide, ids 1 to 3 and −1 to −3, right-hand traffic.
+/// 2 km, straight along x by default, lanes 3.5 m wide, ids 1 to 3 and −1 to −3, right-hand traffic.
 inline std::string road_text(const std::string& shape = "<line/>", const std::string& profiles = "") {
   std::string lanes[2];
   for (int id = 3; id >= 1; --id) {
@@ -132,7 +132,7 @@ struct Drive {
   }
   const EntityState& a() const { return state.entities[0]; }
   const EntityState& b() const { return state.entities[1]; }
-  /// When an element whose name ends like this made this transition for the first time; −1: never.
+  /// Time of the first such transition of an element whose name ends like this; −1: never.
   double time_of(const std::string& name, ElementTransition transition) const {
     for (const StoryboardEvent& event : events) {
       if (event.transition == transition && scenario.element_names[event.element].ends_with("::" + name))

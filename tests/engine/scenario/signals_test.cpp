@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/signal_plan.hpp"
+#include "engine/scenario/model/signal_plan.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 
 namespace septet::scenario {

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/road/road_position.hpp"
-#include "engine/scenario/path.hpp"
+#include "engine/scenario/run/path.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 
@@ -51,7 +51,8 @@ std::string follow_text(const std::string& vertices, const std::string& referenc
 }
 const std::string relative_times = R"(<Timing domainAbsoluteRelative="relative" scale="1" offset="0"/>)";
 
-/// A road that forks after 100 m: straight on ("S", then "D") or in a quarter turn to the left of radius 50 m ("T", then "E").
+/// A road that forks after 100 m: straight on ("S", then "D") or in a quarter turn to the left of radius 50 m ("T",
+/// then "E").
 road::RoadNetwork fork() {
   const std::string lanes =
       R"(<lanes><laneSection s="0"><center><lane id="0" type="none"/></center><right><lane id="-1" type="driving">)";
@@ -316,7 +317,7 @@ TEST_CASE("without a route one goes straight on and with one along it") {
   CHECK(road_after(private_text("A", start + routing_text("<AcquirePositionAction>" + lane_text("E", 50) +
                                                           "</AcquirePositionAction>")),
                    8.5) == "E");
-  // Nothing leads back to A: the way is as it would be without.
+  // Nothing leads back to A: the path is as without it.
   CHECK(road_after(private_text("A", start + routing_text("<AcquirePositionAction>" + lane_text("A", 5) +
                                                           "</AcquirePositionAction>")),
                    8.5) == "D");

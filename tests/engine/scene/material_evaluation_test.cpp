@@ -9,7 +9,7 @@ using namespace septet::scene;
 
 namespace {
 
-// A material whose fragments have the numbers 0, 1, …; the first one is what is shown.
+// A material whose fragments have the numbers 0, 1, …; the first one is shown.
 SurfaceMaterial evaluated(const std::vector<Fragment>& fragments) {
   Node node;
   MaterialData material;
@@ -21,7 +21,7 @@ SurfaceMaterial evaluated(const std::vector<Fragment>& fragments) {
   return evaluate_material(node, [](NodeId bitmap) { return static_cast<std::int32_t>(bitmap); });
 }
 
-// What shines by itself, which is what becomes of plain colours.
+// Emission alone, the result of plain colours.
 glm::vec3 shown(const std::vector<Fragment>& fragments) { return evaluated(fragments).emission; }
 
 }  // namespace

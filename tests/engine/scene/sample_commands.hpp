@@ -10,7 +10,7 @@
 
 namespace septet::scene {
 
-/// Stops the test when the store refuses.
+/// Ends the test if the store refuses.
 inline void must_apply(Store& store, const Command& command) {
   const auto done = store.apply(command);
   if (!done) throw std::runtime_error(describe(done.error()));

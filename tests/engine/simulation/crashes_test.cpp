@@ -1,4 +1,4 @@
-// Boxes that meet, and what the driver's car gets of it.
+// Colliding boxes, and their effect on the driver's car.
 
 #include "engine/simulation/effects/crashes.hpp"
 
@@ -61,7 +61,7 @@ TEST_CASE("the driver's car and who it runs into go on with their common speed")
     CHECK(vehicle_mass_kg(participants[1]) == row.mass_kg);
     const CrashOutcome outcome = crash(participants);
     CHECK(outcome.crashes == 1);
-    // A plastic blow, and some parts less.
+    // A plastic impact, and slightly less.
     const double common_kg = 1500.0 * row.mass_kg / (1500.0 + row.mass_kg);
     CHECK(outcome.impulse_on_driver_ns.x == relative(-common_kg * 20.0, 0.03));
     CHECK(std::abs(outcome.impulse_on_driver_ns.y) < 0.02 * common_kg * 20.0);

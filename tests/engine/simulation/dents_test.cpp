@@ -1,4 +1,4 @@
-// Whom a crash dents, where, and how deep; and that everybody is told.
+// Vehicles dented by a crash, places and depths; and their announcement to all screens.
 
 #include "engine/simulation/effects/dents.hpp"
 
@@ -192,7 +192,7 @@ TEST_CASE("a crash's dents are in every snapshot from then on, for who joins lat
   CHECK(first.tick == 102);
   for (Tick tick = 102; tick < 140; tick += effects_step_ticks) advance(tick);
   CHECK(dents_in(effect_keyframes(state)) == first);  // Once on the wire, and then no more.
-  // Who joins later has it from a snapshot without a baseline.
+  // A late screen gets it from a snapshot without a baseline.
   Snapshot snapshot;
   snapshot.tick = 140;
   snapshot.participants = participants;

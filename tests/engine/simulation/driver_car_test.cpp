@@ -1,4 +1,4 @@
-// What the driver's car shows, is told and is pushed by.
+// Displays, inputs and forces of the driver's car.
 
 #include "engine/simulation/driver_car.hpp"
 

@@ -157,7 +157,7 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
     return debris::passenger_car_parts(body_box(participants[i]).half_size_m);
   };
   CHECK(state.crashes.parts[1].size() < all_parts(0).size());
-  // It hits the same car once more: what both carry and what lies about is still what they had.
+  // It hits the same car once more: loads and lying debris of both are unchanged.
   state.crashes.struck_by_driver = {7};
   CHECK(run(participants, state, 4, 2).crashes.crashes == 1);
   double thrown = 0.0;
@@ -168,7 +168,8 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
 }
 
 TEST_CASE("in a blow a car takes the momentum that the two masses share and nothing where they part") {
-  // Closing at 20 m/s, plastic: the impulse is that of the reduced mass. A lorry's rear is 4.25 m behind its origin, a car's front 3.72 m ahead.
+  // Closing at 20 m/s, plastic: the impulse is that of the reduced mass. A lorry's rear is 4.25 m behind its origin, a
+  // car's front 3.72 m ahead.
   for (const auto& [model, ahead_m, other_kg] :
        {std::tuple{"saloon", 4.4, 1'500.0}, std::tuple{"lorry", 7.8, 16'000.0}}) {
     for (const double other_mps : {2.0, 23.0}) {
@@ -227,7 +228,7 @@ TEST_CASE("a car that runs into what stands beside the road throws parts in the 
     CHECK(report.crashes.crashes == (closing_mps > 3.0 ? 1 : 0));
     CHECK((report.crashes.pieces > 0) == (closing_mps > 3.0));
     CHECK(state.crashes.struck_standing.empty());
-    // The hull has taken the blow; only what broke off gives something back.
+    // The hull has taken the impact; only broken parts give something back.
     CHECK(glm::length(report.impulse_on_driver_ns) < 500.0);
   }
 }

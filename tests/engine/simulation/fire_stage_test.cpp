@@ -87,7 +87,7 @@ TEST_CASE("flames stand on the vehicle that burns within a second and in a tunne
       CAPTURE(s_m);
       CAPTURE(steps);
       CAPTURE(flames_m2);
-      // Two metres wide and two high, they hide a third of what is behind them.
+      // Two metres wide and two high, they hide a third of the picture behind them.
       CHECK(on_van_m2 > (steps < 100 ? 0.6 : 1.6));
       CHECK(on_van_m2 > 0.5 * flames_m2);
     }
@@ -162,5 +162,5 @@ TEST_CASE("a fire that is put out gives off no more smoke") {
   extinguish(5, state);
   go_on(121);
   CHECK(younger_than_a_second() == 0);
-  CHECK(state.smoke->particles.size() > 0);  // What was given off before is still there.
+  CHECK(state.smoke->particles.size() > 0);  // Earlier emissions are still there.
 }

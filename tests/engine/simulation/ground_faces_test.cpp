@@ -1,4 +1,4 @@
-// Steps in a road under the driver's car: the ground gives it no energy, and what is higher than a wheel climbs stops
+// Steps in a road under the driver's car: the ground gives it no energy, and a step higher than a wheel climbs stops
 // it.
 #include "engine/simulation/ground_faces.hpp"
 
@@ -42,7 +42,7 @@ std::string stepped(double step_m) {
   return road.xml();
 }
 
-/// What a drive over a step does, coasting in neutral.
+/// Result of a drive over a step, coasting in neutral.
 struct Drive {
   double most_over_start_j = -1e30,
          most_gain_j = 0.0;    ///< Of energy: over that of the beginning, and over the least so far.
@@ -82,7 +82,7 @@ Drive drive_over(const Model& model, double speed_mps, double heading_rad, doubl
 }  // namespace
 
 TEST_CASE("over no step of a road does the ground give the car energy") {
-  // What a blow gives back was stored in it: a crushed front and a suspension return less than a quarter.
+  // An impact returns stored energy only: a crushed front and a suspension return less than a quarter.
   for (const double step_m :
        {0.02, 0.05, 0.1, 0.2, 0.24, 0.3, 0.5, 1.0, 3.0, 30.0, -0.05, -0.2, -0.5, -1.0, -3.0, -30.0}) {
     const Model model = model_on(stepped(step_m));

@@ -40,7 +40,7 @@ scenario::Scenario lorry_with(std::initializer_list<scenario::EffectAction> slab
   return scenario;
 }
 
-/// Such a lorry on a morning whose scenario asks for so much frost on the windscreen.
+/// A lorry on a morning with this much frost on the windscreen.
 scenario::Scenario frosty(double share) {
   scenario::Scenario scenario = lorry_with({});
   scenario.init.push_back({.what = scenario::EnvironmentAction{.frost = share}});
@@ -131,7 +131,7 @@ TEST_CASE("black ice takes the wheels' grip where it lies and until it has thawe
   CHECK(friction_at(state, 1200.0, -7, 268.15) == iced);
   for (int i = 0; i < 300; ++i) advance_ice({ice::freezing_k + 6.0, 0.0}, 1.0, 2, state);
   CHECK(friction_at(state, 1200.0, -7, 268.15) == dry);
-  // What freezes then is there in full.
+  // Later ice is there in full.
   freeze(motorway(), black_ice("1", -7), state);
   CHECK(friction_at(state, 1200.0, -7, 268.15) == iced);
 }
@@ -185,9 +185,9 @@ TEST_CASE(
     const auto told = ice::decode_glass(state.glass_keyframe.data);
     REQUIRE(told);
     REQUIRE(told->size() == 1);
-    CHECK(std::abs((*told)[0].frost.thickness_kgpm2 - 0.15 * share) < 0.00051);  // Told in g/m².
+    CHECK(std::abs((*told)[0].frost.thickness_kgpm2 - 0.15 * share) < 0.00051);  // Encoded in g/m².
   }
-  // Init may set the environment more than once: the last word counts, and one that says nothing of frost leaves it.
+  // Init may set the environment more than once: the last one counts, and one without frost leaves it.
   scenario::Scenario twice = frosty(1.0);
   twice.init.push_back({.what = scenario::EnvironmentAction{.snow_cover = 1.0}});
   CHECK(start(twice, 268.15).panes.size() == 1);
@@ -218,7 +218,7 @@ TEST_CASE("a windscreen has frost in the morning and stars where blows shook it,
   REQUIRE(read);
   REQUIRE(read->size() == 2);
   CHECK((*read)[0].stars[0].seed == state.panes[0].stars[0].seed);
-  // One that has flown out of its car has neither frost nor cracks, and the screens are told so.
+  // One that has flown out of its car has neither frost nor cracks, and the screens are notified.
   shake_glass({1, true, 0.2, 30.0}, state);
   shake_glass({9, true, 0.2, 30.0}, state);
   REQUIRE(state.panes.size() == 1);

@@ -1,4 +1,4 @@
-// The driver's car beside the roads: on land that stands still, on grass, and told to the log.
+// The driver's car beside the roads: on standing land, on grass, and in the log.
 #include <algorithm>
 #include <cmath>
 #include <string>

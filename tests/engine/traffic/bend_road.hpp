@@ -1,5 +1,5 @@
 #pragma once
-/// Roads of one piece to try traffic on.
+/// Roads of one piece for traffic tests.
 
 #include <string>
 
@@ -10,13 +10,13 @@
 
 namespace septet::traffic {
 
-/// What is told of a road in OpenDRIVE's own words; empty: nothing.
+/// Parts of a road in OpenDRIVE's own words; empty: none.
 struct RoadText {
-  std::string geometry;  ///< Of the plan view.
+  std::string geometry;  ///< For the plan view.
   double length_m = 0.0;
   std::string type = {};  ///< <type> elements.
   std::string elevation = {}, superelevation = {};
-  std::string lane_speed = {};              ///< Within the lane −1.
+  std::string lane_speed = {};              ///< In lane −1.
   std::string widening = R"(b="0" c="0")";  ///< Of the lane −1, whose width is 3.5 m at its begin.
 };
 

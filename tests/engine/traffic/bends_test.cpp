@@ -1,4 +1,4 @@
-// What is told of traffic in bends and on hills, how far it keeps apart there, and how fast it drives.
+// Published motion of traffic in bends and on hills, its gaps there, and its speed.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ ForeignVehicle somebody_at(const road::RoadNetwork& network, double s_m, bool wi
 
 using Told = std::map<ParticipantId, Participant>;
 
-/// How often of all ticks something told was off the derivative of what was told before and after.
+/// Share of ticks at which a published quantity differed from the derivative of its neighbours.
 struct Derivatives {
   std::size_t seen = 0, velocity_off = 0, yaw_off = 0, acceleration_off = 0;
   double most_yaw_radps = 0.0;
@@ -99,7 +99,7 @@ struct Pair {
   }
 };
 
-/// Fastest in the lane over the last part of the road, by the speed that is told; and the hardest braking on the way.
+/// Fastest in the lane over the last part of the road, by published speed; and the hardest braking on the path.
 struct Fastest {
   double mps = 0.0, braking_mps2 = 0.0, sideways_mps2 = 0.0;
 };
@@ -221,7 +221,8 @@ TEST_CASE("the way along a lane is its length: 1 - t/R, on a ring round and roun
 }
 
 TEST_CASE("nobody drives faster than is posted, and is down to it where it is") {
-  // Posted from the begin; posted lower from the middle on; of one lane alone; up a hill; on the other side of the road.
+  // Posted from the begin; posted lower from the middle on; of one lane alone; up a hill; on the other side of the
+  // road.
   const auto town = read_road({.geometry = straight(900.0), .length_m = 900.0, .type = limit_from(0.0, 50)});
   CHECK(fastest_between(town, -1, 300.0, 900.0).mps < 1.01 * 50.0 / 3.6);
   CHECK(fastest_between(town, -1, 300.0, 900.0).mps > 0.95 * 50.0 / 3.6);

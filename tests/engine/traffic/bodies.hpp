@@ -1,6 +1,5 @@
 #pragma once
-/// What is measured on vehicles as they are shown: outlines that overlap, and motion that no car can
-/// make.
+/// Measurements on shown vehicles: overlapping outlines, and motion impossible for a car.
 
 #include <algorithm>
 #include <array>
@@ -25,8 +24,7 @@ inline Outline outline(const Participant& participant) {
   return corners;
 }
 
-/// Whether two vehicles' outlines, turned as they are, overlap: by the separating axes of their
-/// boxes.
+/// True if two vehicles' oriented outlines overlap: by the separating axes of their boxes.
 inline bool overlap(const Outline& a, const Outline& b) {
   for (const Outline& corners : {a, b}) {
     for (const Vec2 axis : {corners[2] - corners[0], corners[1] - corners[0]}) {
@@ -57,8 +55,8 @@ inline int overlapping_pairs(std::vector<Participant> participants) {
   return count;
 }
 
-/// The worst motion seen from tick to tick. Whoever moves farther than a tick's way has come in
-/// again at the other rim.
+/// The worst motion from tick to tick. A vehicle that moves farther than possible in a tick has entered again at the
+/// other rim.
 struct MotionCheck {
   static constexpr double least_radius_m = 8.0;
   static constexpr double longest_step_m = 5.0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Hours of dense traffic on a ring of five lanes, watched from outside.
+/// Hours of dense traffic on a ring of five lanes, observed from outside.
 
 #include "tests/engine/traffic/bodies.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
@@ -10,11 +10,11 @@ struct DenseRun {
   double vehicle_hours = 0.0;
   int overlaps = 0;
   MotionCheck motion;
-  double hard_braking_s = 0.0;  ///< Of all vehicles, below −6 m/s².
+  double hard_braking_s = 0.0;  ///< Time of all vehicles below −6 m/s².
   double least_mps2 = 0.0;
 };
 
-/// A car on the line between lanes 2 and 3 that comes to rest there, from where it has most room.
+/// A car on the line between lanes 2 and 3 that comes to rest there, starting at the largest gap.
 class Obstacle {
  public:
   explicit Obstacle(const CorridorTraffic& traffic) {

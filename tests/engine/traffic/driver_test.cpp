@@ -1,4 +1,4 @@
-// What kind of driver one is, and how a change of lane goes across the road.
+// Kinds of drivers, and the path of a lane change across the road.
 
 #include <cmath>
 

@@ -22,7 +22,7 @@ inline EmergencyRun drive_5_km(std::uint64_t seed) {
   CorridorTraffic& traffic = state.corridors[0];
   Random random(seed);
   for (int step = 0; step < 600; ++step) advance(parameters, network, {}, 0.1, random, state);
-  // On the line between the two fastest lanes, where there is most room before and behind it.
+  // On the line between the two fastest lanes, at the largest gap.
   const auto room_at = [&](double x) {
     double least = 1e9;
     for (std::size_t i = 0; i < traffic.size(); ++i) {

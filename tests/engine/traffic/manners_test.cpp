@@ -1,4 +1,4 @@
-// What one driver does for others.
+// A driver's behaviour towards others.
 
 #include <doctest/doctest.h>
 
@@ -26,8 +26,8 @@ struct Ring {
   }
 };
 
-/// Whether a driver of this politeness changes to the left, where it gains 0.5 m/s² or more and takes more than that from
-/// somebody there.
+/// True if a driver of this politeness changes to the left, where it gains 0.5 m/s² or more and costs another more than
+/// that.
 bool changes_left(double politeness) {
   Ring ring;
   Driver driver{{30.0, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
@@ -36,7 +36,7 @@ bool changes_left(double politeness) {
   const double length = vehicle_models()[model_named("saloon")].length_m;
   ring.add(2, own_x, own_mps, driver);
   ring.add(2, own_x + gap_ahead_m + length, own_mps, driver);
-  ring.add(3, own_x, own_mps, driver);  // The way to the right is taken.
+  ring.add(3, own_x, own_mps, driver);  // The path to the right is blocked.
   ring.add(1, own_x - length - gap_behind_m, behind_mps, driver);
   ring.traffic().next_decision_s[0] = 0.0;
   const auto& law = driver.following;
@@ -51,8 +51,8 @@ bool changes_left(double politeness) {
   return ring.traffic().lane[0] == 1;
 }
 
-/// Whether a driver in lane 3 changes behind somebody slow into the free lane 2, while a foreign car in lane 1 drives beside that place
-/// with these lamps on, `lit_s` ago last.
+/// True if a driver in lane 3 changes from behind a slow vehicle into the free lane 2, while a foreign car in lane 1
+/// drives beside that place with these lamps on, last `lit_s` ago.
 bool changes_beside(const Lamps& lamps, double lit_s) {
   Ring ring;
   Driver driver{{30.0, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};

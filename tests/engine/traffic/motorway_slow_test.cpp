@@ -10,8 +10,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/read/scenario_reader.hpp"
+#include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/traffic/traffic.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/traffic/bodies.hpp"
@@ -24,7 +24,8 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Who has had time to make way for an ambulance behind: near enough, in one lane and moving, for so long. Looks once a tick.
+/// Vehicles that have had time to yield to an ambulance behind: near enough, in one lane and moving, for this long.
+/// Checks once a tick.
 class MakingWayCheck {
  public:
   void look(const CorridorTraffic& traffic, double ambulance_x_m, double dt_s) {
@@ -45,7 +46,7 @@ class MakingWayCheck {
     return left_most_;
   }  ///< In the lane to the left of the gap, and in the others: looks at them.
   int others() const { return others_; }
-  int has_not() const { return has_not_; }  ///< Looks at somebody who is not aside.
+  int has_not() const { return has_not_; }  ///< Counts vehicles that are not aside.
 
  private:
   std::map<ParticipantId, double> known_s_;

@@ -1,5 +1,5 @@
 #pragma once
-/// What is measured on rings.
+/// Measurements on rings.
 
 #include <algorithm>
 #include <cmath>

@@ -10,8 +10,8 @@
 namespace septet::traffic {
 namespace {
 
-/// Equal cars on a ring of one lane, about 2 km round. Theory speaks of a straight road without an end: the ring's lane is as long as its
-/// line here, and its bend bounds no speed.
+/// Equal cars on a ring of one lane, about 2 km round. Theory speaks of a straight road without an end: the ring's lane
+/// is as long as its line here, and its bend bounds no speed.
 TrafficState equal_cars(const road::RoadNetwork& network, int count, const Driver& driver, double uneven) {
   TrafficState state;
   state.corridors.push_back(empty_corridor(network, {0, -1, 1.0, 0.0}));
@@ -113,7 +113,7 @@ TEST_CASE("flow rises with density until capacity and falls beyond") {
     before = point.flow_per_h;
   }
   CHECK(falls);
-  // What motorways carry: about 1,500 to 2,400 vehicles an hour and lane.
+  // Capacity of motorways: about 1,500 to 2,400 vehicles an hour and lane.
   CHECK(most > 1300.0);
   CHECK(most < 2600.0);
 }

@@ -10,12 +10,12 @@ namespace septet::traffic {
 
 struct SwarmRun {
   double ambulance_mps = 0.0;
-  double traffic_mps = 0.0;  ///< Of those within 400 m of the ambulance.
-  double least_near = 1e9;   ///< How many of them there are.
+  double traffic_mps = 0.0;  ///< Mean of vehicles within 400 m of the ambulance.
+  double least_near = 1e9;   ///< Number of these.
   int overlaps = 0;          ///< Among traffic.
   int overlaps_with_driver = 0;
   int overlaps_with_ambulance = 0;
-  double nearest_jump_m = 1e9;  ///< From the driver to where somebody was taken away or put; nobody drives there.
+  double nearest_jump_m = 1e9;  ///< From the driver to the nearest place where a vehicle was removed or inserted.
 };
 
 /// On the line between the two left-most lanes both drive at this speed, the driver 45 m behind;

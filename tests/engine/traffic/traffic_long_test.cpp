@@ -34,7 +34,7 @@ TEST_CASE("in ten seeds a driver follows the ambulance half as fast again as den
     CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
     CHECK(run.overlaps == 0);
     CHECK(run.overlaps_with_driver == 0);
-    CHECK(run.nearest_jump_m > 600.0);  // Nobody appears or vanishes where the driver would see it.
+    CHECK(run.nearest_jump_m > 600.0);  // Vehicles enter and leave out of the driver's sight.
   }
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("a swarm keeps its density, and a driver follows the ambulance through
     CHECK(run.least_near > 100.0);
     CHECK(run.overlaps == 0);
     CHECK(run.overlaps_with_driver == 0);
-    CHECK(run.nearest_jump_m > 600.0);  // Nobody appears or vanishes where the driver would see it.
+    CHECK(run.nearest_jump_m > 600.0);  // Vehicles enter and leave out of the driver's sight.
   }
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("both directions of the motorway are one corridor each as long as the 
   CHECK(along.length_m > 9000.0);
   CHECK(against.length_m == doctest::Approx(along.length_m));
   CHECK_FALSE(along.closed);
-  // x runs the other way round on the other side.
+  // x is reversed on the other side.
   const auto x1 = x_of(network, along, {0, 1000.0, 0.0}, -2), x2 = x_of(network, against, {0, 1000.0, 0.0}, 2);
   REQUIRE(x1);
   REQUIRE(x2);
@@ -231,7 +231,7 @@ TEST_CASE("shown motion agrees with shown velocity through lane changes") {
       const auto from_driver_m = [&](const Participant& participant) {
         return glm::distance(participant.world_from_vehicle.position_m, driver.front().world_from_vehicle.position_m);
       };
-      // Whoever falls out at one rim comes in again at the other, where the driver does not see it.
+      // A vehicle that leaves at one rim enters at the other, out of the driver's sight.
       if (glm::length(moved) > 2.0) {
         REQUIRE(from_driver_m(before[i]) > 0.9 * parameters.radius_m);
         REQUIRE(from_driver_m(after[i]) > 0.9 * parameters.radius_m);
@@ -243,7 +243,7 @@ TEST_CASE("shown motion agrees with shown velocity through lane changes") {
       ++compared;
     }
   }
-  // Nobody comes in again more often than once in the ten seconds, and nearly all is compared.
+  // No vehicle enters more than once in the ten seconds, and nearly all are compared.
   CHECK(came_in_again <= 120);
   CHECK(compared > 100 * 1100);
 }

@@ -1,4 +1,4 @@
-// Where others may have right of way on the road of first-lesson, and when they come.
+// Conflicts on the road of first-lesson where others may have right of way, and their times.
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ Place in_lane(std::string_view road, int lane, double s_m) {
   return {Vec2(point.road.position_m), point.driving_heading_rad};
 }
 
-/// Conflict of a car before the roundabout with somebody in its ring.
+/// Conflict of a car before the roundabout with a vehicle in its ring.
 std::optional<Conflict> at_roundabout(std::string_view road, double s_m, double mps, double turns_radps) {
   const road::RoadNetwork& network = lesson_road();
   const double end_m = network.roads[road_of("3")].length_m;

@@ -11,7 +11,7 @@
 namespace septet {
 namespace {
 
-/// One vehicle at rest but for what the tests say, at an instant.
+/// One vehicle at rest except for the tests' changes, at an instant.
 Snapshot instant(Tick tick, double time_s) {
   Snapshot snapshot;
   snapshot.tick = tick;
@@ -64,7 +64,7 @@ TEST_CASE("a difference has the bytes of the specification and is taken to the v
   for (int i = 0; i < 10; ++i) writer.put(0.0);
   writer.put(3.5);
   for (const int byte : {1, 2, 3}) writer.put(static_cast<std::uint8_t>(byte));
-  // Nobody left; one changed, id 4, the fourth field, by five; no effects left, none changed.
+  // No removals; one changed, id 4, the fourth field, by five; no effects removed, none changed.
   for (const int byte : {0, 1, 4, 1 << field_position_x, 10, 0, 0}) writer.put(static_cast<std::uint8_t>(byte));
 
   const WireSnapshot wire_before = to_wire(before);

@@ -1,4 +1,4 @@
-// Traffic lights on the wire: what is told of them, and bytes that nobody here wrote.
+// Traffic lights on the wire: their encoding, and foreign bytes.
 
 #include <cmath>
 #include <cstddef>

@@ -77,7 +77,7 @@ TEST_CASE("the head travels exactly and only while it is not at rest") {
   REQUIRE(decoded);
   CHECK(decoded->rest.driver_car.head == snapshot.driver_car.head);
   CHECK(decode_snapshot(at_rest, nullptr)->rest.driver_car.head == Head{});
-  // No screen is asked to draw from where no head can be.
+  // No screen gets a head position outside the possible.
   for (const Head& nowhere :
        {Head{{1.5, 0, 0}, 0.0}, Head{{0, 0, -1e300}, 0.0}, Head{{0, std::nan(""), 0}, 0.0}, Head{{}, 4.0}}) {
     snapshot.driver_car.head = nowhere;

@@ -98,7 +98,8 @@ def check_osi(session, folder):
         for moving, row in zip(message.moving_object, rows.itertuples()):
             model, base = models[row.model], moving.base
             rear = moving.vehicle_attributes.bbcenter_to_rear
-            # From the middle of the box to the middle of the rear axle on the ground, which is where Septet says that a vehicle is.
+            # From the middle of the box to the middle of the rear axle on the ground, which is where Septet says that a
+            # vehicle is.
             to_origin = turned(base, (rear.x, rear.y, rear.z - model["wheel_radius_m"]))
             for found, offset, expected in zip((base.position.x, base.position.y, base.position.z), to_origin, (row.x_m, row.y_m, row.z_m)):
                 assert abs(found + offset - expected) < 1e-6, (tick, row.participant)

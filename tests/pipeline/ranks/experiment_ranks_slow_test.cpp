@@ -49,7 +49,7 @@ struct SmallExperiment {
       count += entry.path().filename() == "summary.json";
     return count;
   }
-  /// What comes from another machine is whole, or not there.
+  /// A drive from another machine is whole, or absent.
   bool has_half_drives(const std::string& out) const {
     for (const auto& entry : fs::recursive_directory_iterator(folder / out))
       if (entry.path().extension() == ".coming") return true;

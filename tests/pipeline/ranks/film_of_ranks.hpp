@@ -17,11 +17,11 @@
 
 namespace septet::pipeline {
 
-/// mpirun wants to be told that it may work for root, as which the gate runs.
+/// mpirun needs permission to run as root, as the gate does.
 inline const std::map<std::string, std::string> for_mpirun{{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                                                            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}};
 
-/// Matt ground where the driver's car is at first, and icicles above it, which throw light on it.
+/// Matt ground at the driver's car's starting place, and icicles above it, which throw light on it.
 inline void record_ground(logging::SessionWriter& writer) {
   scene::Store store;
   scene::SceneBuilder builder(store, [&](const scene::Command& command) {
@@ -82,7 +82,7 @@ struct SmallFilm {
   fs::path log(const fs::path& out) const { return folder / (out.filename().string() + ".err"); }
 };
 
-/// The pictures of a film's folder by name, which holds nothing else but its record.
+/// The pictures of a film's folder by name; it holds nothing else but its record.
 inline std::map<std::string, std::string> pictures_in(const fs::path& folder) {
   std::map<std::string, std::string> pictures;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -94,7 +94,7 @@ inline std::map<std::string, std::string> pictures_in(const fs::path& folder) {
   return pictures;
 }
 
-/// Whether some tiles of a frame are kept there.
+/// True if tiles of a frame are kept there.
 inline bool has_tiles(const fs::path& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
@@ -116,7 +116,7 @@ inline std::vector<int> children_of(int parent) {
   return children;
 }
 
-/// mpirun below the program that starts it; nothing: not there.
+/// mpirun below the program that starts it; empty: not there.
 inline std::optional<int> mpirun_of(int launcher) {
   for (const int child : children_of(launcher))
     if (text_of(fmt::format("/proc/{}/comm", child)) == "mpirun\n") return child;

@@ -1,5 +1,6 @@
-/// A film on several machines. They are played on this one: each name of the file of hosts gets a daemon of Open MPI of its own, which a
-/// script starts in place of ssh, with a folder of its own for what it notes, and what they say goes over TCP.
+/// A film on several machines. They are played on this one: each name of the file of hosts gets a daemon of Open MPI of
+/// its own, which a script starts in place of ssh, with a folder of its own for what it notes, and what they say goes
+/// over TCP.
 
 #include <map>
 #include <set>
@@ -12,7 +13,7 @@
 namespace septet::pipeline {
 namespace {
 
-/// As an editor saves it: never seen half written.
+/// Saved atomically, as by an editor.
 void write_hosts(const fs::path& file, const std::string& names) {
   const fs::path fresh = file.string() + ".new";
   write_text(fresh, names);
@@ -57,7 +58,7 @@ TEST_CASE("a machine that is added to the file of hosts joins a film that is bei
   for (const auto& tile : json.at("tiles"))
     if (tile.at(8).get<bool>()) programs.insert(tile.at(5).get<int>()), ++counted;
   CHECK(programs == std::set{0, 1, 2});
-  CHECK(counted < 2 * 10 * 7);  // What was finished before is kept.
+  CHECK(counted < 2 * 10 * 7);  // Earlier finished tiles are kept.
 }
 
 }  // namespace septet::pipeline

@@ -60,7 +60,7 @@ TEST_CASE(
   film.samples = "6", film.size = "152x104";
   CHECK(queue.add("second").code == 0);
   CHECK(queue.add("third", {"--ranks", "2"}).code == 0);
-  // What is no film is told at once, and leaves the queue as it was.
+  // An invalid film is reported at once, and leaves the queue unchanged.
   CHECK(queue.add("third").error.find("film 3 of the queue") != std::string::npos);
   const Ended misspelled = queue.add("fourth", {"--sise", "1"});
   CHECK(misspelled.code == 2);

@@ -74,7 +74,7 @@ TEST_CASE("how tiles are dealt changes no picture and every tile counts once") {
     const fs::path out = film.folder / schedule, statistics = film.folder / "statistics.json";
     auto launcher =
         film.begin(out, {"--ranks", "3", "--schedule", schedule, "--buckets", "9", "--statistics", statistics});
-    // Nobody takes over what is late there: who is gone must be missed.
+    // Late tiles are not taken over there: the loss must be noticed.
     kill_amid(launcher, out, 2);
     CHECK(exit_code(launcher) == 0);
     INFO(text_of(film.log(out)));
@@ -159,7 +159,7 @@ TEST_CASE("a full disk ends a film with one message and it goes on where there i
   if (is_mounted) CHECK(::umount2(disk.c_str(), MNT_DETACH) == 0);
 }
 
-/// The environment in which what is found as mpirun counts its starts in a file; the first of them crash before anything is there.
+/// Environment whose mpirun counts its starts in a file; the first of them crash before any result.
 std::map<std::string, std::string> mpirun_that_crashes(const fs::path& folder, int times) {
   fs::create_directories(folder);
   const fs::path mpirun = folder / "mpirun";

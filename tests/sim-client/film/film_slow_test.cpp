@@ -19,7 +19,7 @@
 
 #include "engine/image/image.hpp"
 #include "engine/image/png.hpp"
-#include "engine/instant/tone_curve.hpp"
+#include "engine/light/tone_curve.hpp"
 #include "sim-client/film/film.hpp"
 #include "sim-client/film/film_file.hpp"
 #include "sim-client/soundtrack/wav_file.hpp"
@@ -46,7 +46,8 @@ Bytes bytes_of(const fs::path& file) {
   return Bytes(begin, begin + text.size());
 }
 
-/// A second's drive on a circle, from which participant 2 vanishes between two frames of a film, and a shot through their eyes.
+/// A second's drive on a circle, from which participant 2 vanishes between two frames of a film, and a shot through
+/// their eyes.
 void write_session_and_shots(const TemporaryFolder& folder) {
   {
     auto writer = logging::must_create(folder / "session.sqlite");
@@ -60,11 +61,11 @@ void write_session_and_shots(const TemporaryFolder& folder) {
     }
     REQUIRE(writer.finish().has_value());
   }
-  // Seen from a place to the side of the two, which turn with the sky behind them.
+  // From a place to the side of the two, which turn with the sky behind them.
   std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0\nto_s = 1\nparticipant = \"2\"\nshutter_deg = 360\n";
 }
 
-/// What a program prints.
+/// Output of a program.
 std::string printed_by(const std::string& command) {
   std::string text;
   FILE* const pipe = ::popen(command.c_str(), "r");
@@ -159,7 +160,7 @@ TEST_CASE("a traced film of a thousand frames takes no more memory at its end th
   CHECK(made->frames >= 1000);
   MESSAGE("after 100 frames ", early_mib, " MiB, after 990 ", late_mib);
   REQUIRE(early_mib > 0.0);
-#if !defined(__SANITIZE_ADDRESS__) && !SEPTET_WITH_ASAN  // Which keeps what was freed, and finds leaks itself.
+#if !defined(__SANITIZE_ADDRESS__) && !SEPTET_WITH_ASAN  // The sanitizer keeps freed memory, and finds leaks itself.
   CHECK(late_mib < early_mib + 4.0);                     // 4.6 KiB a frame.
 #endif
 }
@@ -178,7 +179,7 @@ TEST_CASE("OpenEXR pictures hold the light of the pictures and stay those of a f
                       .exr = ExrNumbers::single_precision,
                       .layers = {Layer::depth, Layer::object, Layer::participant, Layer::normal, Layer::albedo},
                       .to_s = 0.26};
-  // Somebody stops it between the tiles of the second frame: what they know is kept.
+  // Stopped by a person between the tiles of the second frame: the finished tiles are kept.
   const auto stopped =
       make_film(options, [](const FilmMade& so_far) { return so_far.frames < 1 || so_far.share_of_next < 0.4; });
   REQUIRE(stopped.has_value());
@@ -205,7 +206,7 @@ TEST_CASE("OpenEXR pictures hold the light of the pictures and stay those of a f
   REQUIRE(picture.has_value());
   bool light_is_that = true, sky_is_nothing = true;
   for (std::size_t n = 0; n < red.size(); ++n) {
-    const float code = 255.0f * std::clamp(instant::display_code(glm::vec3(red[n])).x, 0.0f, 1.0f);
+    const float code = 255.0f * std::clamp(light::display_code(glm::vec3(red[n])).x, 0.0f, 1.0f);
     light_is_that = light_is_that && std::abs(code - static_cast<float>(picture->rgba[4 * n])) <= 0.51f;
     sky_is_nothing = sky_is_nothing && (what[n] == 0) == std::isinf(depth[n]);
   }
@@ -241,7 +242,7 @@ TEST_CASE("a film that is stopped while a frame is traced ends there") {
   REQUIRE(made.has_value());
   CHECK(made->frames == 2);
   CHECK(made->stopped);
-  CHECK(fs::exists(options.out / "000003.tiles"));  // What is traced of it is kept.
+  CHECK(fs::exists(options.out / "000003.tiles"));  // Its traced tiles are kept.
   CHECK(std::distance(fs::directory_iterator(options.out), {}) == 4);
 }
 

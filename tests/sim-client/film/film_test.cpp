@@ -194,7 +194,7 @@ TEST_CASE("a script is read with its turns and its places") {
   CHECK(first.interior);
   CHECK(first.field_of_view_rad == doctest::Approx(40.0 * radians));
   REQUIRE(first.turns.size() == 2);
-  // What a turn does not name stays as it is, and the last one takes the rest of the shot.
+  // Members that a turn does not name stay unchanged, and the last one takes the rest of the shot.
   CHECK(first.turns[0].heading_rad == doctest::Approx(90.0 * radians));
   CHECK(first.turns[1].pitch_rad == doctest::Approx(-10.0 * radians));
   CHECK(first.turns[1].until_s == 5.5);
@@ -209,7 +209,7 @@ TEST_CASE("a film says how far it is and how long the rest will take") {
         "1 of 4 frames and 50 % of the next, 10 min left");
   CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2}, 1.0) == "2 of 4 frames");
   CHECK(progress_text({.frames = 3, .planned = 4, .kept = 2}, 20.0) == "3 of 4 frames, 20 s left");
-  // Half of the next was kept too: what is done since is a quarter of a frame in 20 s.
+  // Half of the next was kept too: progress since is a quarter of a frame in 20 s.
   CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2, .share_of_next = 0.75, .kept_of_next = 0.5}, 16.0) ==
         "2 of 4 frames and 75 % of the next, 80 s left");
   CHECK(progress_text({.frames = 0, .planned = 4, .bad_samples = 3}, 1.0) ==
@@ -225,7 +225,7 @@ TEST_CASE("a lens opens as photographers reckon and is sharp where it is told or
       "focus_m = 3.5\n[[shot]]\nfrom_s = 1\nto_s = 5\n",
       "shots.toml");
   REQUIRE(script.has_value());
-  // 39.6 degrees is what 50 mm see across 36 mm; at f/2 it opens 25 mm.
+  // 39.6 degrees is the view of 50 mm across 36 mm; at f/2 it opens 25 mm.
   CHECK(lens_radius_m(script->shots[0]) == relative(0.0125, 1e-4));
   CHECK(script->shots[0].focus_m == 9.0);
   CHECK(script->shots[0].shutter_rad == doctest::Approx(std::numbers::pi));
@@ -367,7 +367,7 @@ TEST_CASE("a picture's layers are its pixels' and its header says where the came
   CHECK(std::isinf(value("Z", 1)));
   CHECK(std::get<std::string>(picture.attributes.at("septet.seed")) == "9");
   CHECK(std::get<double>(picture.attributes.at("septet.tick")) == 300.0);
-  // What the camera sees in its middle lies ahead of it, and what lies to its right is to its right.
+  // The middle of the camera's view lies ahead of it, and its right to its right.
   const Vec3 eye_m = instant::world_eye(facts.view);
   const Vec3 ahead_m = eye_m + 5.0 * (facts.view.world_from_car.orientation * -facts.view.projection.back),
              right_m = ahead_m + facts.view.world_from_car.orientation * facts.view.projection.right;

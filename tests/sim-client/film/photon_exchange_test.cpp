@@ -39,7 +39,7 @@ struct Cluster {
     RayTracer tracer = begun_box();
     PhotonGathering photons{tracer, frame, 2};
     std::deque<Bytes> mail{};
-    std::size_t shot = 0;  ///< Buckets, also those that somebody else has shot.
+    std::size_t shot = 0;  ///< Buckets, including those shot by others.
     bool is_whole = false;
   };
   PhotonExchange master{};
@@ -113,7 +113,7 @@ TEST_CASE(
     "a worker that is lost with photons in its hands keeps nobody from having them all, and one that comes late gets "
     "what there is") {
   Cluster cluster(3);
-  // Two are told what to shoot, and one of them is never heard of again.
+  // Two get work, and one of them is never heard again.
   for (const std::size_t n : {0u, 1u}) {
     cluster.to_master(n, *cluster.workers[n].photons.question());
     cluster.hear(n);
@@ -154,9 +154,9 @@ TEST_CASE("photons that are none change nothing") {
   CHECK_FALSE(taken(photons_message(frame, 13, good)));
   CHECK_FALSE(taken(photons_message(frame + 1, 0, good)));
   CHECK_FALSE(taken({std::byte{0}, std::byte{1}}));
-  CHECK(taken(photons_message(frame, 12, {})));  // None have landed.
+  CHECK(taken(photons_message(frame, 12, {})));  // No photon has landed.
   CHECK_FALSE(taken(photons_message(frame, 12, good)));
-  // A question of somebody who sees something else there.
+  // A request from a worker with other content there.
   const auto answer = cluster.master.ask(1, {frame, 4, 1, true}, true);
   REQUIRE(answer.size() == 1);
   ByteReader reader(answer[0].bytes);

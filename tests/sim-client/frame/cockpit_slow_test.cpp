@@ -1,4 +1,4 @@
-/// The inside of the driver's car as pixels: what its instruments show is what the snapshot says.
+/// The inside of the driver's car as pixels: its instruments agree with the snapshot.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ Vec3 on_panel(const glm::dvec2& at_m) {
   return panel_of::middle_m + at_m.x * panel_of::right + at_m.y * panel_of::up + 0.003 * panel_of::normal;
 }
 
-/// The needle's angle on its dial, as it is drawn: the mean of what is red on a circle that it alone crosses.
+/// The needle's drawn angle on its dial: the mean of the red pixels on a circle that it alone crosses.
 double seen_needle_rad(const SeatPicture& picture, const panel_of::Dial& dial) {
   double weight = 0.0, sum = 0.0;
   for (int i = -40; i <= 1540; ++i) {
@@ -157,7 +157,8 @@ TEST_CASE("the steering wheel turns with the driver's") {
     Snapshot shown = in_the_seat();
     shown.driver_car.steering_wheel_rad = turn_rad;
     const auto picture = seat_picture(shown, rig, rig.screens[0], "wheel-" + std::to_string(turn_rad));
-    // The bright mark on the rim, bluer than hands: straight ahead it is at its top, and it goes to the left with a turn to the left.
+    // The bright mark on the rim, bluer than hands: straight ahead it is at its top, and it goes to the left with a
+    // turn to the left.
     double weight = 0.0, sum = 0.0;
     for (double x = top.x - 140.0; x <= top.x + 140.0; x += 1.0)
       for (double y = top.y; y <= top.y + 60.0; y += 1.0) {

@@ -47,13 +47,13 @@ inline rig::Rig rig_called(const std::string& name) {
   return *rig::read_rig(shipped_text("rigs/" + name + ".toml"), name);
 }
 
-/// A picture of one screen, and where in it lies what.
+/// A picture of one screen, and the places of the car's parts in it.
 struct SeatPicture {
   image::Image image;
   ScreenViews views;
   RigidTransform world_from_car;
 
-  /// Pixels from the upper left, of a place in the car.
+  /// Pixels from the upper left, for a place in the car.
   glm::dvec2 pixel(const Vec3& car_m) const {
     const instant::OffAxisView& projection = views.views.front().projection;
     const glm::dvec4 clip = projection.clip_from_eye_relative * glm::dvec4(car_m - projection.eye_m, 1.0);
@@ -65,7 +65,7 @@ struct SeatPicture {
   }
 };
 
-/// SEPTET_PICTURES: a folder where it is kept for people to look at, under `name`.
+/// SEPTET_PICTURES: a folder for keeping it for people, under `name`.
 inline SeatPicture seat_picture(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen,
                                 const std::string& name) {
   auto views = screen_views(rig, screen);

@@ -17,7 +17,7 @@ namespace {
 constexpr double seam_tick_s = 1.0 / 120.0;
 const Vec3 car_m(3000.0, -2000.0, 35.0);
 
-/// A prototype whose material glows, so that its pixels are told from everything else.
+/// A prototype whose material glows, so that its pixels are unambiguous.
 scene::ResolvedScene glowing_debris() {
   scene::ResolvedScene scene;
   scene.revision = 1;

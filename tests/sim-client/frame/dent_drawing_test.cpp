@@ -20,7 +20,8 @@ using namespace septet::frame;
 
 namespace {
 
-/// One large sheet across the front of a vehicle at x = 2 m, in two triangles; it looks forward. Its object is turned and stretched.
+/// One large sheet across the front of a vehicle at x = 2 m, in two triangles; it looks forward. Its object is turned
+/// and stretched.
 const RigidTransform vehicle_from_sheet{{2.0, 0.0, 0.5}, orientation_from_angles(0.5 * std::numbers::pi, 0.0, 0.0)};
 const glm::vec3 sheet_scale(2.0f, 1.0f, 0.5f);
 
@@ -84,7 +85,7 @@ TEST_CASE("a sheet is divided where a dent bends it, keeps its outline, and is a
     CHECK(glm::length(bent->vertices[i].normal) == relative(1.0, 1e-4));
   }
   CHECK(deepest == relative(0.3, 0.08));
-  // Its triangles cover what they did: seen from the front there is neither a hole nor an overlap.
+  // Its triangles cover the same area: seen from the front there is neither a hole nor an overlap.
   std::uint32_t in_parts = 0;
   for (const scene::MeshPart& part : bent->parts) in_parts += part.index_count;
   CHECK(in_parts == bent->indices.size());
@@ -129,7 +130,7 @@ TEST_CASE("the vehicle that crashed is drawn with its dents, outside and inside,
     return frame.participants[0].reshaped;
   };
   CHECK_FALSE(is_reshaped(3));
-  // Made once, and not again for what others are told.
+  // Built once, and not again for other vehicles' dents.
   const auto before = is_reshaped(2);
   drawing.show(with_dents({{2, {middle}}, {9, {middle}}}), scene);
   CHECK(is_reshaped(2) == before);

@@ -22,14 +22,14 @@ rig::Rig rig_of(const std::string& name) {
   return *rig;
 }
 
-/// Where a point of the car's frame is on a view, fractions from its lower left as drawn before any flip.
+/// Place of a point of the car's frame on a view, fractions from its lower left as drawn before any flip.
 Vec2 drawn_at(const instant::FrameView& view, const Vec3& point_m) {
   const glm::dvec4 clip = view.projection.clip_from_eye_relative * glm::dvec4(point_m - view.projection.eye_m, 1.0);
   REQUIRE(clip.w > 0.0);
   return {0.5 * (1.0 + clip.x / clip.w), 0.5 * (1.0 - clip.y / clip.w)};
 }
 
-/// Where the straight line from the eye to the point passes the window.
+/// Crossing of the straight line from the eye to the point with the window.
 Vec2 passed_at(const rig::Window& window, const Vec3& eye_m, const Vec3& point_m) {
   const Vec3 right = window.lower_right_m - window.lower_left_m, up = window.upper_left_m - window.lower_left_m;
   const Vec3 back = glm::cross(right, up), way = point_m - eye_m;
@@ -66,7 +66,7 @@ TEST_CASE("whoever looks aside sees in the middle of the screen what lies aside 
   const Vec3 far_aside_m = rig.eye_point_m + 100.0 * Vec3(std::cos(turn_rad), std::sin(turn_rad), 0.0);
   CHECK(glm::distance(drawn_at(ahead->views[0], far_ahead_m), drawn_at(aside->views[0], far_aside_m)) < 1e-9);
   CHECK(drawn_at(aside->views[0], far_ahead_m).x > 1.0);  // It has gone out to the right.
-  // Whoever looks there sees the left one in its place, and no second time.
+  // A driver who looks there sees the left one in its place, and no second time.
   CHECK(ahead->mirrors.empty());
   REQUIRE(aside->mirrors.size() == 1);
   CHECK(aside->mirrors[0].mirror.name == "left mirror");

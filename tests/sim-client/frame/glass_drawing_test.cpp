@@ -92,12 +92,12 @@ TEST_CASE(
         CHECK(place.x > 1.35);
         CHECK(place.x < 2.4);
         CHECK(std::abs(place.y) < 0.81);
-        // Of the car that is seen it lies on the glass, a few millimetres before it.
+        // On a visible car it lies on the glass, a few millimetres before it.
         const double before_m = (place.x - 2.0) * 0.5547 + (place.z - 0.9) * 0.8321;
         if (prototype == 1) CHECK(before_m == relative(0.004, 0.2));
       }
   }
-  // Thawed and gone with its keyframe; and a vehicle that is not there is none.
+  // Thawed and gone with its keyframe; a missing vehicle has no glass.
   panes[0].frost = {};
   drawing.show(with_glass(ice::encode_glass(panes)), scene);
   CHECK(drawn(1, Shown::whole, 5.0).size() == 1);

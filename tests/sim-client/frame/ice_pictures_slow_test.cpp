@@ -38,7 +38,7 @@ instant::FrameInput seen_from(const Vec3& eye_m, double pitch_rad) {
   return input;
 }
 
-/// Column and row where a place is seen.
+/// Column and row of a place.
 std::pair<double, double> pixel_of(const instant::FrameInput& input, const Vec3& place_m) {
   const RigidTransform& eye = input.views[0].world_from_car;
   const Vec3 p = glm::inverse(eye.orientation) * (place_m - eye.position_m);
@@ -72,7 +72,7 @@ ice::IceBody marked_body(const debris::Piece& piece) {
   return *body;
 }
 
-/// How far the marked pixel of `there` lies that is nearest to a place, at most 6 pixels.
+/// Distance of the marked pixel of `there` nearest to a place, at most 6 pixels.
 double nearest_px(const render::RadianceImage& there, double x, double y) {
   double best = 6.0;
   for (int j = -6; j <= 6; ++j)
@@ -85,7 +85,7 @@ double nearest_px(const render::RadianceImage& there, double x, double y) {
   return best;
 }
 
-/// Of all marked pixels of `of`, moved by some: how far one of `there` is, sorted.
+/// For all shifted marked pixels of `of`: the distance to the nearest of `there`, sorted.
 std::vector<double> distances_px(const render::RadianceImage& of, const render::RadianceImage& there, double moved_px) {
   std::vector<double> distances;
   for (std::uint32_t y = 0; y < high_px; ++y)
@@ -122,7 +122,7 @@ TEST_CASE("a crack stays in its place through the break of its slab, within a pi
     return static_cast<double>(std::ranges::upper_bound(distances, px) - distances.begin()) /
            static_cast<double>(distances.size());
   };
-  // The same pixel or one that touches it; what had been hidden by other ice and is bared is left over.
+  // The same pixel or one that touches it; newly uncovered ice is left over.
   constexpr double touching_px = 1.5;
   const double mean_px = std::accumulate(there.begin(), there.end(), 0.0) / static_cast<double>(there.size());
   MESSAGE(there.size() << " pixels of cracks after the break, " << mean_px << " px from one before, "

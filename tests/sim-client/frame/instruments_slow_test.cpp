@@ -32,7 +32,7 @@ Snapshot driving() {
   return snapshot;
 }
 
-/// Only the overlay, on what is drawn where there is no world. SEPTET_PICTURES: a folder where it is kept for people to look at.
+/// Only the overlay, without a world. SEPTET_PICTURES: a folder for keeping it for people.
 image::Image draw(const rig::Screen& screen, const std::vector<instant::OverlayText>& texts, const std::string& name) {
   auto renderer = render::Renderer::create(
       {.width = screen.width_px, .height = screen.height_px, .device = render::DevicePreference::software});
@@ -49,7 +49,7 @@ image::Image draw(const rig::Screen& screen, const std::vector<instant::OverlayT
   return *picture;
 }
 
-/// How many pixels of the rows from `top` to `bottom` (shares of the height) are about this colour.
+/// Number of pixels of about this colour in the rows from `top` to `bottom` (shares of the height).
 template <class Like>
 int count(const image::Image& picture, double top, double bottom, Like like) {
   int found = 0;
@@ -88,7 +88,7 @@ TEST_CASE("the table of keys is drawn whole") {
     const rig::Rig rig = desktop(width_px, height_px);
     const auto texts = key_table("Press any key to start", rig.screens[0]);
     const auto picture = draw(rig.screens[0], texts, "keys-" + std::to_string(width_px));
-    // Every line of it has letters: none was left out for want of room in the atlas.
+    // Every line of it has letters: all found room in the atlas.
     for (const auto& text : texts) {
       CAPTURE(text.text);
       int bright = 0;

@@ -1,4 +1,5 @@
-/// The mirrors of the cockpit as pixels: what stands behind the car is in their glass where the shortest way of light has it.
+/// The mirrors of the cockpit as pixels: objects behind the car are in their glass at the place of light's shortest
+/// path.
 
 #include <algorithm>
 #include <array>
@@ -67,7 +68,7 @@ instant::DynamicMesh beacon(const RigidTransform& world_from_car, const Vec3& pl
 }
 
 struct Seen {
-  glm::dvec2 pixel{0.0};  ///< The middle of what has changed.
+  glm::dvec2 pixel{0.0};  ///< Middle of the changed pixels.
   double changed = 0.0;   ///< Sum of that.
   float most = 0.0f;      ///< Radiance.
 };
@@ -101,7 +102,7 @@ class Stage {
     input.meshes.push_back(beacon(input.views[0].world_from_car, place_m, half_m));
     return found(draw(input), within);
   }
-  /// `within`: of what is seen there alone, where several mirrors see it.
+  /// `within`: restricted to one of several mirrors that see it.
   Seen found(const render::RadianceImage& with, const rig::Mirror* within = nullptr) const {
     Seen seen;
     glm::dvec2 low(0.0), high(with.width, with.height);

@@ -81,7 +81,8 @@ TEST_CASE("a screen that has just joined shows the oldest tick that it has") {
 
 TEST_CASE("of an effect the keyframes around the instant are found however often ticks repeat them") {
   TickHistory history;
-  // Keyframes of ticks 4, 12 and 20 are repeated until the next one comes; they are sent four ticks ahead of what they show.
+  // Keyframes of ticks 4, 12 and 20 are repeated until the next one comes; they are sent four ticks ahead of their
+  // instant.
   for (Tick tick = 0; tick <= 22; ++tick) {
     HistoryTick entry = tick_at(tick);
     entry.snapshot.effects = {keyframe(7, tick < 8 ? 4 : tick < 16 ? 12 : 20)};

@@ -35,7 +35,7 @@ TEST_CASE("a place was last wiped when a blade stood there") {
         REQUIRE(passed_s);
         CHECK(*passed_s <= time_s);
         CHECK(wiper_share(rain, *passed_s) == relative(share, 1e-6));
-        // And none did since.
+        // And no blade did since.
         for (double later_s = *passed_s + 0.002; later_s < time_s; later_s += 0.01)
           CHECK((wiper_share(rain, later_s) > share) == (wiper_share(rain, *passed_s + 0.002) > share));
       }

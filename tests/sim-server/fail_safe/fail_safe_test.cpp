@@ -16,24 +16,15 @@
 namespace septet::server {
 namespace {
 
-/// A person's car in a drive on simulated time, and what its actuators are told.
+/// A person's car in a drive on simulated time, and the commands to its actuators.
 struct SeatedDrive {
   explicit SeatedDrive(const rig::CarActuators& limits, bool has_actuators = true) {
     port.plug();
     DriverSeat seat;
     seat.actuators = limits;
     seat.car = std::make_unique<car_io::CarConnection>(port.opener(), car_io::CarConnectionOptions{});
-    seat.actuate = [this](Tick, const car_io::Actuators& actuators) -> std::optional<Error> {
-      told = actuators;
-      return std::nullopt;
-    };
-    if (!has_actuators) seat.actuate = nullptr;
+    seat.devices.push_back(std::make_unique<Device>(*this, has_actuators));
     seat.shakes_by_sound = true;
-    seat.bus_is_lost = [this] { return bus_is_lost; };
-    seat.show = [this](const car_io::Instruments& instruments) -> std::optional<Error> {
-      shown = instruments;
-      return std::nullopt;
-    };
     const LoadedDrive loaded = shipped_drive("behind-ambulance", "desktop");
     live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(seat)).value();
   }
@@ -45,6 +36,27 @@ struct SeatedDrive {
     }
   }
   bool is_off() const { return told.fan == 0.0 && told.vibration == 0.0 && told.steering == 0.0; }
+
+  /// Actuators and a cluster on a bus.
+  class Device final : public SeatDevice {
+   public:
+    Device(SeatedDrive& drive, bool moves) : drive_(drive), moves_(moves) {}
+    bool moves() const override { return moves_; }
+    bool shows() const override { return true; }
+    std::optional<Error> actuate(Tick, const car_io::Actuators& actuators) override {
+      drive_.told = actuators;
+      return std::nullopt;
+    }
+    std::optional<Error> show(const car_io::Instruments& instruments) override {
+      drive_.shown = instruments;
+      return std::nullopt;
+    }
+    bool is_lost() const override { return drive_.bus_is_lost; }
+
+   private:
+    SeatedDrive& drive_;
+    bool moves_;
+  };
 
   car_io::SimulatedHidPort port;
   car_io::CarSwitches switches;
@@ -117,7 +129,7 @@ TEST_CASE("an emergency stop is in force with its own tick and outlasts its rele
   CHECK(seated.live->alarm().find("re-armed") != std::string::npos);
   CHECK_FALSE(seated.live->rearm_actuators("operator").has_value());
   seated.drive(12, true);
-  CHECK(car_io::is_rest(seated.told));  // What writes on another machine is re-armed by it.
+  CHECK(car_io::is_rest(seated.told));  // It re-arms the writer on another machine.
   seated.drive(1, true);
   CHECK(seated.told.fan < 0.02);
   seated.drive(120, true);

@@ -1,8 +1,9 @@
 #pragma once
-/// Each shipped scenario, driven by a simulated driver, has the states whose hashes `golden_hashes` beside this file holds: whatever
-/// the compiler, its optimisation and its checks (.ci/run builds the fast test three times: gcc, clang, and gcc without optimisation).
+/// State hashes of each shipped scenario under a simulated driver, held in `golden_hashes` beside this file:
+/// independent of compiler, optimisation and checks (.ci/run builds the fast test three times: gcc, clang, and gcc
+/// without optimisation).
 ///
-/// After a change that is meant to move the simulation: run golden_hashes_test and golden_hashes_slow_test of build/release with
+/// After an intended change of the simulation: run golden_hashes_test and golden_hashes_slow_test of build/release with
 /// SEPTET_RENEW_HASHES=1, and commit.
 
 #include <cstdlib>
@@ -21,7 +22,7 @@
 
 namespace septet::server {
 
-/// Fast tests see the rows up to this tick, the slow one all of them.
+/// Fast tests use the rows up to this tick, the slow one all of them.
 inline constexpr Tick last_fast_tick = 1200;
 
 inline std::filesystem::path golden_file() {
@@ -34,11 +35,11 @@ struct DriveKey {
   auto operator<=>(const DriveKey&) const = default;
 };
 
-/// Of one drive: the hash that it has at some ticks; more than one, so that a failure says how early the states part.
+/// For one drive: its hash at some ticks; more than one, so that a failure tells how early the states part.
 using HashAtTick = std::map<Tick, std::string>;
 
 struct GoldenFile {
-  std::string heading;  ///< The lines of comment at its top.
+  std::string heading;  ///< Comment lines at its top.
   std::map<DriveKey, HashAtTick> drives;
 };
 
@@ -75,7 +76,7 @@ inline HashAtTick drive(const DriveKey& key, const HashAtTick& expected) {
   return reached;
 }
 
-/// Every drive of the file ends in its hashes up to that tick; renews them if it is told to, and leaves the later ones alone.
+/// Checks every drive of the file up to that tick; renews the hashes on request, and leaves later ones alone.
 inline void check_golden_hashes(Tick last_tick) {
   GoldenFile golden = read_golden();
   for (auto& golden_drive : golden.drives) {

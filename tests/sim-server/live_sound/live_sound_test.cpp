@@ -191,7 +191,7 @@ TEST_CASE("a rig that asks for 5.1 has six channels of a device whose settings l
   const TemporaryFolder folder;
   const auto file = folder.path() / "played.wav";
   {
-    // OpenAL's device that writes a file stands for one; XDG_CONFIG_HOME has what a user has set.
+    // OpenAL's device that writes a file stands for one; XDG_CONFIG_HOME has the user's settings.
     std::ofstream(folder.path() / "alsoft.conf") << "drivers = wave\n[wave]\nfile = " << file.string() << "\n";
     setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
     const auto open = device_opener({.speakers = rig::Sound::Speakers::surround_51});

@@ -1,4 +1,4 @@
-"""A headless Chromium, told what to do over its debugging socket, and what a test of the page needs around it."""
+"""A headless Chromium, controlled over its debugging socket, and the surroundings of a test of the page."""
 import base64
 import json
 import pathlib
@@ -17,7 +17,7 @@ ADDRESS = re.compile(rb"http://127\.0\.0\.1:\d+/#[0-9a-f]{32}")
 
 
 class Browser:
-    """Told what to do over its debugging socket."""
+    """Controlled over its debugging socket."""
 
     def __init__(self, program, folder):
         self.process = subprocess.Popen(
@@ -88,7 +88,7 @@ class Browser:
             self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, text=characters if kind == "keyDown" else "")
 
     def beyond_the_edge(self):
-        """What can be seen and ends to the right of the page's edge, but for what scrolls within it."""
+        """Visible elements that end right of the page's edge, except those that scroll within it."""
         return self.value("""[...document.querySelectorAll('body *')].filter((element) => {
             const place = element.getBoundingClientRect();
             if (!(place.width > 0 && place.height > 0) || place.right <= innerWidth + 0.5) return false;

@@ -8,7 +8,8 @@ import pathlib
 import re
 import sys
 
-# Keys that are put together when they are needed: a drive's end, a condition of the weather, a sentence of the server, a drive's title.
+# Keys that are put together when they are needed: a drive's end, a condition of the weather, a sentence of the server,
+# a drive's title.
 MADE = ("end.", "condition.", "preset.", "said.", "severity.", "event.", "carfault.", "wheel.", "scenario.", "about.")
 
 

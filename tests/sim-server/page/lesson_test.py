@@ -15,7 +15,7 @@ import sys
 
 from chromium import LIMIT_S, PageTrial, wait_for
 
-# What was said aloud: the arguments, a line a sentence.
+# Spoken words: the arguments, a line a sentence.
 SPEAKER = "#!/bin/sh\nprintf '%s|' \"$@\" >> \"$SEPTET_SAID\"\nprintf '\\n' >> \"$SEPTET_SAID\"\n"
 OWN = "var own = state.everybody.find((other) => other[0] === hello.driver);"
 
@@ -48,7 +48,7 @@ def at_the_desk(trial, server_program, folder):
     desk.open(url)
     desk.until("mine")
     desk.value("document.getElementById('language').value = 'en'; document.getElementById('language').onchange()")
-    # Nothing moves on this rig: nothing can be cut.
+    # This rig has no actuators: nothing can be cut.
     assert desk.value("state.actuators === null && document.getElementById('rearm').hidden && document.getElementById('alarm').hidden")
     tasks = desk.value("hello.lesson.tasks.map((task) => task.says)")
     assert tasks and desk.value("[...document.querySelectorAll('#lessontasks td:first-child')].map((cell) => cell.textContent)") == tasks
@@ -81,7 +81,7 @@ def at_the_desk(trial, server_program, folder):
     assert said.read_text() == "-v|de|--|-v „Langsamer“, bitte|\n", said.read_text()
     desk.until("[...document.querySelectorAll('#events li')].some((line) => line.textContent.includes('Langsamer'))")
 
-    # Faults of the car, which are shown as such and taken back.
+    # Faults of the car, shown as faults and cleared.
     desk.click("#carfaults button:nth-child(5)")
     desk.until("state.faults[4] && document.querySelector('#carfaults button:nth-child(5)').getAttribute('aria-pressed') === 'true'")
     desk.click("#carfaults button:nth-child(1)")
@@ -133,7 +133,7 @@ def small_rig(trial):
 
 
 def with_a_screen(trial, folder):
-    """What the screen shows, off-screen and in lockstep."""
+    """The screen's picture, off-screen and in lockstep."""
     drive, url = trial.serve(trial.septet, "drive", "--rig", small_rig(trial), "--scenario", "first-lesson", "--driver", "plain", "--virtual",
                              "--seconds", "0", "--out", trial.folder / "seen", "--page", "0")
     desk = trial.browser("seen")
@@ -151,7 +151,7 @@ def with_a_screen(trial, folder):
     pictures(desk, folder, "large")
     desk.click("#largebox button")
     desk.until("!document.getElementById('largebox').open")
-    # Nobody looks: nothing comes any more.
+    # Without a viewer nothing more comes.
     desk.value("var stood = state.tick; large.clear()")
     desk.until("state.tick > stood + 60")
     assert desk.value("large.size") <= 1, "large pictures come though nobody looks"

@@ -26,7 +26,7 @@ struct Desk {
     port = static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1)));
     CHECK(url.ends_with("/#" + std::string(token)));
   }
-  /// What the drive's thread is asked, as soon as it is.
+  /// The drive thread's next request, as soon as there is one.
   OperatorWish next_wish() {
     while (true)
       if (auto wishes = page->take_wishes(); !wishes.empty()) return wishes.front();
@@ -138,7 +138,7 @@ TEST_CASE("what a screen shows large is sent to who watches it, and to nobody el
   RawBrowser watcher(desk.port, token), other(desk.port, token);
   CHECK(desk.page->watched().empty());
   watcher.say(R"({"id":1,"do":"watch","screen":"ahead"})");
-  CHECK(answer(watcher, 1)["ok"] == true);  // Who does not command may look.
+  CHECK(answer(watcher, 1)["ok"] == true);  // A browser without the command may look.
   CHECK(desk.page->watched() == std::set<std::string>{"ahead"});
   const auto large = std::make_shared<const std::string>("\xff\xd8\xff");
   desk.page->show({.phase = "one", .screens = {{.name = "ahead", .large_picture = large}}});
@@ -202,7 +202,7 @@ TEST_CASE("a page without browsers costs the drive no memory and ends at once") 
   Desk desk;
   const auto snapshot = std::make_shared<const TakenSnapshot>(Snapshot{});
   for (int i = 0; i < 10000; ++i) desk.page->show({.newest = snapshot, .phase = "driving"});
-  CHECK(snapshot.use_count() <= 3);  // Here, in the slot, and as what is shown.
+  CHECK(snapshot.use_count() <= 3);  // Here, in the slot, and in the shown state.
 }
 
 }  // namespace septet::page

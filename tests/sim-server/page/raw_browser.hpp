@@ -17,7 +17,7 @@
 
 namespace septet::page {
 
-/// Of the servers in these tests.
+/// Token of the servers in these tests.
 inline constexpr std::string_view token = "0123456789abcdef0123456789abcdef";
 
 class RawConnection {
@@ -49,7 +49,7 @@ class RawConnection {
     if (socket_ >= 0) ::close(socket_);
   }
 
-  /// False where the other side has gone.
+  /// Returns false if the other side has gone.
   bool send(std::string_view bytes) {
     while (!bytes.empty()) {
       const auto count = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -59,19 +59,19 @@ class RawConnection {
     return true;
   }
   void send_no_more() { ::shutdown(socket_, SHUT_WR); }
-  /// As a program does that is killed: what was sent to it is answered by a reset.
+  /// Acts as a killed program: data sent to it is met with a reset.
   void die() {
     const linger now{1, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_LINGER, &now, sizeof now);
     ::close(std::exchange(socket_, -1));
   }
-  /// Everything until the other side closes.
+  /// Reads until the other side closes.
   std::string read_all() {
     while (receive()) {
     }
     return std::exchange(pending_, {});
   }
-  /// Through the empty line after an HTTP header; what there is where it does not come.
+  /// Reads through the empty line after an HTTP header; returns a partial one if it does not come.
   std::string read_header() {
     while (pending_.find("\r\n\r\n") == std::string::npos)
       if (!receive()) return std::exchange(pending_, {});
@@ -138,7 +138,7 @@ class RawBrowser {
   void die() { connection_.die(); }
   RawConnection& connection() { return connection_; }
 
-  /// The next text; nothing where the server has closed.
+  /// The next text; empty if the server has closed.
   std::optional<std::string> hear() {
     while (true) {
       const auto head = connection_.read(2);

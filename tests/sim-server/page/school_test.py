@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page before and after drives, as a school uses it: what it has made itself is chosen, past drives are found and marked, a student's record is
+"""The page before and after drives, as a school uses it: its own files are chosen, past drives are found and marked, a student's record is
 read, in three languages, on a telephone, by keys alone, below a path of a proxy and by [::1].
 
     school_test.py SEPTET ROOT [FOLDER]
@@ -19,7 +19,7 @@ import threading
 from chromium import LIMIT_S, PageTrial
 
 READY = "typeof hello !== 'undefined' && hello && hello.choices && state && state.sessions && !state.looking && mine"
-# A key whose text is missing is shown as it is.
+# A key whose text is missing is shown verbatim.
 KEYS_SHOWN = "document.body.innerText.match(/\\b(shell|start|past|record|asking|taking|ending|severity|end|said|scenario|about)\\.[a-z_]+/g)"
 
 
@@ -38,7 +38,7 @@ def make_own(own, root):
 
 
 def make_past(trial, drives, lesson):
-    """Two drives of a student, a game of another, and what is no session."""
+    """Two drives of a student, a game of another, and a file that is no session."""
     for name, driver, seconds in (("one", "novice", "24"), ("two", "experienced", "21")):
         trial.run("drive", "--scenario", lesson, "--rig", "desktop", "--driver", driver, "--participant", "P07", "--no-screens", "--seconds", seconds,
                   "--log", "samples", "--out", drives / name)
@@ -112,7 +112,7 @@ def find_past(browser):
     assert all(session["simulated_s"] > 20.0 for session in marked), marked
     text = json.dumps(browser.value(rows))
     assert f"{marked[0]['mark']:.1f} of 10" in text and "4520 points, level 3" in text, text
-    # In the time of who reads it: half past eleven in the evening in Greenwich is the next day in Stockholm.
+    # In the reader's time zone: half past eleven in the evening in Greenwich is the next day in Stockholm.
     assert "Jan 2, 2026, 12:30" in text, text
 
     def found(words, which="all"):

@@ -26,7 +26,7 @@ def main():
         browser.until("typeof hello !== 'undefined' && hello && hello.choices && state && mine")
         assert browser.value("state.sessions.length") == 0, "what is no session is listed"
 
-        # What cannot be is refused, and is told by the drive's own words.
+        # An impossible drive is refused, in the drive's own words.
         browser.value("var said = []; ask({ do: 'start', scenario: '../../etc/passwd' }, (answer) => said.push(answer.why))")
         browser.until("said.length === 1")
         assert browser.value("said[0]") == "there is no such scenario"
@@ -35,7 +35,7 @@ def main():
         browser.click("#startbutton")
         browser.until("state.failed && state.last.includes('seed')")
 
-        # An order that is none is refused by the page before it is sent, and by the server where it is sent all the same.
+        # An invalid order is refused by the page before it is sent, and by the server if it is sent nevertheless.
         browser.value(choose % "{ seed: '7', order: 'x' }")
         assert browser.value("!document.getElementById('startform').checkValidity()"), "the page takes an order that is none"
         browser.value("var orders = []; for (const order of ['x', '0', '-1', '1.5']) ask({ ...chosen(), order }, (answer) => orders.push(answer.why))")
@@ -83,7 +83,7 @@ def main():
         browser.click("#pastworkstop")
         browser.until("!state.work.running && !state.work.failed")
 
-        # What the driver answers afterwards: by the page's dialog, and what cannot be is refused.
+        # The driver's answers afterwards: by the page's dialog, and invalid ones are refused.
         browser.click("#sessions button.questionnaire")
         browser.until("document.getElementById('asking').open")
         browser.value("document.getElementById('askingwhich').value = 'paper'; show_questionnaire()")
@@ -116,7 +116,7 @@ def main():
         assert ("note", "it's late") in sqlite3.connect(session).execute("SELECT key, value FROM meta").fetchall()
         trial.run("replay", "--verify", session)
 
-        # An experiment is chosen: what is next in it is driven, and what it is called there is nobody's choice.
+        # An experiment is chosen: its next drive is run, under the experiment's own name.
         browser.value("ask({ ...chosen(), experiment: 'no-such', scenario: '' }, (answer) => said.push(answer.why))")
         browser.until("said.includes('there is no such experiment')")
         browser.value("document.getElementById('choosescenario').value = 'experiment:ambulance-24'; show_scenario();"

@@ -12,7 +12,7 @@
 namespace septet::page {
 namespace {
 
-/// A running server that says back what it is told, and counts.
+/// A running server that echoes messages, and counts.
 struct Echo {
   std::mutex mutex;
   std::condition_variable changed;
@@ -213,7 +213,7 @@ TEST_CASE("who reads slowly is sent the newest state and not those between, and 
     echo.server->post([&server = *echo.server, state] {
       for (const BrowserId browser : {1, 2}) server.send_newest(browser, state);
     });
-    if (i % 100 == 0) CHECK(quick.hear().has_value());  // Nobody waits for the slow one.
+    if (i % 100 == 0) CHECK(quick.hear().has_value());  // The slow one delays no other.
   }
   int last = -1;
   while (last != states - 1) {
@@ -252,7 +252,8 @@ TEST_CASE("whoever holds hundreds of connections without a whole request shuts n
   const std::string whole = fmt::format("GET /page.js HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n\r\n", echo.server->port());
   std::string posted = whole;
   posted.replace(0, 3, "POST");
-  // Nothing, a byte, all but the last one, a chunked body that never comes, and a whole request whose answer nobody takes.
+  // Nothing, a byte, all but the last one, a chunked body that never comes, and a whole request whose reply is not
+  // read.
   const std::string held[] = {"", "G", whole.substr(0, whole.size() - 1),
                               posted.substr(0, posted.size() - 2) + "Transfer-Encoding: chunked\r\n\r\n", whole};
   for (const std::string& words : held) {
@@ -263,7 +264,7 @@ TEST_CASE("whoever holds hundreds of connections without a whole request shuts n
       holding.back().send(words);
       if (i % 100 == 99) CHECK(echo.works());
     }
-    RawBrowser stays(echo.server->port(), token);  // Who has come in is put out by nobody.
+    RawBrowser stays(echo.server->port(), token);  // An accepted browser is not displaced.
     for (int i = 0; i < 300; ++i) {
       holding.emplace_back(echo.server->port());
       holding.back().send(words);

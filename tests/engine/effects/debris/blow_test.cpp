@@ -52,19 +52,20 @@ TEST_CASE("a blow loses what restitution does not return and its stress is that 
   const double mass_kg = elastic::total_mass_kg(slab.body);
   std::vector<elastic::NodeContact> contacts(2);
   contacts[0].impulse_ns = {3.0, 0.0,
-                            0.25 * (1.0 + e) * mass_kg * closing_mps};  // A quarter of it; friction is not of the blow.
+                            // A quarter of it; friction is not part of the impact.
+                            0.25 * (1.0 + e) * mass_kg * closing_mps};
   contacts[1].impulse_ns = {0.0, 0.0, 0.75 * (1.0 + e) * mass_kg * closing_mps};
   contacts[1].node = 1;
   const std::vector<double> closing{closing_mps, closing_mps};
   const Blow blow = blow_of(slab, contacts, closing, step_s);
   CHECK(blow.lost_j == relative(0.5 * mass_kg * closing_mps * closing_mps * (1.0 - e * e), 1e-6));
   CHECK((blow.normal - Eigen::Vector3d::UnitZ()).norm() < 1e-9);
-  // One element thick, so that its mean is half of what the surface feels: twice Δt c / ((1 + e) L).
+  // One element thick, so that its mean is half of the surface's: twice Δt c / ((1 + e) L).
   const auto& m = slab.material.elastic;
   const double wave_mps = std::sqrt(m.young_modulus_pa / m.density_kgpm3),
                thick_m = part_recipe(Part::ice_slab).size_m.z;
   CHECK(blow.stress_factor == relative(2.0 * step_s * wave_mps / ((1.0 + e) * thick_m), 1e-6));
-  // Contacts that were no blow, or pulled, count for nothing.
+  // Contacts that are no impact, or pull, do not count.
   const std::vector<double> pressing{0.0, 0.0};
   CHECK(blow_of(slab, contacts, pressing, step_s).lost_j == 0.0);
   CHECK(blow_of(slab, contacts, pressing, step_s).stress_factor == 1.0);

@@ -54,7 +54,7 @@ TEST_CASE("a corner that meets the middle of a face leaves it at a fifth of its 
   exchange_impulses(pieces, step_s);
   CHECK(relative_mps(pieces).z() == relative(0.2 * depth_m / step_s, 1e-9));
   CHECK((momentum(pieces) - before).norm() < 1e-12 * before.norm());
-  // Who leaves faster is not held.
+  // A corner that leaves faster is not held.
   auto leaving = corner_in_face({0, 0, 0.1});
   exchange_impulses(leaving, step_s);
   CHECK(relative_mps(leaving).z() == 0.1);

@@ -49,7 +49,7 @@ Blow blow_that_lost(double lost_j, double stress_factor) {
 }
 
 using Corners = std::array<Vec3, 3>;
-/// Where the cracks of a piece lie at rest, the first corner first.
+/// Places of a piece's cracks at rest, the first corner first.
 std::vector<Corners> cracks_told(const Piece& piece) {
   const auto sent = decode(encode(keyframe_of(piece)));
   REQUIRE(sent);
@@ -67,7 +67,7 @@ TEST_CASE("under a lasting pull a crack of ice grows as Kachanov's law says unti
     Piece slab = in_splinters(Part::ice_slab, 2);
     pull(slab, share);
     const double rupture_s = crack_time_s / (crack_exponent + 1.0) * std::pow(share, -crack_exponent);
-    // It parts once what is left of it is overloaded: at a = 1 − share.
+    // It parts once the remainder is overloaded: at a = 1 − share.
     const double opens_s = rupture_s * (1.0 - std::pow(share, crack_exponent + 1.0)), step_s = 4e-3 * opens_s;
     double time_s = 0.0;
     for (const double until : {0.25, 0.5, 0.75, 0.95}) {

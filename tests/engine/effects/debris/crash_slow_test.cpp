@@ -29,6 +29,6 @@ TEST_CASE("debris of a crash lies in the way and none of it in the barrier") {
     widest = std::max(widest, std::abs(centre.y()));
   }
   CHECK(widest > 2.0);   // Beyond the car's own lane half,
-  CHECK(widest < 40.0);  // and not beyond what its energy allows.
+  CHECK(widest < 40.0);  // and within its energy.
   CHECK(state.bad_numbers == 0);
 }

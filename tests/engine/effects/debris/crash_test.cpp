@@ -37,7 +37,7 @@ TEST_CASE("a crash at 70 kilometres per hour throws parts and one at walking pac
     CHECK(report.pieces.empty() == (speed < 2.0));
     if (speed < 2.0) continue;
     CHECK(report.struck >= 3);            // Bumper and headlamps.
-    CHECK(report.fragments >= 8);         // And not in one piece.
+    CHECK(report.fragments >= 8);         // And in more than one piece.
     CHECK(crash.first.parts.size() > 3);  // Doors and rear stay.
   }
 }
@@ -113,7 +113,7 @@ TEST_CASE("concrete and ice and glass break at the blow when thrown flat at a wa
     Random random(3);
     const double half = 0.5 * part_recipe(part).size_m.x;
     spawn_part(state, part, {{half + 0.6, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-crash_speed_mps, 0, 0), Vec3(0), random);
-    ContactWorld world;  // No ground: what breaks, the wall breaks.
+    ContactWorld world;  // No ground: the wall alone breaks it.
     Box wall;
     wall.half_size_m = {0.5, 5.0, 5.0};
     world.boxes = {wall};

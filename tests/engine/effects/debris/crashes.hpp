@@ -1,5 +1,5 @@
 #pragma once
-/// A car with all that can be torn off it, and its crash into a wall, for the tests.
+/// A car with all detachable parts, and its crash into a wall, for the tests.
 
 #include "engine/effects/debris/crash.hpp"
 

@@ -27,12 +27,12 @@ double mass_of(const State& state) {
   return mass;
 }
 
-/// Of a body that moves as one: that of its kinetic energy.
+/// For a body that moves as one: from its kinetic energy.
 double speed_mps(const Piece& piece) {
   return std::sqrt(2.0 * elastic::kinetic_energy_j(piece.body) / elastic::total_mass_kg(piece.body));
 }
 
-/// Two seconds of a windscreen that was thrown at a wall; the fractures, and what is left.
+/// Two seconds of a windscreen thrown at a wall; returns the fractures, and the remains in `state`.
 int throw_windscreen_at_wall(State& state, int steps = 120) {
   Random random(3);
   spawn_part(state, Part::windscreen, {{1.2, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-19.4, 0, 0), Vec3(0), random);
@@ -153,7 +153,7 @@ TEST_CASE("what two hulls squeeze leaves about as fast as they close and does no
     CHECK(fastest > 3.0);
     CHECK(fastest <
           1.2 * closing_mps);  // Of any fragment; in their mean less. Bounded by the world's energy alone, 240 m/s.
-    // What stops all of its mass, several times over; pressed without an end between the two, 10⁶.
+    // Impulse that stops all of its mass, several times over; pressed without an end between the two, 10⁶.
     CHECK(largest_ns < 5.0 * part_recipe(part).mass_kg * closing_mps);
   }
 }

@@ -1,4 +1,4 @@
-// How deep a crash dents, what shape that is, and how few bytes tell it.
+// Dents of a crash: their depth, their shape, and their few bytes.
 
 #include "engine/effects/debris/dent.hpp"
 
@@ -117,7 +117,7 @@ TEST_CASE("all screens are told the same dent in a few bytes") {
   CHECK(first.place_m.x == doctest::Approx(3.7));
   CHECK(std::abs(first.depth_m - 0.337) <= 0.0025);
   CHECK(std::abs(std::remainder(turned.heading_rad + 1.0, 2.0 * std::numbers::pi)) <= std::numbers::pi / 256.0);
-  CHECK(encode_dents(*told) == bytes);  // What was told once is told again without loss.
+  CHECK(encode_dents(*told) == bytes);  // A decoded dent is encoded again without loss.
 }
 
 TEST_CASE("bytes that tell no dents are refused, and dents that make no sense are told as some that do") {

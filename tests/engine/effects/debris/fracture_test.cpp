@@ -1,4 +1,4 @@
-// What opens and what it costs.
+// Opening faces and their cost.
 
 #include "engine/effects/debris/fracture.hpp"
 
@@ -26,7 +26,8 @@ Piece slab_pulled_to(double share_of_strength) {
   return slab;
 }
 
-/// A slab of ice of two splinters that meet in the plane x = 0: ten triangles. A step carries a pull along x through it.
+/// A slab of ice of two splinters that meet in the plane x = 0: ten triangles. A step carries a pull along x through
+/// it.
 Piece slab_of_two(double carried_share_of_strength) {
   Piece slab = part_at_rest(Part::ice_slab);
   for (std::size_t k = 0; k < slab.body.elements.size(); ++k) {
@@ -57,7 +58,7 @@ TEST_CASE("a slab pulled to just below its strength holds and just beyond it bre
   CHECK(fracture(slab_pulled_to(0.99)).opened_faces == 0);
   CHECK(fracture(slab_pulled_to(1.01)).opened_faces > 0);
   CHECK(fracture(slab_pulled_to(-1.5)).opened_faces == 0);  // Pressed.
-  // What a step has carried counts as what the shape does.
+  // A step's transmitted load counts like the shape's.
   CHECK(fracture(slab_of_two(0.99)).opened_faces == 0);
   CHECK(fracture(slab_of_two(1.01)).opened_faces == 10);
 }
@@ -81,7 +82,7 @@ TEST_CASE("cracks of a blow open as far as what it lost pays for") {
     CHECK(fracture(slab, blow_with(paid * cost_j, 4.0)).opened_faces == static_cast<int>(paid));
   }
   CHECK(fracture(slab, blow_with(20.0 * cost_j, 4.0)).opened_faces == 10);
-  // The work of what goes on pressing pays as well.
+  // The work of lasting pressure pays as well.
   Blow pressed = blow_with(1.5 * cost_j, 4.0);
   pressed.pressed_j = 3.0 * cost_j;
   CHECK(fracture(slab, pressed).opened_faces == 4);
@@ -123,7 +124,7 @@ TEST_CASE("a fifth of what the cracks leave of a blow scatters the fragments") {
   }
   CHECK(energy_j == relative(scatter_share * left_j, 1e-6));
   CHECK(momentum.norm() < 1e-9);
-  // What goes on pressing pays for cracks and scatters nothing.
+  // Lasting pressure pays for cracks and scatters nothing.
   Blow pressed = blow_with(1e-9, 4.0);
   pressed.pressed_j = 100.0;
   double pressed_j = 0.0;

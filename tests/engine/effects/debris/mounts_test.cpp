@@ -1,4 +1,4 @@
-// What of a car is struck in its crush, what its mounts hold and what flies off.
+// A car's struck parts, the limits of its mounts, and parts that fly off.
 
 #include <cmath>
 
@@ -19,7 +19,7 @@ constexpr double speed_mps = 56.0 / 3.6;
 /// A front gives 0.66 m at 56 km/h (crash.hpp), which is V/ω.
 constexpr double crush_m = 0.66, frequency_radps = speed_mps / crush_m;
 
-/// A car of 1.5 t that runs into something of `other_kg`, from x < 0 towards the plane x = 0; with one part.
+/// A car of 1.5 t that runs into a body of `other_kg`, from x < 0 towards the plane x = 0; with one part.
 struct Run {
   State state;
   Crash crash;

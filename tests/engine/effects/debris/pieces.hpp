@@ -10,7 +10,7 @@
 
 namespace septet::debris {
 
-/// A plane at z = 0 and nothing on it.
+/// An empty plane at z = 0.
 inline ContactWorld level_road() {
   return {[](double, double) { return GroundPoint{}; }, {}};
 }

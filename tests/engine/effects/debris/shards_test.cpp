@@ -1,4 +1,4 @@
-// Rigid shards of glass, and what lies on the road.
+// Rigid shards of glass, and debris at rest on the road.
 
 #include "engine/effects/debris/shards.hpp"
 
@@ -41,7 +41,7 @@ TEST_CASE("a shard and a piece whose numbers go bad are counted, and what is tol
   Random random(1);
   spawn_part(state, Part::windscreen, RigidTransform{}, Vec3(0.0), Vec3(0.0), random);
   state.pieces.front().body.velocity_mps.front().z() = NAN;
-  state.pieces.front().asleep = true;  // No step looks at it.
+  state.pieces.front().asleep = true;  // Skipped by every step.
   ContactWorld road = level_road();
   advance_debris(state, road, shard_step_s);
   CHECK(state.shards.size() == 1);
@@ -63,7 +63,7 @@ TEST_CASE("a shard falls freely and a fifth of its speed comes back from the roa
     advance_shards(state, road, shard_step_s);
   }
   CHECK(state.shards[0].velocity_mps.z == relative(0.2 * closing_mps, 0.02));
-  CHECK(state.shards[0].velocity_mps.x == 0.0);  // Friction of 0.4 times 1.2 times the blow takes more than it had.
+  CHECK(state.shards[0].velocity_mps.x == 0.0);  // Friction of 0.4 times 1.2 times the impulse exceeds its momentum.
 }
 
 TEST_CASE("a shard that grazes the road loses Coulomb's share and comes to rest on it") {

@@ -237,7 +237,7 @@ TEST_CASE("glass comes back from the wire to the gram and the millimetre, and no
   CHECK(!decode_glass(longer));
   newer[0] = std::byte{2};
   CHECK(!decode_glass(newer));
-  // What cannot be told is told as the nearest that can.
+  // A value outside the range is encoded as the nearest inside.
   panes[0].frost.thickness_kgpm2 = NAN;
   panes[1].stars.assign(20, {-3.0, INFINITY, 1e9, 5});
   panes.resize(100);

@@ -108,7 +108,7 @@ TEST_CASE("bytes that no encoder wrote are refused") {
   Bytes other = whole;
   other[0] = std::byte{9};
   CHECK(!decode(other).has_value());
-  for (std::size_t at = 1; at < whole.size(); ++at) {  // Whatever is taken comes back.
+  for (std::size_t at = 1; at < whole.size(); ++at) {  // Any accepted bytes come back unchanged.
     Bytes changed = whole;
     changed[at] ^= std::byte{0xff};
     if (const auto read = decode(changed)) CHECK(decode(encode(*read)).has_value());

@@ -1,4 +1,4 @@
-// How particles are born, thin out and are drawn.
+// Birth, thinning and drawing of particles.
 
 #include <cmath>
 
@@ -123,7 +123,7 @@ TEST_CASE("a cell lets no more in than it holds and what is pushed finds room el
   int most = 0;
   for (const std::uint16_t density : state.density) most = std::max<int>(most, density);
   CHECK(most == state.parameters.most_in_cell);
-  // A box pushes out what it covers.
+  // A box displaces the smoke in its place.
   const Obstacle box{{{4.5, 4.5, 4.5}, {1, 0, 0, 0}}, Vec3(0.6)};
   const StepReport report = advance_smoke(state, Vec3(0.0), {&box, 1}, 1e-4);
   CHECK(report.pushed >= state.parameters.most_in_cell);
@@ -151,7 +151,7 @@ TEST_CASE("a cell fills its walls with soot at the stated rate and never beyond"
       if (static_cast<int>(state.beside_wall[n]) == state.grid.index(4, 4, 0)) return state.soot[n];
     return -1.0f;
   };
-  // A wall halves what is around: of the ball's layers below the floor there are none.
+  // A wall halves the surroundings: of the ball's layers below the floor there are none.
   const double share = 0.399 + 0.242 + 0.054;
   CHECK(soot_after(0.2) == relative(0.2 * share * std::pow(0.991, 2), 0.02));
   CHECK(soot_after(50.0) == 1.0f);

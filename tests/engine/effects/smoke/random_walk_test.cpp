@@ -12,8 +12,8 @@ using namespace septet::smoke;
 
 namespace {
 
-/// Standard deviation of the way along an axis, in cells, that smoke has gone which is equally dense everywhere: nothing but the
-/// random walk moves it.
+/// Standard deviation, along an axis and in cells, of the path of smoke of equal density everywhere: only the random
+/// walk moves it.
 Vec3 spread_cells(int particles_in_cell, int steps, double step_s) {
   constexpr int cells = 12, rim = 3;
   Emitter still;

@@ -11,7 +11,7 @@ namespace septet::smoke {
 
 inline constexpr double step_s = 1.0 / 60.0;
 
-/// A closed room of 24 × 24 × 16 cells of one metre, and a fire on its floor that gives off 18,432 particles in 25 s.
+/// A closed room of 24 × 24 × 16 cells of one metre, and a fire on its floor that emits 18,432 particles in 25 s.
 inline State paper_room(std::uint64_t seed = 1) {
   Emitter fire;
   fire.position_m = {12.0, 12.0, 2.0};

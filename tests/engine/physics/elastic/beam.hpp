@@ -1,6 +1,6 @@
 #pragma once
-/// The beam of Servin et al. (0.1 × 0.1 × 2.1 m along z) under the loads of their figures 8 and 9,
-/// and what Euler–Bernoulli and Saint-Venant expect of it. Shared by tests and figures.
+/// The beam of Servin et al. (0.1 × 0.1 × 2.1 m along z) under the loads of their figures 8 and 9, and the predictions
+/// of Euler–Bernoulli and Saint-Venant. Shared by tests and figures.
 
 #include <cmath>
 #include <vector>
@@ -83,8 +83,8 @@ inline double static_stretch(int cells_across, double force_over_ya, bool free, 
   return (mean_z(body, at_end) - mean_z(body, at_start)) / length_m - 1.0;
 }
 
-/// Strain of a block pushed by a static force. It is short, because the long beam would buckle at
-/// a fiftieth of this load, and without lateral strain, so that the clamp does no harm.
+/// Strain of a block pushed by a static force. It is short, because the long beam would buckle at a fiftieth of this
+/// load, and without lateral strain, so that the clamp has no effect.
 inline double static_push_strain(int cells_across, double force_over_ya) {
   auto body = *make_elastic_body(
       lattice_mesh({cells_across, cells_across, 2 * cells_across}, {side_m, side_m, 2 * side_m}), {1e8, 0.0, 1000.0});

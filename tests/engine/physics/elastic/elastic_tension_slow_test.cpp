@@ -10,8 +10,8 @@ using namespace septet::elastic;
 
 namespace {
 
-/// Steps the beam of 840 tetrahedra under a sudden pull with a sideways kick; answers stretch over
-/// expected stretch, or NaN where it did not come to rest.
+/// Steps the beam of 840 tetrahedra under a sudden pull with a sideways kick; returns stretch over expected stretch, or
+/// NaN if it did not come to rest.
 double stretch_after_sudden_pull(double young_pa, double load, bool tension_stiffness) {
   ElasticBody body = beam::make(2, {young_pa, 0.25, 1000.0});
   beam::clamp_start(body);

@@ -16,7 +16,7 @@ namespace {
 
 struct Swing {
   double down_s = 0.0;  ///< From rest beside the hinge to straight below it.
-  double rise = 0.0;    ///< The share of what it fell that the centre of mass regains.
+  double rise = 0.0;    ///< Share of the centre of mass' fall that is regained.
 };
 
 /// The body is let go where its centre of mass is as high as the y-axis, which holds it.

@@ -1,4 +1,4 @@
-// One tetrahedron pressed flat, where the answer is written down by hand.
+// One tetrahedron pressed flat, with a closed-form solution.
 
 #include <cmath>
 
@@ -81,13 +81,14 @@ TEST_CASE("a step that presses further is held by the stiffness of the volume as
     ElasticBody pushed = still;
     step_elastic(pushed, settings);
     step_elastic(body, settings);
-    // Without what the present shape pushes back.
+    // Without the present shape's elastic energy.
     double after_j = 0.0;
     for (int i = 0; i < body.node_count(); ++i)
       after_j += 0.5 * body.mass_kg[i] * (body.velocity_mps[i] - pushed.velocity_mps[i]).squaredNorm();
     return std::sqrt(before_j / after_j) - 1.0;
   };
-  // Rate of a uniform squeeze: Δt²/γ K over the mass, K of the volume's constraint from c = s² and of the strain from s.
+  // Rate of a uniform squeeze: Δt²/γ K over the mass, K of the volume's constraint from c = s² and of the strain from
+  // s.
   const LameConstants lame = lame_constants({young_pa, 0.3, 1000.0});
   const double g2 = 100.0, mass_over_volume = 1000.0;
   for (const double share : {0.2, 0.5}) {

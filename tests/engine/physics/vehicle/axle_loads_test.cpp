@@ -1,4 +1,4 @@
-// What the wheels carry must balance what the car does.
+// Wheel loads must balance the car's motion.
 
 #include <cmath>
 
@@ -29,7 +29,8 @@ TEST_CASE(
 
   const Vec3 mass_centre_m = state.world_from_body.position_m;
   const auto centres_m = wheel_centres_m(car, state);
-  // Loads stand under the wheels' centres; the unsprung masses weigh and decelerate where they are, and the wheels' spin falls.
+  // Loads stand under the wheels' centres; the unsprung masses weigh and decelerate where they are, and the wheels'
+  // spin falls.
   double moment_nm = 0.0, forces_nm = 0.0;
   for (int i = 0; i < wheel_count; ++i) {
     const Vec3 arm_m = centres_m[i] - mass_centre_m;

@@ -1,4 +1,4 @@
-// What fails by itself: the brakes' control, a cylinder, a tyre.
+// Failures of the car itself: the brakes' control, a cylinder, a tyre.
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,8 @@ using namespace septet::vehicle;
 
 namespace {
 
-/// What the wheels get over what the clutch passes through the gears, once the car has driven a second with this accelerator.
+/// Torque at the wheels over the torque passed through clutch and gears, after a second of driving with this
+/// accelerator.
 double wheel_share(double accelerator) {
   VehicleParameters car = read_car("volvo-s80");
   car.powertrain.transmission = Transmission::manual;

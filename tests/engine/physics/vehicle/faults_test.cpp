@@ -104,7 +104,7 @@ TEST_CASE("given inputs are driven as they are given") {
   const ManoeuvreReport report = drive_inputs(read_car("volvo-s80"), options, rows);
   CHECK(report.faults.empty());
   const double ratio = read_car("volvo-s80").steering.ratio;
-  constexpr double step_s = 0.001;  // A sample tells what was held in the step before it.
+  constexpr double step_s = 0.001;  // A sample holds the state of the step before it.
   for (const ManoeuvreSample& sample : report.series)
     CHECK(std::abs(sample.steer_rad * ratio - 0.2 * std::max(0.0, sample.time_s - step_s - 2.0)) < 1e-9);
   CHECK(report.series.back().time_s == doctest::Approx(4.0));

@@ -1,5 +1,5 @@
 #pragma once
-/// A driver who does anything at all.
+/// A driver with arbitrary controls.
 
 #include <cmath>
 

@@ -135,7 +135,7 @@ TEST_CASE("a car slides along a rail and is neither held nor thrown") {
       const Drive drive = drive_into({wall({-100.0, 3.0}, {900.0, 3.0})}, {0.0, 1.4}, heading, speed, 3.0);
       const double along = speed * std::cos(heading), into = speed * std::sin(heading);
       CHECK(drive.state.velocity_mps.x >
-            along - 2.2 * into);  // Coulomb's share of the blow, and what the yaw takes up.
+            along - 2.2 * into);  // Coulomb's share of the impulse, and the part taken by the yaw.
       CHECK(drive.state.velocity_mps.x < along + 0.1);
       CHECK(drive.state.velocity_mps.y > -0.6 * into - 0.5);
       CHECK(drive.report.begun.size() == 1);

@@ -1,4 +1,4 @@
-// What a state is told as, and what flies and slides as a body does.
+// Outputs of a state, and rigid-body flight and sliding.
 
 #include <cmath>
 
@@ -106,8 +106,8 @@ TEST_CASE("the tyre's aligning torque is its trail of the contact's length") {
   drive(car, input, level_ground(), 2.0, state);
   for (const int wheel : {0, 1}) {
     const WheelState& front = state.wheels[wheel];
-    const double length_m =
-        2.0 * std::sqrt(2.0 * car.tyre.radius_m * front.squeeze_m);  // A chord of the tyre's circle.
+    // A chord of the tyre's circle.
+    const double length_m = 2.0 * std::sqrt(2.0 * car.tyre.radius_m * front.squeeze_m);
     const double slip = std::abs(std::tan(front.slip_angle_rad)) / car.tyre.load_sensitive.trail_zero_slip;
     REQUIRE(slip < 0.15);
     CHECK(-front.aligning_nm / front.force_n.y == relative(car.tyre.load_sensitive.trail_over_length * length_m, 0.1));

@@ -14,7 +14,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(at, what.size(), with);
 }
 
-/// "NAME:LINE:COLUMN" of what follows `words`, or `behind` characters after their beginning.
+/// "NAME:LINE:COLUMN" of the place after `words`, or `behind` characters after their beginning.
 std::string place(const std::string& text, const std::string& name, const std::string& words,
                   std::size_t behind = std::string::npos) {
   const auto at = text.find(words);

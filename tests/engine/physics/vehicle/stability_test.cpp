@@ -180,8 +180,9 @@ struct SplitStop {
          wheel_deg = 0.0;  ///< Greatest turn of the hand wheel in the first two seconds, and in all.
 };
 
-/// Full brake, left wheels on the high side and right ones on the low side, for `time_s` or to 1 km/h. The driver takes half a
-/// second to see it, then steers against heading, way aside and yaw rate with a lag of 0.1 s and at most 400 deg/s.
+/// Full brake, left wheels on the high side and right ones on the low side, for `time_s` or to 1 km/h. The driver takes
+/// half a second to see it, then steers against heading, way aside and yaw rate with a lag of 0.1 s and at most 400
+/// deg/s.
 SplitStop split_stop(double speed_mps, bool stability_control, bool hands_on, double time_s) {
   VehicleParameters car = read_car("volvo-s80");
   car.brakes.stability_control = stability_control;

@@ -53,7 +53,8 @@ Climb climb(double speed_mps, double accelerator) {
 }  // namespace
 
 TEST_CASE("a car that rolls at a step of 15 cm at walking pace is stopped by it") {
-  // Its front axle carries 0.58 of its weight: up 15 cm takes what the car has at 4.7 km/h, and as much is lost in tyre and damper.
+  // Its front axle carries 0.58 of its weight: up 15 cm takes the car's energy at 4.7 km/h, and as much is lost in tyre
+  // and damper.
   const Climb slow = climb(5.0 / 3.6, 0.0);
   CHECK(slow.end.world_from_vehicle.position_m.x < 4.0);
   CHECK(slow.highest_m < 0.05);

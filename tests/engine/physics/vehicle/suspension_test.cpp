@@ -1,4 +1,4 @@
-// Where a wheel is held, how it is steered, and what the driver feels of it.
+// Wheel locations, steering, and the driver's feedback.
 
 #include "engine/physics/vehicle/suspension.hpp"
 
@@ -111,7 +111,7 @@ TEST_CASE("bump leans a strut's wheel inwards and a force to the left leans it t
 
 namespace {
 
-/// What the hand wheel pulls with after it has been held straight for a second with these forces on the front wheels.
+/// Torque of the hand wheel after it has been held straight for a second with these forces on the front wheels.
 double hand_torque_nm(const VehicleParameters& car, const Vec3& left_n, const Vec3& right_n, double aligning_nm,
                       double speed_mps) {
   VehicleState state;

@@ -125,8 +125,8 @@ TEST_CASE("the side force builds up over the relaxation length") {
   const TyreParameters tyre = read_car("volvo-s80").tyre;
   const TyreContact contact = rolling(4000.0, 0.0, 0.01);
   const TyreForce steady = load_sensitive_force(tyre, contact);
-  // (d v + f) dy/dt = v (F - c y), force c y + d dy/dt: the damper carries the share d v / (d v + f) at once, and the length is
-  // (d v + f) / c.
+  // (d v + f) dy/dt = v (F - c y), force c y + d dy/dt: the damper carries the share d v / (d v + f) at once, and the
+  // length is (d v + f) / c.
   const double slope_n = steady.secant_n.y, rate_n = steady.damping_nspm.y * 20.0 + slope_n;
   const double length_m = rate_n / tyre.load_sensitive.lateral_stiffness_npm;
   for (const double lengths : {0.5, 1.0, 2.0}) {

@@ -1,4 +1,4 @@
-// The S80's figures: what is printed about the car, and what makes a car a car.
+// The S80's figures: published data, and general properties of a car.
 
 #include <algorithm>
 #include <array>
@@ -74,7 +74,7 @@ TEST_CASE("at 200 km/h each axle is lightened by the lift of its own area") {
   car.body.drag_area_m2 = 0.0;  // Only lift, on a car that rolls freely.
   VehicleParameters without = car;
   without.body.lift_area_m2 = {0.0, 0.0};
-  // Unequal, as the moment of a lift is what its axle alone feels.
+  // Unequal, since a lift's moment loads its own axle alone.
   car.body.lift_area_m2 = {0.3, 0.1};
   constexpr double speed_mps = 200.0 / 3.6;
   DriverInput input;

@@ -15,7 +15,8 @@ using namespace septet::vehicle;
 
 namespace {
 
-/// Ground that lies higher by `height_m` (lower where negative) between two places of the x axis, under the wheels of both sides or of one.
+/// Ground that lies higher by `height_m` (lower where negative) between two places of the x axis, under the wheels of
+/// both sides or of one.
 struct Step {
   double height_m = 0.0;
   double from_m = 6.0, to_m = 1e6;
@@ -131,7 +132,7 @@ TEST_CASE("a car with a wheel that was struck pulls to that side and is slowed b
   CHECK(end[0].yaw_rate_radps < 0.12);
   CHECK(end[1].world_from_vehicle.position_m.y == relative(-end[0].world_from_vehicle.position_m.y, 0.05));
   CHECK(std::abs(end[2].world_from_vehicle.position_m.y) < 0.01);
-  // A fifth of the wheel's load of 5 kN on 1.75 t, and what the wheel's slip takes.
+  // A fifth of the wheel's load of 5 kN on 1.75 t, and the loss by the wheel's slip.
   CHECK(end[2].speed_mps - end[0].speed_mps > 1.5);
   CHECK(end[2].speed_mps - end[0].speed_mps < 5.0);
 }

@@ -1,4 +1,4 @@
-"""How near the ray tracer is to Mitsuba 3.9.1 (PyPI) on Septet's scenes: means within 1 %, mean FLIP at most .05, of ice at most .12.
+"""Distance of the ray tracer from Mitsuba 3.9.1 (PyPI) on Septet's scenes: means within 1 %, mean FLIP at most .05, of ice at most .12.
 
     tests/engine/raytrace/peers/compare [--scenes noon night tunnel smoke gloss ice] [--samples N] [--keep FOLDER]
 
@@ -44,7 +44,7 @@ def read_pfm(path):
 
 
 def display_code(exposed):
-    """engine/instant/tone_curve.hpp"""
+    """engine/light/tone_curve.hpp"""
     x = numpy.maximum(0, exposed - 0.004)
     return numpy.clip(x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06), 0, 1)
 
@@ -73,7 +73,7 @@ def shiny(color, alpha, f0, metallic):
         return metal
     index = (1 + f0 ** 0.5) / (1 - f0 ** 0.5)
     plastic = {"type": "roughplastic", "distribution": "ggx", "alpha": float(alpha), "int_ior": index, "ext_ior": 1.0, "nonlinear": False}
-    # Head-on the base of both is as bright: Mitsuba's is also lit by what its inside reflects.
+    # Head-on the base of both is as bright: Mitsuba's is also lit by its inner reflections.
     at = drjit.zeros(mitsuba.SurfaceInteraction3f)
     at.wi = mitsuba.Vector3f(0, 0, 1)
     white = mitsuba.load_dict({**plastic, "diffuse_reflectance": 1.0, "specular_reflectance": 0.0})
@@ -102,7 +102,7 @@ def surface(image, group, holes):
 
 
 def lamp(image, group):
-    """What shines behind an image, such as a sign, is coloured by it."""
+    """Light from behind an image, such as a sign, is coloured by it."""
     if image:
         return {"type": "area", "radiance": texture(image[0] * numpy.array(group["emission"], numpy.float32), "bilinear")}
     return {"type": "area", "radiance": {"type": "rgb", "value": group["emission"]}}
@@ -179,7 +179,7 @@ def mitsuba_scene(folder, scene):
         made["sun"] = {"type": "disk", "to_world": transform().look_at(origin=list(at), target=[0, 0, 0], up=[0, 1, 0])
                        .scale(SUN_M * float((1 - SUN_COSINE ** 2) ** 0.5 / SUN_COSINE)),
                        "light": {"type": "area", "radiance": {"type": "rgb", "value": [float(x) for x in radiance]}}}
-    # Mitsuba draws each lamp as often as the others, unless it is told what they give; then its pictures have less noise.
+    # Mitsuba draws each lamp as often as the others, unless it gets their power; then its pictures have less noise.
     lamps = []
     for n, group in enumerate(scene["groups"]):
         path = folder / f"mesh{n}.ply"
@@ -230,7 +230,8 @@ def main():
             codes = [display_code(picture * scene["exposure"]) for picture in (theirs, ours)]
             for picture, code in zip(("mitsuba", "septet"), codes):
                 flip.write_png(folder / f"{picture}.png", code)
-        # Of what can be shown: a lamp that is seen is thousands of times as bright as what it lights, and is one pixel's matter.
+        # Of displayable light: a visible lamp is thousands of times as bright as the surfaces that it lights, and
+        # affects one pixel.
         shown = [numpy.minimum(picture * scene["exposure"], 4.0).mean(axis=(0, 1)) for picture in (theirs, ours)]
         off, figure = (shown[1] / shown[0] - 1), flip.mean_flip(*codes)
         held = held and max(abs(off)) <= MOST_OFF and figure <= MOST_FLIP

@@ -2,8 +2,8 @@
 ///
 ///     septet-peer-scene noon|night|tunnel|smoke|gloss|ice FOLDER SAMPLES
 ///
-/// FOLDER/traced.pfm is Septet's picture, linear; scene.json names meshes (PLY), images, sky, camera and exposure; ice.pfm is white
-/// where ice is seen. peer_scenes.hpp says what the scenes have.
+/// FOLDER/traced.pfm is Septet's picture, linear; scene.json names meshes (PLY), images, sky, camera and exposure;
+/// ice.pfm is white at ice. peer_scenes.hpp lists the scenes' content.
 
 #include <cmath>
 #include <cstdio>
@@ -46,7 +46,7 @@ void write_pfm(const std::filesystem::path& path, std::uint32_t width, std::uint
   write(path, bytes);
 }
 
-/// Triangles of one look.
+/// Triangles of one material.
 struct Group {
   std::vector<scene::SurfaceVertex> vertices;
   glm::vec3 color{0.0f}, emission{0.0f};
@@ -71,7 +71,7 @@ std::string ply(const Group& group) {
   return bytes;
 }
 
-/// All that is seen, from the first view's eye along the world's axes.
+/// All visible surfaces, from the first view's eye along the world's axes.
 std::vector<Group> groups_of(const PeerScene& peer) {
   const Vec3 origin_m = instant::world_eye(peer.instant.views.front());
   std::map<std::tuple<std::uint32_t, float, float, float, bool>, Group> groups;
@@ -121,13 +121,13 @@ std::vector<Group> groups_of(const PeerScene& peer) {
 
 std::string numbers(const glm::vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
-/// What scene.json says of a group.
+/// A group's entry in scene.json.
 std::string told(const Group& group, const scene::ResolvedScene& scene) {
   if (group.ice)
     return fmt::format(
         "{{\"color\": [0, 0, 0], \"emission\": [0, 0, 0], \"image\": -1, \"srgb\": true, \"inside_index\": {}, "
         "\"outside_index\": {}, \"absorption_per_m\": {}}}",
-        ice::ice_index, ice::air_index, numbers(group.ice->absorption_per_m));
+        light::ice_index, light::air_index, numbers(group.ice->absorption_per_m));
   const bool srgb = group.image < 0 || scene.images[static_cast<std::size_t>(group.image)].srgb;
   std::string gloss = "null";
   if (group.gloss.share > 0.0f)

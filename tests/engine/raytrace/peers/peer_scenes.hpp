@@ -1,13 +1,13 @@
 #pragma once
-/// Scenes that Septet and another path tracer draw, to be compared (peer_scene_main.cpp).
+/// Scenes drawn by Septet and another path tracer, for comparison (peer_scene_main.cpp).
 ///
-/// noon, night, tunnel: the motorway of matt surfaces with images and holes, lamps, sky, sun or moon. smoke: a puff in the Cornell box.
-/// gloss: noon again with what mirrors, cars' paint, metals and glass behind which nothing is seen, balls of them near the eye, and the
-/// film of water on a wet road. ice: three bodies of it on the motorway below noon's sky without the sun, whose light through them is
-/// the photons' matter.
+/// noon, night, tunnel: the motorway of matt surfaces with images and holes, lamps, sky, sun or moon. smoke: a puff in
+/// the Cornell box. gloss: noon again with reflecting surfaces, cars' paint, metals and opaque glass, balls of them
+/// near the eye, and the film of water on a wet road. ice: three bodies of it on the motorway below noon's sky without
+/// the sun, whose light through them is left to the photons.
 ///
-/// Sheets of glass, clear coats, puddles, retroreflection, headlights and fog, whose formulas are Septet's own, are left out on both
-/// sides; closed forms hold them in the tests beside. A lamp lights as bright as it is seen.
+/// Sheets of glass, clear coats, puddles, retroreflection, headlights and fog, whose formulas are Septet's own, are
+/// left out on both sides; tests beside check them against closed forms. A lamp lights as brightly as it appears.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +19,7 @@
 #include "engine/effects/ice/objects.hpp"
 #include "engine/instant/scene_summary.hpp"
 #include "engine/instant/standing_lamps.hpp"
-#include "engine/instant/wet_road.hpp"
+#include "engine/light/wet_road.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
 #include "tests/engine/raytrace/cornell_box.hpp"
 #include "tests/images/motorway_view.hpp"
@@ -40,9 +40,9 @@ inline bool is_peer_scene(std::string_view name) {
 
 /// A reflecting layer of GGX facets over the diffuse base.
 struct Gloss {
-  float share = 0.0f;  ///< Of the surface that has it; 0: none.
+  float share = 0.0f;  ///< Share of its surface; 0: no gloss.
   float alpha = 1.0f;
-  float f0 = 0.04f;  ///< Of what is no metal.
+  float f0 = 0.04f;  ///< For a dielectric.
   float metallic = 0.0f;
 };
 
@@ -50,16 +50,16 @@ inline float wetness(const scene::SurfaceMaterial& material, const Environment& 
   return material.wettable ? static_cast<float>(weather.road_wetness) * material.share_of_sky : 0.0f;
 }
 
-/// As World says.
+/// Mirrors World.
 inline Gloss gloss_of(const scene::SurfaceMaterial& material, const Environment& weather) {
   if (const float wet = wetness(material, weather); wet > 0.0f)
-    return {instant::film_share * wet, instant::film_roughness * instant::film_roughness, 0.02f, 0.0f};
+    return {light::film_share * wet, light::film_roughness * light::film_roughness, light::water_reflectance, 0.0f};
   if (material.wettable || (material.roughness >= 0.6f && material.metallic <= 0.2f)) return {};
   const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
   return {1.0f, std::max(1e-3f, material.roughness * material.roughness), index * index, material.metallic};
 }
 
-/// Leaves what all path tracers have.
+/// Reduces a scene to features that all path tracers have.
 inline void simplify(scene::ResolvedScene& scene, bool matt) {
   for (scene::SurfaceMaterial& material : scene.materials) {
     material.retroreflection = 0.0f;
@@ -69,13 +69,13 @@ inline void simplify(scene::ResolvedScene& scene, bool matt) {
       material.metallic = 0.0f;
       material.wettable = false;
     }
-    // As World says: what lights a roofed place is as many times as bright for what it lights.
+    // As in World: a lamp under a roof lights others more brightly than it appears.
     material.emission *= glm::mix(instant::roofed_lamps_light_up, 1.0f, material.share_of_sky);
   }
   for (scene::SurfaceMesh& mesh : scene.meshes)
     for (scene::MeshPart& part : mesh.parts)
       if (scene.materials[part.material].opacity < 0.999f) part.index_count = 0;
-  // What no part names any more is no surface either.
+  // Removes surfaces that are no longer referenced.
   for (scene::SurfaceMesh& mesh : scene.meshes) {
     std::vector<std::uint32_t> kept;
     for (scene::MeshPart& part : mesh.parts) {
@@ -101,7 +101,7 @@ inline void add_ice(instant::Instant& instant) {
   }
 }
 
-/// Side by side before the eye: car paint, chrome, a rim's half metal and a dark window, as vehicles have them.
+/// Side by side before the eye: car paint, chrome, a rim's half metal and a dark window, as on vehicles.
 inline void add_balls(scene::ResolvedScene& scene, instant::Instant& instant) {
   struct Look {
     glm::vec3 color;
@@ -141,14 +141,14 @@ inline PeerScene peer_motorway(std::string_view name) {
   input.environment.cloud_cover = 0.0;
   // The wettest road without puddles.
   if (name == "gloss") input.environment.road_wetness = 0.5;
-  // A quarter of the pixels, where a pixel needs four times the samples.
+  // A quarter of the pixels, for scenes whose pixels need four times the samples.
   if (name == "tunnel" || name == "gloss")
     input.views.front().viewport = {0, 0, motorway_width_px / 2, motorway_height_px / 2};
-  input.participants.pop_back();  // The driver's own car is not seen.
+  input.participants.pop_back();  // The driver's own car is invisible.
   peer.instant = instant::describe(std::move(input), instant::summarise(peer.scene));
   peer.instant.headlights.clear();
   peer.instant.extinction_per_m = 0.0f;
-  // Of what stands lamps would light more brightly than they are seen; of what drives they do not.
+  // Standing lamps would light more brightly than they appear; those of vehicles would not.
   for (const scene::Instance& instance : peer.scene.instances) {
     const scene::SurfaceMesh& mesh = peer.scene.meshes[instance.mesh];
     peer.instant.parts.push_back(

@@ -1,4 +1,4 @@
-/// What tells vehicles apart from afar: their outlines, drawn here in a few thousand pixels.
+/// Features of vehicles from afar: their outlines, drawn here in a few thousand pixels.
 
 #include <algorithm>
 #include <bitset>
@@ -80,7 +80,7 @@ TEST_CASE("more than twenty vehicles have outlines of their own, near and far") 
 
 TEST_CASE("a vehicle keeps its outline from one level of detail to the next") {
   for (const VehicleModel& model : vehicle_models()) {
-    if (model.track_m < 1.0) continue;  // Far off, who rides or walks is a few pixels.
+    if (model.track_m < 1.0) continue;  // Far off, riders and pedestrians are a few pixels.
     CAPTURE(model.name);
     const Outline near = outline_of(model, 10.0f), middle = outline_of(model, 80.0f), far = outline_of(model, 400.0f);
     CHECK((near & middle).count() > 0.9 * static_cast<double>((near | middle).count()));

@@ -38,7 +38,7 @@ bool has_car_lines(const VehicleModel& model) {
          model.name != "caravan";
 }
 
-/// What of the part's polygons nobody sees through.
+/// Opaque polygons of the part.
 geometry::PolygonMesh opaque_part(const VehicleParts& parts, std::string_view name) {
   const auto part = std::ranges::find(parts, name, &VehiclePart::name);
   REQUIRE(part != parts.end());
@@ -149,7 +149,7 @@ TEST_CASE("cars have the lamps and wheels that move and light") {
   using enum scene::PartRole;
   for (const VehicleModel& model : vehicle_models()) {
     if (model.kind == ParticipantKind::pedestrian || model.kind == ParticipantKind::bicycle) continue;
-    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Whoever tows it has lamps ahead.
+    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Its tractor has the lamps ahead.
     CAPTURE(model.name);
     const VehicleParts parts = vehicle_parts(model);
     for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left, lamp_indicator_right,
@@ -196,7 +196,7 @@ TEST_CASE("a ray through a side window of a near car meets the driver's head bef
     const glm::vec3 head(driver->places.front().parent_from_object.position_m);
     CHECK(head.y > 0.2f);
     CHECK(head.z + 0.12f < model.height_m);
-    // What opaque of the body lies on the way in from the left, at the head's height and around it.
+    // Opaque parts of the body on the path in from the left, at the head's height and around it.
     const auto body =
         std::find_if(parts.begin(), parts.end(), [](const VehiclePart& part) { return part.name == "body near"; });
     REQUIRE(body != parts.end());
@@ -262,7 +262,8 @@ TEST_CASE("the scene holds a prototype for every model of the catalogue") {
   const scene::ResolvedScene scene = scene::resolve(store);
   CHECK(scene.instances.empty());
   CHECK(std::ranges::count_if(scene.prototypes, [](const auto& p) { return !p.name.starts_with("cockpit/"); }) ==
-        static_cast<std::ptrdiff_t>(vehicle_models().size()) + 1);
+        static_cast<std::ptrdiff_t>(vehicle_models().size()) +
+            2);  // Inside and shell of the one whose seat can be taken.
   for (const scene::Prototype& prototype : scene.prototypes) {
     CAPTURE(prototype.name);
     CHECK(prototype.parts.size() >= (prototype.name.starts_with("cockpit/") ? 1 : 3));

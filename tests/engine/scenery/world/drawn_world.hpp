@@ -1,5 +1,5 @@
 #pragma once
-/// A world as it is drawn, for tests: its triangles by the names of their objects.
+/// A drawn world, for tests: its triangles by the names of their objects.
 
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace septet::scenery {
 
 using road::third_party_road;
 
-/// The road and what belongs to it alone.
+/// The road and its own parts alone.
 inline constexpr RoadWorldOptions bare{.vegetation = false, .buildings = false, .overrun_m = 0.0};
 
 struct DrawnTriangle {
@@ -65,7 +65,7 @@ inline std::vector<DrawnTriangle> drawn_triangles(const scene::Store& store, std
   return found;
 }
 
-/// What lies over and under a place.
+/// Surfaces over and under a place.
 class DrawnHeights {
  public:
   explicit DrawnHeights(std::vector<DrawnTriangle> triangles) : triangles_(std::move(triangles)) {

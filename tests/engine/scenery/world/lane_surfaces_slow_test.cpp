@@ -26,7 +26,7 @@ scene::Store built(const road::RoadNetwork& network) {
   return store;
 }
 
-/// How far the nearest surface drawn at places of all lanes lies from where wheels find it; where none is drawn, a metre.
+/// Distance of the nearest drawn surface at places of all lanes from the wheels' surface; a metre if none is drawn.
 struct Apart {
   int places = 0, wrong = 0;
   double most_m = 0.0;

@@ -50,7 +50,7 @@ OwnModels own_things() {
 }
 
 using Place = std::tuple<double, double, double>;
-/// Where objects of each name stand, in order; of trees what is drawn near by.
+/// Places of the objects of each name, in order; for trees their nearest level.
 using Places = std::map<std::string, std::vector<Place>, std::less<>>;
 
 scene::Store world_of(const char* roads, const OwnModels* own) {
@@ -99,7 +99,7 @@ TEST_CASE("own trees, houses, lamps and posts stand in the place of the generate
     CHECK(together(replaced, {"cottage", "town-house", "town-block"}) == together(generated, {"town house"}));
     CHECK(together(replaced, {"street-lamp"}) == together(generated, {"street lamp"}));
     CHECK(together(replaced, {"tree", "building", "town house", "street lamp"}).empty());
-    // What a renderer draws of them.
+    // A renderer's view of them.
     const scene::ResolvedScene scene = scene::resolve(store);
     for (const scene::Instance& instance : scene.instances)
       for (const scene::MeshPart& part : scene.meshes.at(instance.mesh).parts)

@@ -1,0 +1,32 @@
+#pragma once
+/// The simulated driver (engine/driver) in a car that speaks HID, so that its controls are read as a person's are.
+///
+///     SimulatedDriverCar car(parameters, seed, network);
+///     CarConnection connection(car.opener(), {});
+///     each tick: car.drive(snapshot, dt_s); CarReading reading = connection.poll(now_s);
+///
+/// Threads: one at a time.
+
+#include <cstdint>
+
+#include "car-io/simulated_hid_device.hpp"
+#include "engine/driver/simulated_driver.hpp"
+
+namespace septet::car_io {
+
+/// The network must live as long.
+class SimulatedDriverCar {
+ public:
+  SimulatedDriverCar(driver::DriverParameters parameters, std::uint64_t seed, const road::RoadNetwork& network);
+  /// Looks, acts, and sends one input report.
+  void drive(const Snapshot& snapshot, double dt_s);
+  OpenHidDevice opener() const { return port_.opener(); }
+  SimulatedHidPort& port() { return port_; }
+
+ private:
+  driver::SimulatedDriver driver_;
+  const road::RoadNetwork* network_;
+  SimulatedHidPort port_;
+};
+
+}  // namespace septet::car_io

@@ -1,0 +1,57 @@
+#include "command-line/command/check_rig.hpp"
+
+#include <cstdlib>
+
+#include "car-io/can/rig_can.hpp"
+#include "car-io/car_layout.hpp"
+#include "engine/core/regular_file.hpp"
+#include "engine/driver/driver_parameters.hpp"
+#include "engine/physics/vehicle/read_vehicle.hpp"
+#include "engine/rig/rig.hpp"
+#include "engine/rig/rig_doubts.hpp"
+#include "program/resources.hpp"
+
+namespace septet::server {
+namespace {
+
+using road::Finding;
+using road::Severity;
+
+Expected<void> check_vehicle(const std::string& name) {
+  return program::find_resource(name, "vehicles", ".toml").and_then([](const std::filesystem::path& path) {
+    return read_regular_file(path).and_then([&](const std::string& text) -> Expected<void> {
+      if (const auto vehicle = vehicle::read_vehicle(text, path.string()); !vehicle)
+        return tl::unexpected(vehicle.error());
+      return {};
+    });
+  });
+}
+
+}  // namespace
+
+std::vector<Finding> check_rig(const std::string& text, const std::filesystem::path& file) {
+  std::vector<Finding> findings;
+  const auto add = [&](Severity severity, const Error& error) {
+    const std::string here = file.string() + ":";
+    const int line = error.where.starts_with(here) ? std::atoi(error.where.c_str() + here.size()) : 0;
+    findings.push_back({severity, line, error});
+  };
+  const auto must_hold = [&](const auto& expected) {
+    if (!expected) add(Severity::error, expected.error());
+  };
+  const auto rig = rig::read_rig(text, file.string());
+  must_hold(rig);
+  if (!rig) return findings;
+  must_hold(check_vehicle(rig->car.vehicle));
+  must_hold(car_io::find_car_layout(rig->car.layout));
+  must_hold(driver::find_driver(rig->car.driver));
+  if (rig->can) {
+    const auto can = car_io::read_rig_can(*rig, file);
+    must_hold(can);
+    if (can && can->notice) add(Severity::warning, *can->notice);
+  }
+  for (const Error& doubt : rig::doubts_of(*rig, file.string())) add(Severity::warning, doubt);
+  return findings;
+}
+
+}  // namespace septet::server

@@ -1,0 +1,228 @@
+#include "command-line/command/replay_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "engine/core/version.hpp"
+#include "engine/simulation/operator_command.hpp"
+#include "engine/simulation/saved_state.hpp"
+#include "engine/simulation/server_step.hpp"
+#include "logging/input_hash.hpp"
+#include "logging/outcome.hpp"
+#include "logging/session_digest.hpp"
+#include "logging/session_reader.hpp"
+#include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/session_log.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
+
+namespace septet::server {
+namespace {
+
+tl::unexpected<Error> refused(const std::filesystem::path& file, const std::string& what, const std::string& remedy) {
+  return failure(what, file.string(), remedy);
+}
+
+/// True if the log's controls at the tick of its inputs differ from the inputs' present content.
+bool is_altered(const DriverInput& input, const DriverCar& car) {
+  const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6; };
+  return differ(input.steering_wheel_rad, car.steering_wheel_rad) || differ(input.accelerator, car.accelerator) ||
+         differ(input.brake, car.brake) || differ(input.clutch, car.clutch);
+}
+
+/// True if the inputs are the driven ones, by the hash at the log's end; empty if the log was not closed.
+Expected<std::optional<bool>> are_original(const std::filesystem::path& file, const logging::SessionInfo& info,
+                                           const std::vector<logging::InputRecord>& inputs) {
+  const auto row = info.other.find("outcome");
+  if (row == info.other.end()) return std::optional<bool>();
+  const auto outcome = logging::read_outcome(row->second, file.string());
+  if (!outcome) return tl::unexpected(outcome.error());
+  StateHash hash;
+  for (const auto& input : inputs) logging::add_to_hash(input, hash);
+  return std::optional(hash.value() == outcome->inputs_hash);
+}
+
+/// Cause of a tick's wrong hash, as far as the log tells.
+std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
+  if (input_is_altered) return "the session's driver inputs are not those that were driven with: use an unaltered copy";
+  const auto compiler = info.other.find("compiler");
+  if (info.git_revision != revision || info.septet_version != version ||
+      (compiler != info.other.end() && compiler->second != __VERSION__))
+    return fmt::format("it was recorded by another build, Septet {} at {}; this is {} at {}: verify it with that one",
+                       info.septet_version, info.git_revision.empty() ? "an unknown revision" : info.git_revision,
+                       version, revision);
+  return "inputs and build are those of the recording: its hashes or files were altered, this tree was changed since "
+         "its revision, or the "
+         "processor's arithmetic differs";
+}
+
+/// The drive where it is to be run again from: at a state that the log has kept, else at its start.
+Expected<simulation::State> state_at(const std::filesystem::path& file, const logging::SessionReader& session,
+                                     const simulation::Model& model, double from_s,
+                                     std::unique_ptr<traffic::TrafficEngine> traffic) {
+  auto saved = session.saved_state(static_cast<Tick>(from_s * simulation::tick_rate_hz));
+  if (!saved) return tl::unexpected(saved.error());
+  if (!*saved) return simulation::initial_state(model, std::move(traffic));
+  auto state = simulation::restore_state(model, std::move(traffic), (*saved)->data,
+                                         fmt::format("{}, tick {}", file.string(), (*saved)->tick));
+  if (state && state->tick != (*saved)->tick)
+    return refused(file,
+                   fmt::format("the state that was saved at tick {} is that of tick {}", (*saved)->tick, state->tick),
+                   "use an unaltered copy");
+  return state;
+}
+
+struct LoggedCommand {
+  Tick before = 0;
+  simulation::OperatorCommand command;
+};
+
+/// An operator's changes during the drive, in order.
+Expected<std::vector<LoggedCommand>> commands_of(const std::filesystem::path& file,
+                                                 const logging::SessionReader& session) {
+  const auto events = session.events();
+  if (!events) return tl::unexpected(events.error());
+  std::vector<LoggedCommand> commands;
+  for (const auto& event : *events) {
+    if (event.kind != operator_command_event) continue;
+    auto command = simulation::parse_operator_command(event.detail);
+    if (!command)
+      return refused(
+          file,
+          fmt::format("an operator's command before tick {} cannot be read: {}", event.tick, describe(command.error())),
+          "use an unaltered copy");
+    commands.push_back({event.tick, std::move(*command)});
+  }
+  return commands;
+}
+
+struct Verified {
+  Tick first = 0;             ///< First tick verified.
+  std::uint64_t ticks = 0;    ///< Run again.
+  bool goes_on = false;       ///< The drive is still being written.
+  bool scene_agrees = false;  ///< False: unknown, the session has no digest.
+};
+
+/// True if the session has grown since it was read up to this tick.
+Expected<bool> has_grown(const std::filesystem::path& file, Tick last_input) {
+  const auto now = logging::SessionReader::open(file);
+  if (!now) return tl::unexpected(now.error());
+  const auto later = now->inputs({.first = last_input + 1});
+  if (!later) return tl::unexpected(later.error());
+  return !later->empty();
+}
+
+/// Number of ticks run again that agree. Ticks without both input and snapshot prove nothing and are not counted; a
+/// missing one in between is the verdict.
+Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
+  const auto session = logging::SessionReader::open(file);
+  if (!session) return tl::unexpected(session.error());
+  if (auto shown = session->shown_span_s(); !shown) return tl::unexpected(shown.error());
+  const auto inputs = session->inputs();
+  if (!inputs) return tl::unexpected(inputs.error());
+  if (inputs->empty())
+    return refused(file, "the session holds no driver inputs: there is nothing to verify",
+                   "give a session that was driven");
+  const auto original = are_original(file, session->info(), *inputs);
+  if (!original) return tl::unexpected(original.error());
+  const auto drive = load_drive(session->info(), file.string());
+  if (!drive) return tl::unexpected(drive.error());
+  const auto& other = session->info().other;
+  const auto engine = other.find("traffic");
+  auto traffic = open_traffic(engine == other.end() ? "own" : engine->second, *drive->model);
+  if (!traffic) return tl::unexpected(traffic.error());
+  const auto commands = commands_of(file, *session);
+  if (!commands) return tl::unexpected(commands.error());
+  auto state = state_at(file, *session, *drive->model, from_s, std::move(*traffic));
+  if (!state) return tl::unexpected(state.error());
+  const auto scene = logging::is_scene_as_driven(*session);
+  if (!scene) return tl::unexpected(scene.error());
+  Verified verified{.first = state->tick, .scene_agrees = scene->has_value()};
+  auto recorded = state->tick == 0 ? session->snapshots() : session->snapshots_from(state->time_s());
+  if (!recorded) return tl::unexpected(recorded.error());
+
+  const auto gap = [&](const char* what) {
+    return refused(file, fmt::format("the {} of tick {} is missing: the log has a gap", what, state->tick),
+                   "only what lies before a gap can be run again");
+  };
+  DriverInput input = state->input;
+  /// True if there is a snapshot of the state's tick, with this hash.
+  const auto compare = [&](std::uint64_t hash) -> Expected<bool> {
+    const auto snapshot = recorded->next();
+    if (!snapshot) return tl::unexpected(snapshot.error());
+    if (!*snapshot) return false;
+    if ((*snapshot)->tick != state->tick) return gap("snapshot");
+    if ((*snapshot)->state_hash == hash) return true;
+    return refused(
+        file,
+        fmt::format("tick {} gives state hash {:016x}, recorded is {:016x}", state->tick, hash,
+                    (*snapshot)->state_hash),
+        cause_of(session->info(),
+                 original->has_value() ? !**original : state->tick > 0 && is_altered(input, (*snapshot)->driver_car)));
+  };
+  const auto first = compare(simulation::hash_state(*state));
+  if (!first) return tl::unexpected(first.error());
+  if (!*first)
+    return refused(file, "the session holds no snapshots: there is nothing to compare with",
+                   "give a session that was driven");
+  std::vector<simulation::Event> events;
+  auto command = std::ranges::upper_bound(*commands, verified.first, {}, &LoggedCommand::before);
+  for (const auto& next : *inputs) {
+    if (next.tick <= verified.first) continue;
+    input = next.input;
+    events.clear();
+    for (; command != commands->end() && command->before <= state->tick + 1; ++command)
+      if (auto done = simulation::apply_operator_command(*drive->model, command->command, *state, events); !done)
+        return refused(file,
+                       fmt::format("the operator's command before tick {} cannot be done again: {}", command->before,
+                                   describe(done.error())),
+                       "use an unaltered copy");
+    const Snapshot snapshot = simulation::server_step(*drive->model, input, *state, events);
+    if (auto error = state->traffic->take_error()) return tl::unexpected(std::move(*error));
+    if (next.tick != state->tick) return gap("driver input");
+    const auto agrees = compare(snapshot.state_hash);
+    if (!agrees) return tl::unexpected(agrees.error());
+    if (!*agrees) break;  // The log was cut off between an input and its snapshot.
+    ++verified.ticks;
+  }
+  if (!session->ended_cleanly() && state->tick >= inputs->back().tick) {
+    const auto grown = has_grown(file, inputs->back().tick);
+    if (!grown) return tl::unexpected(grown.error());
+    verified.goes_on = *grown;
+  }
+  const auto more = recorded->next();
+  if (!more) return tl::unexpected(more.error());
+  // Rows that have come since the inputs were read are no gap.
+  if (*more && !verified.goes_on) {
+    ++state->tick;
+    return gap("driver input");
+  }
+  if (verified.ticks == 0)
+    return refused(file, "no tick has both an input and a snapshot: there is nothing to compare",
+                   "give a session that was driven");
+  if (!original->value_or(true))
+    return refused(file, "the driver inputs are not those that were driven with, though every state hash agrees",
+                   "use an unaltered copy");
+  return verified;
+}
+
+}  // namespace
+
+Expected<int> run_verify(const std::filesystem::path& session, double from_s) {
+  const auto verified = verify(session, from_s);
+  if (!verified) return tl::unexpected(verified.error());
+  const std::string from =
+      verified->first > 0
+          ? fmt::format(" from the state of {:g} s", static_cast<double>(verified->first) / simulation::tick_rate_hz)
+          : "";
+  fmt::print("{} ticks run again{}: every state hash agrees\n", verified->ticks, from);
+  if (verified->goes_on) fmt::print("this drive goes on: what came since then was not run again\n");
+  fmt::print("{}\n", verified->scene_agrees
+                         ? "the scene is the one that was driven in"
+                         : "the scene is not compared: the session does not tell which one was driven in");
+  return 0;
+}
+
+}  // namespace septet::server

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scenario/run/storyboard_runtime.hpp"
+#include "engine/world/indicator.hpp"
+#include "engine/world/limbs.hpp"
+#include "engine/world/paint.hpp"
+
+namespace septet::scenario {
+namespace {
+
+constexpr double braking_mps2 = -0.7;  ///< Gentler deceleration comes from lifting the accelerator.
+
+Lamps lamps_now(const EntityState& entity, ParticipantId id, double time_s) {
+  Lamps lamps = entity.lamps;
+  const bool blink = indicator_is_lit(time_s, id);
+  if (entity.lateral_control.active && entity.lateral_control.lane_change) {
+    lamps.set(entity.lateral_control.to_the_left ? Lamp::indicator_left : Lamp::indicator_right, true);
+  }
+  for (const Lamp indicator : {Lamp::indicator_left, Lamp::indicator_right}) {
+    if (lamps.has(indicator)) lamps.set(indicator, blink);
+  }
+  if (entity.acceleration_mps2 < braking_mps2) lamps.set(Lamp::brake, true);
+  return lamps;
+}
+
+}  // namespace
+
+void append_participants(const Scenario& scenario, const ScenarioState& state, ParticipantId first_id,
+                         std::vector<Participant>& participants) {
+  for (EntityIndex i = 0; i < state.entities.size(); ++i) {
+    const EntityState& from = state.entities[i];
+    const Entity& entity = scenario.entities[i];
+    // Objects are no participants: the effects stage makes breakable things of them.
+    if (!from.active || from.external || entity.kind == EntityKind::misc_object) continue;
+    if (from.at_road_end_s > 0.0) continue;
+    Participant participant;
+    participant.id = first_id + i;
+    participant.model = entity.model;
+    const VehicleModel& model = vehicle_models()[entity.model];
+    // The standard's vehicles have no colour: private vehicles take the colours in turn.
+    if (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van)
+      participant.paint = static_cast<std::uint8_t>(i % body_colors.size());
+    participant.lamps = lamps_now(from, participant.id, state.time_s);
+    participant.world_from_vehicle = from.world_from_entity;
+    participant.velocity_mps = from.velocity_mps;
+    participant.acceleration_mps2 = from.acceleration_vector_mps2;
+    participant.angular_velocity_radps = from.angular_velocity_radps;
+    const Vec3 up = from.world_from_entity.orientation * Vec3(0.0, 0.0, 1.0);
+    const double speed = from.speed_mps;
+    if (std::abs(speed) > 0.5) {
+      participant.front_steer_rad = std::atan(model.wheelbase_m * glm::dot(from.angular_velocity_radps, up) / speed);
+    }
+    if (model.kind == ParticipantKind::pedestrian) {
+      constexpr double turn_rad = 2.0 * std::numbers::pi;
+      participant.wheel_spin_rad = turn_rad * (std::fmod(std::max(from.travelled_m, 0.0), stride_m) / stride_m);
+      participant.wheel_spin_radps = turn_rad * std::abs(speed) / stride_m;
+    } else {
+      participant.wheel_spin_rad = from.wheel_angle_rad;
+      participant.wheel_spin_radps = model.wheel_radius_m > 0.0 ? speed / model.wheel_radius_m : 0.0;
+    }
+    participants.push_back(participant);
+  }
+}
+
+}  // namespace septet::scenario

@@ -1,0 +1,39 @@
+#include "sim-server/attendants/desk.hpp"
+
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "program/clock.hpp"
+#include "sim-server/host/serve.hpp"
+
+namespace septet::server {
+
+const std::vector<HostedScreen>& Desk::screens() const {
+  static const std::vector<HostedScreen> none;
+  return host_ ? host_->screens() : none;
+}
+
+Expected<void> Desk::begin() {
+  desk_->log_to(log_.session());
+  return {};
+}
+
+void Desk::before_tick(const Moment& moment) {
+  desk_->attend(moment.newest, std::string(moment.doing), screens(), moment.now_s);
+  if (host_) host_->look_at(desk_->watched(), moment.now_s);
+}
+
+Wishes Desk::wishes() {
+  return {.end = desk_->end_requested(),
+          .stands_still = desk_->is_paused(),
+          .goes_without_missing = desk_->told_to_go(),
+          .word_to_driver = desk_->word()};
+}
+
+void Desk::close(ServeResult& result) {
+  desk_->show_end(fmt::format("ended: {}", text_of(result.end)), screens(), program::monotonic_s());
+}
+
+}  // namespace septet::server

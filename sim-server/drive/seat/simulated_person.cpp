@@ -1,0 +1,9 @@
+#include "sim-server/drive/seat/simulated_person.hpp"
+
+#include "engine/simulation/server_step.hpp"
+
+namespace septet::server {
+
+void SimulatedPerson::see(const Snapshot& before) { car_.drive(before, 1.0 / simulation::tick_rate_hz); }
+
+}  // namespace septet::server

@@ -1,0 +1,32 @@
+#pragma once
+/// A simulated driver in the seat: before each tick it looks at the world and moves the controls of its HID device.
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "car-io/simulated_driver_car.hpp"
+#include "engine/simulation/model.hpp"
+#include "sim-server/drive/seat/seat_device.hpp"
+
+namespace septet::server {
+
+class SimulatedPerson final : public SeatDevice {
+ public:
+  /// The driver keeps the model alive: the road in it is what they see.
+  SimulatedPerson(const driver::DriverParameters& parameters, std::uint64_t seed,
+                  std::shared_ptr<const simulation::Model> model)
+      : model_(std::move(model)), car_(parameters, seed, model_->roads) {}
+
+  /// Its device, which is read as a real one is.
+  car_io::OpenHidDevice opener() const { return car_.opener(); }
+
+  bool drives() const override { return true; }
+  void see(const Snapshot& before) override;
+
+ private:
+  std::shared_ptr<const simulation::Model> model_;
+  car_io::SimulatedDriverCar car_;
+};
+
+}  // namespace septet::server

@@ -1,0 +1,94 @@
+// Removals from sessions, and obstacles to them.
+
+#include "command-line/command/session_command.hpp"
+
+#include <sys/stat.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include <doctest/doctest.h>
+
+#include "logging/session_reader.hpp"
+#include "tests/logging/session_fixture.hpp"
+
+namespace septet::server {
+namespace {
+namespace fs = std::filesystem;
+
+fs::path write_session(const fs::path& folder, const std::string& participant) {
+  fs::create_directories(folder);
+  auto info = logging::example_info();
+  info.participant = participant;
+  auto writer = logging::SessionWriter::create(folder / "session.sqlite", info);
+  REQUIRE(writer.has_value());
+  REQUIRE(writer->finish().has_value());
+  return folder / "session.sqlite";
+}
+
+std::string participant_of(const fs::path& session) {
+  const auto reader = logging::SessionReader::open(session);
+  return reader ? reader->info().participant : "cannot be read";
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a damaged session, a pipe or a folder in its place keeps nobody else from being forgotten and is exit status 1") {
+  enum class Damage : std::uint8_t { truncated, pipe, folder, empty, foreign };
+  for (const Damage damage : {Damage::truncated, Damage::pipe, Damage::folder, Damage::empty, Damage::foreign})
+    for (const bool delete_data : {false, true}) {
+      CAPTURE(static_cast<int>(damage));
+      CAPTURE(delete_data);
+      const TemporaryFolder folder;
+      const auto theirs = write_session(folder / "data/a", "P07"), other = write_session(folder / "data/c", "P08");
+      const fs::path bad = folder / "data/b/session.sqlite";
+      fs::create_directories(bad.parent_path());
+      if (damage == Damage::truncated) {
+        write_session(bad.parent_path(), "P09");
+        fs::resize_file(bad, 5000);
+      }
+      if (damage == Damage::pipe) REQUIRE(::mkfifo(bad.c_str(), 0600) == 0);
+      if (damage == Damage::folder) fs::create_directories(bad);
+      if (damage == Damage::empty) std::ofstream(bad).flush();
+      if (damage == Damage::foreign) std::ofstream(bad) << "Dear reader, this is no session at all, and never was one";
+      const auto done = run_session_forget({"P07", {folder / "data"}, delete_data});
+      REQUIRE_MESSAGE(done.has_value(), (done ? "" : describe(done.error())));
+      CHECK(*done == 1);
+      if (delete_data)
+        CHECK_FALSE(fs::exists(theirs));
+      else
+        CHECK(participant_of(theirs) == "");
+      CHECK(participant_of(other) == "P08");
+      CHECK(fs::exists(bad));
+    }
+}
+
+TEST_CASE("who is in none of the sessions that can be read is not forgotten and that some cannot is said") {
+  const TemporaryFolder folder;
+  write_session(folder / "a", "P08");
+  std::ofstream(folder / "session.sqlite") << "no session";
+  const auto done = run_session_forget({"P07", {folder.path()}, false});
+  REQUIRE_FALSE(done.has_value());
+  CHECK(done.error().what.find("none of 1 sessions that can be read is of P07") != std::string::npos);
+}
+
+TEST_CASE("one of their own sessions that cannot be changed does not keep the others") {
+  const TemporaryFolder folder;
+  const auto first = write_session(folder / "1", "P07"), held = write_session(folder / "2", "P07"),
+             last = write_session(folder / "3", "P07");
+  fs::create_directories(held.string() + ".part");  // Where its copy is to be written.
+  std::ofstream(fs::path(held.string() + ".part") / "x") << "x";
+  const auto done = run_session_forget({"P07", {folder.path()}, false});
+  REQUIRE_MESSAGE(done.has_value(), (done ? "" : describe(done.error())));
+  CHECK(*done == 1);
+  CHECK(participant_of(first) == "");
+  CHECK(participant_of(held) == "P07");
+  CHECK(participant_of(last) == "");
+  fs::remove_all(held.string() + ".part");
+  CHECK(run_session_forget({"P07", {folder.path()}, false}) == 0);
+  CHECK(participant_of(held) == "");
+}
+
+}  // namespace septet::server
