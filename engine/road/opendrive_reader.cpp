@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "engine/road/decks.hpp"
 #include "engine/road/road_elements.hpp"
 #include "engine/road/road_limits.hpp"
 #include "engine/road/road_locate.hpp"
@@ -148,6 +149,7 @@ RoadNetwork read_network(XmlFindings& findings, std::string_view xml, Rules rule
   check_lane_links(findings, root, network);
   if (rules == Rules::checked) check_rules(findings, root, network);
   build_spatial_index(network);
+  find_decks(network);
   return network;
 }
 

@@ -54,6 +54,8 @@ struct RoadStructure {
   Kind kind = Kind::bridge;
   std::string id, name, type;
   double s_m = 0.0, length_m = 0.0;
+  bool over_road = false;  ///< A bridge with lanes below it (decks.hpp).
+  bool inferred = false;   ///< The file says nothing of it.
 };
 
 struct Signal {

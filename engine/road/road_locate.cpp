@@ -136,7 +136,14 @@ double distance_to(const StretchNode& box, const Vec2& world_m) {
   return glm::length(glm::max(glm::max(box.low_m - world_m, world_m - box.high_m), Vec2(0.0)));
 }
 
-std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m, double reach_m) {
+double surface_z_m(const RoadNetwork& network, const RoadPosition& at) {
+  const Road& road = network.roads[at.road];
+  return cross_section_at(road, at.s_m).place(at.t_m, surface_offset_m(road, at.s_m, at.t_m)).z;
+}
+
+/// The best of all roads, or of those whose surface lies near `level_m`.
+std::optional<Location> locate_on_level(const RoadNetwork& network, const Vec2& world_m, double reach_m,
+                                        std::optional<double> level_m) {
   std::optional<Location> best;
   double reach = reach_m;
   for (std::size_t i = 0; i < network.stretches.size();) {
@@ -155,18 +162,26 @@ std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& 
     }
     const Location location = location_on(network, node.road, world_m, middle);
     if (location.lanes.outside_m > reach_m || (best && !better(network, location, *best))) continue;
+    if (level_m && !(std::abs(surface_z_m(network, location.position) - *level_m) < level_reach_m)) continue;
     best = location;
     reach = location.lanes.outside_m;
   }
   return best;
 }
 
+std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m, double reach_m,
+                                        std::optional<double> level_m) {
+  if (level_m)
+    if (const auto found = locate_on_level(network, world_m, reach_m, level_m)) return found;
+  return locate_on_level(network, world_m, reach_m, std::nullopt);
+}
+
 }  // namespace
 
 std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
-                               double reach_m) {
+                               double reach_m, std::optional<double> level_m) {
   if (!std::isfinite(world_m.x) || !std::isfinite(world_m.y)) return std::nullopt;
-  if (hint == nullptr) return locate_anywhere(network, world_m, reach_m);
+  if (hint == nullptr) return locate_anywhere(network, world_m, reach_m, level_m);
   SEPTET_CHECK(hint->road < network.roads.size(), "hint names road {} of {}", hint->road, network.roads.size());
   const Location near = location_on(network, hint->road, world_m, hint->s_m);
   if (near.lanes.outside_m == 0.0) return near;
@@ -174,8 +189,11 @@ std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, 
   if (near.position.s_m <= 0.0 || near.position.s_m >= length) {
     if (const auto beyond = locate_beyond_end(network, near, world_m)) return beyond;
   }
-  return locate_anywhere(network, world_m, reach_m);
+  return locate_anywhere(network, world_m, reach_m, level_m);
 }
+
+/// Places of one road farther apart along it are two: it turns over itself.
+constexpr double over_itself_m = 30.0;
 
 std::vector<Location> roads_holding(const RoadNetwork& network, const Vec2& world_m) {
   std::vector<Location> holding;
@@ -188,16 +206,21 @@ std::vector<Location> roads_holding(const RoadNetwork& network, const Vec2& worl
     }
     ++i;
     if (node.road == no_index) continue;
-    if (std::ranges::any_of(holding, [&](const Location& found) { return found.position.road == node.road; })) continue;
+    const auto is_found_at = [&](double s_m) {
+      return std::ranges::any_of(holding, [&](const Location& found) {
+        return found.position.road == node.road && std::abs(found.position.s_m - s_m) < over_itself_m;
+      });
+    };
+    if (is_found_at(node.s_m + 0.5 * node.step_m)) continue;
     const Location location = location_on(network, node.road, world_m, node.s_m + 0.5 * node.step_m);
-    if (location.lanes.outside_m == 0.0) holding.push_back(location);
+    if (location.lanes.outside_m == 0.0 && !is_found_at(location.position.s_m)) holding.push_back(location);
   }
   return holding;
 }
 
 std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
-                                       double reach_m) {
-  const auto location = locate(network, world_m, hint, reach_m);
+                                       double reach_m, std::optional<double> level_m) {
+  const auto location = locate(network, world_m, hint, reach_m, level_m);
   if (!location) return std::nullopt;
   const Road& road = network.roads[location->position.road];
   const double s = location->position.s_m, t = location->position.t_m;

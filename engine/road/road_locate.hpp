@@ -19,12 +19,15 @@ struct Location {
 };
 
 /// The road that contains the point, else the nearest within `reach_m` of its lanes. A hint keeps the result on the
-/// hint's road while that contains the point, which tells roads apart that cross or overlap.
+/// hint's road while that contains the point, which tells roads apart that cross or overlap. With a world z, `level_m`,
+/// roads whose surface lies more than `level_reach_m` over or under it count only where there is no other: a wheel that
+/// leaves a lane below a bridge is not on the bridge.
 std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint = nullptr,
-                               double reach_m = 20.0);
+                               double reach_m = 20.0, std::optional<double> level_m = std::nullopt);
+inline constexpr double level_reach_m = 3.0;
 
-/// All roads whose lanes contain the point, each once: in a junction several overlap. In the order of the network's
-/// tree.
+/// All roads whose lanes contain the point: in a junction several overlap. Each once, except one that turns over itself. In
+/// the order of the network's tree.
 std::vector<Location> roads_holding(const RoadNetwork& network, const Vec2& world_m);
 
 /// The point of the surface above or below a world point.
@@ -35,7 +38,8 @@ struct SurfacePoint {
   double outside_m = 0.0;      ///< Distance of the point outside the lanes, as Location's.
 };
 std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m,
-                                       const RoadPosition* hint = nullptr, double reach_m = 20.0);
+                                       const RoadPosition* hint = nullptr, double reach_m = 20.0,
+                                       std::optional<double> level_m = std::nullopt);
 
 /// Builds RoadNetwork::stretches and bounds from the roads. Called by the reader, and by code that builds a network by
 /// hand.

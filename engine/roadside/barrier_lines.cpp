@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/road/decks.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/mentions.hpp"
@@ -64,6 +66,38 @@ bool is_on_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, doub
     });
   };
   return holds(t_m) || holds(t_m - clear_m) || holds(t_m + clear_m);
+}
+
+/// Whether lanes as high as a deck lie beside it, as where it parts.
+bool is_beside_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, double t_m) {
+  const Vec3 at = roads.point(index, s_m, t_m);
+  for (const road::Location& other : road::roads_holding(roads.network(), Vec2(at)))
+    if (std::abs(road::evaluate(roads.network(), other.position).position_m.z - at.z) < road::least_rise_m / 2)
+      return true;
+  return false;
+}
+
+/// Of a deck that its file does not know of: along both edges, but where other lanes join it.
+void add_parapets(const RoadShape& roads, const RoadTile& tile, std::vector<Barrier>& barriers) {
+  constexpr double step_m = 8.0, out_m = 0.4;
+  const std::vector<double> along = stations(tile, step_m);
+  for (const double side : {1.0, -1.0})
+    for (std::size_t i = 1; i < along.size(); ++i) {
+      const auto t_at = [&](double s_m) {
+        const road::RoadExtent extent = road::road_extent(roads.road(tile.road), s_m);
+        return side > 0 ? extent.left_t_m + out_m : extent.right_t_m - out_m;
+      };
+      const double from = along[i - 1], to = along[i], middle = 0.5 * (from + to);
+      if (is_beside_lanes(roads, tile.road, from + 0.01, t_at(from)) ||
+          is_beside_lanes(roads, tile.road, middle, t_at(middle)) ||
+          is_beside_lanes(roads, tile.road, to - 0.01, t_at(to)))
+        continue;
+      Barrier parapet;
+      parapet.form = BarrierForm::railing;
+      parapet.height0_m = parapet.height1_m = usual_height_m(parapet.form);
+      parapet.line = {from, to, t_at(from), t_at(to)};
+      barriers.push_back(parapet);
+    }
 }
 
 }  // namespace
@@ -139,6 +173,10 @@ std::vector<Barrier> barriers(const RoadShape& roads, const RoadTile& tile) {
       result.push_back(barrier);
     }
   }
+  if (const road::RoadStructure* deck =
+          roads.structure_at(tile.road, tile.middle_m(), road::RoadStructure::Kind::bridge);
+      deck && deck->inferred)
+    add_parapets(roads, tile, result);
   return result;
 }
 

@@ -42,7 +42,8 @@ struct Barrier {
 /// (standing_objects.hpp).
 bool is_barrier(const road::RoadObject& object);
 bool runs_along(const road::RoadObject& object);
-/// The barriers of the tile's road that stand in the tile: rails end at a tunnel's mouth.
+/// The barriers of the tile's road that stand in the tile: rails end at a tunnel's mouth. A bridge that the file does not give
+/// (road/decks.hpp) has railings.
 std::vector<Barrier> barriers(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double barrier_step_m = 10.0;
 

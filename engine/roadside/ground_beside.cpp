@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -51,8 +52,9 @@ struct RoadEdge {
   double outside_m = std::numeric_limits<double>::infinity(), z_m = 0.0;
 };
 
-RoadEdge edge_near(const road::RoadNetwork& roads, const Nearest& near, const Vec2& p, const road::RoadPosition* hint) {
-  const auto found = road::locate(roads, p, hint, road_reach_m);
+RoadEdge edge_near(const road::RoadNetwork& roads, const Nearest& near, const Vec2& p, const road::RoadPosition* hint,
+                   std::optional<double> level_m) {
+  const auto found = road::locate(roads, p, hint, road_reach_m, level_m);
   if (found) {
     const road::RoadPosition& at = found->position;
     const road::Road& road = roads.roads[at.road];
@@ -76,9 +78,9 @@ bool is_in_tunnel(const road::RoadNetwork& roads, const Nearest& near) {
 }
 
 double height_m(const road::RoadNetwork& roads, const Terrain& terrain, DrawnLand& drawn, const Vec2& p,
-                const road::RoadPosition* hint) {
+                const road::RoadPosition* hint, std::optional<double> level_m) {
   const Nearest near = terrain.nearest(p);
-  const RoadEdge edge = edge_near(roads, near, p, hint);
+  const RoadEdge edge = edge_near(roads, near, p, hint, level_m);
   if (edge.outside_m <= paved_edge_m) return edge.z_m;
   const double uneven_m = smooth_step(uneven_from_m, uneven_until_m, edge.outside_m) * unevenness_m(p);
   if (edge.outside_m >= grid_from_m) return drawn.height_m(p) + uneven_m;
@@ -87,7 +89,8 @@ double height_m(const road::RoadNetwork& roads, const Terrain& terrain, DrawnLan
   double land_m = terrain.height_m(p, near) + strip_lift_m;
   if (edge.outside_m > strip_until_m)
     land_m = std::lerp(land_m, drawn.height_m(p), (edge.outside_m - strip_until_m) / (grid_from_m - strip_until_m));
-  return std::lerp(edge.z_m, land_m, smooth_step(paved_edge_m, bank_until_m, edge.outside_m)) + uneven_m;
+  const double bank_m = std::lerp(edge.z_m, land_m, smooth_step(paved_edge_m, bank_until_m, edge.outside_m));
+  return terrain.lanes().limited_m(p, bank_m) + uneven_m;
 }
 
 /// Waves of an uneven ground: each stands for a band of spatial frequencies and runs its own way.
@@ -128,13 +131,15 @@ double unevenness_m(const Vec2& p) {
 }
 
 GroundBeside ground_beside(const road::RoadNetwork& roads, const Terrain& terrain, const Vec2& p,
-                           const road::RoadPosition* hint) {
+                           const road::RoadPosition* hint, std::optional<double> level_m) {
   constexpr double apart_m = 0.3;
   DrawnLand drawn(terrain);
   GroundBeside ground;
-  ground.height_m = height_m(roads, terrain, drawn, p, hint);
-  const double along_x = (height_m(roads, terrain, drawn, p + Vec2(apart_m, 0.0), hint) - ground.height_m) / apart_m,
-               along_y = (height_m(roads, terrain, drawn, p + Vec2(0.0, apart_m), hint) - ground.height_m) / apart_m;
+  ground.height_m = height_m(roads, terrain, drawn, p, hint, level_m);
+  const double along_x =
+                   (height_m(roads, terrain, drawn, p + Vec2(apart_m, 0.0), hint, level_m) - ground.height_m) / apart_m,
+               along_y =
+                   (height_m(roads, terrain, drawn, p + Vec2(0.0, apart_m), hint, level_m) - ground.height_m) / apart_m;
   ground.normal = glm::normalize(Vec3(-along_x, -along_y, 1.0));
   return ground;
 }

@@ -4,9 +4,11 @@
 /// From the road's edge it falls into the land over the width of the verge; farther out it is the grid of the drawn
 /// land, between whose corners it is bilinear. Ditches are drawn and not felt: the way into the land is one even bank.
 /// On it lies the unevenness of a meadow (ISO 8608: a sum of waves of the class's density, between 1 and 20 m long, in
-/// all directions), which pictures are too coarse to show.
+/// all directions), which pictures are too coarse to show. Beside a lower road it is no higher than earth stands (lane_levels.hpp).
 ///
 /// Pure functions; safe from many threads. World frame, metres.
+
+#include <optional>
 
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
@@ -30,9 +32,10 @@ struct GroundBeside {
   Vec3 normal{0.0, 0.0, 1.0};  ///< Unit, upwards.
 };
 
-/// At a point outside the lanes. `hint`: a place on a road near it, or null.
+/// At a point outside the lanes. `hint`: a place on a road near it, or null; `level_m`: a world z near the ground, which tells a road from
+/// the one below it.
 GroundBeside ground_beside(const road::RoadNetwork& roads, const Terrain& terrain, const Vec2& p,
-                           const road::RoadPosition* hint);
+                           const road::RoadPosition* hint, std::optional<double> level_m = std::nullopt);
 
 /// How far the meadow's unevenness lifts a point over the drawn land.
 double unevenness_m(const Vec2& p);

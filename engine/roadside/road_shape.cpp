@@ -7,20 +7,42 @@
 #include <glm/geometric.hpp>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
 
 namespace septet::roadside {
 
-RoadShape::RoadShape(const road::RoadNetwork& network, double overrun_m) : network_(network), overrun_m_(overrun_m) {}
-
-double RoadShape::begin_m(road::RoadIndex index) const {
-  const road::RoadLink& link = road(index).predecessor;
-  return link.road == road::no_index && link.junction == road::no_index ? -overrun_m_ : 0.0;
+RoadShape::RoadShape(const road::RoadNetwork& network, double overrun_m) : network_(network) {
+  const auto is_loose = [](const road::RoadLink& link) {
+    return link.road == road::no_index && link.junction == road::no_index;
+  };
+  for (road::RoadIndex index = 0; index < network.roads.size(); ++index) {
+    const road::Road& loose = network.roads[index];
+    begins_m_.push_back(is_loose(loose.predecessor) ? -free_overrun_m(index, false, overrun_m) : 0.0);
+    ends_m_.push_back(loose.length_m + (is_loose(loose.successor) ? free_overrun_m(index, true, overrun_m) : 0.0));
+  }
 }
 
-double RoadShape::end_m(road::RoadIndex index) const {
-  const road::RoadLink& link = road(index).successor;
-  return road(index).length_m + (link.road == road::no_index && link.junction == road::no_index ? overrun_m_ : 0.0);
+double RoadShape::free_overrun_m(road::RoadIndex index, bool at_end, double most_m) const {
+  constexpr double look_m = 4.0, verge_m = 6.0;
+  const road::Road& loose = network_.roads[index];
+  const double end_m = at_end ? loose.length_m : 0.0;
+  const road::RoadExtent extent = road::road_extent(loose, end_m);
+  const auto meets = [&](double beyond_m) {
+    for (const double t : {extent.right_t_m, 0.5 * (extent.right_t_m + extent.left_t_m), extent.left_t_m})
+      for (const road::Location& other :
+           road::roads_holding(network_, Vec2(at(index, at_end ? end_m + beyond_m : -beyond_m, t).position_m)))
+        if (other.position.road != index || std::abs(other.position.s_m - end_m) > look_m) return true;
+    return false;
+  };
+  // A loose end that lies on another road's lanes has no way out at all.
+  for (double beyond_m = 0.5; beyond_m < most_m; beyond_m += look_m)
+    if (meets(beyond_m)) return std::max(0.0, beyond_m - look_m - verge_m);
+  return most_m;
 }
+
+double RoadShape::begin_m(road::RoadIndex index) const { return begins_m_[index]; }
+
+double RoadShape::end_m(road::RoadIndex index) const { return ends_m_[index]; }
 
 road::RoadPoint RoadShape::at(road::RoadIndex index, double s_m, double t_m) const {
   const double length = road(index).length_m;

@@ -27,7 +27,8 @@ inline constexpr double usual_overrun_m = 1500.0;
 
 class RoadShape {
  public:
-  /// `overrun_m`: how far a road runs on beyond an end that is linked to nothing.
+  /// `overrun_m`: how far a road runs on beyond an end that is linked to nothing. One that would run over another road's
+  /// lanes ends before them.
   RoadShape(const road::RoadNetwork& network, double overrun_m);
 
   const road::RoadNetwork& network() const { return network_; }
@@ -50,8 +51,10 @@ class RoadShape {
   std::vector<RoadTile> tiles(double length_m) const;
 
  private:
+  double free_overrun_m(road::RoadIndex index, bool at_end, double most_m) const;
+
   const road::RoadNetwork& network_;
-  double overrun_m_;
+  std::vector<double> begins_m_, ends_m_;
 };
 
 /// Evenly spaced stations of a tile, both ends included, at most `step_m` apart.

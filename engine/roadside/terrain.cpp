@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -47,26 +49,52 @@ std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double s
   return squares;
 }
 
-Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : seed_(seed) {
+void Terrain::add_samples(const RoadShape& roads, road::RoadIndex index) {
+  const road::Road& road = roads.road(index);
+  struct Stretch {
+    double from_m, to_m;
+    bool after_deck, before_deck;
+  };
+  // A road on a deck has no ground of its own.
+  std::vector<Stretch> stretches{{roads.begin_m(index), roads.end_m(index), false, false}};
+  std::vector<std::pair<double, double>> decks;
+  for (const road::RoadStructure& structure : road.structures)
+    if (structure.over_road) decks.emplace_back(structure.s_m, structure.s_m + structure.length_m);
+  std::sort(decks.begin(), decks.end());
+  for (const auto& [from_m, to_m] : decks) {
+    Stretch& last = stretches.back();
+    const Stretch after{to_m, last.to_m, true, false};
+    last.to_m = from_m;
+    last.before_deck = true;
+    stretches.push_back(after);
+  }
+  for (const Stretch& stretch : stretches) {
+    const double length = stretch.to_m - stretch.from_m;
+    if (length < 0.01 && stretches.size() > 1) continue;
+    const int count = std::max(1, static_cast<int>(std::ceil(length / sample_step_m)));
+    const double step = stretches.size() > 1 ? length / count : sample_step_m;
+    for (int i = 0; i <= count; ++i) {
+      const double s = stretch.from_m + length * i / count;
+      const road::RoadPoint p = roads.at(index, s, 0.0);
+      const road::RoadExtent extent = road::road_extent(road, s);
+      samples_.push_back({index, s, p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), p.roll_rad,
+                          extent.left_t_m, extent.right_t_m, step, i == 0 && stretch.after_deck ? 0.0 : 0.5 * step,
+                          i == count && stretch.before_deck ? 0.0 : 0.5 * step});
+    }
+  }
+}
+
+Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : seed_(seed), lanes_(roads) {
   const road::RoadNetwork& network = roads.network();
   for (road::RoadIndex index = 0; index < network.roads.size(); ++index) {
-    const double begin = roads.begin_m(index), length = roads.end_m(index) - begin;
-    const int count = std::max(1, static_cast<int>(std::ceil(length / sample_step_m)));
-    for (int i = 0; i <= count; ++i) {
-      const double s = begin + length * i / count;
-      const road::RoadPoint p = roads.at(index, s, 0.0);
-      const road::RoadExtent extent = road::road_extent(network.roads[index], s);
-      samples_.push_back({index, s, p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), p.roll_rad,
-                          extent.left_t_m, extent.right_t_m});
-      low_m_ = glm::min(low_m_, Vec2(p.position_m));
-      high_m_ = glm::max(high_m_, Vec2(p.position_m));
-    }
+    add_samples(roads, index);
     for (const road::RoadStructure& structure : network.roads[index].structures) {
       structures_.push_back({index, structure.s_m, structure.s_m + structure.length_m});
       if (structure.kind == road::RoadStructure::Kind::tunnel) {
         tunnels_.push_back({index, structure.s_m, structure.s_m + structure.length_m});
         continue;
       }
+      if (structure.over_road) continue;
       const road::RoadPoint p = roads.at(index, structure.s_m + structure.length_m / 2, 0.0);
       Valley valley{p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), 15.0, 0.0};
       valley.bottom_z_m = p.position_m.z - 1.0 - valley.depth_m;
@@ -74,9 +102,12 @@ Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : seed_(seed) {
     }
   }
   for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+    low_m_ = glm::min(low_m_, Vec2(samples_[i].position_m));
+    high_m_ = glm::max(high_m_, Vec2(samples_[i].position_m));
     cells_[cell_of(Vec2(samples_[i].position_m))].push_back(i);
     if (i % coarse_stride == 0) coarse_.push_back(samples_[i]);
   }
+  lowered_ = LoweredLand(lanes_, [this](const Vec2& p) { return land_m(p, nearest(p)); });
 }
 
 void Terrain::look_in(const Cell& cell, const Vec2& p, Nearest& best) const {
@@ -87,7 +118,7 @@ void Terrain::look_in(const Cell& cell, const Vec2& p, Nearest& best) const {
     const Vec2 offset = p - Vec2(sample.position_m);
     const Vec2 left(-sample.along.y, sample.along.x);
     const double ahead = glm::dot(offset, sample.along), t = glm::dot(offset, left);
-    const double end = std::max(0.0, std::abs(ahead) - sample_step_m * 0.5);
+    const double end = std::max(0.0, ahead > 0.0 ? ahead - sample.forward_m : -ahead - sample.back_m);
     const double side = std::max({t - sample.left_m, sample.right_m - t, 0.0});
     const double outside = std::hypot(end, side);
     // Among samples that are all beside the point the one straight beside it counts.
@@ -97,12 +128,12 @@ void Terrain::look_in(const Cell& cell, const Vec2& p, Nearest& best) const {
     best.found = true;
     best.road = sample.road;
     best.outside_m = outside;
-    best.s_m = sample.s_m + std::clamp(ahead, -sample_step_m, sample_step_m);
+    best.s_m = sample.s_m + std::clamp(ahead, -sample.step_m, sample.step_m);
     best.t_m = t;
     const std::size_t next = ahead > 0 ? i + 1 : i - 1;
     double z = sample.position_m.z;
     if (next < samples_.size() && samples_[next].road == sample.road)
-      z = std::lerp(z, samples_[next].position_m.z, std::min(1.0, std::abs(ahead) / sample_step_m));
+      z = std::lerp(z, samples_[next].position_m.z, std::min(1.0, std::abs(ahead) / sample.step_m));
     best.axis_z_m = z;
     best.edge_z_m = z + std::clamp(t, sample.right_m, sample.left_m) * std::sin(sample.roll_rad);
   }
@@ -135,7 +166,9 @@ std::vector<glm::i64vec2> Terrain::squares_near(double side_m, double within_m) 
   return roadside::squares_near(places, side_m, within_m);
 }
 
-double Terrain::height_m(const Vec2& p, const Nearest& near) const {
+double Terrain::height_m(const Vec2& p, const Nearest& near) const { return land_m(p, near) - lowered_.by_m(p); }
+
+double Terrain::land_m(const Vec2& p, const Nearest& near) const {
   // The level of the roads around, and hills that grow with the distance from them.
   double weights = 0.0, level = 0.0, least = 1e9;
   for (const Sample& sample : coarse_) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The shape of the land: hills that follow the roads' level, cut and fill beside the roads, a
-/// valley under every bridge and a hill over every tunnel.
+/// valley under every bridge that crosses no road, and a hill over every tunnel. Where roads lie on
+/// two levels the ground goes with the lower one.
 ///
 /// A pure function of the world's x and y, built once from the roads. Metres, world frame.
 
@@ -11,6 +12,8 @@
 
 #include <glm/ext/vector_int2_sized.hpp>
 
+#include "engine/roadside/lane_levels.hpp"
+#include "engine/roadside/lowered_land.hpp"
 #include "engine/roadside/road_shape.hpp"
 
 namespace septet::roadside {
@@ -34,6 +37,8 @@ class Terrain {
 
   double height_m(const Vec2& p) const { return height_m(p, nearest(p)); }
   double height_m(const Vec2& p, const Nearest& nearest) const;
+  /// Where ground may reach beside lanes. `height_m` keeps to it as the drawn land's grid does.
+  const LaneLevels& lanes() const { return lanes_; }
   Nearest nearest(const Vec2& p) const;
   /// Rough distance to the nearest road, at any range.
   double distance_m(const Vec2& p) const;
@@ -69,7 +74,11 @@ class Terrain {
     Vec3 position_m;
     Vec2 along;
     double roll_rad, left_m, right_m;
+    double step_m;             ///< To its neighbours.
+    double back_m, forward_m;  ///< How far along the road it stands for the ground.
   };
+  void add_samples(const RoadShape& roads, road::RoadIndex index);
+  double land_m(const Vec2& p, const Nearest& nearest) const;
   struct Mouth {
     road::RoadIndex road;
     double s0_m, s1_m;
@@ -78,6 +87,8 @@ class Terrain {
   void look_in(const Cell& cell, const Vec2& p, Nearest& best) const;
 
   std::uint64_t seed_;
+  LaneLevels lanes_;
+  LoweredLand lowered_;
   std::vector<Sample> samples_, coarse_;
   std::map<Cell, std::vector<std::uint32_t>> cells_;
   std::vector<Valley> valleys_;

@@ -201,8 +201,8 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const DrivenCar car = driven_car(model, state);
   const Vec3 origin = car.outputs.world_from_vehicle.position_m;
-  const auto place =
-      road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, road_reach_m);
+  const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr,
+                                  road_reach_m, origin.z);
   if (place) state.car_road = place->position;
   note_off_road(place, state, events);
   return car;
@@ -235,7 +235,8 @@ DriverCar driver_car(const Model& model, const State& state, const vehicle::Vehi
   car.head = state.input.head;
   // Lateral position is that of the middle of the front axle (SAE J2944, reference point 2), which the driver steers.
   const Vec3 front = outputs.world_from_vehicle * Vec3(model.car.body.wheelbase_m, 0.0, 0.0);
-  const auto place = road::locate(model.roads, {front.x, front.y}, state.car_road ? &*state.car_road : nullptr, 60.0);
+  const auto place =
+      road::locate(model.roads, {front.x, front.y}, state.car_road ? &*state.car_road : nullptr, 60.0, front.z);
   if (place && place->lanes.lane != 0 && place->lanes.outside_m <= 0.0) {
     car.road = place->position.road;
     car.lane = place->lanes.lane;

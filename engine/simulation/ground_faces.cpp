@@ -43,9 +43,10 @@ bool differs(const road::CubicProfile& profile, double from_s_m, double to_s_m) 
 
 /// Road or land, where a road is near.
 std::optional<road::SurfacePoint> ground_at(const Model& model, const Vec2& p, const road::RoadPosition& hint) {
-  auto surface = road::surface_at(model.roads, p, &hint, surface_reach_m);
+  const double level_m = road::evaluate(model.roads, hint).position_m.z;
+  auto surface = road::surface_at(model.roads, p, &hint, surface_reach_m, level_m);
   if (!surface || !model.obstacles || surface->outside_m <= 0.0) return surface;
-  const auto land = roadside::ground_beside(model.roads, model.obstacles->terrain(), p, &surface->position);
+  const auto land = roadside::ground_beside(model.roads, model.obstacles->terrain(), p, &surface->position, level_m);
   surface->height_m = land.height_m;
   surface->normal = land.normal;
   return surface;

@@ -44,7 +44,8 @@ double surface_friction(const road::SurfaceMaterial* material, const RoadWeather
 std::optional<double> find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised,
                                         const RoadWeather& weather, const Vec3& centre_m, bool has_place,
                                         road::RoadPosition& place, vehicle::WheelGround& wheel) {
-  const auto surface = road::surface_at(roads, {centre_m.x, centre_m.y}, has_place ? &place : nullptr, near_m);
+  const auto surface =
+      road::surface_at(roads, {centre_m.x, centre_m.y}, has_place ? &place : nullptr, near_m, centre_m.z);
   if (!surface) return std::nullopt;
   place = surface->position;
   wheel.point_m = {centre_m.x, centre_m.y, ground_height_m(raised, centre_m, surface->height_m)};
@@ -58,7 +59,7 @@ std::optional<double> find_wheel_ground(const road::RoadNetwork& roads, const ro
 
 void find_land(const road::RoadNetwork& roads, const roadside::Terrain& terrain, const RoadWeather& weather,
                const Vec3& centre_m, const road::RoadPosition* place, vehicle::WheelGround& wheel) {
-  const roadside::GroundBeside land = roadside::ground_beside(roads, terrain, Vec2(centre_m), place);
+  const roadside::GroundBeside land = roadside::ground_beside(roads, terrain, Vec2(centre_m), place, centre_m.z);
   const roadside::GroundCover& grass = roadside::meadow();
   wheel.point_m = Vec3(Vec2(centre_m), land.height_m);
   wheel.normal = land.normal;
@@ -76,7 +77,7 @@ void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* rais
   const bool near = raised && raised->is_near(centre_m, std::min(radius_m, 1.0));
   if (!near && !may_step(roads.roads[place.road], place.s_m, reach_m)) return;
   const auto height_m = [&](const Vec2& at) -> std::optional<double> {
-    const auto surface = road::surface_at(roads, at, &place, near_m);
+    const auto surface = road::surface_at(roads, at, &place, near_m, centre_m.z);
     if (!surface) return std::nullopt;
     return near ? ground_height_m(raised, at, surface->height_m) : surface->height_m;
   };

@@ -3,13 +3,17 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/noise.hpp"
+#include "engine/road/decks.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/town.hpp"
@@ -61,8 +65,8 @@ Vec2 outwards(const WorldContext& world, const RoadTile& tile, double s, double 
   return {-std::sin(heading) * side, std::cos(heading) * side};
 }
 
-glm::vec3 column_point(const WorldContext& world, const RoadTile& tile, double s, double edge_t, double side,
-                       const Column& column, bool is_limited) {
+Vec3 column_point(const WorldContext& world, const RoadTile& tile, double s, double edge_t, double side,
+                  const Column& column, bool is_limited) {
   const Vec3 edge = world.roads.point(tile.road, s, edge_t);
   const Vec2 p = Vec2(edge) + outwards(world, tile, s, side) * column.out_m;
   double z = edge.z - column.fall_m;
@@ -72,8 +76,11 @@ glm::vec3 column_point(const WorldContext& world, const RoadTile& tile, double s
     const Nearest near = world.terrain.nearest(p);
     if (near.found && near.road != tile.road && near.outside_m < 0.6) z = std::min(z, near.edge_z_m - 0.4);
   }
-  return world.roads.local(tile, Vec3(p, z));
+  return {p, z};
 }
+
+/// A lane so much higher is carried over the strip; a place of the tile's own road so far along is another turn of it.
+constexpr double overhead_m = road::least_rise_m, over_itself_m = 40.0;
 
 /// How far outwards of a road's edge a strip goes.
 struct Free {
@@ -88,8 +95,12 @@ Free free_beside(const WorldContext& world, const RoadTile& tile, double s, doub
   Free free;
   if (at.curvature_per_m * side > 1e-4) free.out_m = 0.85 / (at.curvature_per_m * side);
   const auto holding = [&](double out_m) -> std::optional<road::Location> {
-    for (const road::Location& location : road::roads_holding(network, edge + out * out_m))
-      if (location.position.road != tile.road) return location;
+    for (const road::Location& location : road::roads_holding(network, edge + out * out_m)) {
+      const bool own = location.position.road == tile.road && std::abs(location.position.s_m - s) < over_itself_m;
+      // Below a deck the strip goes on.
+      if (!own && road::evaluate(network, location.position).position_m.z < at.position_m.z + overhead_m)
+        return location;
+    }
     return std::nullopt;
   };
   constexpr double step_m = 0.7;
@@ -141,13 +152,14 @@ std::vector<Free> free_along(const WorldContext& world, const RoadTile& tile, co
   return result;
 }
 
-/// From the road's edge outwards. Towards another road the strip ends at that one's edge.
-std::vector<glm::vec3> row_of(const WorldContext& world, const RoadTile& tile, double s, double side,
-                              std::span<const Column> columns, const Free& free, bool among_roads) {
+/// From the road's edge outwards. Towards another road the strip ends at that one's edge. Where earth would stand too steeply over a
+/// lower road it begins at the foot of a wall.
+std::vector<Vec3> row_of(const WorldContext& world, const RoadTile& tile, double s, double side,
+                         std::span<const Column> columns, const Free& free, bool among_roads) {
   const double edge_t = edge_t_m(world, tile, s, side);
   const Vec3 edge = world.roads.point(tile.road, s, edge_t);
   const Vec2 out = outwards(world, tile, s, side);
-  std::vector<glm::vec3> row;
+  std::vector<Vec3> row;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const double out_m = std::min(columns[k].out_m, free.out_m);
     if (!free.z_m || k == 0) {
@@ -155,12 +167,12 @@ std::vector<glm::vec3> row_of(const WorldContext& world, const RoadTile& tile, d
       for (std::size_t j = 1; j <= k && column.out_m > out_m; ++j)
         if (columns[j].out_m >= out_m) column = mixed(columns[j - 1], columns[j], out_m);
       row.push_back(column_point(world, tile, s, edge_t, side, column, among_roads));
-      continue;
+    } else {
+      // Down or up to the other road's edge.
+      const double share = free.out_m > 1e-6 ? out_m / free.out_m : 1.0;
+      row.emplace_back(Vec2(edge) + out * out_m, std::lerp(edge.z, *free.z_m, share) - 0.012);
     }
-    // Down or up to the other road's edge.
-    const double share = free.out_m > 1e-6 ? out_m / free.out_m : 1.0;
-    const double z = std::lerp(edge.z, *free.z_m, share) - 0.012;
-    row.push_back(world.roads.local(tile, Vec3(Vec2(edge) + out * out_m, z)));
+    row.back().z = world.terrain.lanes().limited_m(Vec2(row.back()), row.back().z);
   }
   return row;
 }
@@ -183,28 +195,107 @@ bool is_among_roads(const WorldContext& world, const RoadTile& tile) {
          (meets(road.successor) && tile.s1_m > road.length_m - near_m);
 }
 
-void draw_side(const WorldContext& world, const RoadTile& tile, double side, const std::vector<double>& along,
-               std::span<const Column> columns, MeshBuilder& builder, bool near, bool among_roads) {
+/// The ground beside one side of a tile: a row of points for each station, from the road outwards.
+struct Strip {
+  std::vector<double> along;
+  std::span<const Column> columns;
+  bool among_roads = false;
+  std::vector<Free> free;
+  std::vector<std::vector<Vec3>> rows;
+};
+
+Strip strip_of(const WorldContext& world, const RoadTile& tile, double side, std::vector<double> along,
+               std::span<const Column> columns, bool among_roads) {
+  Strip strip{std::move(along), columns, among_roads, {}, {}};
+  strip.free = free_along(world, tile, strip.along, side, columns.back().out_m, among_roads);
+  for (std::size_t i = 0; i < strip.along.size(); ++i)
+    strip.rows.push_back(row_of(world, tile, strip.along[i], side, columns, strip.free[i], among_roads));
+  return strip;
+}
+
+/// A place of a lane below one of the four triangles that a quad of the strip may be drawn as.
+struct Covered {
+  std::array<Vec3*, 3> corners;
+  Vec3 shares;
+  double most_m;
+  std::size_t row, column;
+
+  double excess_m() const {
+    return shares.x * corners[0]->z + shares.y * corners[1]->z + shares.z * corners[2]->z - most_m;
+  }
+};
+
+std::vector<Covered> covered_lanes(const roadside::LaneLevels& lanes, Strip& strip) {
+  constexpr double noticed_m = 0.01;
+  std::vector<Covered> covered;
+  for (std::size_t i = 1; i < strip.rows.size(); ++i)
+    for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
+      std::vector<Vec3>&last = strip.rows[i - 1], &here = strip.rows[i];
+      const std::array<Vec3*, 4> quad{&last[k], &here[k], &here[k + 1], &last[k + 1]};
+      Vec3 low(1e300), high(-1e300);
+      for (const Vec3* corner : quad) {
+        low = glm::min(low, *corner);
+        high = glm::max(high, *corner);
+      }
+      lanes.for_each(Vec2(low), Vec2(high), [&](const roadside::LaneLevels::Place& place) {
+        if (place.most_m + noticed_m >= high.z || place.p.x < low.x || place.p.y < low.y || place.p.x > high.x ||
+            place.p.y > high.y)
+          return;
+        for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+          const std::array<Vec3*, 3> corners{quad[(left_out + 1) % 4], quad[(left_out + 2) % 4],
+                                             quad[(left_out + 3) % 4]};
+          const Vec3 shares = roadside::shares_in(Vec2(*corners[0]), Vec2(*corners[1]), Vec2(*corners[2]), place.p);
+          const Covered at{corners, shares, place.most_m, i, k};
+          if (shares != Vec3(0.0) && at.excess_m() > noticed_m) covered.push_back(at);
+        }
+      });
+    }
+  return covered;
+}
+
+/// Lowers the strip's points until it lies over no lane. Returns the quads, by row and column, of which that could not be reached.
+std::set<std::pair<std::size_t, std::size_t>> lower_below_lanes(const std::vector<Covered>& covered) {
+  constexpr int most_rounds = 24;
+  constexpr double clear_m = 0.03;
+  for (int round = 0; round < most_rounds; ++round)
+    for (const Covered& at : covered) {
+      const double excess = at.excess_m() + clear_m;
+      if (excess <= 0.0) continue;
+      const double squares = glm::dot(at.shares, at.shares);
+      for (int k = 0; k < 3; ++k) at.corners[static_cast<std::size_t>(k)]->z -= excess * at.shares[k] / squares;
+    }
+  std::set<std::pair<std::size_t, std::size_t>> left_out;
+  for (const Covered& at : covered)
+    if (at.excess_m() > 0.0) left_out.emplace(at.row, at.column);
+  return left_out;
+}
+
+void draw_strip(const WorldContext& world, const RoadTile& tile, double side, Strip& strip, MeshBuilder& builder,
+                bool near) {
+  const std::vector<double>& along = strip.along;
+  const std::span<const Column> columns = strip.columns;
+  const std::vector<Covered> covered = near ? covered_lanes(world.terrain.lanes(), strip) : std::vector<Covered>{};
+  const auto left_out = lower_below_lanes(covered);
   std::uint32_t first = 0;
-  std::vector<glm::vec3> last;
-  const std::vector<Free> free = free_along(world, tile, along, side, columns.back().out_m, among_roads);
   const bool driven = is_driven_along(world.roads.road(tile.road), tile, side) &&
-                      std::ranges::any_of(free, [](const Free& at) { return at.z_m.has_value(); });
+                      std::ranges::any_of(strip.free, [](const Free& at) { return at.z_m.has_value(); });
   constexpr double island_m = 12.0;
   const bool lawn = columns.data() == town_columns.data();
   for (std::size_t i = 0; i < along.size(); ++i) {
-    const std::vector<glm::vec3> here = row_of(world, tile, along[i], side, columns, free[i], among_roads);
     std::uint32_t row = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const std::uint32_t v = builder.vertex(here[k]);
+      const std::uint32_t v = builder.vertex(world.roads.local(tile, strip.rows[i][k]));
       if (k == 0) row = v;
     }
     if (i > 0)
       for (std::uint32_t k = 0; k + 1 < columns.size(); ++k) {
-        if (among_roads && glm::distance(last[k], last[k + 1]) < 0.02f && glm::distance(here[k], here[k + 1]) < 0.02f)
+        const std::vector<Vec3>&last = strip.rows[i - 1], &here = strip.rows[i];
+        if (strip.among_roads && glm::distance(last[k], last[k + 1]) < 0.02 &&
+            glm::distance(here[k], here[k + 1]) < 0.02)
           break;
+        if (left_out.contains({i, k})) continue;
         builder.material = index_of(!near ? Ground::far_verge : k == 0 && !lawn ? Ground::gravel : Ground::verge);
-        if (driven && among_roads && (free[i - 1].out_m < island_m || free[i].out_m < island_m))
+        if (driven && strip.among_roads && (strip.free[i - 1].out_m < island_m || strip.free[i].out_m < island_m))
           builder.material = index_of(Ground::asphalt_plain);
         const auto u0 = static_cast<float>(columns[k].out_m / 3.5), u1 = static_cast<float>(columns[k + 1].out_m / 3.5);
         const auto v0 = static_cast<float>((along[i - 1] - tile.s0_m) / 3.5),
@@ -215,7 +306,31 @@ void draw_side(const WorldContext& world, const RoadTile& tile, double side, con
           builder.quad(first + k, first + k + 1, row + k + 1, row + k, {{{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}}});
       }
     first = row;
-    last = here;
+  }
+}
+
+/// The walls along the road's edge where the ground beside it begins lower.
+void draw_retaining_wall(const WorldContext& world, const RoadTile& tile, double side, const Strip& strip,
+                         MeshBuilder& builder, bool near) {
+  constexpr double least_m = 0.05, texture_m = 4.0;
+  const auto top_of = [&](std::size_t i) {
+    return world.roads.point(tile.road, strip.along[i], edge_t_m(world, tile, strip.along[i], side));
+  };
+  builder.material = index_of(near ? Ground::concrete : Ground::far_concrete);
+  for (std::size_t i = 1; i < strip.rows.size(); ++i) {
+    const std::array<Vec3, 2> top{top_of(i - 1), top_of(i)}, foot{strip.rows[i - 1][0], strip.rows[i][0]};
+    if (std::max(top[0].z - foot[0].z, top[1].z - foot[1].z) < least_m) continue;
+    std::array<glm::vec3, 4> corners{world.roads.local(tile, top[0]), world.roads.local(tile, foot[0]),
+                                     world.roads.local(tile, foot[1]), world.roads.local(tile, top[1])};
+    geometry::CornerUvs uvs{};
+    for (std::size_t k = 0; k < 4; ++k)
+      uvs[k] = {static_cast<float>((k < 2 ? strip.along[i - 1] : strip.along[i]) - tile.s0_m) / texture_m,
+                -corners[k].z / static_cast<float>(texture_m)};
+    if (side > 0) {
+      std::ranges::reverse(corners);
+      std::ranges::reverse(uvs);
+    }
+    builder.patch(corners[0], corners[1], corners[2], corners[3], uvs);
   }
 }
 
@@ -235,9 +350,18 @@ void draw_sides(MeshBuilder& builder, const WorldContext& world, const RoadTile&
   if (near) columns = near_columns;
   if (near && roadside::is_in_town(world.roads.network(), tile.road, tile.middle_m())) columns = town_columns;
   if (mouth) columns = mouth_columns;
-  std::vector<double> along = stations(tile, mouth ? step_m / 2 : step_m);
-  if (near && !mouth) along = roadside::close_stations(world.roads, tile, among_roads ? step_m / 4 : step_m);
-  for (const double side : {1.0, -1.0}) draw_side(world, tile, side, along, columns, builder, near, among_roads);
+  const auto along = [&](bool close) {
+    return near && !mouth ? roadside::close_stations(world.roads, tile, close ? step_m / 4 : step_m)
+                          : stations(tile, mouth ? step_m / 2 : step_m);
+  };
+  for (const double side : {1.0, -1.0}) {
+    Strip strip = strip_of(world, tile, side, along(among_roads), columns, among_roads);
+    // It reaches another road all the same.
+    if (near && !mouth && !among_roads && !covered_lanes(world.terrain.lanes(), strip).empty())
+      strip = strip_of(world, tile, side, along(true), columns, true);
+    draw_strip(world, tile, side, strip, builder, near);
+    draw_retaining_wall(world, tile, side, strip, builder, near);
+  }
 }
 
 }  // namespace

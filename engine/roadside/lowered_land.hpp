@@ -1,0 +1,28 @@
+#pragma once
+/// How far the corners of the land's grid are lowered so that none of its squares lies over a lane.
+///
+/// A square of the drawn land is wide (plants.hpp: land_cell_m); where roads lie on different levels beside one another, or a road in
+/// a cut, its corners may lie right and the ground between them not.
+
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+
+#include "engine/roadside/lane_levels.hpp"
+
+namespace septet::roadside {
+
+class LoweredLand {
+ public:
+  LoweredLand() = default;
+  /// `height_m`: of the land as it would be.
+  LoweredLand(const LaneLevels& lanes, const std::function<double(const Vec2&)>& height_m);
+
+  /// By how much at p: bilinear between the corners, as the land is.
+  double by_m(const Vec2& p) const;
+
+ private:
+  std::unordered_map<std::uint64_t, double> corners_m_;
+};
+
+}  // namespace septet::roadside
