@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/light/beam.hpp"
 #include "engine/raytrace/world.hpp"
 
 namespace septet::raytrace {

@@ -171,8 +171,8 @@ Expected<void> Session::draw(const Snapshot& snapshot, const std::optional<std::
   const double begun_s = program::monotonic_s();
   if (auto shaped = take_window_shape(); !shaped) return shaped;
   auto input = screen_frames_.frame(snapshot, resolver_.scene(), message);
-  auto texts = message ? std::vector<instant::OverlayText>{} : driver_texts(snapshot);
-  const auto work = [&] { return display_->renderer().draw(std::move(input), std::move(texts)); };
+  const auto texts = message ? std::vector<instant::OverlayText>{} : driver_texts(snapshot);
+  const auto work = [&] { return display_->renderer().draw(std::move(input), texts); };
   if (auto drawn = beside_lane(work); !drawn) return drawn;
   last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
