@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,13 +44,6 @@ Heights heights_of(const RoadNetwork& network, const StretchNode& stretch) {
   return heights;
 }
 
-bool is_in_tunnel(const Road& road, double s_m) {
-  return std::ranges::any_of(road.structures, [&](const RoadStructure& structure) {
-    return structure.kind == RoadStructure::Kind::tunnel && s_m >= structure.s_m &&
-           s_m <= structure.s_m + structure.length_m;
-  });
-}
-
 /// A row across the road, from one edge to the other.
 struct Row {
   double s_m = 0.0;
@@ -61,7 +55,7 @@ std::vector<Row> rows_of(const RoadNetwork& network, const StretchNode& stretch)
   std::vector<Row> rows;
   for (int i = 0; i <= count; ++i) {
     Row row{stretch.s_m + stretch.step_m * i / count, {}};
-    if (is_in_tunnel(road, row.s_m)) continue;
+    if (structure_at(road, row.s_m, RoadStructure::Kind::tunnel)) continue;
     const CrossSection section = cross_section_at(road, row.s_m);
     const RoadExtent extent = road_extent(road, row.s_m);
     const double width = extent.left_t_m - extent.right_t_m;
@@ -73,10 +67,8 @@ std::vector<Row> rows_of(const RoadNetwork& network, const StretchNode& stretch)
   return rows;
 }
 
-/// Stations of `upper` that have a lane of `lower` below them are added to `ranges`.
-void find_over(const RoadNetwork& network, const StretchNode& upper, const StretchNode& lower,
-               std::vector<Range>& ranges) {
-  const std::vector<Row> below = rows_of(network, lower);
+/// Adds the stations of the rows `above` that have a lane of the rows `below` under them to `ranges`.
+void find_over(const std::vector<Row>& above, const std::vector<Row>& below, std::vector<Range>& ranges) {
   const auto lies_over = [&](const Vec3& p) {
     return std::ranges::any_of(below, [&](const Row& row) {
       return std::ranges::any_of(row.points_m, [&](const Vec3& q) {
@@ -85,7 +77,7 @@ void find_over(const RoadNetwork& network, const StretchNode& upper, const Stret
       });
     });
   };
-  for (const Row& row : rows_of(network, upper))
+  for (const Row& row : above)
     if (std::ranges::any_of(row.points_m, lies_over)) ranges.push_back({row.s_m, row.s_m});
 }
 
@@ -130,15 +122,14 @@ void add_deck(Road& road, Range deck) {
     left = std::move(rest);
   }
   for (const Range& part : left) {
-    if (part.to_m - part.from_m < 2.0 * deck_beyond_m) {
-      // A narrow rest beside a bridge of the file is its end.
-      if (part.from_m > deck.from_m || part.to_m < deck.to_m) continue;
-    }
-    RoadStructure bridge;
+    const double length_m = part.to_m - part.from_m;
+    // A narrow rest beside a bridge of the file is its end.
+    const bool is_rest = part.from_m > deck.from_m || part.to_m < deck.to_m;
+    if (length_m <= 0.0 || (is_rest && length_m < 2.0 * deck_beyond_m)) continue;
+    RoadStructure& bridge = road.structures.emplace_back();
     bridge.s_m = part.from_m;
-    bridge.length_m = part.to_m - part.from_m;
+    bridge.length_m = length_m;
     bridge.over_road = bridge.inferred = true;
-    if (bridge.length_m > 0.0) road.structures.push_back(std::move(bridge));
   }
 }
 
@@ -157,6 +148,12 @@ void find_decks(RoadNetwork& network) {
       heights[i].high_m = std::max(heights[i].high_m, heights[child].high_m);
     }
   }
+  // A stretch meets several others: its rows are worked out once, when the first of them asks.
+  std::vector<std::optional<std::vector<Row>>> rows(tree.size());
+  const auto rows_at = [&](std::size_t i) -> const std::vector<Row>& {
+    if (!rows[i]) rows[i] = rows_of(network, tree[i]);
+    return *rows[i];
+  };
   std::vector<std::vector<Range>> over(network.roads.size());
   for (std::size_t upper = 0; upper < tree.size(); ++upper) {
     if (tree[upper].road == no_index) continue;
@@ -167,7 +164,7 @@ void find_decks(RoadNetwork& network) {
         lower = tree[lower].skip;
         continue;
       }
-      if (tree[lower].road != no_index) find_over(network, tree[upper], tree[lower], over[tree[upper].road]);
+      if (tree[lower].road != no_index) find_over(rows_at(upper), rows_at(lower), over[tree[upper].road]);
       ++lower;
     }
   }

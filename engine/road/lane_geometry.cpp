@@ -187,4 +187,10 @@ const RoadMark* road_mark_at(const RoadNetwork& network, RoadIndex road_index, i
   return &marks[record_at(marks, s_m)];
 }
 
+const RoadStructure* structure_at(const Road& road, double s_m, RoadStructure::Kind kind) {
+  for (const RoadStructure& structure : road.structures)
+    if (structure.kind == kind && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m) return &structure;
+  return nullptr;
+}
+
 }  // namespace septet::road

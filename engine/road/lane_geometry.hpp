@@ -44,6 +44,9 @@ struct RoadExtent {
 };
 RoadExtent road_extent(const Road& road, double s_m);
 
+/// The bridge or tunnel that holds this place of the road, its ends included; null where none does.
+const RoadStructure* structure_at(const Road& road, double s_m, RoadStructure::Kind kind);
+
 /// The lanes at (s, t). A lane without width there does not count; a border belongs to the first lane that contains it.
 struct LanesAt {
   int lane = 0;  ///< The drivable lane that contains the point, else the drivable lane with the nearest centre; 0:

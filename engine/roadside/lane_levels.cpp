@@ -94,13 +94,4 @@ double LaneLevels::limited_m(const Vec2& p, double z_m) const {
   return z_m;
 }
 
-Vec3 shares_in(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p) {
-  const Vec2 u = b - a, v = c - a, w = p - a;
-  const double area = u.x * v.y - u.y * v.x;
-  if (std::abs(area) < 1e-9) return Vec3(0.0);
-  const double s = (w.x * v.y - w.y * v.x) / area, t = (u.x * w.y - u.y * w.x) / area;
-  if (s < 0.0 || t < 0.0 || s + t > 1.0) return Vec3(0.0);
-  return {1.0 - s - t, s, t};
-}
-
 }  // namespace septet::roadside

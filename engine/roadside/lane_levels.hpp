@@ -1,5 +1,5 @@
 #pragma once
-/// How high the ground may reach under and beside lanes.
+/// Limit of the ground's height under and beside lanes.
 ///
 /// Ground is earth: over no lane that is driven or walked, and beside one no steeper than it stands by itself, 1 in 1.5
 /// (a steeper bank is held by a wall along the upper road). Lanes are known by places of their surface, at most
@@ -53,7 +53,7 @@ class LaneLevels {
   static constexpr PlaneCells cells{8.0};
   static constexpr double reach_m = 16.0;
   struct Cell {
-    std::uint32_t first = 0, end = 0;  ///< Of places_.
+    std::uint32_t first = 0, end = 0;  ///< Range of places_.
     double least_m = 1e300;
   };
 
@@ -61,8 +61,5 @@ class LaneLevels {
   std::unordered_map<std::uint64_t, Cell> by_cell_;
   std::unordered_map<std::uint64_t, double> least_near_;
 };
-
-/// The shares of a triangle's corners at p, seen from above; all 0 outside of it.
-Vec3 shares_in(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p);
 
 }  // namespace septet::roadside

@@ -73,9 +73,7 @@ glm::vec3 RoadShape::local(const RoadTile& tile, const Vec3& world_m) const {
 
 const road::RoadStructure* RoadShape::structure_at(road::RoadIndex index, double s_m,
                                                    road::RoadStructure::Kind kind) const {
-  for (const road::RoadStructure& structure : road(index).structures)
-    if (structure.kind == kind && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m) return &structure;
-  return nullptr;
+  return road::structure_at(road(index), s_m, kind);
 }
 
 std::vector<RoadTile> RoadShape::tiles(double length_m) const {

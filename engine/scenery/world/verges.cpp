@@ -82,7 +82,7 @@ Vec3 column_point(const WorldContext& world, const RoadTile& tile, double s, dou
 /// A lane so much higher is carried over the strip; a place of the tile's own road so far along is another turn of it.
 constexpr double overhead_m = road::least_rise_m, over_itself_m = 40.0;
 
-/// How far outwards of a road's edge a strip goes.
+/// Reach of a strip outwards of a road's edge.
 struct Free {
   double out_m = 1e9;
   std::optional<double> z_m;  ///< Height of the other road that ends it.
@@ -177,7 +177,7 @@ std::vector<Vec3> row_of(const WorldContext& world, const RoadTile& tile, double
   return row;
 }
 
-/// Whether cars drive along this edge of a junction's road: what lies between two of them is paved.
+/// True where cars drive along this edge of a junction's road: ground between two of them is paved.
 bool is_driven_along(const road::Road& road, const RoadTile& tile, double side) {
   if (road.junction == road::no_index) return false;
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
@@ -185,7 +185,7 @@ bool is_driven_along(const road::Road& road, const RoadTile& tile, double side) 
   return outermost == 0 || road::is_drivable(section.lane(outermost).type);
 }
 
-/// Whether another road may lie within the strip beside this tile.
+/// True where another road may lie within the strip beside this tile.
 bool is_among_roads(const WorldContext& world, const RoadTile& tile) {
   const road::Road& road = world.roads.road(tile.road);
   if (road.junction != road::no_index) return true;
@@ -211,6 +211,16 @@ Strip strip_of(const WorldContext& world, const RoadTile& tile, double side, std
   for (std::size_t i = 0; i < strip.along.size(); ++i)
     strip.rows.push_back(row_of(world, tile, strip.along[i], side, columns, strip.free[i], among_roads));
   return strip;
+}
+
+/// Shares of a triangle's corners at p, seen from above; all 0 outside of it.
+Vec3 shares_in(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p) {
+  const Vec2 u = b - a, v = c - a, w = p - a;
+  const double area = u.x * v.y - u.y * v.x;
+  if (std::abs(area) < 1e-9) return Vec3(0.0);
+  const double s = (w.x * v.y - w.y * v.x) / area, t = (u.x * w.y - u.y * w.x) / area;
+  if (s < 0.0 || t < 0.0 || s + t > 1.0) return Vec3(0.0);
+  return {1.0 - s - t, s, t};
 }
 
 /// A place of a lane below one of the four triangles that a quad of the strip may be drawn as.
@@ -244,7 +254,7 @@ std::vector<Covered> covered_lanes(const roadside::LaneLevels& lanes, Strip& str
         for (std::size_t left_out = 0; left_out < 4; ++left_out) {
           const std::array<Vec3*, 3> corners{quad[(left_out + 1) % 4], quad[(left_out + 2) % 4],
                                              quad[(left_out + 3) % 4]};
-          const Vec3 shares = roadside::shares_in(Vec2(*corners[0]), Vec2(*corners[1]), Vec2(*corners[2]), place.p);
+          const Vec3 shares = shares_in(Vec2(*corners[0]), Vec2(*corners[1]), Vec2(*corners[2]), place.p);
           const Covered at{corners, shares, place.most_m, i, k};
           if (shares != Vec3(0.0) && at.excess_m() > noticed_m) covered.push_back(at);
         }

@@ -20,15 +20,6 @@ constexpr std::size_t most_keyframe_bytes = 140 * 1024;
 /// Soot grows over minutes: once a second is often enough.
 constexpr std::uint64_t soot_interval_steps = 60;
 
-/// The tunnel that holds this place of a road, if any.
-const road::RoadStructure* tunnel_at(const road::Road& road, double s_m) {
-  const auto found = std::ranges::find_if(road.structures, [&](const road::RoadStructure& structure) {
-    return structure.kind == road::RoadStructure::Kind::tunnel && s_m >= structure.s_m &&
-           s_m <= structure.s_m + structure.length_m;
-  });
-  return found == road.structures.end() ? nullptr : &*found;
-}
-
 /// Height of the tube's inside over the road at t; none outside of it. `left`: the tube with positive t.
 double clear_height_m(const road::Road& road, double s_m, double t_m, bool left) {
   using namespace roadside::tunnel_shape;
@@ -117,8 +108,9 @@ std::vector<smoke::Obstacle> obstacles_in(const smoke::Grid& grid, const std::ve
 smoke::Grid grid_around(const road::RoadNetwork& roads, const RigidTransform& world_from_vehicle) {
   const Vec3& at = world_from_vehicle.position_m;
   const auto place = road::locate(roads, {at.x, at.y}, nullptr, 60.0);
-  const road::RoadStructure* tunnel =
-      place ? tunnel_at(roads.roads[place->position.road], place->position.s_m) : nullptr;
+  const road::RoadStructure* tunnel = place ? road::structure_at(roads.roads[place->position.road], place->position.s_m,
+                                                                 road::RoadStructure::Kind::tunnel)
+                                            : nullptr;
   constexpr int nx = static_cast<int>((upwind_m + downwind_m) / cell_m);
   if (!tunnel) {
     constexpr int ny = 48, nz = 40;
