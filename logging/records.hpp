@@ -104,6 +104,10 @@ struct Event {
 
 /// The kind of events that are input: what an operator changed while it was driven, before the event's tick.
 inline constexpr std::string_view operator_command_kind = "operator_command";
+/// True of the command that moved the driver's car elsewhere.
+inline bool is_put(const Event& event) {
+  return event.kind == operator_command_kind && event.detail.starts_with("put ");
+}
 
 struct QuestionnaireRecord {
   std::string item;      ///< Short name of the question or endpoint: "fun", "drive_completed".

@@ -347,8 +347,7 @@ DriveSeen seen_of(std::span<const Sample> samples, std::span<const Event> events
                   false};
   drive.head_is_known = is_head_known(samples);
   for (const Event& event : events) {
-    if (event.kind == operator_command_kind && event.detail.starts_with("put "))
-      drive.put_s.push_back(event.simulated_time_s);
+    if (is_put(event)) drive.put_s.push_back(event.simulated_time_s);
     if (event.kind != "operator") continue;
     const std::string_view wish = word_of(event, "wish");
     if (wish == "brake") drive.instructor_s.emplace_back(event.simulated_time_s, 1e9);

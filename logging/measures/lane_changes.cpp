@@ -65,7 +65,7 @@ void break_off(LaneChangeDetector& detector) { detector.previous.reset(); }
 std::vector<Tick> put_before_ticks(std::span<const Event> events) {
   std::vector<Tick> ticks;
   for (const Event& event : events)
-    if (event.kind == operator_command_kind && event.detail.starts_with("put ")) ticks.push_back(event.tick);
+    if (is_put(event)) ticks.push_back(event.tick);
   std::ranges::sort(ticks);
   return ticks;
 }

@@ -29,7 +29,7 @@ Row row_of(std::string_view kind) {
   static const std::map<std::string_view, Row> rows{{"mark", marks},
                                                     {"word", marks},
                                                     {"operator", operators},
-                                                    {"operator_command", operators},
+                                                    {operator_command_kind, operators},
                                                     {"rating", ratings},
                                                     {"scenario", storyboard},
                                                     {"game", games},

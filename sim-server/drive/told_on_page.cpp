@@ -11,7 +11,7 @@ namespace {
 /// An operator's command is told by the event that says who gave it.
 constexpr std::array unheard{std::string_view("scenario"),   std::string_view("mirror_glance"),
                              std::string_view("turn"),       std::string_view("fracture"),
-                             std::string_view("visibility"), std::string_view("operator_command")};
+                             std::string_view("visibility"), logging::operator_command_kind};
 /// Their detail is a sentence.
 constexpr std::array sentences{std::string_view("screen"), std::string_view("car"), std::string_view("traffic")};
 
