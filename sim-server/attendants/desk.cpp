@@ -1,7 +1,6 @@
 #include "sim-server/attendants/desk.hpp"
 
 #include <string>
-#include <vector>
 
 #include <fmt/core.h>
 
@@ -10,18 +9,13 @@
 
 namespace septet::server {
 
-const std::vector<HostedScreen>& Desk::screens() const {
-  static const std::vector<HostedScreen> none;
-  return host_ ? host_->screens() : none;
-}
-
 Expected<void> Desk::begin() {
   desk_->log_to(log_.session());
   return {};
 }
 
 void Desk::before_tick(const Moment& moment) {
-  desk_->attend(moment.newest, std::string(moment.doing), screens(), moment.now_s);
+  desk_->attend(moment.newest, std::string(moment.doing), screens_of(host_), moment.now_s);
   if (host_) host_->look_at(desk_->watched(), moment.now_s);
 }
 
@@ -33,7 +27,7 @@ Wishes Desk::wishes() {
 }
 
 void Desk::close(ServeResult& result) {
-  desk_->show_end(fmt::format("ended: {}", text_of(result.end)), screens(), program::monotonic_s());
+  desk_->show_end(fmt::format("ended: {}", text_of(result.end)), screens_of(host_), program::monotonic_s());
 }
 
 }  // namespace septet::server

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "sim-server/attendants/drive_log.hpp"
 #include "sim-server/drive/operator_desk.hpp"
@@ -24,8 +23,6 @@ class Desk final : public Attendant {
   void close(ServeResult& result) override;
 
  private:
-  const std::vector<HostedScreen>& screens() const;
-
   std::unique_ptr<OperatorDesk> desk_;
   DriveLog& log_;
   ScreenHost* host_;

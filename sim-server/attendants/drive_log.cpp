@@ -33,8 +33,7 @@ void DriveLog::hear(const Message& message) {
 }
 
 void DriveLog::close(ServeResult& result) {
-  static const std::vector<HostedScreen> none;
-  const std::vector<HostedScreen>& screens = host_ ? host_->screens() : none;
+  const std::vector<HostedScreen>& screens = screens_of(host_);
   const auto failed = [&](const Error& error) {
     if (result.end == logging::DriveEnd::log_failed) return;  // That has been said.
     line_.message(fmt::format("septet-server: {}", describe(error)));

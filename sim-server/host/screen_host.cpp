@@ -404,4 +404,9 @@ bool ScreenHost::all_reported() const {
   return std::ranges::all_of(screens_, [](const HostedScreen& screen) { return !screen.live() || screen.report; });
 }
 
+const std::vector<HostedScreen>& screens_of(const ScreenHost* host) {
+  static const std::vector<HostedScreen> none;
+  return host ? host->screens() : none;
+}
+
 }  // namespace septet::server

@@ -179,4 +179,7 @@ class ScreenHost {
   std::vector<std::string> messages_;
 };
 
+/// The host's screens; none without a host.
+const std::vector<HostedScreen>& screens_of(const ScreenHost* host);
+
 }  // namespace septet::server

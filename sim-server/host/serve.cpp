@@ -42,7 +42,7 @@ struct Loop {
   void show_messages() {
     for (auto& text : source.take_messages()) tell(Message{std::move(text), true});
   }
-  /// What the attendants do before a tick, and wish for it.
+  /// Calls the attendants before a tick and takes their wishes for it.
   void attend() {
     for (const auto& attendant : attendants) {
       attendant->before_tick({newest, doing, clock.now_s()});
@@ -73,7 +73,7 @@ struct Loop {
     for (const auto& attendant : attendants) attendant->after_tick(newest, source.shaking_share());
     return std::move(*snapshot);
   }
-  /// Whether somebody wants the drive to end or its log is lost; the result says so.
+  /// True where somebody wants the drive to end or its log is lost; the result says so.
   bool is_stopped(const std::optional<DriveEnd>& by_a_screen) {
     attend();
     if (auto error = source.take_error()) {
@@ -85,7 +85,7 @@ struct Loop {
     result.end = wishes.end ? *wishes.end : *by_a_screen;
     return true;
   }
-  /// Whether all ticks that were asked for are there; the result says so.
+  /// True once all requested ticks are there; the result says so.
   bool is_time_over() {
     if (ticks == 0 || result.ticks < ticks) return false;
     result.end = DriveEnd::time_over;
@@ -111,7 +111,7 @@ struct ScreenLoop : Loop {
     host.pump(clock.now_s());
     for (auto& text : host.take_messages()) tell(std::move(text));
   }
-  /// Who wants to pause what cannot be paused, or has not begun, wants to leave.
+  /// A pause of a world that cannot be paused, or has not begun, is a wish to leave.
   bool is_stopped() {
     const bool leaves = !can_pause && host.pause_requested();
     return Loop::is_stopped(leaves ? std::optional(DriveEnd::escape) : host.end_requested());
