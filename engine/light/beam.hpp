@@ -22,7 +22,7 @@ LIGHT_BEGIN
 /// Main beam's peak as a multiple of the dipped one's: 60,000 cd to 15,000.
 LIGHT_CONST float main_beam_peak = 4.0f;
 
-/// Of halogen lamps, where 1 is white.
+/// Colour of halogen lamps, where 1 is white.
 LIGHT_CONST vec3 headlight_color = vec3(1.0f, 0.93f, 0.80f);
 
 /// A direction as seen from a lamp: the cosine with where it points, that and its square where it is ahead, how far below and (squared) aside.
@@ -45,7 +45,7 @@ LIGHT_FN BeamWay beam_way(vec3 level, vec3 direction) {
   return way;
 }
 
-/// How the dipped beam falls off below its cut-off.
+/// Fall-off of the dipped beam below its cut-off.
 LIGHT_FN float dipped_falls(BeamWay way) { return 1.0f + way.down2 * (400.0f + way.down2 * 20000.0f); }
 
 /// The dipped beam's share is dipped_over(…)/dipped_under(…), times ahead².
@@ -82,7 +82,7 @@ LIGHT_FN float beam_share(vec3 level, vec3 direction, float main_beam, float tim
 /// surface would at so low an angle.
 LIGHT_FN float beam_facing(float cosine) { return 0.7f * cosine + 0.3f; }
 
-/// Of what retroreflectors send back, the share that arrives beside the way to the lamp: `away` is 1 − the cosine of the angle between.
+/// Share of retroreflected light that arrives beside the way to the lamp: `away` is 1 − the cosine of the angle between.
 LIGHT_FN float beam_returned(float away) { return 1.0f / (1.0f + away * 26000.0f); }
 
 LIGHT_END

@@ -23,7 +23,7 @@ LIGHT_FN vec2 cloud_sunward(vec2 place, vec3 sun_direction) {
   return place + vec2(sun_direction.x, sun_direction.y) * 0.012f;
 }
 
-/// How dense the sheet is where the noise has that rank, 0 to 1.
+/// Density of the sheet where the noise has that rank, 0 to 1.
 LIGHT_FN float cloud_density(float rank, float cloud_cover) {
   return smoothstep(1.0f - cloud_cover - 0.08f, 1.0f - cloud_cover + 0.34f, rank);
 }

@@ -11,7 +11,7 @@
 
 LIGHT_BEGIN
 
-/// Of a crack's face, which mirrors all light: as wide a highlight as that of the rasteriser, with the exponent 40.
+/// Roughness of a crack's face, which mirrors all light: as wide a highlight as that of the rasteriser, with the exponent 40.
 LIGHT_CONST float crack_roughness = 0.4f;
 
 /// A crack's share of its strip.
@@ -32,7 +32,7 @@ LIGHT_FN vec3 uneven_crack(vec3 normal, float along_m) {
   return normalize(normal + 0.25f * vec3(cos(along_m * 61.0f), sin(along_m * 47.0f), cos(along_m * 83.0f + 1.0f)));
 }
 
-/// Where in the noise a crack's faces touch is read, by its uneven normal.
+/// Place in the noise from which the contact of a crack's faces is read, by its uneven normal.
 LIGHT_FN vec2 crack_noise_place(vec3 normal, float along_m) { return vec2(along_m * 3.0f + normal.x, normal.y); }
 
 /// Share of what lies behind that a crack's face hides: less where its sides touch. `noise`: there, 0 to 1.

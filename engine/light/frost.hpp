@@ -9,7 +9,7 @@
 
 LIGHT_BEGIN
 
-/// Of the light that falls on either side of frost, what leaves by both sides alike: multiply scattered, little is lost.
+/// Share of the light on either side of frost that leaves by both sides alike: multiply scattered, little is lost.
 LIGHT_CONST float frost_albedo = 0.88f;
 
 LIGHT_CONST float frost_m2pkg = 16.0f;
@@ -34,7 +34,7 @@ struct FeatherPlace {
   float seam;
 };
 
-/// Of the four cells around a place one has the feather that reaches it, or nearly.
+/// The feather of one of the four cells around a place reaches it, or nearly.
 LIGHT_FN FeatherPlace feather_at(vec2 place) {
   const float cell_m = 0.034f;
   const vec2 cell = floor(place / cell_m - 0.5f);
@@ -57,7 +57,7 @@ LIGHT_FN FeatherPlace feather_at(vec2 place) {
   return result;
 }
 
-/// How much of the frost's mass lies at a place. `grain`: the noise there, 0 to 1. `fine`, `coarse`: how much is seen of what is some millimetres
+/// Relative mass of the frost at a place. `grain`: the noise there, 0 to 1. `fine`, `coarse`: how much is seen of what is some millimetres
 /// wide and of what is some centimetres wide, 1 beside the pane; what is not seen counts by its mean.
 LIGHT_FN float feather_mass(FeatherPlace feather, float grain, float fine, float coarse) {
   const float wander = 6.0f * grain;

@@ -2,7 +2,7 @@
 #define SEPTET_LIGHT_LANGUAGE_HPP
 /// The common language of this folder: every header here is C++20 with GLM and GLSL 4.60 at once.
 ///
-/// How a surface looks is worked out by the rasteriser's shaders and by the ray tracer's C++. Both include the same header, so that a formula, a
+/// The look of a surface is worked out by the rasteriser's shaders and by the ray tracer's C++. Both include the same header, so that a formula, a
 /// number and a record that crosses to the device stand once. GLM has GLSL's names, so that the text of a function is plain GLSL, within these rules:
 ///
 /// - LIGHT_BEGIN and LIGHT_END enclose the text (namespace septet::light of C++), LIGHT_FN begins a function, LIGHT_CONST a constant.

@@ -6,13 +6,13 @@
 
 LIGHT_BEGIN
 
-/// Of facets, by the cosine between theirs and the surface's normal. `alpha`: the square of the roughness.
+/// Distribution of facets, by the cosine between theirs and the surface's normal. `alpha`: the square of the roughness.
 LIGHT_FN float ggx_density(float cosine, float alpha) {
   const float a2 = alpha * alpha, d = cosine * cosine * (a2 - 1.0f) + 1.0f;
   return a2 / (pi * d * d);
 }
 
-/// Of a clear coat of lacquer, of index 1.5.
+/// Reflectance of a clear coat of lacquer, of index 1.5, straight on.
 LIGHT_CONST float coat_reflectance = 0.04f;
 LIGHT_CONST float coat_roughness = 0.1f;
 

@@ -1,15 +1,15 @@
 #ifndef SEPTET_LIGHT_RECORDS_HPP
 #define SEPTET_LIGHT_RECORDS_HPP
-/// What passes tell their shaders, a record of storage or of push constants each: see the pass of the same name in engine/render/passes.
+/// Records that passes send to their shaders, of storage or of push constants: see the pass of the same name in engine/render/passes.
 ///
-/// Of vec4 and mat4 alone, with no room between them: so C++, std140, std430 and push constants lay a record out alike, which LIGHT_RECORD asserts.
+/// Each consists of vec4 and mat4 alone, with no room between them: so C++, std140, std430 and push constants lay a record out alike, which LIGHT_RECORD asserts.
 /// Places are relative to the eye along the world's axes, m.
 
 #include "engine/light/language.hpp"
 
 LIGHT_BEGIN
 
-/// Where a body hides the sky from the ground that it stands on.
+/// A body that hides the sky from the ground below it.
 struct ContactRecord {
   vec4 middle;  ///< On the ground; height of the body, m.
   vec4 ahead;   ///< Unit; half its length, m.
@@ -67,8 +67,8 @@ LIGHT_RECORD(QuadConstants, kind, 4)
 /// The shadow cascade that is drawn.
 struct CascadeConstants {
   mat4 clip_from_relative;
-  vec4
-      first_texel;  ///< xy: number of its corner's texel over the world: a pattern that came along with the eye would crawl.
+  /// xy: number of its corner's texel over the world: a pattern that came along with the eye would crawl.
+  vec4 first_texel;
 };
 LIGHT_RECORD(CascadeConstants, first_texel, 5)
 
@@ -76,8 +76,8 @@ LIGHT_RECORD(CascadeConstants, first_texel, 5)
 struct ReprojectionConstants {
   mat4 before_from_now;  ///< Clip coordinates.
   vec4 viewport;         ///< Left, top, width, height, pixels.
-  vec4
-      more;  ///< x: from radiance to the tone curve. y: 1 where there is a frame before. zw: how far what stands still is shifted, pixels.
+  /// x: from radiance to the tone curve. y: 1 where there is a frame before. zw: shift of still surfaces, pixels.
+  vec4 more;
 };
 LIGHT_RECORD(ReprojectionConstants, more, 6)
 
@@ -101,8 +101,9 @@ struct IceConstants {
   vec4 blend;       ///< x: share of the front face's normal, y: of the back face's, signed. z: frost, w: 1 it reflects.
   vec4 absorption;  ///< rgb: per metre. w: the body's largest extent, m.
   vec4 rectangle;   ///< In the layers, texels: first and last corner.
-  vec4
-      beyond;  ///< Of what lies behind it. x: how far light is followed, m; 0: not. y: the largest extent, m. z: behind its far end. w: the highlight's exponent.
+  /// Of the bodies behind it. x: length over which light is followed, m; 0: not. y: their largest extent, m. z: behind their far end. w: exponent
+  /// of the highlight.
+  vec4 beyond;
 };
 LIGHT_RECORD(IceConstants, beyond, 8)
 

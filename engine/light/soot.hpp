@@ -10,17 +10,17 @@
 
 LIGHT_BEGIN
 
-/// Whether the eight cells from `low` on lie in a field of `size` cells.
+/// True where the eight cells from `low` on lie in a field of `size` cells.
 LIGHT_FN bool in_soot(ivec3 low, ivec3 size) {
   return !any(lessThan(low, ivec3(0))) && !any(greaterThanEqual(low, size - 1));
 }
 
-/// Of the eight cells around a place the n-th, from the first one.
+/// Step from the first of the eight cells around a place to the n-th.
 LIGHT_FN ivec3 soot_corner(int n) { return ivec3(n & 1, (n >> 1) & 1, n >> 2); }
 
 LIGHT_FN int soot_index(ivec3 cell, ivec3 size) { return (cell.z * size.y + cell.y) * size.x + cell.x; }
 
-/// How much that cell counts; `share`: of the way from the first of the eight to the last, along each axis.
+/// Weight of that cell; `share`: of the way from the first of the eight to the last, along each axis.
 LIGHT_FN float soot_weight(vec3 share, ivec3 corner) {
   const vec3 weight = mix(1.0f - share, share, vec3(corner));
   return weight.x * weight.y * weight.z;

@@ -1,6 +1,6 @@
 #ifndef SEPTET_LIGHT_TONE_CURVE_HPP
 #define SEPTET_LIGHT_TONE_CURVE_HPP
-/// What a display shows of a scene's light.
+/// Display codes of a scene's light.
 ///
 /// The filmic curve of Hejl and Burgess-Dawson (Filmic Worlds, 2010): exposed light, 1 about white, to the display's code from
 /// 0 to 1. It holds the display's gamma, so that neither a power nor an sRGB target is needed, and bends towards white as film does, so that what is

@@ -1,6 +1,6 @@
 #ifndef SEPTET_LIGHT_VIEW_RECORD_HPP
 #define SEPTET_LIGHT_VIEW_RECORD_HPP
-/// What every pass of a view sees. Positions are relative to the eye, along the world's axes, metres. Radiance: see engine/instant/atmosphere.hpp.
+/// Record that every pass of a view reads. Positions are relative to the eye, along the world's axes, metres. Radiance: see engine/instant/atmosphere.hpp.
 ///
 /// Laid out alike by C++ and std140, as the records of records.hpp are.
 
@@ -10,7 +10,7 @@ LIGHT_BEGIN
 
 LIGHT_CONST int most_headlights = 10;
 LIGHT_CONST int most_beacons = 4;
-/// Of sky and ground: engine/instant/sky_irradiance.hpp.
+/// Harmonics of sky and ground: engine/instant/sky_irradiance.hpp.
 LIGHT_CONST int irradiance_terms = 7;
 
 struct ViewUniforms {
@@ -32,16 +32,16 @@ struct ViewUniforms {
   vec4 headlight_direction[most_headlights];  ///< xyz unit. w: main beam, 0 to 1.
   vec4 soot_x, soot_y, soot_z;                ///< Rows from relative places to cells of the soot.
   vec4 soot_size;                             ///< xyz: cells. w: number of beacons.
-  vec4
-      lamp_field;  ///< From relative places to the field's coordinates: xy·z + xy. w: how strongly lamps in the open light.
-  vec4 lamp_hue;  ///< rgb. w: how strongly lamps under roofs light.
+  /// From relative places to the field's coordinates: xy·z + xy. w: strength of lamps in the open.
+  vec4 lamp_field;
+  vec4 lamp_hue;  ///< rgb. w: strength of lamps under roofs.
   vec4 road;      ///< xyz: normal of the road near the eye, w: its height along that from the eye.
-  vec4
-      water;  ///< xy: the eye within a tile of puddles, m. z: 1 where mirror_image holds this view, w: where ripples hold rain.
-  vec4
-      target;  ///< xy: a pixel as a share of the target's width and height. zw: the eye within a tile of ripples, tiles.
-  vec4
-      offset;  ///< xy: of the samples of what stands still, NDC. z: how much of its depth it keeps. w: 1 where the sun or moon casts shadows that can be seen.
+  /// xy: the eye within a tile of puddles, m. z: 1 where mirror_image holds this view, w: 1 where ripples hold rain.
+  vec4 water;
+  /// xy: a pixel as a share of the target's width and height. zw: the eye within a tile of ripples, tiles.
+  vec4 target;
+  /// xy: offset of the samples of still surfaces, NDC. z: share of its depth that one keeps. w: 1 where the sun or moon casts visible shadows.
+  vec4 offset;
   vec4 beacon_position[most_beacons];   ///< xyz relative.
   vec4 beacon_intensity[most_beacons];  ///< rgb.
 };

@@ -22,7 +22,7 @@ LIGHT_CONST float puddle_mirrors = 0.95f;
 LIGHT_CONST float film_roughness = 0.12f;
 LIGHT_CONST float puddle_roughness = 0.03f;
 
-/// Of water, straight on.
+/// Reflectance of water, straight on.
 LIGHT_CONST float water_reflectance = 0.02f;
 
 /// Share of a road of that wetness that lies under water.
@@ -43,7 +43,7 @@ LIGHT_FN float water_covers(float wet, float under_water) { return mix(film_shar
 
 LIGHT_FN float water_roughness(float under_water) { return mix(film_roughness, puddle_roughness, under_water); }
 
-/// Of what the beads of a stripe send back, the share that is left: water over them mirrors the light away.
+/// Remaining share of the light from the beads of a stripe: water over them mirrors the light away.
 LIGHT_FN float wet_beads_return(float wet) { return 1.0f - 0.8f * wet; }
 
 LIGHT_END

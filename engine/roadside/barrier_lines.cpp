@@ -68,7 +68,7 @@ bool is_on_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, doub
   return holds(t_m) || holds(t_m - clear_m) || holds(t_m + clear_m);
 }
 
-/// Whether lanes as high as a deck lie beside it, as where it parts.
+/// True where lanes as high as a deck lie beside it, as where it parts.
 bool is_beside_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, double t_m) {
   const Vec3 at = roads.point(index, s_m, t_m);
   for (const road::Location& other : road::roads_holding(roads.network(), Vec2(at)))
@@ -77,7 +77,7 @@ bool is_beside_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, 
   return false;
 }
 
-/// Of a deck that its file does not know of: along both edges, but where other lanes join it.
+/// Adds railings along both edges of a deck that its file does not know of, but where other lanes join it.
 void add_parapets(const RoadShape& roads, const RoadTile& tile, std::vector<Barrier>& barriers) {
   constexpr double step_m = 8.0, out_m = 0.4;
   const std::vector<double> along = stations(tile, step_m);

@@ -1,5 +1,5 @@
 #pragma once
-/// How far the corners of the land's grid are lowered so that none of its squares lies over a lane.
+/// Lowering of the corners of the land's grid, so that none of its squares lies over a lane.
 ///
 /// A square of the drawn land is wide (plants.hpp: land_cell_m); where roads lie on different levels beside one another, or a road in
 /// a cut, its corners may lie right and the ground between them not.

@@ -12,9 +12,9 @@ namespace septet::roadside {
 inline constexpr double endless_m = 1e6;
 
 struct ObstacleProfile {
-  double radius_m;  ///< Half the thickness of a line.
-  double height_m;  ///< Over the ground at its foot.
-  double friction;  ///< Of painted sheet metal that slides along it, chosen: 0.3 on steel, 0.45 on concrete and bark.
+  double radius_m;     ///< Half the thickness of a line.
+  double height_m;     ///< Over the ground at its foot.
+  double friction;     ///< Of painted sheet metal sliding along it, chosen: 0.3 on steel, 0.45 on concrete and bark.
   double yielding_kg;  ///< As Obstacle::yielding_kg.
 };
 

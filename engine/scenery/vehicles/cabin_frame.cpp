@@ -19,7 +19,7 @@ namespace {
 using geometry::MeshBuilder;
 
 const glm::vec3 foot(windscreen::foot_left_m), head(windscreen::head_left_m);
-/// Where the roof ends above the rear window, and that window's foot.
+/// End of the roof above the rear window, and that window's foot.
 const glm::vec3 roof_end{0.05f, 0.60f, 1.40f}, rear_foot{-0.62f, 0.70f, 0.97f};
 constexpr float floor_z = 0.30f, belt_z = 0.95f, door_y = 0.80f, bulkhead_x = 2.50f;
 
@@ -65,7 +65,7 @@ void add_pillar(MeshBuilder& builder) {
   add_sweep(builder, CockpitFinish::rubber, glass_seal);
 }
 
-/// What stands beside the left seats: the doors below their windows, the pillars between and behind them.
+/// Sides of the cabin on the left: the doors below their windows, the pillars between and behind them.
 void add_side(MeshBuilder& builder) {
   builder.material = index_of(CockpitFinish::panel);
   builder.patch({rear_foot.x, door_y, floor_z}, {bulkhead_x, door_y, floor_z}, {bulkhead_x, door_y, 0.93f},

@@ -68,7 +68,7 @@ void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
     }
 }
 
-/// Whether lanes lie under a pier's foot or right beside it.
+/// True where lanes lie under a pier's foot or right beside it.
 bool stands_on_lanes(const WorldContext& world, const Vec3& head) {
   constexpr double clear_m = 2.6;
   bool on_lanes = false;
