@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/image/srgb.hpp"
 #include "engine/instant/glass_cover.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/instant/wet_road.hpp"
@@ -22,13 +23,11 @@
 namespace septet::raytrace {
 namespace {
 
-float linear(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
-
 /// Of 8-bit sRGB.
 const std::array<float, 256>& linear_codes() {
   static const std::array<float, 256> codes = [] {
     std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear(static_cast<float>(i) / 255.0f);
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = image::light_of_srgb(static_cast<float>(i) / 255.0f);
     return table;
   }();
   return codes;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/check.hpp"
+#include "engine/image/srgb.hpp"
 
 namespace septet::render {
 namespace {
@@ -18,7 +19,7 @@ struct Transfer {
     for (std::size_t i = 0; i < 256; ++i) linear[i] = static_cast<float>(linear_of_code(i, srgb));
     for (std::size_t i = 0; i < encoded.size(); ++i) {
       const double v = double(i) / 4096.0;
-      const double code = !srgb ? v : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+      const double code = srgb ? image::srgb_of_light(v) : v;
       encoded[i] = static_cast<std::uint8_t>(std::lround(255.0 * code));
     }
   }
@@ -82,7 +83,7 @@ void keep_coverage(std::vector<std::uint8_t>& rgba, double wanted) {
 
 double linear_of_code(std::size_t code, bool srgb) {
   const double v = double(code) / 255.0;
-  return !srgb ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  return srgb ? image::light_of_srgb(v) : v;
 }
 
 bool has_holes(std::span<const std::uint8_t> rgba) {

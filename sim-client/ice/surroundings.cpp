@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/image/srgb.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/light/lamplight.hpp"
 
@@ -29,9 +30,7 @@ constexpr std::array<Wall, 6> walls{{{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
                                      {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}}}};
 
 std::uint8_t srgb_code(float linear) {
-  const float x = std::clamp(linear, 0.0f, 1.0f);
-  return static_cast<std::uint8_t>(
-      std::lround(255.0f * (x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f)));
+  return static_cast<std::uint8_t>(std::lround(255.0f * image::srgb_of_light(std::clamp(linear, 0.0f, 1.0f))));
 }
 
 scene::TextureImage wall_picture(const Wall& wall) {

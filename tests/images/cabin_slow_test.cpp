@@ -1,7 +1,6 @@
 /// The driver's car from his eyes, drawn by both renderers from one description of the instant: how alike its inside is
 /// lit.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -10,7 +9,6 @@
 
 #include <doctest/doctest.h>
 #include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
 
 #include "engine/image/png.hpp"
 #include "engine/instant/scene_summary.hpp"
@@ -20,6 +18,7 @@
 #include "engine/rig/rig.hpp"
 #include "sim-client/frame/screen_frames.hpp"
 #include "tests/images/motorway_view.hpp"
+#include "tests/images/place_codes.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet {
@@ -62,21 +61,8 @@ class Seat {
     return pictures;
   }
 
-  /// Mean code of green in a square of five pixels around a place of the car.
   double code_at(const image::Image& picture, const Vec3& place_m) const {
-    const glm::dvec4 clip = view_.projection.clip_from_eye_relative * glm::dvec4(place_m - view_.projection.eye_m, 1.0);
-    const auto x = static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * seat_width_px);
-    const auto y = static_cast<int>((0.5 + 0.5 * clip.y / clip.w) * seat_height_px);
-    constexpr int reach_px = 2;
-    REQUIRE(std::min(x, y) >= reach_px);
-    REQUIRE(x + reach_px < static_cast<int>(seat_width_px));
-    REQUIRE(y + reach_px < static_cast<int>(seat_height_px));
-    double sum = 0.0;
-    int count = 0;
-    for (int dy = -reach_px; dy <= reach_px; ++dy)
-      for (int dx = -reach_px; dx <= reach_px; ++dx, ++count)
-        sum += picture.at(static_cast<std::uint32_t>(x + dx), static_cast<std::uint32_t>(y + dy)).green;
-    return sum / count;
+    return green_at(picture, view_.projection, place_m);
   }
 
  private:

@@ -1,6 +1,5 @@
 /// An overcast evening as pictures, from the driver's eyes on the shipped lesson's country road, lights on: it darkens, and the road stays seen.
 
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
@@ -9,9 +8,9 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
-#include <glm/vec4.hpp>
 
 #include "engine/image/png.hpp"
+#include "engine/image/srgb.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_position.hpp"
@@ -19,6 +18,7 @@
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/scenery/world/road_world.hpp"
 #include "engine/world/vehicle_model.hpp"
+#include "tests/images/place_codes.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet {
@@ -74,34 +74,16 @@ class Evening {
   }
 
  private:
-  /// Around places of the car's frame, five pixels square.
   double mean(const image::Image& picture, std::initializer_list<Vec3> places_m) const {
-    const instant::OffAxisView& projection = input_.views.front().projection;
     double sum = 0.0;
-    int count = 0;
-    for (const Vec3& place_m : places_m) {
-      const glm::dvec4 clip = projection.clip_from_eye_relative * glm::dvec4(place_m - projection.eye_m, 1.0);
-      const auto x = static_cast<std::uint32_t>((0.5 + 0.5 * clip.x / clip.w) * evening_width_px);
-      const auto y = static_cast<std::uint32_t>((0.5 + 0.5 * clip.y / clip.w) * evening_height_px);
-      for (std::uint32_t dy = 0; dy < 5; ++dy)
-        for (std::uint32_t dx = 0; dx < 5; ++dx, ++count) {
-          REQUIRE(x + dx < evening_width_px);
-          REQUIRE(y + dy < evening_height_px);
-          sum += picture.at(x + dx, y + dy).green;
-        }
-    }
-    return sum / count;
+    for (const Vec3& place_m : places_m) sum += green_at(picture, input_.views.front().projection, place_m);
+    return sum / static_cast<double>(places_m.size());
   }
 
   render::Renderer renderer_;
   scene::ResolvedScene scene_;
   instant::FrameInput input_;
 };
-
-double light_of(double code) {
-  const double c = code / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 }  // namespace
 
@@ -122,7 +104,7 @@ TEST_CASE("in pictures of an overcast evening neither sky nor land grows brighte
     if (elevation_deg == -1.7) sky_at_dusk = now.sky;
     before = now;
   }
-  CHECK(light_of(before.sky) <= 0.5 * light_of(sky_at_dusk));
+  CHECK(image::light_of_srgb(before.sky / 255.0) <= 0.5 * image::light_of_srgb(sky_at_dusk / 255.0));
 }
 
 }  // namespace septet

@@ -16,6 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/check.hpp"
+#include "engine/image/srgb.hpp"
 
 namespace septet {
 namespace {
@@ -30,10 +31,7 @@ const glm::vec3 white = xyz_of_rgb * glm::vec3(1.0f);
 
 using Plane = std::vector<float>;
 
-float linear(std::uint8_t code) {
-  const float c = static_cast<float>(code) / 255.0f;
-  return c > 0.04045f ? std::pow((c + 0.055f) / 1.055f, 2.4f) : c / 12.92f;
-}
+float linear(std::uint8_t code) { return image::light_of_srgb(static_cast<float>(code) / 255.0f); }
 
 glm::vec3 opponent(const glm::vec3& rgb) {
   const glm::vec3 ratio = xyz_of_rgb * rgb / white;

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/image/image.hpp"
+#include "engine/image/srgb.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/images/motorway_view.hpp"
 
@@ -17,10 +18,7 @@ namespace {
 
 /// CIE L*a*b* of a display's code, white D65.
 glm::dvec3 lab(const image::Color& code) {
-  const auto linear = [](std::uint8_t byte) {
-    const double c = byte / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  };
+  const auto linear = [](std::uint8_t byte) { return image::light_of_srgb(byte / 255.0); };
   const double r = linear(code.red), g = linear(code.green), b = linear(code.blue);
   const auto root = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0; };
   const double x = root((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505),

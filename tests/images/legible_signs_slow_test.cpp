@@ -18,6 +18,7 @@
 
 #include "engine/image/font.hpp"
 #include "engine/image/image.hpp"
+#include "engine/image/srgb.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/world/road_world.hpp"
@@ -31,10 +32,7 @@ constexpr std::uint32_t sign_view_px = 96;
 constexpr double sign_pixel_rad = 1.0 / 1484.0, sign_m = 0.9, sign_s_m = 300.0, sign_t_m = -5.0, sign_bottom_m = 2.1;
 constexpr std::array limits{"30", "50", "60", "70", "80", "90", "100", "110", "120", "130"};
 
-double light_of_code(std::uint8_t code) {
-  const double c = code / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
+double light_of_code(std::uint8_t code) { return image::light_of_srgb(code / 255.0); }
 
 /// Pixels within the red ring, row by row; others are left out.
 struct Inside {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/image/draw.hpp"
+#include "engine/image/srgb.hpp"
 #include "engine/scenery/lettering.hpp"
 #include "engine/scenery/world/textures.hpp"
 
@@ -126,8 +127,7 @@ constexpr std::uint32_t first_color = index_of(Ground::palette) + 1;
 constexpr std::uint32_t palette_side = 4, block_px = 16;
 
 std::uint8_t srgb_byte(float linear) {
-  const float encoded = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(255.0f * encoded));
+  return static_cast<std::uint8_t>(std::lround(255.0f * image::srgb_of_light(linear)));
 }
 
 image::Image palette_texture() {
