@@ -68,7 +68,8 @@ LaneLevels::LaneLevels(const RoadShape& roads) {
     cell.least_m = std::min(cell.least_m, places_[i].most_m);
   }
   places_ = std::move(sorted);
-  for (const auto& [key, cell] : by_cell_) {
+  for (const auto& entry : by_cell_) {
+    const Cell& cell = entry.second;
     const Vec2& p = places_[cell.first].p;
     cells.for_each(p - reach_m - cells.cell_m, p + reach_m + cells.cell_m, [&](std::uint64_t near) {
       double& least = least_near_.try_emplace(near, 1e300).first->second;

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/light/lamplight.hpp"
 #include "engine/light/tone_curve.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"

@@ -12,6 +12,7 @@
 
 #include "engine/core/random.hpp"
 #include "engine/instant/headlight_beam.hpp"
+#include "engine/light/beam.hpp"
 
 namespace septet::render {
 namespace {
