@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/printable.hpp"
+#include "logging/lesson/lesson.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
 #include "program/stop_signal.hpp"
@@ -21,6 +22,7 @@
 #include "sim-server/attendants/drive_log.hpp"
 #include "sim-server/attendants/screens.hpp"
 #include "sim-server/attendants/sound.hpp"
+#include "sim-server/drive/driver_word.hpp"
 #include "sim-server/drive/opened_drive.hpp"
 #include "sim-server/drive/operator_desk.hpp"
 #include "sim-server/host/serve.hpp"
@@ -41,15 +43,23 @@ std::uint64_t ticks_of(double seconds, double tick_rate_hz) {
                        : 0;
 }
 
+bool is_lesson(const LoadedDrive& drive) {
+  return std::ranges::find(drive.sources, logging::lesson_role, &logging::SourceFile::role) != drive.sources.end();
+}
+
 ServeOptions serve_options(const ServerOptions& options, const OpenedDrive& drive) {
   ServeOptions serving{.lockstep = options.lockstep,
                        .ticks = ticks_of(options.seconds, drive.source->tick_rate_hz()),
                        .can_go_without = true};
   if (serving.ticks > 0) serving.draw_every_ticks = std::min(serving.draw_every_ticks, serving.ticks);
-  if (drive.by_person && !options.start_now)
-    serving.wait_for_driver = drive.loaded.rig.car.source == rig::CarSource::keyboard
-                                  ? "Press any key to start"
-                                  : "Press a pedal or turn the wheel to start";
+  if (drive.by_person && !options.start_now) {
+    const bool by_keyboard = drive.loaded.rig.car.source == rig::CarSource::keyboard;
+    serving.wait_for_driver = by_keyboard ? "Press any key to start" : "Press a pedal or turn the wheel to start";
+    if (by_keyboard && drive.live)
+      serving.words_at_end = [is_lesson = is_lesson(drive.loaded)](logging::DriveEnd end) {
+        return words_at_end(end, is_lesson);
+      };
+  }
   if (drive.live) serving.about = printable(drive.loaded.model->scenario.header.description, 200);
   serving.wait_for_screens_s =
       options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
@@ -129,7 +139,8 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   ServeResult result = all->screens ? serve(source, all->screens->host(), serving, all->list, *all->screens)
                                     : run_headless(source, serving.ticks, all->list, clock);
   std::for_each(all->list.rbegin(), all->list.rend(), [&](const auto& attendant) { attendant->close(result); });
-  program::announce(fmt::format("ended {} {}", name_of(result.end),
+  // The log keeps how it ended; `septet drive` is told what to do next.
+  program::announce(fmt::format("ended {} {}", name_of(result.begins_again ? logging::DriveEnd::restart : result.end),
                                 all->log ? all->log->session().ending(result) : std::string(text_of(result.end))));
   return result.end;
 }

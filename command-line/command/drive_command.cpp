@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "command-line/command/chosen_command.hpp"
 #include "command-line/command/drive_folder.hpp"
 #include "command-line/command/last_line.hpp"
 #include "command-line/command/panorama_file.hpp"
@@ -332,7 +333,8 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   if (fs::exists(session, ignored))
     tell(session, fmt::format("{}{}", status == logging::failed_status ? "what was logged" : "the whole drive",
                               options.log == "samples" ? std::string(", to be measured")
-                                                       : "; show it again with: septet replay " + session.string()));
+                                                       : fmt::format("; show it again with: {}",
+                                                                     typed({"septet", "replay", session.string()}))));
   return done;
 }
 

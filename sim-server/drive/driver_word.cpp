@@ -72,4 +72,13 @@ std::string DriverWord::text() const {
   return text;
 }
 
+std::string words_at_end(logging::DriveEnd end, bool is_lesson) {
+  using enum logging::DriveEnd;
+  std::string text = end == game_over ? "The game is over" : is_lesson ? "The lesson is over" : "The drive is over";
+  if (end == time_over) text += ": its time has passed";
+  if (end == road_end) text += ": the road ends here";
+  text += is_lesson ? ".\nThe debrief has its mark." : ".";
+  return text + "\nR: begin again. Enter: end.";
+}
+
 }  // namespace septet::server

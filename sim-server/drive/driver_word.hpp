@@ -9,6 +9,7 @@
 
 #include "engine/simulation/state.hpp"
 #include "engine/world/snapshot.hpp"
+#include "logging/drive_end.hpp"
 
 namespace septet::server {
 
@@ -30,5 +31,8 @@ class DriverWord {
   double blow_mps_ = 0.0, blow_at_s_ = 0.0;
   double now_s_ = 0.0, on_lane_s_ = 0.0, runs_s_ = 0.0;  ///< When it was last on a lane, and its engine ran.
 };
+
+/// Lines for the driver at a drive's own end: that it is over, and what to press. `is_lesson`: its mark is in the debrief.
+std::string words_at_end(logging::DriveEnd end, bool is_lesson);
 
 }  // namespace septet::server

@@ -291,6 +291,26 @@ void run_real_time(ScreenLoop& loop) {
   }
 }
 
+/// A drive that has come to its own end stays on the screens, with what to press, until that is pressed or has been read. The end in the
+/// result stays, unless there is an error.
+void show_end(ScreenLoop& loop) {
+  const DriveEnd end = loop.result.end;
+  if (!loop.options.words_at_end || loop.result.error || exit_status(end) != logging::finished_status) return;
+  loop.host.give_notice({loop.options.words_at_end(end), false, true});
+  loop.tell(fmt::format("the drive's end stays on the screens for {:.0f} s, or until R or Enter is pressed",
+                        loop.options.end_shown_s));
+  const auto rest = [&] {
+    loop.host.repeat_newest();
+    loop.source.stand_still();
+    loop.report("over");
+  };
+  rest();
+  const auto is_unseen = [&] { return loop.host.missing().size() == loop.host.screens().size(); };
+  loop.pump_until(is_unseen, loop.options.end_shown_s, 0.1, rest);
+  loop.result.begins_again = loop.result.end == DriveEnd::restart;
+  if (!loop.result.error) loop.result.end = end;
+}
+
 }  // namespace
 
 ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const Attendants& attendants,
@@ -298,6 +318,7 @@ ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& opti
   ScreenLoop loop{{source, attendants, clock, options.ticks, clock.now_s()}, host, options};
   options.lockstep ? run_lockstep(loop) : run_real_time(loop);
   loop.result.wall_s = clock.now_s() - loop.started_s;
+  if (!options.lockstep) show_end(loop);
   // Whatever happened, the screens hear that it is over and say what they have seen.
   host.finish(loop.result.error ? loop.result.error->what : std::string(text_of(loop.result.end)));
   const double asked_s = clock.now_s();

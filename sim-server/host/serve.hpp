@@ -6,6 +6,7 @@
 /// and the result says why.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,10 @@ struct ServeOptions {
   /// Text for a driver for whom the world waits, in real time; empty: it begins at once.
   std::string wait_for_driver;
   std::string about;  ///< Text below that: the drive in a line; empty: none.
+  /// Text for the driver at the drive's own end, in real time; the screens stay for `end_shown_s`, or until a key ends or begins
+  /// it again. Empty: they close at once.
+  std::function<std::string(logging::DriveEnd)> words_at_end;
+  double end_shown_s = 60.0;
   /// Lockstep: a screen that owes a frame (not its first) and is silent for this long is left behind.
   double longest_silence_s = 10.0;
 };
@@ -50,6 +55,7 @@ struct ServeResult {
   double wall_s = 0.0;           ///< Without what it stood still.
   std::uint64_t late_ticks = 0;  ///< Real time: ticks that began more than a tick late.
   std::uint64_t state_hash = 0;
+  bool begins_again = false;  ///< It came to its own end, and the driver wants to drive it again.
 };
 
 /// The attendants are told of each tick and each message, and what they wish is done; they have begun, and the caller closes them.

@@ -43,6 +43,10 @@ TEST_CASE(
   std::this_thread::sleep_for(1s);  // Twice as long as the drive would take.
   REQUIRE_FALSE(drive.poll().has_value());
   display.tap_arrow_up("Septet a");
+  REQUIRE(becomes_true([&] { return drive.poll() || says(log, "the drive's end stays on the screens"); }));
+  std::this_thread::sleep_for(1s);
+  REQUIRE_FALSE(drive.poll().has_value());
+  display.press_enter("Septet a");
   REQUIRE(exit_code(drive) == 0);
   CHECK(says(log, "the driver took the controls after"));
   const auto summary = nlohmann::json::parse(text_of(out / "summary.json"));
@@ -74,6 +78,8 @@ TEST_CASE("keys are read while a picture is drawn: a slow picture holds up no ha
   REQUIRE(becomes_true([&] { return drive.poll() || says(log, "screen a shows tick 0"); }));
   display.tap_arrow_up("Septet a");
   INFO(text_of(log));
+  REQUIRE(becomes_true([&] { return drive.poll() || says(log, "the drive's end stays on the screens"); }));
+  display.press_enter("Septet a");
   REQUIRE(exit_code(drive) == 0);
   const auto summary = nlohmann::json::parse(text_of(out / "summary.json"));
   const auto read = logging::SessionReader::open(out / "session.sqlite");

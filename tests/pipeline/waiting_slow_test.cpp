@@ -221,6 +221,55 @@ TEST_CASE("a driver who presses Escape pauses the drive and goes on by it, and b
   CHECK(left.ticks == 0);
 }
 
+TEST_CASE("a drive that has come to its end says so and what to press, keeps its end, and begins again by R") {
+  for (const auto how : {control::Quit::How::restart, control::Quit::How::escape}) {
+    SimulatedRig rig({.screens = 1, .real_time = false});
+    rig.run_for(0.5);
+    DrivenCircles circles;
+    double read_s = 0.0;
+    RigClock clock(rig, [&] {
+      auto& link = *rig.screen(0).link;
+      if (link.finished()) link.report({});
+      if (circles.tick < 60 || link.notice().text.empty()) return;
+      CHECK(link.notice().text == "The lesson is over.");
+      CHECK(link.notice().paused);  // So that the screen asks for R and Enter.
+      CHECK(circles.tick == 60);
+      if ((read_s += 0.001) > 3.0 && read_s < 3.0015) link.send(control::Quit{how}, net::Reliability::reliable);
+    });
+    const auto served = server::serve(
+        circles, rig.host(), {.ticks = 60, .words_at_end = [](logging::DriveEnd) { return "The lesson is over."; }}, {},
+        clock);
+    CHECK(served.end == logging::DriveEnd::time_over);
+    CHECK(served.begins_again == (how == control::Quit::How::restart));
+    CHECK(served.wall_s < 1.0);  // Reading is not driving.
+    CHECK(read_s > 3.0);
+    CHECK(read_s < 5.0);
+    CHECK(circles.rests >= 1);
+  }
+}
+
+TEST_CASE("the words at a drive's end are read for a minute at most, and not at all where the operator ended it") {
+  for (const bool by_operator : {false, true}) {
+    SimulatedRig rig({.screens = 1, .real_time = false});
+    rig.run_for(0.5);
+    DrivenCircles circles;
+    const bool is_paused = false;
+    const double begun_s = rig.now_s();
+    RigClock clock(rig, [&] {
+      if (rig.screen(0).link->finished()) report_all(rig);
+    });
+    auto operating = std::make_unique<Pausing>(is_paused, [](const server::Moment&) {});
+    if (by_operator) operating->asks_before_end = 50;
+    const auto served = server::serve(
+        circles, rig.host(), {.ticks = 120, .words_at_end = [](logging::DriveEnd) { return "The drive is over."; }},
+        one_attendant(std::move(operating)), clock);
+    CHECK(served.end == (by_operator ? logging::DriveEnd::by_operator : logging::DriveEnd::time_over));
+    CHECK_FALSE(served.begins_again);
+    CHECK((rig.now_s() - begun_s > 60.0) != by_operator);
+    CHECK(rig.now_s() - begun_s < 63.0);
+  }
+}
+
 TEST_CASE("a paused drive can be ended") {
   DrivenCircles circles;
   bool is_paused = false;

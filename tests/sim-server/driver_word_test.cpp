@@ -80,4 +80,15 @@ TEST_CASE("off every lane and a stall are told of once they have lasted, and no 
   CHECK_FALSE(has(pedals.after(4.0), "V held"));
 }
 
+TEST_CASE("at its own end a drive says that it is over, of a lesson where its mark is, and what to press") {
+  using enum logging::DriveEnd;
+  CHECK(words_at_end(stop_trigger, true) ==
+        "The lesson is over.\nThe debrief has its mark.\nR: begin again. Enter: end.");
+  CHECK(has(words_at_end(time_over, false), "The drive is over: its time has passed."));
+  CHECK(has(words_at_end(road_end, true), "The lesson is over: the road ends here."));
+  CHECK(has(words_at_end(game_over, false), "The game is over."));
+  for (const auto end : {stop_trigger, time_over, road_end, game_over})
+    CHECK(has(words_at_end(end, false), "R: begin again. Enter: end."));
+}
+
 }  // namespace septet::server
