@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "engine/world/snapshot.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 
 int main(int argc, char** argv) {
   using namespace septet;

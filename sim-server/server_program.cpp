@@ -12,7 +12,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/printable.hpp"
-#include "logging/lesson/lesson.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
 #include "program/stop_signal.hpp"

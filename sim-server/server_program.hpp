@@ -2,12 +2,12 @@
 /// `septet-server` from reading its files to writing its results.
 
 #include "engine/core/expected.hpp"
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 #include "sim-server/drive/server_options.hpp"
 
 namespace septet::server {
 
-/// Prints "ready PORT" to standard output once screens may connect, and at the end "ended NAME TEXT" (logging/drive_end.hpp);
+/// Prints "ready PORT" to standard output once screens may connect, and at the end "ended NAME TEXT" (logging/session/drive_end.hpp);
 /// progress and messages go to standard error. An error: nothing was driven, and nothing is left behind. Once the drive has
 /// begun, whatever ends it: the log is closed, summary and report are written, and the answer says why.
 ///

@@ -22,7 +22,7 @@ struct DriveOptions {
   std::string vehicle;                  ///< A file, or a name below vehicles/; empty: the rig's.
   std::filesystem::path models;         ///< Folder of a person's own models; empty: none.
   std::string participant;              ///< The driver's code, for log, summary and report.
-  std::vector<std::string> about;       ///< Facts of the driver, each "KEY=VALUE" (logging/subject.hpp).
+  std::vector<std::string> about;       ///< Facts of the driver, each "KEY=VALUE" (logging/session/subject.hpp).
   std::string log = "whole";            ///< Or "samples": without snapshots.
   std::vector<std::string> parameters;  ///< Scenario parameters, each "NAME=VALUE".
   std::string traffic = "own";          ///< Traffic engine: own or sumo.
@@ -39,7 +39,7 @@ struct DriveOptions {
 /// Default length of an off-screen drive. One in a window, and a replay, last as for `--seconds 0`.
 inline constexpr double seconds_unless_told = 30.0;
 
-/// Runs the whole drive; returns the exit status (logging/drive_end.hpp). Prints progress to standard error, and at the
+/// Runs the whole drive; returns the exit status (logging/session/drive_end.hpp). Prints progress to standard error, and at the
 /// end the results' places to standard output, with the reason of the end in the last line.
 Expected<int> run_drive(DriveOptions options);
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;

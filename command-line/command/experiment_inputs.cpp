@@ -12,7 +12,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/driver/driver_parameters.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
-#include "logging/questionnaire.hpp"
+#include "logging/study/questionnaire.hpp"
 #include "program/resources.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
-#include "logging/experiment/design.hpp"
+#include "logging/study/experiment/design.hpp"
 
 namespace septet::server {
 

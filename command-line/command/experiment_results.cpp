@@ -15,10 +15,10 @@
 #include "engine/core/version.hpp"
 #include "engine/document/json.hpp"
 #include "engine/document/text_file.hpp"
-#include "logging/questionnaire.hpp"
-#include "logging/report/group_report.hpp"
-#include "logging/session_editor.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_editor.hpp"
+#include "logging/session/session_reader.hpp"
+#include "logging/study/questionnaire.hpp"
+#include "logging/study/report/group_report.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;

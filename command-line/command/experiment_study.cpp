@@ -22,7 +22,7 @@
 #include "engine/core/version.hpp"
 #include "engine/document/json.hpp"
 #include "engine/document/text_file.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "program/resources.hpp"
 
 namespace septet::server {

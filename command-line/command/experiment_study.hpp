@@ -11,7 +11,7 @@
 #include "command-line/command/experiment_command.hpp"
 #include "command-line/command/experiment_inputs.hpp"
 #include "engine/core/expected.hpp"
-#include "logging/experiment/design.hpp"
+#include "logging/study/experiment/design.hpp"
 
 namespace septet::server {
 

@@ -13,8 +13,8 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/driver/driver_parameters.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
-#include "logging/experiment/design.hpp"
-#include "logging/lesson/lesson.hpp"
+#include "logging/study/experiment/design.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "program/resources.hpp"
 
 namespace septet::server {

@@ -8,7 +8,7 @@
 #include "command-line/command/list_command.hpp"
 #include "command-line/command/own_files.hpp"
 #include "engine/core/printable.hpp"
-#include "logging/subject.hpp"
+#include "logging/session/subject.hpp"
 #include "program/resources.hpp"
 
 namespace septet::server {

@@ -22,7 +22,7 @@
 #include "command-line/command/past_work.hpp"
 #include "command-line/command/questionnaire_answers.hpp"
 #include "engine/core/printable.hpp"
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 #include "program/child_process.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"

@@ -12,9 +12,9 @@
 #include "command-line/command/session_command.hpp"
 #include "engine/core/printable.hpp"
 #include "engine/document/table_line.hpp"
-#include "logging/lesson/lesson.hpp"
-#include "logging/outcome.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/outcome.hpp"
+#include "logging/session/session_reader.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "sim-server/page/signals_away.hpp"
 
 namespace septet::server {

@@ -9,8 +9,8 @@
 #include "command-line/command/list_command.hpp"
 #include "command-line/command/renewed_results.hpp"
 #include "engine/core/regular_file.hpp"
-#include "logging/session_editor.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_editor.hpp"
+#include "logging/session/session_reader.hpp"
 #include "program/resources.hpp"
 
 namespace septet::server {

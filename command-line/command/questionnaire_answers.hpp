@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
-#include "logging/questionnaire.hpp"
+#include "logging/study/questionnaire.hpp"
 #include "sim-server/page/messages.hpp"
 
 namespace septet::server {

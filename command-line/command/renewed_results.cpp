@@ -6,9 +6,9 @@
 
 #include "engine/core/regular_file.hpp"
 #include "engine/document/text_file.hpp"
-#include "logging/report/report.hpp"
-#include "logging/report/summary.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
+#include "logging/study/report/report.hpp"
+#include "logging/study/report/summary.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;

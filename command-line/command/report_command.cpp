@@ -6,9 +6,9 @@
 
 #include "command-line/command/session_command.hpp"
 #include "engine/document/text_file.hpp"
-#include "logging/report/group_report.hpp"
-#include "logging/report/report.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
+#include "logging/study/report/group_report.hpp"
+#include "logging/study/report/report.hpp"
 #include "program/console.hpp"
 
 namespace septet::server {

@@ -1,5 +1,5 @@
 """Opens an SQLite file that somebody else may have made: nothing in its folder is written, made or removed, and nothing that its schema
-asks for is run (sqlite.org/security.html). As logging/files_beside.hpp and logging/untrusted_database.hpp do for the programs.
+asks for is run (sqlite.org/security.html). As logging/session/files_beside.hpp and logging/session/untrusted_database.hpp do for the programs.
 """
 
 import contextlib
@@ -18,7 +18,7 @@ _JOURNAL_MAGIC = bytes.fromhex("d9d505f920a163d7")
 _LARGEST_VALUE_BYTES = 512 << 20
 _STEPS_BETWEEN_LOOKS = 100_000
 _WAL_MAGICS = (b"\x37\x7f\x06\x82", b"\x37\x7f\x06\x83")
-# Changes beside a session that are larger are not copied to be read (logging/files_beside.hpp).
+# Changes beside a session that are larger are not copied to be read (logging/session/files_beside.hpp).
 MOST_COPIED_BYTES = 4 << 30
 _ALLOWED_PRAGMAS = ("application_id", "user_version")
 # Exceptions that a file's bytes can make Python, NumPy, pandas and zlib raise.

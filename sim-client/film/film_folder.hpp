@@ -11,7 +11,7 @@
 #include <string>
 
 #include "engine/core/expected.hpp"
-#include "logging/records.hpp"
+#include "logging/session/records.hpp"
 #include "sim-client/film/film.hpp"
 
 namespace septet::film {

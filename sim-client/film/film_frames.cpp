@@ -11,7 +11,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/scene/resolve.hpp"
-#include "logging/recorded_scene.hpp"
+#include "logging/session/recorded_scene.hpp"
 #include "sim-client/frame/client_frame.hpp"
 
 namespace septet::film {

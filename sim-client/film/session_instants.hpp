@@ -1,7 +1,7 @@
 #pragma once
 /// The world of a session at any instant, also between ticks: the counterpart of a screen's tick lane.
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "sim-client/frame/playout.hpp"
 #include "sim-client/frame/tick_history.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
 #include "program/run.hpp"

@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 
 namespace septet::sound {
 

@@ -7,7 +7,7 @@
 #include "engine/rig/rig.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scene/resolve.hpp"
-#include "logging/recorded_scene.hpp"
+#include "logging/session/recorded_scene.hpp"
 #include "sim-client/frame/car_sound.hpp"
 
 namespace septet::sound {

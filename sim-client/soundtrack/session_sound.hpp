@@ -5,7 +5,7 @@
 
 #include "engine/audio/heard.hpp"
 #include "engine/road/road_network.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 
 namespace septet::sound {
 

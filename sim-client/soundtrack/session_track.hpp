@@ -10,7 +10,7 @@
 
 #include "engine/audio/sound_stage.hpp"
 #include "engine/core/expected.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "sim-client/soundtrack/session_sound.hpp"
 
 namespace septet::sound {

@@ -12,7 +12,7 @@
 #include "engine/rig/rig.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/simulation/model.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/host/attendant.hpp"
 #include "sim-server/host/live_sound.hpp"

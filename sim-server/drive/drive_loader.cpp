@@ -13,7 +13,7 @@
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenery/world/road_world.hpp"
 #include "engine/simulation/lights_stage.hpp"
-#include "logging/lesson/lesson.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "program/resources.hpp"
 
 namespace septet::server {

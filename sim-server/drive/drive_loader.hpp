@@ -8,7 +8,7 @@
 #include "engine/rig/rig.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/simulation/model.hpp"
-#include "logging/records.hpp"
+#include "logging/session/records.hpp"
 
 namespace septet::server {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
-#include "logging/questionnaire.hpp"
+#include "logging/study/questionnaire.hpp"
 
 namespace septet::server {
 

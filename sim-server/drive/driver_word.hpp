@@ -9,7 +9,7 @@
 
 #include "engine/simulation/state.hpp"
 #include "engine/world/snapshot.hpp"
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 
 namespace septet::server {
 

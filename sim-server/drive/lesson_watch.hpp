@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/core/job_thread.hpp"
-#include "logging/lesson/lesson.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "sim-server/page/drive_view.hpp"
 
 namespace septet::server {

@@ -6,7 +6,7 @@
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/simulation/state.hpp"
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 
 namespace septet::server {
 

@@ -12,7 +12,7 @@
 #include "engine/scenery/vehicles/debris_looks.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/scenery/world/road_world.hpp"
-#include "logging/recorded_scene.hpp"
+#include "logging/session/recorded_scene.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/own_models_folder.hpp"
 #include "sim-server/drive/seat/can_seat.hpp"

@@ -6,7 +6,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/scene/store.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "program/console.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/live_drive.hpp"

@@ -10,7 +10,7 @@
 #include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/operator_command.hpp"
-#include "logging/questionnaire.hpp"
+#include "logging/study/questionnaire.hpp"
 #include "program/child_process.hpp"
 #include "program/resources.hpp"
 #include "sim-server/drive/told_on_page.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_rating.hpp"
 #include "sim-server/drive/lesson_watch.hpp"

@@ -4,7 +4,7 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/driver/driver_parameters.hpp"
-#include "logging/subject.hpp"
+#include "logging/session/subject.hpp"
 #include "program/resources.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 

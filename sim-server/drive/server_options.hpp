@@ -25,7 +25,7 @@ struct ServerOptions {
   std::string vehicle;             ///< A file or a name; empty: the rig's.
   std::filesystem::path models;    ///< Folder of a person's own models; empty: none.
   std::string participant;         ///< The driver's code.
-  std::vector<std::string> about;  ///< Of whoever drives, each "KEY=VALUE" (logging/subject.hpp).
+  std::vector<std::string> about;  ///< Of whoever drives, each "KEY=VALUE" (logging/session/subject.hpp).
   bool log_samples_only = false;   ///< The log keeps no snapshots: it can be measured, and not be shown again.
   std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
   std::string traffic = "own";          ///< Who moves the traffic: own or sumo.

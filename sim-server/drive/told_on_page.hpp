@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "logging/records.hpp"
+#include "logging/session/records.hpp"
 #include "sim-server/page/drive_view.hpp"
 
 namespace septet::server {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/simulation/operator_command.hpp"
-#include "logging/records.hpp"
+#include "logging/session/records.hpp"
 
 namespace septet::server {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A session as a source of ticks: what the screens get is what they got.
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "sim-server/host/tick_source.hpp"
 
 namespace septet::server {

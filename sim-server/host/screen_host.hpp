@@ -24,7 +24,7 @@
 #include "engine/replication/replication_server.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/world/taken_snapshot.hpp"
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 #include "sim-server/host/latency_record.hpp"
 #include "sim-server/host/playout_planner.hpp"
 #include "sim-server/host/remote_car.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "engine/core/expected.hpp"
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 #include "sim-server/host/attendant.hpp"
 #include "sim-server/host/screen_host.hpp"
 #include "sim-server/host/tick_source.hpp"

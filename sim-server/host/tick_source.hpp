@@ -9,7 +9,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/world/driver_input.hpp"
 #include "engine/world/taken_snapshot.hpp"
-#include "logging/drive_end.hpp"
+#include "logging/session/drive_end.hpp"
 
 namespace septet::server {
 

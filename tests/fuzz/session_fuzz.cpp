@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "engine/scene/store.hpp"
-#include "logging/outcome.hpp"
-#include "logging/recorded_scene.hpp"
-#include "logging/report/report.hpp"
-#include "logging/session_reader.hpp"
-#include "logging/session_writer.hpp"
+#include "logging/session/outcome.hpp"
+#include "logging/session/recorded_scene.hpp"
+#include "logging/session/session_reader.hpp"
+#include "logging/session/session_writer.hpp"
+#include "logging/study/report/report.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/best_list.hpp"
+#include "logging/study/best_list.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace septet::logging {

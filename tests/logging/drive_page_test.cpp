@@ -8,11 +8,11 @@
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
-#include "logging/report/event_section.hpp"
-#include "logging/report/group_report.hpp"
-#include "logging/report/page_link.hpp"
-#include "logging/report/report.hpp"
-#include "logging/report/route_chart.hpp"
+#include "logging/study/report/event_section.hpp"
+#include "logging/study/report/group_report.hpp"
+#include "logging/study/report/page_link.hpp"
+#include "logging/study/report/report.hpp"
+#include "logging/study/report/route_chart.hpp"
 #include "tests/logging/count_of.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"

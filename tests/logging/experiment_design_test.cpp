@@ -1,4 +1,4 @@
-#include "logging/experiment/design.hpp"
+#include "logging/study/experiment/design.hpp"
 
 #include <map>
 #include <set>

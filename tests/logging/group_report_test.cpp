@@ -1,4 +1,4 @@
-#include "logging/report/group_report.hpp"
+#include "logging/study/report/group_report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "logging/session_writer.hpp"
+#include "logging/session/session_writer.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"
 

@@ -7,9 +7,9 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "logging/report/group_report.hpp"
-#include "logging/report/report.hpp"
-#include "logging/report/summary.hpp"
+#include "logging/study/report/group_report.hpp"
+#include "logging/study/report/report.hpp"
+#include "logging/study/report/summary.hpp"
 #include "tests/logging/count_of.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"

@@ -12,8 +12,8 @@
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
-#include "logging/lesson/debrief.hpp"
-#include "logging/lesson/lesson.hpp"
+#include "logging/study/lesson/debrief.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"

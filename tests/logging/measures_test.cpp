@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/measures/glances.hpp"
-#include "logging/measures/lane_changes.hpp"
-#include "logging/measures/lateral_position.hpp"
+#include "logging/study/measures/glances.hpp"
+#include "logging/study/measures/lane_changes.hpp"
+#include "logging/study/measures/lateral_position.hpp"
 #include "tests/logging/sample_series.hpp"
 
 namespace septet::logging {

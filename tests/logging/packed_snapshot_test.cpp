@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/random.hpp"
-#include "logging/packed_snapshot.hpp"
+#include "logging/session/packed_snapshot.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::logging {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/math/rigid_transform.hpp"
-#include "logging/report/group_report.hpp"
+#include "logging/study/report/group_report.hpp"
 #include "tests/checkout.hpp"
 #include "tests/logging/session_fixture.hpp"
 

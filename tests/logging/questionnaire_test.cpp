@@ -1,4 +1,4 @@
-#include "logging/questionnaire.hpp"
+#include "logging/study/questionnaire.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,5 +1,5 @@
-#include "logging/report/report.hpp"
-#include "logging/report/measure_table.hpp"
+#include "logging/study/report/report.hpp"
+#include "logging/study/report/measure_table.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/document/text_file.hpp"
-#include "logging/drive_observer.hpp"
-#include "logging/report/summary.hpp"
+#include "logging/study/drive_observer.hpp"
+#include "logging/study/report/summary.hpp"
 #include "tests/checkout.hpp"
 #include "tests/logging/count_of.hpp"
 #include "tests/logging/sample_series.hpp"
@@ -104,7 +104,7 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
   CHECK(json["lateral_position_m"]["few_samples"] == false);
   CHECK(json["events"]["collision"] == 1);
   // Every key is explained.
-  std::ifstream in(source_folder() + "/logging/report/SUMMARY.md");
+  std::ifstream in(source_folder() + "/logging/study/report/SUMMARY.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   for (const auto& item : json.items()) CHECK_MESSAGE(page.find("`" + item.key()) != std::string::npos, item.key());
   for (const auto& item : json["screens"][0].items())

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "logging/records.hpp"
+#include "logging/session/records.hpp"
 
 namespace septet::logging {
 

@@ -1,13 +1,13 @@
-#include "logging/session_editor.hpp"
+#include "logging/session/session_editor.hpp"
 
 #include <fstream>
 #include <iterator>
 
 #include <doctest/doctest.h>
 
-#include "logging/session_reader.hpp"
-#include "logging/session_writer.hpp"
-#include "logging/subject.hpp"
+#include "logging/session/session_reader.hpp"
+#include "logging/session/session_writer.hpp"
+#include "logging/session/subject.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::logging {

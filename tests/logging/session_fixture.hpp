@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/session_reader.hpp"
-#include "logging/session_writer.hpp"
+#include "logging/session/session_reader.hpp"
+#include "logging/session/session_writer.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace septet::logging {

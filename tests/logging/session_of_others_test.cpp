@@ -14,9 +14,9 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/files_beside.hpp"
-#include "logging/recorded_scene.hpp"
-#include "logging/session_editor.hpp"
+#include "logging/session/files_beside.hpp"
+#include "logging/session/recorded_scene.hpp"
+#include "logging/session/session_editor.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/watched_folder.hpp"
 

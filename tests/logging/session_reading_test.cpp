@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/session_editor.hpp"
+#include "logging/session/session_editor.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::logging {

@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/statistics/compare.hpp"
-#include "logging/statistics/survival.hpp"
+#include "logging/study/statistics/compare.hpp"
+#include "logging/study/statistics/survival.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::logging {

@@ -6,9 +6,9 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "logging/report/group_report.hpp"
-#include "logging/report/summary.hpp"
-#include "logging/session_writer.hpp"
+#include "logging/session/session_writer.hpp"
+#include "logging/study/report/group_report.hpp"
+#include "logging/study/report/summary.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
 
 namespace septet::pipeline {

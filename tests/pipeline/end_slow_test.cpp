@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/checkout.hpp"
 #include "tests/pipeline/process_rig.hpp"
 #include "tests/pipeline/x_display.hpp"

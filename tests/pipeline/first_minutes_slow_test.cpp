@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
 #include "tests/pipeline/x_display.hpp"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/png.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/pipeline/observer.hpp"
 
 namespace septet::pipeline {

@@ -5,7 +5,7 @@
 
 #include "car-io/driving_keys.hpp"
 #include "engine/core/version.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/checkout.hpp"
 #include "tests/pipeline/process_rig.hpp"
 #include "tests/relative.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/pipeline/foreign_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
 

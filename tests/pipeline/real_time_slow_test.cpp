@@ -1,8 +1,8 @@
 #include <atomic>
 #include <thread>
 
-#include "logging/recorded_scene.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/recorded_scene.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
 #include "tests/pipeline/x_display.hpp"
 

@@ -1,6 +1,6 @@
 // The simulated driver in the shipped scenarios, as the product drives them.
 
-#include "logging/measures/lateral_position.hpp"
+#include "logging/study/measures/lateral_position.hpp"
 #include "tests/sim-server/driver_hours.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 

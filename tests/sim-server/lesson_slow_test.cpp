@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "logging/statistics/compare.hpp"
+#include "logging/study/statistics/compare.hpp"
 #include "tests/sim-server/taken_lesson.hpp"
 
 namespace septet::server {

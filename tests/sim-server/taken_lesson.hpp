@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/lesson/lesson.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "tests/sim-server/simulated_drive.hpp"

@@ -6,7 +6,7 @@
 
 #include "command-line/command/replay_command.hpp"
 #include "engine/simulation/operator_command.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/session_log.hpp"

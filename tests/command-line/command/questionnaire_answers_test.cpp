@@ -10,7 +10,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/document/json.hpp"
 #include "engine/document/text_file.hpp"
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::server {

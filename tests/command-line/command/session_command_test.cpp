@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include "logging/session_reader.hpp"
+#include "logging/session/session_reader.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::server {

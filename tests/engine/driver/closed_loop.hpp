@@ -15,7 +15,7 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/simulation/server_step.hpp"
-#include "logging/records.hpp"
+#include "logging/session/records.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/road/road_files.hpp"
 

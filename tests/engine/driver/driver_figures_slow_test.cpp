@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "logging/measures/glances.hpp"
+#include "logging/study/measures/glances.hpp"
 #include "tests/engine/driver/closed_loop.hpp"
 
 namespace septet::driver {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "logging/measures/glances.hpp"
-#include "logging/measures/lane_changes.hpp"
-#include "logging/measures/lateral_position.hpp"
+#include "logging/study/measures/glances.hpp"
+#include "logging/study/measures/lane_changes.hpp"
+#include "logging/study/measures/lateral_position.hpp"
 #include "tests/engine/driver/closed_loop.hpp"
 #include "tests/relative.hpp"
 
