@@ -173,16 +173,44 @@ function(septet_program name)
   endif()
 endfunction()
 
-# septet_test(NAME [HOT] [DRAWS] [THREADS] [KEPT] [DEPENDS library…] [PRIVATE library…] [READS path…] [STARTS program…] [MOUNTS case…])
+# septet_verdict(VARIABLE [READS path…] [STARTS program…] [WRITES folder…] [MOUNTS case…])
+# The beginning of a test's command, to which its program and arguments are added: a test that takes anything of the checkout but what is declared
+# here fails; one that this machine has seen pass with all of it as it is is not run again (.ci/verdict).
+# READS: what it reads of the checkout, from its root. STARTS: programs and modules of the build that it starts or loads, from the build folder.
+# WRITES: folders of the build where it reads again what it has written. MOUNTS: a part of the name of a case that mounts a file system, which is
+# run always.
+function(septet_verdict variable)
+  cmake_parse_arguments(arg "" "" "READS;STARTS;WRITES;MOUNTS" ${ARGN})
+  set(command ${CMAKE_SOURCE_DIR}/.ci/verdict --build=${CMAKE_BINARY_DIR})
+  foreach(list IN ITEMS READS STARTS WRITES MOUNTS)
+    list(JOIN arg_${list} "," paths)
+    string(TOLOWER ${list} option)
+    list(APPEND command --${option}=${paths})
+  endforeach()
+  set(${variable} ${command} -- PARENT_SCOPE)
+endfunction()
+
+# septet_script_test(FACT LABEL COMMAND program argument… [READS path…] [STARTS program…] [WRITES folder…])
+# A test that is a script or a program of another's, with a verdict as above; it is skipped with status 77. The folder that calls this is among what
+# it reads.
+function(septet_script_test fact label)
+  cmake_parse_arguments(arg "" "" "COMMAND;READS;STARTS;WRITES" ${ARGN})
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE own)
+  set(verdict)
+  if(NOT label STREQUAL "long")
+    septet_verdict(verdict READS ${own} ${arg_READS} STARTS ${arg_STARTS} WRITES ${arg_WRITES})
+  endif()
+  add_test(NAME ${fact} COMMAND ${verdict} ${arg_COMMAND})
+  set_tests_properties(${fact} PROPERTIES LABELS ${label} TIMEOUT 7200 SKIP_RETURN_CODE 77)
+endfunction()
+
+# septet_test(NAME [HOT] [DRAWS] [THREADS] [DEPENDS library…] [PRIVATE library…] [READS path…] [STARTS program…] [MOUNTS case…])
 # One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files (a slow test starts processes,
 # draws frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that drive for hours; `./test --long`).
 # HOT: its tests reckon long themselves and are optimised as the product is. DRAWS: its slow tests draw within the program; the address sanitizer's
 # build has these slow ones and no others (label slow-drawn). THREADS: its fast tests start threads; the thread sanitizer's build has these and no
-# others. Every test case is one CTest test. The limits are for a hang, however busy the machine.
-# READS: what its tests read of the checkout, from its root. STARTS: programs and modules of the build that its slow tests start or load. A test that
-# takes anything else of the checkout fails; one that passed with all of these as they are is not run again (.ci/verdict). That holds for fast tests, and with KEPT for
-# slow ones; those that start programs show more each time that they run. MOUNTS: a part of the name of a case that mounts a file system, which is run
-# always.
+# others. Every test case is one CTest test. The limits are for a hang, however busy the machine. Fast and slow ones have a verdict (above); STARTS
+# is for slow ones.
 function(septet_test name)
   file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB slow_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_slow_test.cpp)
@@ -198,7 +226,7 @@ function(septet_test name)
 endfunction()
 
 function(septet_test_program name label timeout_s sources)
-  cmake_parse_arguments(arg "HOT;DRAWS;THREADS;KEPT" "" "DEPENDS;PRIVATE;READS;STARTS;MOUNTS" ${ARGN})
+  cmake_parse_arguments(arg "HOT;DRAWS;THREADS" "" "DEPENDS;PRIVATE;READS;STARTS;MOUNTS" ${ARGN})
   if(NOT sources)
     return()
   endif()
@@ -231,12 +259,9 @@ function(septet_test_program name label timeout_s sources)
       list(REMOVE_ITEM arg_STARTS ${started})  # Its library is not installed.
     endif()
   endforeach()
-  if(label STREQUAL "fast" OR (arg_KEPT AND label MATCHES "^slow"))
-    list(JOIN arg_READS "," reads)
-    list(JOIN arg_STARTS "," starts)
-    list(JOIN arg_MOUNTS "," mounts)
-    set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR  # Put before each of its cases.
-                          "${CMAKE_SOURCE_DIR}/.ci/verdict;--build=${CMAKE_BINARY_DIR};--reads=${reads};--starts=${starts};--mounts=${mounts};--")
+  if(NOT label STREQUAL "long")
+    septet_verdict(verdict READS ${arg_READS} STARTS ${arg_STARTS} WRITES images MOUNTS ${arg_MOUNTS})
+    set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR "${verdict}")  # Put before each of its cases.
   endif()
   doctest_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label} TIMEOUT ${timeout_s} ${environment})
 endfunction()
