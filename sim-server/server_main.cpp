@@ -51,6 +51,14 @@ int main(int argc, char** argv) {
                  "Seconds to wait for the rig's screens and car, then drive without those that are missing")
       ->default_str("until all are there, or Enter or the line \"go\"")
       ->check(number_between(0.0, 1e6));
+  auto* begin_from =
+      app.add_option("--begin-from", options.begin_from, "Begin at a state that this session of the same drive kept")
+          ->default_str("")
+          ->excludes("--replay")
+          ->excludes("--log-samples-only");
+  app.add_option("--begin-at", options.begin_at_s, "Simulated second: begin at the newest state kept until then")
+      ->check(number_between(0.0, 1e6))
+      ->needs(begin_from);
   app.add_flag("--start-now", options.start_now, "Do not wait until the driver presses a key or a pedal");
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");

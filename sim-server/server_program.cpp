@@ -37,10 +37,12 @@ class MachineClock final : public ServeClock {
   void wait(double seconds) override { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 };
 
-/// 0 for a drive that lasts until it is ended; one that is to last, however short, has a tick.
-std::uint64_t ticks_of(double seconds, double tick_rate_hz) {
-  return seconds > 0.0 ? std::max<std::uint64_t>(static_cast<std::uint64_t>(std::llround(seconds * tick_rate_hz)), 1)
-                       : 0;
+/// Ticks from a drive's first one to the end of the requested seconds. 0 for a drive that lasts until it is ended; one
+/// that is to last, however short, has a tick.
+std::uint64_t ticks_of(double seconds, double tick_rate_hz, Tick first) {
+  if (seconds <= 0.0) return 0;
+  const auto ticks = static_cast<std::uint64_t>(std::llround(seconds * tick_rate_hz));
+  return ticks > first ? ticks - first : 1;
 }
 
 bool is_lesson(const LoadedDrive& drive) {
@@ -48,9 +50,10 @@ bool is_lesson(const LoadedDrive& drive) {
 }
 
 ServeOptions serve_options(const ServerOptions& options, const OpenedDrive& drive) {
-  ServeOptions serving{.lockstep = options.lockstep,
-                       .ticks = ticks_of(options.seconds, drive.source->tick_rate_hz()),
-                       .can_go_without = true};
+  ServeOptions serving{
+      .lockstep = options.lockstep,
+      .ticks = ticks_of(options.seconds, drive.source->tick_rate_hz(), drive.live ? drive.live->state().tick : 0),
+      .can_go_without = true};
   if (serving.ticks > 0) serving.draw_every_ticks = std::min(serving.draw_every_ticks, serving.ticks);
   if (drive.by_person && !options.start_now) {
     const bool by_keyboard = drive.loaded.rig.car.source == rig::CarSource::keyboard;

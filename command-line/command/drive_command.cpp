@@ -1,6 +1,7 @@
 #include "command-line/command/drive_command.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -150,6 +151,10 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   for (const auto& about : options.about) add_chosen("--about", about);
   if (options.log == "samples") add({"--log-samples-only"});
   for (const auto& parameter : options.parameters) add_chosen("--parameter", parameter);
+  if (!options.begin_from.empty()) {
+    add_chosen("--begin-from", options.begin_from.string());
+    add({"--begin-at", fmt::format("{}", options.begin_at_s)});
+  }
   if (options.page_port) add({"--page", std::to_string(*options.page_port)});
   for (const auto& host : options.page_hosts) add_chosen("--page-host", host);
   if (options.start_now) add({"--start-now"});
@@ -203,9 +208,10 @@ Expected<program::ChildProcess> start_server(program::ChildOptions server, const
 struct Ending {
   bool driven = false;  ///< There is something to look at.
   int status = logging::failed_status;
-  std::string text;     ///< The last line; empty where the server has said all.
-  bool again = false;   ///< The driver wants to begin again.
-  bool unseen = false;  ///< No screen could be started.
+  std::string text;         ///< The last line; empty where the server has said all.
+  bool again = false;       ///< The driver or the operator wants to begin again.
+  bool unseen = false;      ///< No screen could be started.
+  double begin_at_s = 0.0;  ///< At the newest state kept until this simulated time; 0: at the start.
 };
 
 /// From the server's line "ended NAME TEXT", or from its exit status without that line.
@@ -249,11 +255,14 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   std::vector<RunningScreen> screens;
   const std::string ip = rig.network.interface_address.empty() ? "127.0.0.1" : rig.network.interface_address;
   std::optional<std::string> last_words;
+  double begin_at_s = 0.0;
   bool was_ready = false, has_forwarded = false, has_given_up = false;
   const auto listen = [&](std::chrono::milliseconds patience) {
     const auto line = server->read_line(patience);
     if (!line) return false;
     if (line->starts_with("ended ")) last_words = *line;
+    if (constexpr std::string_view begin = "begin_at "; line->starts_with(begin))
+      std::from_chars(line->data() + begin.size(), line->data() + line->size(), begin_at_s);
     if (!line->starts_with("ready ")) return true;
     was_ready = true;
     if (!options.no_screens)
@@ -281,7 +290,9 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   // The screens have had Finish and their reports are in; one that still runs writes its last pictures, or hangs.
   for (int i = 0; i < 1500 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i)
     std::this_thread::sleep_for(20ms);
-  return ending_of(*server->poll(), last_words, was_ready);
+  Ending ending = ending_of(*server->poll(), last_words, was_ready);
+  ending.begin_at_s = begin_at_s;
+  return ending;
 }
 
 /// Output folder of the drive or the replay. Existing files there are moved aside, so a replay's own session must not
@@ -356,6 +367,8 @@ Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, cons
   const auto folder = DriveFolder::prepare(options.out);
   if (!folder) return tl::unexpected(folder.error());
   options.out = folder->path();
+  // The drive before lay here and kept the state.
+  if (options.begin_at_s > 0.0) options.begin_from = folder->aside() / "session.sqlite";
   auto ending = run_processes(options, rig_file, rig, page);
   if (!ending || !ending->driven) folder->undo();
   if (!ending) return tl::unexpected(ending.error());
@@ -401,6 +414,7 @@ Expected<int> run_drive(DriveOptions options) {
   for (const fs::path chosen = options.out;; program::say("\nThe drive begins again.")) {
     options.out = chosen;
     const auto ended = drive_once(options, *rig_file, *rig, *page);
+    if (ended) options.begin_at_s = ended->begin_at_s;
     if (!ended || !ended->again) return ended.map([](const Ending& ending) { return ending.status; });
   }
 }

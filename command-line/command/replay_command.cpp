@@ -8,13 +8,13 @@
 
 #include "engine/core/version.hpp"
 #include "engine/simulation/operator_command.hpp"
-#include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "logging/session/input_hash.hpp"
 #include "logging/session/outcome.hpp"
 #include "logging/session/session_digest.hpp"
 #include "logging/session/session_reader.hpp"
 #include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/kept_state.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 
@@ -56,22 +56,6 @@ std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
   return "inputs and build are those of the recording: its hashes or files were altered, this tree was changed since "
          "its revision, or the "
          "processor's arithmetic differs";
-}
-
-/// The drive where it is to be run again from: at a state that the log has kept, else at its start.
-Expected<simulation::State> state_at(const std::filesystem::path& file, const logging::SessionReader& session,
-                                     const simulation::Model& model, double from_s,
-                                     std::unique_ptr<traffic::TrafficEngine> traffic) {
-  auto saved = session.saved_state(static_cast<Tick>(from_s * simulation::tick_rate_hz));
-  if (!saved) return tl::unexpected(saved.error());
-  if (!*saved) return simulation::initial_state(model, std::move(traffic));
-  auto state = simulation::restore_state(model, std::move(traffic), (*saved)->data,
-                                         fmt::format("{}, tick {}", file.string(), (*saved)->tick));
-  if (state && state->tick != (*saved)->tick)
-    return refused(file,
-                   fmt::format("the state that was saved at tick {} is that of tick {}", (*saved)->tick, state->tick),
-                   "use an unaltered copy");
-  return state;
 }
 
 struct LoggedCommand {
@@ -119,7 +103,8 @@ Expected<bool> has_grown(const std::filesystem::path& file, Tick last_input) {
 Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   const auto session = logging::SessionReader::open(file);
   if (!session) return tl::unexpected(session.error());
-  if (auto shown = session->shown_span_s(); !shown) return tl::unexpected(shown.error());
+  const auto shown = session->shown_span_s();
+  if (!shown) return tl::unexpected(shown.error());
   const auto inputs = session->inputs();
   if (!inputs) return tl::unexpected(inputs.error());
   if (inputs->empty())
@@ -135,7 +120,8 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   if (!traffic) return tl::unexpected(traffic.error());
   const auto commands = commands_of(file, *session);
   if (!commands) return tl::unexpected(commands.error());
-  auto state = state_at(file, *session, *drive->model, from_s, std::move(*traffic));
+  // A drive that began at a kept state is run again from there.
+  auto state = kept_state(*session, *drive->model, std::max(from_s, shown->first), std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
   const auto scene = logging::is_scene_as_driven(*session);
   if (!scene) return tl::unexpected(scene.error());

@@ -68,7 +68,14 @@ void note_turn(const Model& model, const ExaminerState& examiner, std::vector<Ev
                                 model.roads.roads[was.road].id, examiner.entered_s)});
 }
 
+Event limit_note(double limit_mps) { return {"speed_limit", std::nullopt, fmt::format("kmh={:.0f}", 3.6 * limit_mps)}; }
+
 }  // namespace
+
+std::vector<Event> notes_in_force(const State& state) {
+  if (!state.examiner || state.examiner->limit_mps == 0.0) return {};
+  return {limit_note(state.examiner->limit_mps)};
+}
 
 void advance_examiner(const Model& model, std::span<const Participant> participants, const Participant& car,
                       State& state, std::vector<Event>& events) {
@@ -98,8 +105,7 @@ void advance_examiner(const Model& model, std::span<const Participant> participa
     if (!was_in_junction) examiner.entered_s = state.time_s();
   }
   const double limit_mps = road::speed_limit_mps(model.roads, in_lane);
-  if (limit_mps != examiner.limit_mps)
-    events.push_back({"speed_limit", std::nullopt, fmt::format("kmh={:.0f}", 3.6 * limit_mps)});
+  if (limit_mps != examiner.limit_mps) events.push_back(limit_note(limit_mps));
   examiner.limit_mps = limit_mps;
   examiner.front = here;
   examiner.lane = location->lanes.lane;

@@ -18,4 +18,7 @@ namespace septet::simulation {
 void advance_examiner(const Model& model, std::span<const Participant> participants, const Participant& car,
                       State& state, std::vector<Event>& events);
 
+/// Notes from before this state that still hold, for a log that begins at it: the posted limit.
+std::vector<Event> notes_in_force(const State& state);
+
 }  // namespace septet::simulation

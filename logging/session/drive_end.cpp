@@ -22,7 +22,7 @@ constexpr std::array rows{
     Row{DriveEnd::session_end, "session_end", "the session is over", finished_status},
     Row{DriveEnd::window_closed, "window_closed", "a screen's window was closed", stopped_status},
     Row{DriveEnd::escape, "escape", "the driver left it by Escape", stopped_status},
-    Row{DriveEnd::restart, "restart", "the driver wanted to begin again", stopped_status},
+    Row{DriveEnd::restart, "restart", "it was to begin again", stopped_status},
     Row{DriveEnd::by_operator, "by_operator", "the operator ended it", stopped_status},
     Row{DriveEnd::interrupted, "interrupted", "it was interrupted (SIGINT)", stopped_status},
     Row{DriveEnd::terminated, "terminated", "it was asked to end (SIGTERM)", stopped_status},

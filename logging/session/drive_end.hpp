@@ -15,7 +15,7 @@ enum class DriveEnd : std::uint8_t {
   session_end,    ///< Replay: end of the session.
   window_closed,  ///< By the person at a screen.
   escape,         ///< Pressed at a screen.
-  restart,        ///< Requested at a screen: `septet drive` begins the same drive again.
+  restart,        ///< Requested at a screen or on the operator's page: `septet drive` begins the drive again.
   by_operator,    ///< On the operator's page.
   interrupted,    ///< SIGINT: Ctrl-C.
   terminated,     ///< SIGTERM.

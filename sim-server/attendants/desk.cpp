@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "program/clock.hpp"
+#include "program/console.hpp"
 #include "sim-server/host/serve.hpp"
 
 namespace septet::server {
@@ -27,6 +28,7 @@ Wishes Desk::wishes() {
 }
 
 void Desk::close(ServeResult& result) {
+  if (const auto& at_s = desk_->restart_at_s()) program::announce(fmt::format("begin_at {}", *at_s));
   desk_->show_end(fmt::format("ended: {}", text_of(result.end)), screens_of(host_), program::monotonic_s());
 }
 

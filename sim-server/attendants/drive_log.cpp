@@ -20,7 +20,7 @@ Expected<void> DriveLog::begin() {
         fmt::format("give another folder with --out, or move that drive aside first, which `septet drive` does by "
                     "itself: mv '{0}' '{0}.1'",
                     options_.out.string()));
-  auto log = SessionLog::create(loaded_, options_);
+  auto log = SessionLog::create(loaded_, options_, live_.state().tick);
   if (!log) return tl::unexpected(log.error());
   session_.emplace(std::move(*log));
   session_->record_scene(store_);

@@ -15,6 +15,7 @@
 #include "engine/simulation/lights_stage.hpp"
 #include "logging/study/lesson/lesson.hpp"
 #include "program/resources.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -189,17 +190,23 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
 }
 
 Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std::string& where) {
+  constexpr auto altered = "it was altered, or written by another version of Septet: use an unaltered copy";
   const auto seed = session.seeds.find("drive");
   std::vector<scenario::ParameterValue> parameters;
   for (const auto& [name, value] : session.parameters) parameters.push_back({name, value});
-  return load(
+  if (const auto traffic = session.other.find("traffic"); traffic != session.other.end())
+    if (const auto known = check_traffic(traffic->second); !known) return failure(known.error().what, where, altered);
+  auto drive = load(
       [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
         for (const auto& source : session.files)
           if (source.role == role && (!role.starts_with("catalog") || source.name == name)) return source;
-        return failure(fmt::format("the session holds no {} {}", role, name), where,
-                       "it was altered, or written by another version of Septet: use an unaltered copy");
+        return failure(fmt::format("the session holds no {} {}", role, name), where, altered);
       },
       seed == session.seeds.end() ? 1 : seed->second, {}, std::move(parameters));
+  // The fault is in the session's copy of a file; the file of that name on the disk may be right.
+  if (!drive && !drive.error().where.starts_with(where))
+    return failure(drive.error().what, fmt::format("{}, its file {}", where, drive.error().where), altered);
+  return drive;
 }
 
 }  // namespace septet::server

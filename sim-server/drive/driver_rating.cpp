@@ -35,10 +35,10 @@ Expected<logging::QuestionnaireRecord> DriverRating::answer(double simulated_s, 
   return record;
 }
 
-std::vector<logging::QuestionnaireRecord> DriverRating::unanswered(double simulated_s) const {
+std::vector<logging::QuestionnaireRecord> DriverRating::unanswered(double begun_s, double ended_s) const {
   std::vector<logging::QuestionnaireRecord> rows;
   if (answers_.empty()) return rows;
-  for (int minute = 1; minute <= minute_of(simulated_s); ++minute)
+  for (int minute = minute_of(begun_s) + 1; minute <= minute_of(ended_s); ++minute)
     if (!answers_.contains(minute)) rows.push_back(row(minute, 60.0 * minute));
   return rows;
 }

@@ -27,8 +27,8 @@ class DriverRating {
 
   /// The answer of the minute that goes on. Error: it has one, or the value is beyond the scale.
   Expected<logging::QuestionnaireRecord> answer(double simulated_s, int value);
-  /// The rows of the minutes that are over and have no answer.
-  std::vector<logging::QuestionnaireRecord> unanswered(double simulated_s) const;
+  /// The rows of the minutes without an answer, from the one after the drive began until the one in which it ended.
+  std::vector<logging::QuestionnaireRecord> unanswered(double begun_s, double ended_s) const;
 
  private:
   DriverRating(std::string prefix, std::string title, logging::QuestionnaireItem item)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,8 +47,9 @@ std::string struck(const Snapshot& now, const simulation::Event& event) {
 
 void DriverWord::take(const Snapshot& now, std::span<const simulation::Event> events) {
   now_s_ = now.simulated_time_s;
-  if (now.driver_car.lane != 0 || now.tick <= 1) on_lane_s_ = now_s_;
-  if (!frame::is_stalled(now.driver_car) || now.tick <= 1) runs_s_ = now_s_;
+  const bool is_first = !std::exchange(has_begun_, true);
+  if (now.driver_car.lane != 0 || is_first) on_lane_s_ = now_s_;
+  if (!frame::is_stalled(now.driver_car) || is_first) runs_s_ = now_s_;
   for (const simulation::Event& event : events) {
     if (event.kind != "collision") continue;
     const double mps = closing_speed_mps(event.detail).value_or(0.0);

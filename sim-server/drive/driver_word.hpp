@@ -26,7 +26,7 @@ class DriverWord {
   static constexpr double least_blow_mps = 2.0, blow_shown_s = 8.0, off_road_after_s = 4.0, stalled_after_s = 2.0;
 
  private:
-  bool by_keyboard_;
+  bool by_keyboard_, has_begun_ = false;
   std::string blow_;
   double blow_mps_ = 0.0, blow_at_s_ = 0.0;
   double now_s_ = 0.0, on_lane_s_ = 0.0, runs_s_ = 0.0;  ///< When it was last on a lane, and its engine ran.

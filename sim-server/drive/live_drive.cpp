@@ -9,8 +9,10 @@
 #include "car-io/can/instruments.hpp"
 #include "engine/audio/heard.hpp"
 #include "engine/core/printable.hpp"
+#include "engine/simulation/examiner.hpp"
 #include "engine/simulation/saved_state.hpp"
 #include "sim-server/drive/car_motion.hpp"
+#include "sim-server/drive/kept_state.hpp"
 #include "sim-server/drive/natural_end.hpp"
 
 namespace septet::server {
@@ -19,8 +21,7 @@ namespace {
 /// For so long a screen's last controls are held. It sends them with every picture, and for two seconds after the last key.
 constexpr Tick silent_screen_ticks = 120;
 
-/// So often the log keeps the whole state, to begin there when the drive is run again.
-constexpr Tick saved_state_ticks = 10 * static_cast<Tick>(simulation::tick_rate_hz);
+constexpr auto saved_state_ticks = static_cast<Tick>(state_kept_every_s * simulation::tick_rate_hz);
 
 /// The re-arm button, so that nobody does it in passing.
 constexpr int rearm_held_for_ticks = 120;
@@ -45,17 +46,28 @@ Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const simu
                                                       DriverSeat seat) {
   auto state = simulation::initial_state(*model, std::move(traffic));
   if (!state) return tl::unexpected(state.error());
-  return std::unique_ptr<LiveDrive>(new LiveDrive(std::move(model), std::move(seat), std::move(*state)));
+  return start(std::move(model), std::move(*state), std::move(seat));
+}
+
+std::unique_ptr<LiveDrive> LiveDrive::start(std::shared_ptr<const simulation::Model> model, simulation::State state,
+                                            DriverSeat seat) {
+  return std::unique_ptr<LiveDrive>(new LiveDrive(std::move(model), std::move(seat), std::move(state)));
 }
 
 LiveDrive::LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state)
-    : model_(std::move(model)), seat_(std::move(seat)), state_(std::move(state)), word_(seat_.car == nullptr) {
+    : model_(std::move(model)),
+      seat_(std::move(seat)),
+      state_(std::move(state)),
+      word_(seat_.car == nullptr),
+      device_from_drive_s_(-state_.time_s()) {
+  if (state_.tick > 0) events_ = simulation::notes_in_force(state_);
   newest_ = memory_.share(simulation::capture_snapshot(*model_, state_));
 }
 
 void LiveDrive::log_to(SessionLog& log) {
   log_ = &log;
   log_->record_tick(newest_, {});
+  if (state_.tick > 0) keep_state();
 }
 
 logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& controls) {
@@ -74,7 +86,7 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
   }
   if (seat_.car) {
     // The device's clock is simulated time, so that a slow machine does not see a stale driver.
-    const auto reading = seat_.car->poll(waited_s_ + state_.time_s());
+    const auto reading = seat_.car->poll(device_from_drive_s_ + state_.time_s());
     if (reading.is_stale) ++state_.diagnostics.input_stale_ticks;
     was_fresh_ = was_fresh_ || !reading.is_stale;
     is_stale_ = was_fresh_ && reading.is_stale;
@@ -94,7 +106,7 @@ bool LiveDrive::driver_is_ready(const std::optional<DriverInput>& controls, doub
   show_instruments(held_);
   if (controls || seat_.is_driven_by_a_device()) return true;
   if (!seat_.car) return false;
-  waited_s_ = waited_s;
+  device_from_drive_s_ = waited_s - state_.time_s();
   const auto reading = seat_.car->poll(waited_s);
   car_was_there_ = reading.is_connected;
   if (const auto error = seat_.car->take_error()) tell(describe(*error));
@@ -244,7 +256,7 @@ Expected<void> LiveDrive::command(const simulation::OperatorCommand& command) {
 
 void LiveDrive::stand_still() {
   // Nobody takes ticks, and yet somebody may press the emergency stop.
-  if (seat_.car) watch_switches(seat_.car->poll(waited_s_ + state_.time_s()).switches);
+  if (seat_.car) watch_switches(seat_.car->poll(device_from_drive_s_ + state_.time_s()).switches);
   if (!seat_.has_actuators()) return;
   if (!is_stopped_) {
     guard_.rearm();

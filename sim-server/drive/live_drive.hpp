@@ -51,7 +51,10 @@ class LiveDrive final : public TickSource {
   /// The drive as it stands at tick 0.
   static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const simulation::Model> model,
                                                     std::unique_ptr<traffic::TrafficEngine> traffic, DriverSeat seat);
-  /// From here on everything is logged, tick 0 first. `log` outlives the drive.
+  /// The drive as it stands in `state`, which is of this model: at a state that an earlier log of the drive kept.
+  static std::unique_ptr<LiveDrive> start(std::shared_ptr<const simulation::Model> model, simulation::State state,
+                                          DriverSeat seat);
+  /// From here on everything is logged, the present tick first. `log` outlives the drive.
   void log_to(SessionLog& log);
 
   /// Between two ticks: done now and logged, so that the drive run again has it too. Error: this drive cannot do that, or not now.
@@ -103,7 +106,7 @@ class LiveDrive final : public TickSource {
   double instructor_brake_ = 0.0;
   DriverInput held_;                       ///< The last controls from a screen: they come less often than ticks.
   std::optional<Tick> heard_tick_;         ///< When they came.
-  std::vector<simulation::Event> events_;  ///< Of commands since the last tick, to be logged with the next one.
+  std::vector<simulation::Event> events_;  ///< Since the last tick, to be logged with the next one.
   std::function<void(const simulation::Event&, double)> told_;
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
@@ -120,7 +123,7 @@ class LiveDrive final : public TickSource {
   car_io::DoseLimit dose_;
   car_io::WheelTorqueState wheel_torque_;
   std::optional<DriverInput> found_;  ///< The device's controls before anybody touched them.
-  double waited_s_ = 0.0;             ///< For the driver, before the first tick.
+  double device_from_drive_s_;  ///< The device's clock, which begins with the wait for the driver, less simulated time.
   std::optional<logging::DriveEnd> end_;
   std::vector<std::string> messages_;
   MessageLimit limit_;  ///< Of what the device causes to be said.

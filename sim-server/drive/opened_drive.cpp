@@ -14,6 +14,7 @@
 #include "engine/scenery/world/road_world.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "sim-server/drive/driver_seat.hpp"
+#include "sim-server/drive/kept_state.hpp"
 #include "sim-server/drive/own_models_folder.hpp"
 #include "sim-server/drive/seat/can_seat.hpp"
 #include "sim-server/drive/seat/tracked_head.hpp"
@@ -106,6 +107,15 @@ Expected<DriverSeat> furnish_seat(const ServerOptions& options, OpenedDrive& dri
   return seat;
 }
 
+/// The drive's start, or the state that the options name.
+Expected<simulation::State> first_state(const ServerOptions& options, const simulation::Model& model,
+                                        std::unique_ptr<traffic::TrafficEngine> traffic) {
+  if (options.begin_from.empty()) return simulation::initial_state(model, std::move(traffic));
+  const auto session = logging::SessionReader::open(options.begin_from);
+  if (!session) return tl::unexpected(session.error());
+  return kept_state(*session, model, options.begin_at_s, std::move(traffic));
+}
+
 Expected<void> open_live(const ServerOptions& options, OpenedDrive& drive, program::ProgressLine& line) {
   auto parameters = read_parameters(options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
@@ -122,10 +132,11 @@ Expected<void> open_live(const ServerOptions& options, OpenedDrive& drive, progr
   drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);
   if (!traffic) return tl::unexpected(traffic.error());
-  auto source = LiveDrive::start(drive.loaded.model, std::move(*traffic), std::move(*seat));
-  if (!source) return tl::unexpected(source.error());
-  drive.live = source->get();
-  drive.source = std::move(*source);
+  auto state = first_state(options, *drive.loaded.model, std::move(*traffic));
+  if (!state) return tl::unexpected(state.error());
+  auto source = LiveDrive::start(drive.loaded.model, std::move(*state), std::move(*seat));
+  drive.live = source.get();
+  drive.source = std::move(source);
   return {};
 }
 

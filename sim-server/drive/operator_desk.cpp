@@ -13,6 +13,7 @@
 #include "logging/study/questionnaire.hpp"
 #include "program/child_process.hpp"
 #include "program/resources.hpp"
+#include "sim-server/drive/kept_state.hpp"
 #include "sim-server/drive/told_on_page.hpp"
 #include "sim-server/page/request_checks.hpp"
 
@@ -93,10 +94,14 @@ Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& 
   if (lesson) facts.lesson = lesson->facts();
   Speaker speaker(program::find_program("espeak-ng"));
   facts.speaks = speaker.is_there();
+  auto no_restart = why_no_restart(options);
+  if (!no_restart) facts.kept_states = {drive.state().time_s(), state_kept_every_s};
   auto page = page::OperatorPage::open(std::move(page_options), std::move(facts), loaded.model->roads);
   if (!page) return tl::unexpected(page.error());
-  return std::unique_ptr<OperatorDesk>(
+  std::unique_ptr<OperatorDesk> desk(
       new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson), std::move(speaker), loaded, drive));
+  desk->no_restart_ = std::move(no_restart);
+  return desk;
 }
 
 void OperatorDesk::log_to(SessionLog& log) {
@@ -176,13 +181,14 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
 void OperatorDesk::show_end(const std::string& text, const std::vector<HostedScreen>& screens, double now_s) {
   if (!newest_) newest_ = drive_.first();
   if (rating_ && log_)
-    for (auto& row : rating_->unanswered(drive_.state().time_s())) log_->record_answer(std::move(row));
+    for (auto& row : rating_->unanswered(begun_s_, drive_.state().time_s())) log_->record_answer(std::move(row));
   if (lesson_) lesson_->finish();
   show(text, screens, now_s);
 }
 
 std::optional<logging::DriveEnd> OperatorDesk::end_requested() const {
-  return is_ended_ ? std::optional(logging::DriveEnd::by_operator) : std::nullopt;
+  if (!is_ended_) return std::nullopt;
+  return restart_at_s_ ? logging::DriveEnd::restart : logging::DriveEnd::by_operator;
 }
 
 /// Nothing where it was done, else why not.
@@ -209,6 +215,8 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
     return hold_brake(wish, brake->held);
   } else if (const auto* back = std::get_if<page::Back>(&wish.wish)) {
     return put_back(wish, back->seconds);
+  } else if (const auto* again = std::get_if<page::Restart>(&wish.wish)) {
+    return restart(wish, again->at_s);
   } else if (const auto* word = std::get_if<page::Say>(&wish.wish)) {
     return say(wish, *word);
   } else if (const auto* rated = std::get_if<page::Rate>(&wish.wish)) {
@@ -234,6 +242,16 @@ std::optional<std::string> OperatorDesk::put_back(const page::OperatorWish& wish
   const auto place = way_back_.place(seconds, drive_.state().time_s());
   if (!place) return "the car was in no lane then";
   return change(wish, simulation::text_of(*place));
+}
+
+std::optional<std::string> OperatorDesk::restart(const page::OperatorWish& wish, double at_s) {
+  if (no_restart_) return no_restart_;
+  if (at_s > drive_.state().time_s()) return "the drive has not come so far";
+  if (at_s > 0.0 && at_s < begun_s_) return "this drive began later";
+  if (std::exchange(is_ended_, true)) return "the drive is ending already";
+  restart_at_s_ = at_s;
+  note(wish, "operator", fmt::format("restart at_s={}", at_s));
+  return std::nullopt;
 }
 
 std::optional<std::string> OperatorDesk::say(const page::OperatorWish& wish, const page::Say& word) {

@@ -46,6 +46,8 @@ class OperatorDesk {
   /// Whether to drive without the screens that are missing.
   bool told_to_go() const { return told_to_go_; }
   std::optional<logging::DriveEnd> end_requested() const;
+  /// The drive is to begin again at the newest state kept until this simulated time; 0: at its start. Empty: no such wish.
+  const std::optional<double>& restart_at_s() const { return restart_at_s_; }
   /// How the drive ended, as the last thing that is shown.
   void show_end(const std::string& text, const std::vector<HostedScreen>& screens, double now_s);
 
@@ -57,7 +59,8 @@ class OperatorDesk {
         speaker_(std::move(speaker)),
         lesson_(std::move(lesson)),
         loaded_(loaded),
-        drive_(drive) {}
+        drive_(drive),
+        begun_s_(drive.state().time_s()) {}
   std::optional<std::string> fulfil(const page::OperatorWish& wish);
   std::optional<std::string> change(const page::OperatorWish& wish, const std::string& command);
   void note(const page::OperatorWish& wish, const std::string& kind, const std::string& what);
@@ -65,6 +68,7 @@ class OperatorDesk {
 
   std::optional<std::string> hold_brake(const page::OperatorWish& wish, bool held);
   std::optional<std::string> put_back(const page::OperatorWish& wish, double seconds);
+  std::optional<std::string> restart(const page::OperatorWish& wish, double at_s);
   std::optional<std::string> say(const page::OperatorWish& wish, const page::Say& word);
   void keep_still(const std::vector<HostedScreen>& screens);
   std::optional<std::string> rate(const page::OperatorWish& wish, int value);
@@ -81,6 +85,9 @@ class OperatorDesk {
   std::shared_ptr<const std::string> seen_ahead_;  ///< The newest picture of the screen ahead that the lesson has.
   const LoadedDrive& loaded_;
   LiveDrive& drive_;
+  double begun_s_;                         ///< Simulated; not 0 where the drive began at a kept state.
+  std::optional<std::string> no_restart_;  ///< Why not (why_no_restart).
+  std::optional<double> restart_at_s_;
   SessionLog* log_ = nullptr;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool is_paused_ = false, told_to_go_ = false, is_ended_ = false;

@@ -29,6 +29,8 @@ struct ServerOptions {
   bool log_samples_only = false;   ///< The log keeps no snapshots: it can be measured, and not be shown again.
   std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
   std::string traffic = "own";          ///< Who moves the traffic: own or sumo.
+  std::filesystem::path begin_from;     ///< An earlier session of the same drive; empty: begin at the start.
+  double begin_at_s = 0.0;              ///< The drive begins at the newest state that session kept until then.
   double wait_for_screens_s =
       -1.0;  ///< Before it drives, in real time; then without those that are missing. Negative: until all are there.
   bool start_now = false;  ///< Do not wait for a person to take the controls.

@@ -241,13 +241,17 @@ Expected<std::vector<std::string>> write_standing(const LoadedDrive& drive, cons
   if (*debrief) lines.push_back(fmt::format("{}: {}", (options.out / "debrief.html").string(), **debrief));
   // Who has left in the middle has no place.
   if (!game || game->end == GameEnd::none) return lines;
+  const std::string played =
+      fmt::format("{:.0f} points, level {}, {:.0f} s", game->points, game->level, game->survived_s);
+  if (session->info().other.contains(logging::begun_at_row)) {
+    lines.push_back(played + "; no place in the list: it did not begin at its start");
+    return lines;
+  }
   const char* const ends[] = {"", "lost", "crash", "time"};
   const auto list = std::filesystem::absolute(options.out).parent_path() / "best-list.json";
   const auto place = logging::enter_best_list(
       list, {std::filesystem::path(options.scenario).stem().string(), options.participant, game->points,
              game->survived_s, game->level, ends[static_cast<std::size_t>(game->end)], session->info().started_utc});
-  const std::string played =
-      fmt::format("{:.0f} points, level {}, {:.0f} s", game->points, game->level, game->survived_s);
   if (!place) {
     lines.push_back(played + "; " + describe(place.error()));
     return lines;

@@ -42,8 +42,9 @@ struct Message {
 };
 
 struct Progress {
-  double simulated_s = 0.0, total_s = 0.0;  ///< Total 0: the drive lasts until it is ended.
-  double wall_s = 0.0;                      ///< Without pauses; it begins anew when the driver has taken the controls.
+  /// Simulated time now and at the end. Total 0: the drive lasts until it is ended.
+  double simulated_s = 0.0, total_s = 0.0;
+  double wall_s = 0.0;  ///< Without pauses; it begins anew when the driver has taken the controls.
   std::string doing;
 };
 

@@ -23,6 +23,7 @@ struct Loop {
   ServeClock& clock;
   std::uint64_t ticks;
   double started_s;
+  double source_begun_s = 0.0;  ///< Simulated: not 0 where the source begins later.
   ServeResult result = {};
   std::shared_ptr<const TakenSnapshot> newest = nullptr;
   std::string doing = "starting";  ///< For attendants.
@@ -31,8 +32,8 @@ struct Loop {
   bool is_paused() const { return wishes.stands_still; }
   void report(std::string what) {
     doing = std::move(what);
-    const Progress progress{result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(),
-                            clock.now_s() - started_s, doing};
+    const double total_s = ticks == 0 ? 0.0 : source_begun_s + static_cast<double>(ticks) / source.tick_rate_hz();
+    const Progress progress{result.simulated_s, total_s, clock.now_s() - started_s, doing};
     for (const auto& attendant : attendants) attendant->show(progress);
   }
   void tell(const Message& message) {
@@ -68,6 +69,7 @@ struct Loop {
     }
     ++result.ticks;
     result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
+    if (result.ticks == 1) source_begun_s = result.simulated_s - 1.0 / source.tick_rate_hz();
     result.state_hash = (*snapshot)->snapshot().state_hash;
     newest = *snapshot;
     for (const auto& attendant : attendants) attendant->after_tick(newest, source.shaking_share());

@@ -39,6 +39,11 @@ struct LessonFacts {
   std::vector<LessonTaskFacts> tasks;
 };
 
+/// Simulated times at which the drive keeps its state.
+struct KeptStates {
+  double from_s = 0.0, every_s = 10.0;
+};
+
 /// Constants of the drive.
 struct DriveFacts {
   std::string scenario, rig, vehicle, participant;
@@ -49,10 +54,11 @@ struct DriveFacts {
   bool has_traffic = false;  ///< Its density can be changed.
   ParticipantId driver = 0;
   std::optional<RatingScale> rating;
-  std::vector<std::string> things;    ///< Things that can be placed on the road.
-  std::vector<std::string> faults;    ///< Parts of the car that can fail.
-  bool speaks = false;                ///< Words to the student can be spoken aloud.
-  std::optional<LessonFacts> lesson;  ///< If the drive is a lesson.
+  std::vector<std::string> things;        ///< Things that can be placed on the road.
+  std::vector<std::string> faults;        ///< Parts of the car that can fail.
+  bool speaks = false;                    ///< Words to the student can be spoken aloud.
+  std::optional<KeptStates> kept_states;  ///< Empty: the drive cannot begin again at one.
+  std::optional<LessonFacts> lesson;      ///< If the drive is a lesson.
 };
 
 /// State of a task.

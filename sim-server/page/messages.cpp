@@ -186,6 +186,8 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
     message.wish = Brake{flag("held")};
   else if (wish == "back")
     message.wish = Back{static_cast<double>(std::min<std::uint64_t>(count_member(json, "seconds"), 3600))};
+  else if (wish == "restart")
+    message.wish = Restart{static_cast<double>(count_member(json, "at_s"))};
   else if (wish == "make")
     message.wish = Make{count_member(json, "session"), text_member(json, "what", 10)};
   else if (wish == "stop_making")
@@ -248,6 +250,8 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
               {"text", facts.rating->text},
               {"least", facts.rating->least},
               {"labels", facts.rating->labels}};
+  Json restart = nullptr;
+  if (facts.kept_states) restart = {{"from_s", facts.kept_states->from_s}, {"every_s", facts.kept_states->every_s}};
   return dump({{"type", "hello"},
                {"schema", schema},
                {"you", browser},
@@ -262,6 +266,7 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
                {"has_traffic", facts.has_traffic},
                {"rating", std::move(rating)},
                {"speaks", facts.speaks},
+               {"restart", std::move(restart)},
                {"faults", facts.faults},
                {"things", facts.things},
                {"conditions", std::move(conditions)},

@@ -74,6 +74,10 @@ struct Brake {
 struct Back {
   double seconds = 0.0;
 };
+/// The drive ends and begins again at the newest state that it kept until this simulated time; 0: at its start.
+struct Restart {
+  double at_s = 0.0;
+};
 /// A film or a replay of a past drive.
 struct Make {
   std::uint64_t session = 0;
@@ -86,7 +90,7 @@ struct Watch {
   std::string screen;
 };
 using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look, Answer,
-                          Watch, Say, Brake, Back, Make, StopMaking>;
+                          Watch, Say, Brake, Back, Restart, Make, StopMaking>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Named in the reply.

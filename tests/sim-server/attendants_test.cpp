@@ -13,20 +13,22 @@ namespace {
 
 class Ticks final : public TickSource {
  public:
+  explicit Ticks(Tick first = 0) : tick_(first), first_(first) {}
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>&) override {
     Snapshot snapshot;
     snapshot.tick = ++tick_;
+    snapshot.simulated_time_s = static_cast<double>(tick_) / tick_rate_hz();
     return std::make_shared<const TakenSnapshot>(std::move(snapshot));
   }
   logging::DriveEnd end() const override { return logging::DriveEnd::failed; }
   double tick_rate_hz() const override { return 120.0; }
   std::vector<std::string> take_messages() override {
-    return tick_ == 1 && !std::exchange(has_said_, true) ? std::vector<std::string>{"of the source"}
-                                                         : std::vector<std::string>{};
+    return tick_ == first_ + 1 && !std::exchange(has_said_, true) ? std::vector<std::string>{"of the source"}
+                                                                  : std::vector<std::string>{};
   }
 
  private:
-  Tick tick_ = 0;
+  Tick tick_, first_;
   bool has_said_ = false;
 };
 
@@ -46,12 +48,14 @@ class Diary final : public Attendant {
   Wishes wishes() override { return wishes_; }
   void after_tick(const std::shared_ptr<const TakenSnapshot>&, double) override { lines_.push_back(name_ + " after"); }
   std::vector<std::string> take_messages() override { return std::exchange(says_, {}); }
+  void show(const Progress& progress) override { progress_ = progress; }
   void hear(const Message& message) override {
     lines_.push_back(name_ + " hears " + message.text + (message.is_logged ? ", logged" : ""));
   }
 
   Wishes wishes_;
   std::vector<std::string> says_;
+  Progress progress_;
 
  private:
   std::string name_;
@@ -89,6 +93,21 @@ TEST_CASE("the first end in the attendants' order holds") {
   const auto result = run_headless(ticks, 5, attendants, clock);
   CHECK(result.end == logging::DriveEnd::interrupted);
   CHECK(result.ticks == 0);
+}
+
+TEST_CASE("the progress of a drive that begins later is in its simulated time, and so is its end") {
+  std::vector<std::string> lines;
+  for (const Tick first : {0, 1200}) {
+    Attendants attendants;
+    attendants.push_back(std::make_unique<Diary>("", lines));
+    const auto& progress = static_cast<const Diary&>(*attendants.front()).progress_;
+    Ticks ticks(first);
+    StillClock clock;
+    CHECK(run_headless(ticks, 240, attendants, clock).ticks == 240);
+    const double begun_s = static_cast<double>(first) / 120.0;
+    CHECK(progress.simulated_s == doctest::Approx(begun_s + 2.0));
+    CHECK(progress.total_s == doctest::Approx(begun_s + 2.0));
+  }
 }
 
 }  // namespace septet::server

@@ -1,5 +1,7 @@
 #include <chrono>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -139,6 +141,37 @@ TEST_CASE("a seat whose device may be missing is one at the keyboard without it"
   const auto refused = open_driver_seat(car, 1, drive.model);
   REQUIRE_FALSE(refused.has_value());
   CHECK(refused.error().remedy.find("automatic") != std::string::npos);
+}
+
+TEST_CASE(
+    "a driver's device that is heard all the time is not taken for silent where the drive begins at a later time") {
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
+  auto state = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1)).value();
+  std::vector<simulation::Event> events;
+  while (state.time_s() < 2.0) simulation::server_step(*drive.model, {}, state, events);
+  car_io::SimulatedHidPort port;
+  port.plug();
+  DriverSeat seat;
+  sit_at_device(seat, port.opener(), {});
+  const auto live = LiveDrive::start(drive.model, std::move(state), std::move(seat));
+  DriverInput input;
+  const auto send = [&] {
+    ++input.sequence;
+    port.send(car_io::encode_controls(input));
+  };
+  for (double waited_s = 0.0; waited_s < 1.0; waited_s += 0.01) {
+    if (waited_s > 0.9) input.accelerator = 0.5;
+    send();
+    CHECK(live->driver_is_ready(std::nullopt, waited_s) == (waited_s > 0.9));
+  }
+  for (int i = 0; i < 60; ++i) {
+    if (i % 3 == 2) send();  // A device sends less often than a tick passes.
+    REQUIRE(live->next(std::nullopt).has_value());
+  }
+  CHECK(live->state().time_s() == doctest::Approx(2.5));
+  CHECK(live->state().input.accelerator == doctest::Approx(0.5).epsilon(0.01));
+  CHECK(live->state().diagnostics.input_stale_ticks == 0);
+  CHECK_FALSE(live->actuators_cut().has_value());
 }
 
 }  // namespace septet::server

@@ -80,6 +80,18 @@ TEST_CASE("off every lane and a stall are told of once they have lasted, and no 
   CHECK_FALSE(has(pedals.after(4.0), "V held"));
 }
 
+TEST_CASE(
+    "a drive that begins at a later time, off every lane or with a stalled engine, is told so after the same while") {
+  Told off;
+  off.now.tick = 1201;
+  off.now.simulated_time_s = 10.0;
+  off.now.driver_car.lane = 0;
+  off.now.driver_car.engine_radps = 0.0;
+  CHECK(off.after(1.5).empty());
+  CHECK(has(off.after(1.0), "stalled"));
+  CHECK(has(off.after(2.0), "You are off the road."));
+}
+
 TEST_CASE("at its own end a drive says that it is over, of a lesson where its mark is, and what to press") {
   using enum logging::DriveEnd;
   CHECK(words_at_end(stop_trigger, true) ==

@@ -33,6 +33,20 @@ $('back').onclick = () => command({ do: 'back', seconds: 0 });
 $('repeat').onclick = () => command({ do: 'back', seconds: repeat_s });
 $('put').onclick = () => set_putting(!putting);
 
+$('restartform').onsubmit = (event) => { event.preventDefault(); command({ do: 'restart', at_s: +$('restartat').value }); };
+
+/// The start and the times of kept states, newest first. The newest stays chosen until another one is.
+function show_restart() {
+  if (!hello.restart || state.sim_s === undefined) return;
+  const { from_s, every_s } = hello.restart, choice = $('restartat');
+  const times = [0];
+  for (let at_s = from_s > 0 ? from_s : every_s; at_s <= state.sim_s; at_s += every_s) times.push(at_s);
+  if (choice.options.length === times.length) return;
+  const chosen = choice.selectedIndex > 0 ? choice.value : null;
+  choice.replaceChildren(...times.reverse().map((at_s) => option(at_s, `${at_s} s`)));
+  if (chosen !== null) choice.value = chosen;
+}
+
 let putting = false;
 function set_putting(on) {
   putting = on;
@@ -50,6 +64,8 @@ function put_at(x, y) {
 }
 
 function make_car() {
+  $('restartform').hidden = !hello.restart;
+  $('restartat').replaceChildren();
   $('repeat').textContent = t('controls.repeat', { seconds: repeat_s });
   set_putting(false);
   $('carfaults').replaceChildren(...hello.faults.map((name, i) => {
@@ -62,6 +78,7 @@ function make_car() {
 }
 
 function show_car() {
+  show_restart();
   brake_button.setAttribute('aria-pressed', String(Boolean(state.instructor_brakes)));
   [...$('carfaults').children].forEach((button, i) => button.setAttribute('aria-pressed', String(Boolean(state.faults[i]))));
   $('faultsbox').classList.toggle('due', state.faults.some(Boolean));

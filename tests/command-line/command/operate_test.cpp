@@ -38,7 +38,7 @@ TEST_CASE("each minute has one answer of how the driver feels, and minutes witho
       "test");
   REQUIRE(questionnaire.has_value());
   auto rating = DriverRating::of(*questionnaire).value();
-  CHECK(rating.unanswered(500.0).empty());
+  CHECK(rating.unanswered(0.0, 500.0).empty());
   CHECK_FALSE(rating.answer(61.0, 3).has_value());
   CHECK_FALSE(rating.answer(61.0, -1).has_value());
   const auto first = rating.answer(61.0, 2);
@@ -48,11 +48,15 @@ TEST_CASE("each minute has one answer of how the driver feels, and minutes witho
   CHECK(first->value == 2.0);
   CHECK_FALSE(rating.answer(119.9, 1).has_value());
   CHECK(rating.answer(180.0, 0)->item == "misc.03");
-  const auto missing = rating.unanswered(299.0);
+  const auto missing = rating.unanswered(0.0, 299.0);
   REQUIRE(missing.size() == 2);
   CHECK(missing[0].item == "misc.02");
   CHECK(missing[1].item == "misc.04");
   CHECK_FALSE(missing[1].value.has_value());
+  // Of a drive that began later, the minutes since then.
+  const auto later = rating.unanswered(130.0, 299.0);
+  REQUIRE(later.size() == 1);
+  CHECK(later[0].item == "misc.04");
 }
 
 }  // namespace septet::server

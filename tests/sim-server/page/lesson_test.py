@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """An instructor at the page of a lesson in headless Chromium: tasks, faults in words, the student's screen large, a word to him, the second
-brake, back onto the road, faults of the car; and the drive verifies with all of that in it.
+brake, back onto the road, faults of the car; and the drive verifies with all of that in it. It begins again at a kept state.
 
     lesson_test.py SEPTET_SERVER SEPTET ROOT [FOLDER_FOR_PICTURES]
 
@@ -33,6 +33,13 @@ def pictures(browser, folder, name):
     browser.call("Emulation.clearDeviceMetricsOverride")
 
 
+def refusal(desk, at_s):
+    """Why the drive does not begin again at a time; None: it does."""
+    desk.value(f"var whys = []; ask({{ do: 'restart', at_s: {at_s} }}, (answer) => whys.push(answer.why || null))")
+    desk.until("whys.length === 1")
+    return desk.value("whys[0]")
+
+
 def at_the_desk(trial, server_program, folder):
     """Without screens, by the clock."""
     said = trial.folder / "aloud"
@@ -52,6 +59,10 @@ def at_the_desk(trial, server_program, folder):
     assert desk.value("state.actuators === null && document.getElementById('rearm').hidden && document.getElementById('alarm').hidden")
     tasks = desk.value("hello.lesson.tasks.map((task) => task.says)")
     assert tasks and desk.value("[...document.querySelectorAll('#lessontasks td:first-child')].map((cell) => cell.textContent)") == tasks
+
+    # Nobody is there to start this server again.
+    assert desk.value("hello.restart === null && document.getElementById('restartform').hidden")
+    assert refusal(desk, 0) == "this server was started by itself: only septet drive begins again"
 
     # A fault as it happens, in words: far too fast where 50 are allowed, until the instructor brakes.
     desk.until("state.sim_s > 2")
@@ -123,10 +134,10 @@ def at_the_desk(trial, server_program, folder):
     trial.run("replay", "--verify", session)
 
 
-def small_rig(trial):
+def small_rig(trial, width_px=720, height_px=420):
     text = (pathlib.Path(trial.root) / "rigs/desktop.toml").read_text()
-    text = re.sub(r"width_px *= *\d+", "width_px = 720", text)
-    text = re.sub(r"height_px *= *\d+", "height_px = 420", text)
+    text = re.sub(r"width_px *= *\d+", f"width_px = {width_px}", text)
+    text = re.sub(r"height_px *= *\d+", f"height_px = {height_px}", text)
     rig = trial.folder / "small.toml"
     rig.write_text(text)
     return rig
@@ -162,12 +173,51 @@ def with_a_screen(trial, folder):
     assert drive.wait(LIMIT_S) == 3
 
 
+def begun_again(trial, folder):
+    """At a state that the drive has kept, with everybody as they were then; both drives are whole and verify."""
+    out = trial.folder / "again"
+    drive, url = trial.serve(trial.septet, "drive", "--rig", small_rig(trial, 120, 70), "--scenario", "first-lesson", "--driver", "plain", "--virtual",
+                             "--seconds", "0", "--out", out, "--page", "0")
+    desk = trial.browser("again")
+    desk.open(url)
+    desk.until("mine")
+    times = "[...document.getElementById('restartat').options].map((one) => +one.value)"
+    desk.until("state.sim_s > 11")
+    assert desk.value(times) == [10, 0] and desk.value("document.getElementById('restartat').value") == "10"
+    desk.value("document.getElementById('restartat').value = '0'")
+    desk.until("state.sim_s > 21")
+    assert desk.value(times) == [20, 10, 0] and desk.value("document.getElementById('restartat').value") == "0"
+    pictures(desk, folder, "restart")
+    desk.value("document.getElementById('restartat').value = '10'")
+    desk.click("#restartform button")
+    desk.until("hello.restart && hello.restart.from_s === 10 && mine")
+    desk.until("state.sim_s > 11")
+    assert desk.value(times) == [10, 0]
+    desk.until("lesson.tasks[hello.lesson.tasks.findIndex((task) => task.measure === 'limit')].mark === 10")  # The limit was posted before.
+    assert refusal(desk, 5) == "this drive began later"
+    assert refusal(desk, 1000) == refusal(desk, -10) == "the drive has not come so far"
+    desk.value("command({ do: 'end', reason: '', participant_stops: false })")
+    assert drive.wait(LIMIT_S) == 3
+    earlier = trial.folder / "again.1"
+    for kept in (earlier, out):
+        trial.run("check", kept / "session.sqlite")
+        trial.run("replay", "--verify", kept / "session.sqlite")
+        trial.run("report", kept / "session.sqlite", "--out", kept / "pooled")
+    ask = lambda kept, question: sqlite3.connect(kept / "session.sqlite").execute(question).fetchall()
+    assert ask(out, "SELECT min(tick) FROM snapshots") == [(1200,)]
+    then = "SELECT x_m, y_m, heading_rad, speed_mps FROM samples WHERE tick = 1200"
+    assert ask(out, then) == ask(earlier, then) != []
+    assert ask(earlier, "SELECT detail FROM events WHERE kind = 'operator'") == [("by=operator wish=restart at_s=10",)]
+    assert ask(earlier, "SELECT value FROM meta WHERE key = 'ended_why'") == [("restart",)]
+
+
 def main():
     server_program, septet, root = sys.argv[1:4]
     folder = pathlib.Path(sys.argv[4]) if len(sys.argv) > 4 else None
     with PageTrial(septet, root) as trial:
         at_the_desk(trial, server_program, folder)
         with_a_screen(trial, folder)
+        begun_again(trial, folder)
 
 
 main()

@@ -1,4 +1,5 @@
 #include <limits>
+#include <string>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,11 @@ TEST_CASE("each wish is read as it was written") {
   CHECK(std::holds_alternative<Pause>(read_browser_message(R"({"id":5,"do":"pause"})")->wish));
   CHECK(std::holds_alternative<Rearm>(read_browser_message(R"({"id":6,"do":"rearm"})")->wish));
   CHECK(std::holds_alternative<GoOn>(read_browser_message(R"({"id":6,"do":"go_on"})")->wish));
+  CHECK(std::get<Restart>(read_browser_message(R"({"id":7,"do":"restart","at_s":20})")->wish).at_s == 20.0);
+  // A time that is none is later than any drive, and is refused.
+  for (const char* at_s : {"-10", "1.5", "\"10\"", "null"})
+    CHECK(std::get<Restart>(read_browser_message(R"({"id":7,"do":"restart","at_s":)" + std::string(at_s) + "}")->wish)
+              .at_s > 1e9);
   CHECK(std::holds_alternative<Release>(read_browser_message(R"({"id":7,"do":"release"})")->wish));
   CHECK(read_browser_message(R"({"id":18446744073709551615,"do":"pause"})")->id ==
         std::numeric_limits<std::uint64_t>::max());
