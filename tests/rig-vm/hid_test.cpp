@@ -26,6 +26,7 @@
 #include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
 #include "car-io/joystick/input_device.hpp"
+#include "tests/car-io/car_side.hpp"
 #include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
 

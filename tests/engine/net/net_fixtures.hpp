@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "engine/core/random.hpp"
-#include "engine/net/bad_network.hpp"
 #include "engine/net/keys.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/secure_server.hpp"
+#include "tests/engine/net/bad_network.hpp"
 #include "tests/engine/net/simulated_machine.hpp"
 
 namespace septet::net {

@@ -82,17 +82,6 @@ TEST_CASE("a driver who has the choice takes the way that is chosen") {
   CHECK(advance(network, {2, -1, 5.0, 0.0}, -10.0).position.road == 0);
 }
 
-TEST_CASE("neighbours are lanes of the same direction that cars drive on") {
-  const RoadNetwork& network = motorway();
-  const LanePosition fast{0, -3, 500.0, 0.0}, slow{0, -7, 500.0, 0.0}, oncoming{0, 3, 500.0, 0.0};
-  CHECK_FALSE(lane_to_the_left(network, fast).has_value());
-  CHECK(lane_to_the_right(network, fast) == -4);
-  CHECK(lane_to_the_left(network, slow) == -6);
-  CHECK_FALSE(lane_to_the_right(network, slow).has_value());
-  CHECK(lane_to_the_right(network, oncoming) == 4);
-  CHECK_FALSE(lane_to_the_left(network, oncoming).has_value());
-}
-
 TEST_CASE("the limit of a lane is its own or that of the road") {
   CHECK(speed_limit_mps(motorway(), {0, -4, 100.0, 0.0}) == doctest::Approx(120.0 / 3.6));
 }

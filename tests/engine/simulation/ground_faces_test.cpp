@@ -12,6 +12,7 @@
 
 #include "engine/simulation/driver_car.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 #include "tests/engine/road/road_files.hpp"
 
 using namespace septet;

@@ -72,7 +72,7 @@ TEST_CASE("the equilibrium gap of the intelligent driver model gives no accelera
   for (const double speed : {5.0, 15.0, 28.0}) {
     const double gap = (driver.standstill_gap_m + speed * driver.time_gap_s) /
                        std::sqrt(1.0 - std::pow(speed / driver.desired_speed_mps, 4));
-    CHECK(std::abs(idm_acceleration(driver, speed, speed, gap)) < 1e-12);
+    CHECK(std::abs(FollowingLaw(driver).acceleration(speed, speed, gap)) < 1e-12);
   }
 }
 
