@@ -10,61 +10,6 @@
 namespace septet::car_io {
 namespace {
 
-// clang-format off
-constexpr std::uint8_t descriptor[] = {
-    0x05, 0x01,                    // Usage page: Generic Desktop
-    0x09, 0x04,                    // Usage: Joystick
-    0xa1, 0x01,                    // Collection: Application
-    0x85, controls_report_id,      //   Report id 1
-    0x05, 0x02,                    //   Usage page: Simulation Controls
-    0x09, 0xc8,                    //   Usage: Steering
-    0x16, 0x01, 0x80,              //   Logical minimum −32767
-    0x26, 0xff, 0x7f,              //   Logical maximum 32767
-    0x75, 16, 0x95, 1, 0x81, 0x02, //   1 × 16 bits: Input (data, variable, absolute)
-    0x09, 0xc4,                    //   Usage: Accelerator
-    0x09, 0xc5,                    //   Usage: Brake
-    0x09, 0xc6,                    //   Usage: Clutch
-    0x15, 0x00,                    //   Logical minimum 0
-    0x27, 0xff, 0xff, 0x00, 0x00,  //   Logical maximum 65535
-    0x95, 3, 0x81, 0x02,           //   3 × 16 bits: Input
-    0x05, 0x09,                    //   Usage page: Button
-    0x19, 1, 0x29, 16,             //   Usages 1 to 16
-    0x25, 0x01,                    //   Logical maximum 1
-    0x75, 1, 0x95, 16, 0x81, 0x02, //   16 × 1 bit: Input
-    0x06, 0x00, 0xff,              //   Usage page: vendor's own
-    0x09, 0x01,                    //   Usage 1: selector and gear
-    0x26, 0xff, 0x00,              //   Logical maximum 255
-    0x75, 8, 0x95, 1, 0x81, 0x02,  //   1 × 8 bits: Input
-    0x09, 0x02,                    //   Usage 2: heading of the head
-    0x16, 0x00, 0x80,              //   Logical minimum −32768
-    0x26, 0xff, 0x7f,              //   Logical maximum 32767
-    0x75, 16, 0x81, 0x02,          //   1 × 16 bits: Input
-    0x09, 0x03,                    //   Usage 3: sequence
-    0x15, 0x00, 0x26, 0xff, 0x00,  //   Logical 0 to 255
-    0x75, 8, 0x81, 0x02,           //   1 × 8 bits: Input
-    0x85, actuators_report_id,     //   Report id 2
-    0x09, 0x10, 0x09, 0x11,        //   Usages 16, 17: fan, vibration
-    0x27, 0xff, 0xff, 0x00, 0x00,  //   Logical maximum 65535
-    0x75, 16, 0x95, 2, 0x91, 0x02, //   2 × 16 bits: Output
-    0x09, 0x12, 0x09, 0x13,        //   Usages 18, 19: frequency, sequence
-    0x26, 0xff, 0x00,              //   Logical maximum 255
-    0x75, 8, 0x95, 2, 0x91, 0x02,  //   2 × 8 bits: Output
-    0x85, device_report_id,        //   Report id 3
-    0x09, 0x20, 0x09, 0x21,        //   Usages 32, 33: firmware, watchdog
-    0x27, 0xff, 0xff, 0x00, 0x00,  //   Logical maximum 65535
-    0x75, 16, 0x95, 2, 0xb1, 0x02, //   2 × 16 bits: Feature
-    0x85, steering_report_id,      //   Report id 4
-    0x09, 0x30,                    //   Usage 48: force of the hand wheel
-    0x16, 0x01, 0x80,              //   Logical minimum −32767
-    0x26, 0xff, 0x7f,              //   Logical maximum 32767
-    0x75, 16, 0x95, 1, 0x91, 0x02, //   1 × 16 bits: Output
-    0x09, 0x31,                    //   Usage 49: sequence
-    0x15, 0x00, 0x26, 0xff, 0x00,  //   Logical 0 to 255
-    0x75, 8, 0x91, 0x02,           //   1 × 8 bits: Output
-    0xc0,                          // End of collection
-};
-// clang-format on
-
 std::uint16_t to_u16(double fraction) {
   return std::isfinite(fraction) ? static_cast<std::uint16_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * 65535.0))
                                  : 0;
@@ -88,8 +33,6 @@ tl::unexpected<Error> refused(std::span<const std::byte> report, std::uint8_t id
 }
 
 }  // namespace
-
-std::span<const std::uint8_t> car_report_descriptor() { return descriptor; }
 
 std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input, double steering_lock_rad,
                                                              const CarSwitches& switches) {
@@ -120,17 +63,6 @@ std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& 
       std::isfinite(actuators.vibration_hz) ? std::clamp(actuators.vibration_hz, 0.0, 255.0) : 0.0));
   out.put(sequence);
   return as_array<actuators_report_bytes>(bytes);
-}
-
-Expected<Actuators> decode_actuators(std::span<const std::byte> report) {
-  ByteReader in(report);
-  if (report.size() != actuators_report_bytes || in.get<std::uint8_t>() != actuators_report_id)
-    return refused(report, actuators_report_id, actuators_report_bytes);
-  Actuators actuators;
-  actuators.fan = in.get<std::uint16_t>() / 65535.0;
-  actuators.vibration = in.get<std::uint16_t>() / 65535.0;
-  actuators.vibration_hz = in.get<std::uint8_t>();
-  return actuators;
 }
 
 std::array<std::byte, steering_report_bytes> encode_steering(double force, std::uint8_t sequence) {

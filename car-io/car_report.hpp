@@ -21,9 +21,6 @@ inline constexpr std::size_t controls_report_bytes = 15, actuators_report_bytes 
 /// Full left or right of a hand wheel with 2½ turns from lock to lock.
 inline constexpr double default_steering_lock_rad = 2.5 * std::numbers::pi;
 
-/// The device's report descriptor for the host (HID 1.11, 6.2.2).
-std::span<const std::uint8_t> car_report_descriptor();
-
 /// The car's own safety switches, beside the driver's controls.
 struct CarSwitches {
   /// The contact of the emergency stop, which has cut the power of fan and amplifier itself.
@@ -45,8 +42,6 @@ struct Actuators {
   double steering = 0.0;  ///< Force of the hand wheel's motor, −1 to 1 (turns it to the left).
 };
 std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& actuators, std::uint8_t sequence);
-/// Fan and vibration of a report.
-Expected<Actuators> decode_actuators(std::span<const std::byte> report);
 
 std::array<std::byte, steering_report_bytes> encode_steering(double force, std::uint8_t sequence);
 Expected<double> decode_steering(std::span<const std::byte> report);

@@ -123,13 +123,6 @@ void SimulatedHidPort::block_writes(bool block) {
   device->changed.notify_all();
 }
 
-void SimulatedHidPort::set_feature(std::uint8_t id, Bytes report) {
-  const auto device = socket_->get();
-  if (!device) return;
-  const std::lock_guard lock(device->mutex);
-  device->features[id] = std::move(report);
-}
-
 std::optional<Bytes> SimulatedHidPort::feature(std::uint8_t id) const {
   const auto device = socket_->get();
   if (!device) return std::nullopt;

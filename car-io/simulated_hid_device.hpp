@@ -28,7 +28,6 @@ class SimulatedHidPort {
   std::vector<Bytes> take_written();
   /// Simulates a device that takes no output reports: writing blocks until it does again or is unplugged.
   void block_writes(bool block);
-  void set_feature(std::uint8_t id, Bytes report);
   std::optional<Bytes> feature(std::uint8_t id) const;
 
   // The program's side. A device may outlive its port.

@@ -35,7 +35,7 @@ enum {
   SEPTET_REARM_BIT = 8
 };
 
-/// For the USB stack; the one that the host compares with (car-io/car_report.cpp).
+/// For the USB stack (HID 1.11, 6.2.2); its reports have the sizes that car-io/car_report.hpp sends (tests/car-io/car_report_test.cpp).
 extern const uint8_t septet_report_descriptor[];
 extern const uint16_t septet_report_descriptor_bytes;
 

@@ -44,8 +44,6 @@ class ExperimentRanks {
   /// Returns drives that have ended meanwhile. Error: the folder cannot be written.
   Expected<std::vector<Ended>> take_ended();
   std::vector<std::string> take_messages();
-  /// Number of programs that drive, or could.
-  std::size_t at_work() const { return ranks_.size(); }
 
  private:
   struct Rank {

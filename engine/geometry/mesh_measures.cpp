@@ -1,57 +1,8 @@
 #include "engine/geometry/mesh_measures.hpp"
 
-#include <cmath>
-#include <map>
-#include <utility>
-
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include "engine/math/rigid_transform.hpp"
 
 namespace septet::geometry {
-
-bool is_finite(const PolygonMesh& mesh) {
-  for (const glm::vec3& p : mesh.vertices_m)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-  for (const auto& uvs : mesh.corner_uvs)
-    for (const glm::vec2& uv : uvs)
-      if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return false;
-  return true;
-}
-
-bool is_closed(const PolygonMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const PolygonCorners& corners : mesh.polygons) {
-    const std::uint32_t count = corner_count(corners);
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint32_t a = corners[k], b = corners[(k + 1) % count];
-      if (++balance[{a, b}] > 1) return false;
-    }
-  }
-  for (const auto& [edge, count] : balance)
-    if (!balance.contains({edge.second, edge.first})) return false;
-  return !mesh.polygons.empty();
-}
-
-double signed_volume_m3(const PolygonMesh& mesh) {
-  double six_volumes = 0.0;
-  for (const PolygonCorners& corners : mesh.polygons)
-    for (std::uint32_t k = 1; k + 1 < corner_count(corners); ++k) {
-      const Vec3 a(mesh.vertices_m[corners[0]]), b(mesh.vertices_m[corners[k]]), c(mesh.vertices_m[corners[k + 1]]);
-      six_volumes += glm::dot(a, glm::cross(b, c));
-    }
-  return six_volumes / 6.0;
-}
-
-std::size_t triangle_count(const PolygonMesh& mesh, std::uint32_t subdivision_level) {
-  std::size_t count = 0;
-  for (const PolygonCorners& corners : mesh.polygons)
-    // The first step makes a quad of every corner, each further one four of every quad.
-    count += subdivision_level == 0 ? corner_count(corners) - 2
-                                    : std::size_t{corner_count(corners)} * 2 << 2 * (subdivision_level - 1);
-  return count;
-}
 
 Bounds bounds(const PolygonMesh& mesh) {
   Bounds result;

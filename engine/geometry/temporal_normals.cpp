@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "engine/core/check.hpp"
 #include "engine/geometry/face_normal_loops.hpp"
 
 namespace septet {
@@ -73,18 +72,6 @@ std::string_view name_of(NormalMethod method) {
   constexpr std::array<std::string_view, normal_method_count> names{
       "t_variant", "linear", "quadratic", "cubic", "vector_slerp", "spherical_de_casteljau", "quaternion_slerp"};
   return names[static_cast<std::size_t>(method)];
-}
-
-std::vector<MovingFace> moving_faces(std::span<const glm::vec3> from, std::span<const glm::vec3> to,
-                                     std::span<const std::array<std::uint32_t, 3>> triangles) {
-  SEPTET_CHECK(from.size() == to.size(), "{} and {} vertices", from.size(), to.size());
-  std::vector<MovingFace> faces(triangles.size());
-  for (std::size_t n = 0; n < faces.size(); ++n)
-    for (std::size_t c = 0; c < 3; ++c) {
-      faces[n].from[c] = from[triangles[n][c]];
-      faces[n].to[c] = to[triangles[n][c]];
-    }
-  return faces;
 }
 
 glm::vec3 face_normal(const MovingFace& face, float t) {

@@ -40,10 +40,6 @@ struct MovingFace {
   std::array<glm::vec3, 3> from, to;
 };
 
-/// The faces of an indexed mesh whose vertices go from one place to another.
-std::vector<MovingFace> moving_faces(std::span<const glm::vec3> from, std::span<const glm::vec3> to,
-                                     std::span<const std::array<std::uint32_t, 3>> triangles);
-
 /// The normal as eq. 1 gives it; zero for a face without area.
 glm::vec3 face_normal(const MovingFace& face, float t);
 

@@ -66,12 +66,6 @@ void fill(Image& image, std::int64_t x, std::int64_t y, std::int64_t width, std:
       blend_pixel(image, column, row, color, 1.0);
 }
 
-void blit(Image& image, const Image& source, std::int64_t x, std::int64_t y) {
-  for (std::uint32_t row = 0; row < source.height; ++row)
-    for (std::uint32_t column = 0; column < source.width; ++column)
-      blend_pixel(image, x + column, y + row, source.at(column, row), 1.0);
-}
-
 void line(Image& image, double x0, double y0, double x1, double y1, double width_px, Color color) {
   const double reach = width_px / 2.0 + 1.0;
   const double dx = x1 - x0, dy = y1 - y0;

@@ -11,9 +11,6 @@ Color blend(Color under, Color over, float coverage = 1.0f);
 /// The rectangle [x, x + width) × [y, y + height), blended.
 void fill(Image& image, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height, Color color);
 
-/// `source` with its upper left corner at (x, y), blended.
-void blit(Image& image, const Image& source, std::int64_t x, std::int64_t y);
-
 /// A straight stroke with round ends between two points, antialiased; pixel centres lie at halves.
 void line(Image& image, double x0, double y0, double x1, double y1, double width_px, Color color);
 

@@ -52,12 +52,4 @@ SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irrad
   return irradiance;
 }
 
-glm::vec3 irradiance_on(const SkyIrradiance& irradiance, const glm::vec2& sun_level, const glm::vec3& normal) {
-  const double x = glm::dot(sun_level, glm::vec2(normal)), y = sun_level.x * normal.y - sun_level.y * normal.x;
-  const std::array<double, 7> shape = functions(x, y, normal.z);
-  glm::vec3 sum(0.0f);
-  for (std::size_t i = 0; i < shape.size(); ++i) sum += irradiance[i] * static_cast<float>(shape[i]);
-  return glm::max(sum, glm::vec3(0.0f));
-}
-
 }  // namespace septet::instant

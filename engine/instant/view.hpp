@@ -28,7 +28,4 @@ struct FrameView {
 /// Eye of a view, world.
 Vec3 world_eye(const FrameView& view);
 
-/// From the eye through a place of the viewport, pixels from its upper left (a pixel's middle lies at ½); unit, world axes.
-Vec3 ray_through(const FrameView& view, double x_px, double y_px);
-
 }  // namespace septet::instant

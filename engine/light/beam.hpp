@@ -82,6 +82,10 @@ LIGHT_FN float beam_share(vec3 level, vec3 direction, float main_beam, float tim
 /// surface would at so low an angle.
 LIGHT_FN float beam_facing(float cosine) { return 0.7f * cosine + 0.3f; }
 
+/// What a lamp's light is divided by at a distance of which this is the square, m²: near the lamp, where it is no point, the light does not grow
+/// without limit.
+LIGHT_FN float lamp_spread_m2(float square_m2) { return square_m2 + 1.0f; }
+
 /// Share of retroreflected light that arrives beside the way to the lamp: `away` is 1 − the cosine of the angle between.
 LIGHT_FN float beam_returned(float away) { return 1.0f / (1.0f + away * 26000.0f); }
 

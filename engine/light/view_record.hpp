@@ -5,13 +5,12 @@
 /// Laid out alike by C++ and std140, as the records of records.hpp are.
 
 #include "engine/light/language.hpp"
+#include "engine/light/sky_irradiance.hpp"
 
 LIGHT_BEGIN
 
 LIGHT_CONST int most_headlights = 10;
 LIGHT_CONST int most_beacons = 4;
-/// Harmonics of sky and ground: engine/instant/sky_irradiance.hpp.
-LIGHT_CONST int irradiance_terms = 7;
 
 struct ViewUniforms {
   mat4 clip_from_relative;

@@ -1,5 +1,5 @@
 #pragma once
-/// Turning step by step, without trigonometry in the loop: unit vectors of any dimension, and orientations.
+/// Turning step by step, without trigonometry in the loop: unit vectors of any dimension.
 ///
 /// Source: Hast, Barrera and Bengtsson, "Incremental Spherical Interpolation with Quadratically Varying Angle" (SIGRAD
 /// 2006). After n of k steps the angle is θ(σ(n/k)² + (1−σ)n/k) (eqs. 7–11); a step is two complex multiplications
@@ -100,22 +100,11 @@ class IncrementalTurn {
       step_ = step_.renormalised();
     }
   }
-  Scalar whole_angle_rad() const { return angle_rad_; }
 
  private:
   Vector from_{}, across_{};
   Turned<Scalar> turned_, step_, step_step_;
   Scalar angle_rad_ = 0;
 };
-
-/// Turns between orientations, by the shorter path: q and −q are one orientation, so no pair is antipodal.
-inline Expected<IncrementalTurn<double, 4>> turn_between(const Quat& from, const Quat& to, std::size_t steps,
-                                                         double sigma = 0.0) {
-  const double sign = glm::dot(from, to) < 0.0 ? -1.0 : 1.0;
-  return IncrementalTurn<double, 4>::between({from.w, from.x, from.y, from.z},
-                                             {sign * to.w, sign * to.x, sign * to.y, sign * to.z}, steps, sigma);
-}
-
-inline Quat to_quat(const UnitVector<double, 4>& v) { return Quat(v[0], v[1], v[2], v[3]); }
 
 }  // namespace septet

@@ -70,9 +70,4 @@ bool BaselineTracker::is_live(Client client) const {
   return found != clients_.end() && found->second.live;
 }
 
-std::size_t BaselineTracker::live_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(clients_.begin(), clients_.end(), [](const auto& entry) { return entry.second.live; }));
-}
-
 }  // namespace septet::net

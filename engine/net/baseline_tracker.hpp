@@ -40,7 +40,6 @@ class BaselineTracker {
   /// The newest tick that all live clients have acknowledged; empty without one, or without a live client.
   std::optional<std::uint64_t> baseline() const;
   bool is_live(Client client) const;
-  std::size_t live_count() const;
 
  private:
   struct State {

@@ -135,10 +135,4 @@ class BucketSchedule {
   std::uint64_t splits_ = 0, traced_twice_ = 0;
 };
 
-/// How many pixels a bucket of side × side is traced too many where a filter reaches over its edge and samples are not shared: the
-/// paper's 4·r·l + 4·r². Ours has none: a sample belongs to one pixel (Filter).
-constexpr std::uint64_t padding_pixels(std::uint64_t side_px, std::uint64_t radius_px) {
-  return 4 * radius_px * side_px + 4 * radius_px * radius_px;
-}
-
 }  // namespace septet::raytrace

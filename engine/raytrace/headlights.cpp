@@ -33,7 +33,7 @@ HeadlightRow::HeadlightRow(std::span<const instant::Headlight> headlights, std::
   }
 }
 
-/// On a surface that looks at it; as in the rasteriser near the lamp, where it is no point, it does not grow without limit.
+/// On a surface that looks at it.
 inline HeadlightRow::Strengths HeadlightRow::strengths(std::size_t first, const glm::vec3& from_m, float time) const {
   std::array<const float*, numbers> row;
   for (std::size_t n = 0; n < row.size(); ++n) row[n] = rows_[n].data() + first;
@@ -44,7 +44,7 @@ inline HeadlightRow::Strengths HeadlightRow::strengths(std::size_t first, const 
     const float square = way.x * way.x + way.y * way.y + way.z * way.z;
     const float per_m = 1.0f / std::sqrt(std::max(square, 1e-6f));
     const glm::vec3 level(row[level_x][k], row[level_y][k], row[level_z][k]);
-    strengths[k] = row[intensity][k] * light::beam_share(level, way * per_m, row[main_beam][k], square + 1.0f);
+    strengths[k] = row[intensity][k] * light::beam_share(level, way * per_m, row[main_beam][k], light::lamp_spread_m2(square));
   }
   return strengths;
 }

@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "engine/core/check.hpp"
-#include "engine/core/parallel_for.hpp"
 
 namespace septet::raytrace {
 namespace {
 
-constexpr std::uint32_t bucket_side_px = 16;
 
 /// Offset from a pixel's middle, pixels.
 glm::vec2 filtered_offset(Filter filter, PathRandom& random) {
@@ -338,14 +334,6 @@ void RayTracer::set_photons(std::span<const std::vector<Photon>> of_buckets) {
   p.world->set_photons(buckets.empty() ? nullptr : &p.photons);
 }
 
-void send_photons(RayTracer& tracer, unsigned threads) {
-  const auto buckets = tracer.photon_buckets();
-  std::vector<std::vector<Photon>> photons(buckets.size());
-  parallel_for(
-      buckets.size(), [&](std::size_t n) { photons[n] = tracer.trace_photons(buckets[n]); }, threads);
-  tracer.set_photons(photons);
-}
-
 Bucket RayTracer::trace(const instant::PixelRectangle& rectangle) const {
   const Parts& p = *parts_;
   SEPTET_CHECK(p.world, "no instant was begun");
@@ -379,21 +367,5 @@ Bucket RayTracer::trace(const instant::PixelRectangle& rectangle, const SampleSe
 }
 
 const instant::Instant& RayTracer::instant() const { return parts_->instant; }
-
-TracedPicture whole_picture(const RayTracer& tracer, std::uint32_t width, std::uint32_t height,
-                            const std::function<bool(const Bucket&)>& done) {
-  TracedPicture picture(width, height);
-  const auto buckets = buckets_of(width, height, bucket_side_px);
-  std::mutex mutex;
-  std::atomic<bool> goes_on{true};
-  parallel_for(buckets.size(), [&](std::size_t n) {
-    if (!goes_on) return;
-    const Bucket bucket = tracer.trace(buckets[n]);
-    const std::scoped_lock lock(mutex);
-    picture.put(bucket);
-    if (done && !done(bucket)) goes_on = false;
-  });
-  return picture;
-}
 
 }  // namespace septet::raytrace

@@ -2,10 +2,8 @@
 /// The ray tracer: draws a ResolvedScene as the description of one instant says, pixel by pixel, without a graphics card.
 ///
 /// Call `begin` for each instant and `trace` for each bucket of its picture, from any threads, in any order, on any machines: a
-/// pixel is a function of the scene, the instant, the settings and its place, bit for bit. `whole_picture` does it all on this
-/// machine's cores. A sample whose light is not a number counts as black and is counted.
+/// pixel is a function of the scene, the instant, the settings and its place, bit for bit. A sample whose light is not a number counts as black and is counted.
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -121,13 +119,5 @@ class RayTracer {
   explicit RayTracer(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
-
-/// All photons of the instant begun last, by so many threads.
-void send_photons(RayTracer& tracer, unsigned threads);
-
-/// All buckets on this machine's cores. `done` hears each one as it comes, one at a time, from any thread; where it says no, no
-/// more are begun and the picture is not whole.
-TracedPicture whole_picture(const RayTracer& tracer, std::uint32_t width, std::uint32_t height,
-                            const std::function<bool(const Bucket&)>& done = {});
 
 }  // namespace septet::raytrace

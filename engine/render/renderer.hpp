@@ -100,7 +100,7 @@ class Renderer {
 
   /// The last frame without its passing texts: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.
   Expected<image::Image> read_back();
-  /// The light of the same frame, of which the picture is what a display shows at `exposure` (engine/light/tone_curve.hpp).
+  /// The light of the same frame, of which the picture is what a display shows (engine/light/tone_curve.hpp) at `exposure`.
   Expected<RadianceImage> read_radiance();
   /// Of the last frame.
   Exposure exposure() const;

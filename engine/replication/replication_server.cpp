@@ -318,8 +318,6 @@ void ReplicationServer::disconnect(ConnectionId connection) {
   state_->connections.erase(found);
 }
 
-bool ReplicationServer::knows(ConnectionId connection) const { return state_->connections.contains(connection); }
-
 Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connection, std::span<const std::byte> message) {
   const auto found = state_->connections.find(connection);
   SEPTET_CHECK(found != state_->connections.end(), "connection {} is not known", connection);

@@ -47,7 +47,6 @@ class ReplicationServer {
   void connect(ConnectionId connection, std::string identity);
   /// Its session is kept for a while.
   void disconnect(ConnectionId connection);
-  bool knows(ConnectionId connection) const;
 
   /// Returns the client's requested changes, for the owner of the store to apply or not. After an error the connection
   /// is to be dropped.

@@ -23,7 +23,6 @@ namespace septet::rig {
 /// A flat rectangle in space that the driver looks through.
 struct Window {
   Vec3 lower_left_m, lower_right_m, upper_left_m;
-  Vec3 upper_right_m() const { return lower_right_m + upper_left_m - lower_left_m; }
 };
 
 /// A mirror of the car: its glass, and whether it is real or shown by a screen.

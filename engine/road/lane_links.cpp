@@ -42,20 +42,6 @@ void enter_junction(const RoadNetwork& network, JunctionIndex index, RoadIndex f
   }
 }
 
-std::optional<int> neighbour(const RoadNetwork& network, const LanePosition& position, int side) {
-  const Road& road = network.roads[position.road];
-  const LaneSection& section = section_at(road, position.s_m);
-  if (!section.has_lane(position.lane)) return std::nullopt;
-  const bool along = runs_along_s(road, section, position.lane);
-  int lane = position.lane + (along ? side : -side);
-  if (lane == 0) lane += along ? side : -side;
-  if (!section.has_lane(lane) || !is_drivable(section.lane(lane).type)) return std::nullopt;
-  if (runs_along_s(road, section, lane) != along || lane_width_m(network, position.road, lane, position.s_m) <= 0.0) {
-    return std::nullopt;
-  }
-  return lane;
-}
-
 }  // namespace
 
 bool runs_along_s(const Road& road, const LaneSection& section, int lane) {
@@ -68,14 +54,6 @@ bool runs_along_s(const Road& road, const LaneSection& section, int lane) {
 bool runs_along_s(const RoadNetwork& network, const LanePosition& position) {
   const Road& road = network.roads[position.road];
   return runs_along_s(road, section_at(road, position.s_m), position.lane);
-}
-
-std::optional<int> lane_to_the_left(const RoadNetwork& network, const LanePosition& position) {
-  return neighbour(network, position, 1);
-}
-
-std::optional<int> lane_to_the_right(const RoadNetwork& network, const LanePosition& position) {
-  return neighbour(network, position, -1);
 }
 
 std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadIndex road_index,

@@ -1,8 +1,7 @@
 #pragma once
-/// Links of lanes: across lane sections, road links and junctions; neighbours; direction of travel.
+/// Links of lanes: across lane sections, road links and junctions; direction of travel.
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,10 +14,6 @@ namespace septet::road {
 /// do.
 bool runs_along_s(const Road& road, const LaneSection& section, int lane);
 bool runs_along_s(const RoadNetwork& network, const LanePosition& position);
-
-/// The lane beside this one, in the direction of travel, and only if it is drivable and runs in the same direction.
-std::optional<int> lane_to_the_left(const RoadNetwork& network, const LanePosition& position);
-std::optional<int> lane_to_the_right(const RoadNetwork& network, const LanePosition& position);
 
 /// Continuation of a lane just beyond the end of its section: the lane entered and the end of the section at which it
 /// is entered.

@@ -6,7 +6,6 @@
 /// command_codec.hpp. "Set" creates an absent object; "Destroy" of an absent one does nothing.
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -226,13 +225,6 @@ using Command = std::variant<NodeIndexSubscribe, NodeSubscribe, PartSubscribe, N
                              LightSet, HideSet, GeometrySizeSet, GeometryLayerSet, GeometryLayerDestroy, VerticesSet,
                              PolygonsSet, LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy,
                              BitmapSizeSet, BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet>;
-
-/// Address that a command overwrites: of two commands with equal addresses the later makes the earlier superfluous.
-struct CommandAddress {
-  std::uint64_t high = 0, low = 0;
-  auto operator<=>(const CommandAddress&) const = default;
-};
-CommandAddress address_of(const Command& command);
 
 /// "vertices set", for messages and logs.
 std::string_view name_of(const Command& command);

@@ -50,10 +50,6 @@ FollowingLaw::FollowingLaw(const FollowingParameters& driver)
       half_inverse_root_ab(0.5 / std::sqrt(driver.acceleration_mps2 * driver.comfortable_braking_mps2)),
       comfortable_braking_mps2(driver.comfortable_braking_mps2) {}
 
-double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m) {
-  return FollowingLaw(driver).acceleration(speed_mps, leader_speed_mps, gap_m);
-}
-
 double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m) {
   const FollowingLaw law(driver);
   double low = 0.0, high = driver.desired_speed_mps;

@@ -48,9 +48,6 @@ Driver with_worse_manners(const Driver& driver);
 inline constexpr double hardest_braking_mps2 = 9.0;
 inline constexpr double no_leader = std::numeric_limits<double>::infinity();
 
-/// IDM, eqs. 3 and 4: acceleration at `speed_mps` behind a leader `gap_m` ahead; infinite `gap_m` without one.
-double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m);
-
 /// The speed at which this gap is kept with no acceleration: the root of eq. 3, to 1e-12 m/s.
 double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m);
 
@@ -59,7 +56,7 @@ double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m);
 /// Δv) in equilibrium (Treiber and Kesting, "Traffic Flow Dynamics", 2013, section 15.4).
 double idm_stability_margin(const FollowingParameters& driver, double gap_m);
 
-/// IDM with its constants computed once, for the loop over all vehicles.
+/// IDM, eqs. 3 and 4, with its constants computed once, for the loop over all vehicles.
 struct FollowingLaw {
   double inverse_desired_speed = 1.0, time_gap_s = 1.0, acceleration_mps2 = 1.0;
   double standstill_gap_m = 2.0, half_inverse_root_ab = 1.0;
@@ -68,6 +65,7 @@ struct FollowingLaw {
   FollowingLaw() = default;
   explicit FollowingLaw(const FollowingParameters& driver);
 
+  /// Acceleration, m/s², behind a leader `gap_m` ahead; infinite `gap_m` without one.
   double acceleration(double speed_mps, double leader_speed_mps, double gap_m) const {
     const double ratio = speed_mps * inverse_desired_speed;
     const double ratio2 = ratio * ratio;

@@ -57,21 +57,6 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
   if (lane > 0) insert_entry(traffic.order.lanes[static_cast<std::size_t>(lane)], entry_of(traffic, i));
 }
 
-void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m, double speed_mps) {
-  const auto model = find_vehicle_model("ambulance");
-  SEPTET_CHECK(model.has_value(), "no model for vehicle {}", id);
-  const Driver driver{{38.0, 0.8, 2.0, 3.0, 2.0}, {}, 0.0};
-  const int lane = traffic.table.lowest + 1;
-  add_vehicle(traffic, id, *model, driver, lane, x_m, speed_mps);
-  traffic.emergency.back() = 1;
-  traffic.aside_m.back() = traffic.aside_target_m.back() = 0.5 * traffic.table.lane_width_m;
-  traffic.any_aside = true;
-  // It stands in both lanes of its line.
-  traffic.from_lane.back() = static_cast<std::int16_t>(lane - 1);
-  auto& left = traffic.order.lanes[static_cast<std::size_t>(lane - 1)];
-  insert_entry(left, entry_of(traffic, traffic.size() - 1));
-}
-
 namespace {
 
 /// Metres of the vehicle's path a metre of x.

@@ -153,8 +153,6 @@ CorridorTraffic empty_corridor(const road::RoadNetwork& network, const road::Lan
 /// Adds a vehicle; the caller ensures that its place is free.
 void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver, int lane,
                  double x_m, double speed_mps);
-/// Adds an ambulance that drives on the line between the two fastest lanes, past vehicles that make way.
-void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m, double speed_mps);
 
 /// Metres to the left of lane number 0's middle, with the corridor's nominal lane width: falls with the lane number.
 double lateral_m(const CorridorTraffic& traffic, std::size_t vehicle);

@@ -41,7 +41,7 @@ class TrafficEngine {
   virtual void append_participants(std::vector<Participant>& participants) const = 0;
   /// Adds all state that determines the traffic's future.
   virtual void add_to_hash(StateHash& hash) const = 0;
-  /// True where that state is all here, so that `save` and `restore` (engine/core/archive.hpp) may be called.
+  /// True where that state is all here, so that `save` and `restore` may be called (engine/core/archive.hpp).
   virtual bool can_be_saved() const { return false; }
   virtual void save(StateWriter&) const {}
   /// Restores an engine made with the same network. `reader` fails on other data than `save` wrote.

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""No document, comment or script names a folder or file of the tree that is not there.
+"""No document, comment or script names a folder or file of the tree that is not there, or a name in a file that does not have it.
 
     named_paths_test.py ROOT
 
 A name is a path from the root (engine/road/CHECKS.md), or, where it ends as a source does or stands in a document between backquotes,
 from within any folder (passes/smoke_pass); the file's ending may be left out. What users put into data folders is theirs to name.
+A name in a file is a name of the code beside a file: IceTile (passes/ice_tiles.hpp), IceTile of ice_tiles.hpp, `ice_tiles.hpp` (`IceTile`). It
+is known for one by two humps, an underscore, :: or its backquotes, and the file by its ending.
 Prints one line for each name that leads nowhere, and exits 1.
 """
 import pathlib
@@ -19,6 +21,12 @@ DATA = ("rigs", "scenarios", "vehicles")
 # Not within a longer path, and without what stands for something else: NAME, *, …, {a,b}, <folder>, $variable.
 NAME = re.compile(r"(?<![\w./\\{}$…*<>@:~-])((?:[a-z][\w-]*/)+[a-z_.][\w.-]*)/?(?![\w/\\…*<>{}$(-])")
 SOURCE = re.compile(r"\.(hpp|cpp|md|py|glsl|frag|vert|comp|cmake)$")
+# A name of the code and the file that has it, in either order; a sentence may run on over lines of a comment.
+CODE = r"(?:`(?P<quoted{0}>(?:\w+::)*\w+)(?:\(\))?`|(?P<plain{0}>(?:\w+::)+\w+|[A-Z][a-z0-9]+[A-Z]\w*|[a-z]\w*_\w*\w)(?:\(\))?)"
+FILE = r"(?P<file{0}>[a-z](?:[\w/-]*[\w-])?\.(?:hpp|cpp|h|c|glsl|frag|vert|comp|py))"
+IN_FILE = re.compile(r"(?<![\w:./`-])" + CODE.format(1) + r"(?:\s+\(`?| (?:of|in) `?)" + FILE.format(1) + r"(?=[`),.;:\s])|"
+                     r"(?<![\w./-])`?" + FILE.format(2) + r"`?\s+\(`(?P<quoted2>(?:\w+::)*\w+)(?:\(\))?`\)")
+NEXT_LINE = re.compile(r"\n[ \t]*(?://[/!]?<?|#)?")
 
 
 def files_of(root, folder=""):
@@ -64,7 +72,30 @@ def broken_names(root):
                         yield f"{file}:{number}: there is no {name}"
 
 
+def misplaced_names(root):
+    """Names of the code beside a file in which they do not occur."""
+    sources = [(name, path) for name, path in files_of(root) if path.is_file()]
+    words = {}
+    for file, path in sources:
+        if path.suffix not in READ or file.startswith(BY_OTHERS):
+            continue
+        text = path.read_text(errors="replace")
+        running = NEXT_LINE.sub(lambda end: " " * len(end[0]), text)
+        for found in IN_FILE.finditer(running):
+            part = "1" if found["file1"] else "2"
+            name = (found["quoted" + part] or found["plain1"]).split("::")[-1]
+            if running[:found.start()].endswith("#include "):
+                continue
+            meant = [at for other, at in sources if other == found["file" + part] or other.endswith("/" + found["file" + part])]
+            for at in meant:
+                words.setdefault(at, set(re.findall(r"\w+", at.read_text(errors="replace"))))
+            if not any(name in words[at] for at in meant):
+                line = text.count("\n", 0, found.start()) + 1
+                yield f"{file}:{line}: there is no {name} in {found['file' + part]}"
+
+
 if __name__ == "__main__":
-    broken = list(broken_names(pathlib.Path(sys.argv[1])))
+    root = pathlib.Path(sys.argv[1])
+    broken = list(broken_names(root)) + list(misplaced_names(root))
     print("\n".join(broken))
     sys.exit(1 if broken else 0)

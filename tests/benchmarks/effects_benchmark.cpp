@@ -15,6 +15,7 @@
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
+#include "tests/engine/effects/smoke/puffs_of.hpp"
 
 namespace septet::server {
 namespace {

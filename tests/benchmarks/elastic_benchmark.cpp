@@ -8,6 +8,7 @@
 
 #include "engine/physics/elastic/elastic_body.hpp"
 #include "engine/physics/elastic/step.hpp"
+#include "tests/engine/physics/elastic/fixed_nodes.hpp"
 
 namespace {
 

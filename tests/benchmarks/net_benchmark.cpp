@@ -10,23 +10,10 @@
 #include "engine/net/tick_publisher.hpp"
 #include "engine/net/tick_receiver.hpp"
 #include "engine/net/udp_socket.hpp"
+#include "tests/engine/net/tick_wire.hpp"
 
 namespace septet::net {
 namespace {
-
-class Recorder final : public DatagramSocket {
- public:
-  bool send(const Address&, std::span<const std::byte> bytes) override {
-    datagrams.emplace_back(bytes.begin(), bytes.end());
-    return true;
-  }
-  void flush() override {}
-  std::optional<ReceivedDatagram> receive() override { return std::nullopt; }
-  std::size_t receive_buffer_bytes() const override { return 0; }
-  std::vector<Bytes> datagrams;
-};
-
-Identity identity_of(std::uint8_t number) { return Identity::from_seed({number}); }
 
 // Hash tree, signature and datagrams of one tick, without a socket.
 void publish_tick(benchmark::State& state) {

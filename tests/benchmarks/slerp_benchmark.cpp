@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/math/incremental_turn.hpp"
+#include "tests/engine/math/orientation_turn.hpp"
 
 using namespace septet;
 

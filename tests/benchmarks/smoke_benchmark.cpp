@@ -3,6 +3,7 @@
 #include "engine/core/random.hpp"
 #include "engine/effects/smoke/attraction.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
+#include "tests/engine/effects/smoke/tunnel_grid.hpp"
 
 using namespace septet;
 using namespace septet::smoke;

@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "tests/engine/traffic/ambulance_between_lanes.hpp"
 #include "tests/engine/traffic/emergency_run.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 

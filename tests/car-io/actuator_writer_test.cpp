@@ -11,6 +11,7 @@
 
 #include "car-io/car_connection.hpp"
 #include "car-io/simulated_hid_device.hpp"
+#include "tests/car-io/car_side.hpp"
 
 namespace septet::car_io {
 namespace {

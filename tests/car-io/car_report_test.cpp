@@ -7,6 +7,7 @@
 
 #include "car-io/car_layout.hpp"
 #include "engine/core/random.hpp"
+#include "tests/car-io/car_side.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::car_io {

@@ -74,7 +74,6 @@ void read_reports(const CarLayout& layout, bool is_calibrated, std::deque<Bytes>
   }
   for (const Bytes& report : reports) {
     if (const auto axes = read_axes(layout, report); axes && !std::isfinite(axes->steering)) std::abort();
-    (void)decode_actuators(report);
     (void)decode_steering(report);
     (void)decode_device_status(report);
   }

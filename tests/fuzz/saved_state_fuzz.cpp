@@ -18,6 +18,7 @@
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/simulation/saved_state.hpp"
+#include "tests/engine/road/road_text.hpp"
 
 namespace septet {
 std::string version_text() { return "fuzz"; }  // A state is of one build.
@@ -31,13 +32,12 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-constexpr std::string_view road_text =
-    R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="R" length="2000" junction="-1"><planView>
-<geometry s="0" x="0" y="0" hdg="0" length="2000"><line/></geometry></planView><lanes><laneSection s="0"><left>
-<lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
-</left><center><lane id="0" type="none"/></center><right>
-<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
-</right></laneSection></lanes></road></OpenDRIVE>)";
+/// 2 km straight, one lane to the left and two to the right.
+std::string road_text() {
+  return road::SmallRoad{
+      .length_m = 2000.0, .sections = road::lane_section(road::left_lanes(1), road::right_lanes(2)), .id = "R"}
+      .xml();
+}
 
 constexpr std::string_view scenario_text =
     R"(<OpenSCENARIO><FileHeader revMajor="1" revMinor="3" date="2026-01-01T00:00:00" description="" author=""/>
@@ -61,7 +61,7 @@ struct Place {
   Bytes good;
 
   Place() {
-    auto roads = road::read_opendrive(road_text, "road");
+    auto roads = road::read_opendrive(road_text(), "road");
     require(roads.has_value());
     model.roads = std::move(*roads);
     auto scenario = scenario::read_scenario(scenario_text, "scenario.xosc", {});

@@ -8,6 +8,7 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
+#include "tests/engine/road/road_text.hpp"
 
 namespace {
 
@@ -16,12 +17,9 @@ using namespace septet;
 /// 2 km straight with two lanes each way: the road of the corpus' scenarios.
 const road::RoadNetwork& straight_road() {
   static const auto network = road::read_opendrive(
-      R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="R" length="2000" junction="-1"><planView>
-<geometry s="0" x="0" y="0" hdg="0" length="2000"><line/></geometry></planView><lanes><laneSection s="0"><left>
-<lane id="2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
-</left><center><lane id="0" type="none"/></center><right>
-<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
-</right></laneSection></lanes></road></OpenDRIVE>)",
+      road::SmallRoad{
+          .length_m = 2000.0, .sections = road::lane_section(road::left_lanes(2), road::right_lanes(2)), .id = "R"}
+          .xml(),
       "road");
   if (!network) std::abort();
   return *network;

@@ -8,6 +8,7 @@
 #include "engine/net/channel.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/secure_server.hpp"
+#include "tests/engine/net/tick_wire.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ std::span<const std::byte> next_part(ByteReader& input) {
 }
 
 void feed_strangers(ByteReader& input) {
-  static const Identity server_identity = Identity::from_seed({1}), client_identity = Identity::from_seed({2});
+  static const Identity server_identity = identity_of(1), client_identity = identity_of(2);
   Queue server_socket, client_socket;
   SecureServer server(server_socket, {server_identity, SessionId{1}, {{client_identity.public_key(), "screen"}}, {}});
   SecureClient client(client_socket, {there, server_identity.public_key(), client_identity, {}});

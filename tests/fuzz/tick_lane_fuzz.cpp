@@ -7,23 +7,12 @@
 
 #include "engine/net/tick_publisher.hpp"
 #include "engine/net/tick_receiver.hpp"
+#include "tests/engine/net/tick_wire.hpp"
 
 namespace {
 
 using namespace septet;
 using namespace septet::net;
-
-class Recorder final : public DatagramSocket {
- public:
-  bool send(const Address&, std::span<const std::byte> bytes) override {
-    datagrams.emplace_back(bytes.begin(), bytes.end());
-    return true;
-  }
-  void flush() override {}
-  std::optional<ReceivedDatagram> receive() override { return std::nullopt; }
-  std::size_t receive_buffer_bytes() const override { return 0; }
-  std::vector<Bytes> datagrams;
-};
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -64,7 +53,7 @@ void feed_altered(TickReceiver& receiver, const Identity& server, const SessionI
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Identity server = Identity::from_seed({1});
+  static const Identity server = identity_of(1);
   static const SessionId session{1};
   ByteReader input(std::as_bytes(std::span(data, size)));
   TickReceiver receiver(server.public_key());

@@ -14,6 +14,7 @@
 #include "engine/instant/scene_summary.hpp"
 #include "engine/raytrace/displayed.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 #include "tests/images/motorway_view.hpp"
 
 namespace septet {

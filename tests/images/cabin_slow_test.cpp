@@ -17,6 +17,7 @@
 #include "engine/render/renderer.hpp"
 #include "engine/rig/rig.hpp"
 #include "sim-client/frame/screen_frames.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 #include "tests/images/motorway_view.hpp"
 #include "tests/images/place_codes.hpp"
 #include "tests/shipped_files.hpp"

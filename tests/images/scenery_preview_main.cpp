@@ -38,6 +38,13 @@ namespace {
 constexpr double degree_rad = std::numbers::pi / 180.0;
 constexpr std::uint32_t width = 960, height = 640;
 
+/// `picture` with its upper left corner at (x, y); it lies within the sheet.
+void put(image::Image& sheet, const image::Image& picture, std::uint32_t x, std::uint32_t y) {
+  for (std::uint32_t row = 0; row < picture.height; ++row)
+    for (std::uint32_t column = 0; column < picture.width; ++column)
+      sheet.set(x + column, y + row, picture.at(column, row));
+}
+
 template <class T>
 T value_of(Expected<T> result) {
   if (result) return std::move(*result);
@@ -110,8 +117,7 @@ void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene, co
     if (i != 1) participant.speed_mps = 1.4;  // People walk, except one.
     if (i == 2) participant.wheel_spin_rad = 1.6;
     input.participants.push_back(participant);
-    image::blit(sheet, image::resize(drawn(renderer, input), width / 2, height / 2), (i % 2) * width / 2,
-                (i / 2) * height / 2);
+    put(sheet, image::resize(drawn(renderer, input), width / 2, height / 2), (i % 2) * width / 2, (i / 2) * height / 2);
   }
   must(image::write_png(out / fmt::format("{}.png", model.name), sheet, image::PngEffort::fast));
   fmt::print("{}: {} triangles, {} draws at 75 m\n", model.name, renderer.statistics().triangles,

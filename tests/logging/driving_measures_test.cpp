@@ -38,6 +38,13 @@ std::vector<Sample> closing_in(const std::vector<double>& ttc_s) {
   return samples;
 }
 
+/// Rate of a recording without a gap, whatever its units and its rate.
+double reversals_per_minute(std::span<const double> steering_rad, double rate_hz, const ReversalSettings& settings) {
+  const auto smooth = filtered_both_ways(butterworth_low_pass(settings.cut_off_hz, rate_hz), steering_rad);
+  const double length_s = static_cast<double>(steering_rad.size() - 1) / rate_hz;
+  return static_cast<double>(count_reversals(smooth, settings.gap_rad)) * 60.0 / length_s;
+}
+
 }  // namespace
 
 TEST_CASE("a quantile lies between two numbers in proportion and leaves out what is no number") {

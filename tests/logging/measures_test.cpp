@@ -138,14 +138,6 @@ TEST_CASE(
   CHECK(changes[0].lanes_to_left == -1);
 }
 
-TEST_CASE("mean time between lane changes is driving time over their number") {
-  const auto samples = drive_through({-3.5, -2.5, -1.0, 0.0, -1.0, -2.5, -3.5});
-  const auto changes = find_lane_changes(samples);
-  REQUIRE(changes.size() == 2);
-  CHECK(mean_time_between_lane_changes_s(samples, changes).value() == doctest::Approx(0.3));
-  CHECK_FALSE(mean_time_between_lane_changes_s(samples, {}).has_value());
-}
-
 TEST_CASE(
     "glances begin and end at the borders of their area, and a head that passes through one does not look there") {
   std::vector<Sample> samples;

@@ -1,23 +1,17 @@
 // An artificial HID device (uhid), as hidraw and evdev show it: reports that a good firmware never sends.
 
-#include <fcntl.h>
 #include <linux/input-event-codes.h>
 #include <linux/input.h>
-#include <linux/uhid.h>
-#include <poll.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -26,52 +20,26 @@
 #include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
 #include "car-io/joystick/input_device.hpp"
+#include "tests/car-io/car_side.hpp"
 #include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
+#include "tests/rig-vm/uhid_device.hpp"
 
 namespace septet::rig_vm {
 namespace {
 
 using namespace car_io;
 
-std::span<const std::byte> bytes_of(const void* data, std::size_t size) {
-  return {static_cast<const std::byte*>(data), size};
-}
-
-/// Reports of any bytes in; output and feature reports as the kernel hands them over.
+/// A car whose reports may be any bytes.
 class UserSpaceCar {
  public:
-  explicit UserSpaceCar(const char* serial) : file_(open("/dev/uhid", O_RDWR | O_CLOEXEC)) {
-    REQUIRE(file_ >= 0);
-    uhid_event event{};
-    event.type = UHID_CREATE2;
-    auto& made = event.u.create2;
-    std::strcpy(reinterpret_cast<char*>(made.name), "Septet car");
-    std::strcpy(reinterpret_cast<char*>(made.uniq), serial);
-    const auto descriptor = car_report_descriptor();
-    std::copy(descriptor.begin(), descriptor.end(), made.rd_data);
-    made.rd_size = static_cast<std::uint16_t>(descriptor.size());
-    made.bus = BUS_USB;
-    made.vendor = 0x1209;
-    made.product = 0x0001;
-    REQUIRE(write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event));
-    thread_ = std::thread([this] { serve(); });
-  }
-  ~UserSpaceCar() {
-    is_ending_ = true;
-    thread_.join();
-    close(file_);
-  }
-  UserSpaceCar(const UserSpaceCar&) = delete;
-  UserSpaceCar& operator=(const UserSpaceCar&) = delete;
+  explicit UserSpaceCar(const char* serial)
+      : device_({"Septet car", serial, car_report_descriptor(), 0x1209, 0x0001},
+                {[this](std::span<const std::byte> report) { take(report); },
+                 [this](std::span<const std::byte> report) { return set_watchdog(report); },
+                 [this] { return status(); }}) {}
 
-  void send(std::span<const std::byte> report) {
-    uhid_event event{};
-    event.type = UHID_INPUT2;
-    event.u.input2.size = static_cast<std::uint16_t>(report.size());
-    std::memcpy(event.u.input2.data, report.data(), report.size());
-    REQUIRE(write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event));
-  }
+  void send(std::span<const std::byte> report) { device_.send(report); }
   void send(double accelerator, std::uint8_t sequence) {
     DriverInput input;
     input.accelerator = accelerator;
@@ -89,41 +57,26 @@ class UserSpaceCar {
   }
 
  private:
-  void serve() {
-    while (!is_ending_) {
-      pollfd waiting{file_, POLLIN, 0};
-      if (poll(&waiting, 1, 20) <= 0) continue;
-      uhid_event event{}, answer{};
-      if (read(file_, &event, sizeof event) <= 0) continue;
-      const std::lock_guard lock(mutex_);
-      if (event.type == UHID_OUTPUT) {
-        const auto report = bytes_of(event.u.output.data, event.u.output.size);
-        if (const auto actuators = decode_actuators(report)) fan_ = actuators->fan;
-      } else if (event.type == UHID_SET_REPORT) {
-        const auto report = bytes_of(event.u.set_report.data, event.u.set_report.size);
-        const auto status = decode_device_status(report);
-        if (status && watchdog == Watchdog::keeps) status_ = *status;
-        answer.type = UHID_SET_REPORT_REPLY;
-        answer.u.set_report_reply.id = event.u.set_report.id;
-        answer.u.set_report_reply.err = watchdog == Watchdog::refuses ? 5 : 0;
-        REQUIRE(write(file_, &answer, sizeof answer) > 0);
-      } else if (event.type == UHID_GET_REPORT) {
-        const auto report = encode_device_status(status_);
-        answer.type = UHID_GET_REPORT_REPLY;
-        answer.u.get_report_reply.id = event.u.get_report.id;
-        answer.u.get_report_reply.size = static_cast<std::uint16_t>(report.size());
-        std::memcpy(answer.u.get_report_reply.data, report.data(), report.size());
-        REQUIRE(write(file_, &answer, sizeof answer) > 0);
-      }
-    }
+  void take(std::span<const std::byte> report) {
+    const std::lock_guard lock(mutex_);
+    if (const auto actuators = decode_actuators(report)) fan_ = actuators->fan;
+  }
+  int set_watchdog(std::span<const std::byte> report) {
+    const std::lock_guard lock(mutex_);
+    const auto status = decode_device_status(report);
+    if (status && watchdog == Watchdog::keeps) status_ = *status;
+    return watchdog == Watchdog::refuses ? EIO : 0;
+  }
+  Bytes status() {
+    const std::lock_guard lock(mutex_);
+    const auto report = encode_device_status(status_);
+    return {report.begin(), report.end()};
   }
 
-  int file_;
-  std::atomic<bool> is_ending_ = false;
   std::mutex mutex_;  ///< Guards the members below.
   DeviceStatus status_{.firmware = 1, .watchdog_ms = 1000};
   double fan_ = -1.0;
-  std::thread thread_;
+  UhidDevice device_;  ///< Last: it answers with the others.
 };
 
 OpenHidDevice opener(const char* serial) {

@@ -1,21 +1,13 @@
 // An artificial wheel of HID PID (uhid): the kernel makes a joystick of it, without force feedback.
 
-#include <fcntl.h>
 #include <linux/input.h>
-#include <linux/uhid.h>
-#include <poll.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
-#include <thread>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -28,47 +20,27 @@
 #include "tests/car-io/pid/simulated_pid_wheel.hpp"
 #include "tests/relative.hpp"
 #include "tests/rig-vm/guest.hpp"
+#include "tests/rig-vm/uhid_device.hpp"
 
 namespace septet::rig_vm {
 namespace {
 
 using namespace car_io;
 
-std::span<const std::byte> report_of(const std::uint8_t* data, std::size_t size) {
-  return {reinterpret_cast<const std::byte*>(data), size};
-}
-
 class PidWheelOnUhid {
  public:
-  PidWheelOnUhid() : file_(open("/dev/uhid", O_RDWR | O_CLOEXEC)) {
-    REQUIRE(file_ >= 0);
-    uhid_event event{};
-    event.type = UHID_CREATE2;
-    auto& made = event.u.create2;
-    std::strcpy(reinterpret_cast<char*>(made.name), "PID wheel");
-    std::copy(std::begin(pid_wheel_descriptor), std::end(pid_wheel_descriptor), made.rd_data);
-    made.rd_size = sizeof pid_wheel_descriptor;
-    made.bus = BUS_USB;
-    made.vendor = 0x1234;
-    made.product = 0x0f0f;
-    REQUIRE(write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event));
-    thread_ = std::thread([this] { serve(); });
-  }
-  ~PidWheelOnUhid() {
-    is_ending_ = true;
-    thread_.join();
-    close(file_);
-  }
-  PidWheelOnUhid(const PidWheelOnUhid&) = delete;
-  PidWheelOnUhid& operator=(const PidWheelOnUhid&) = delete;
+  PidWheelOnUhid()
+      : device_({"PID wheel", "", pid_wheel_descriptor, 0x1234, 0x0f0f},
+                {[this](std::span<const std::byte> report) { take(report); },
+                 [this](std::span<const std::byte> report) {
+                   take(report);
+                   return 0;
+                 },
+                 [this] { return block_load(); }}) {}
 
   void turn_to(std::int16_t x) {
-    uhid_event event{};
-    event.type = UHID_INPUT2;
     const std::uint8_t report[] = {1, static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(x >> 8), 0, 0, 0};
-    event.u.input2.size = sizeof report;
-    std::memcpy(event.u.input2.data, report, sizeof report);
-    REQUIRE(write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event));
+    device_.send(std::as_bytes(std::span(report)));
   }
   double playing(int type) {
     const std::lock_guard lock(mutex_);
@@ -80,36 +52,18 @@ class PidWheelOnUhid {
   }
 
  private:
-  void serve() {
-    while (!is_ending_) {
-      pollfd waiting{file_, POLLIN, 0};
-      if (poll(&waiting, 1, 20) <= 0) continue;
-      uhid_event event{}, answer{};
-      if (read(file_, &event, sizeof event) <= 0) continue;
-      const std::lock_guard lock(mutex_);
-      if (event.type == UHID_OUTPUT) {
-        wheel_.take(report_of(event.u.output.data, event.u.output.size), now_s());
-      } else if (event.type == UHID_SET_REPORT) {
-        wheel_.take(report_of(event.u.set_report.data, event.u.set_report.size), now_s());
-        answer.type = UHID_SET_REPORT_REPLY;
-        answer.u.set_report_reply.id = event.u.set_report.id;
-        REQUIRE(write(file_, &answer, sizeof answer) > 0);
-      } else if (event.type == UHID_GET_REPORT) {
-        const auto report = wheel_.block_load();
-        answer.type = UHID_GET_REPORT_REPLY;
-        answer.u.get_report_reply.id = event.u.get_report.id;
-        answer.u.get_report_reply.size = static_cast<std::uint16_t>(report.size());
-        std::memcpy(answer.u.get_report_reply.data, report.data(), report.size());
-        REQUIRE(write(file_, &answer, sizeof answer) > 0);
-      }
-    }
+  void take(std::span<const std::byte> report) {
+    const std::lock_guard lock(mutex_);
+    wheel_.take(report, now_s());
+  }
+  Bytes block_load() {
+    const std::lock_guard lock(mutex_);
+    return wheel_.block_load();
   }
 
-  int file_;
-  std::atomic<bool> is_ending_ = false;
   std::mutex mutex_;  ///< Of the wheel.
   SimulatedPidWheel wheel_;
-  std::thread thread_;
+  UhidDevice device_;  ///< Last: it answers with the wheel.
 };
 
 Expected<std::unique_ptr<InputDevice>> open_pid_wheel() { return open_input_device({0x1234, 0x0f0f, ""}); }

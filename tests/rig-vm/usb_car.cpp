@@ -12,6 +12,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/car-io/car_side.hpp"
 #include "tests/rig-vm/guest.hpp"
 
 namespace septet::rig_vm {

@@ -7,6 +7,7 @@
 #include "car-io/simulated_hid_device.hpp"
 #include "sim-server/drive/car_motion.hpp"
 #include "sim-server/drive/driver_seat.hpp"
+#include "tests/car-io/car_side.hpp"
 #include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "engine/road/lane_geometry.hpp"
-#include "engine/road/opendrive_reader.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "tests/engine/road/road_files.hpp"
 #include "tests/relative.hpp"
@@ -54,17 +53,9 @@ TEST_CASE("headway and gap of the log are along the lane in which both drive, no
     const int lane = bend.lane;
     CAPTURE(curvature);
     CAPTURE(lane);
-    const auto width = [](int id) {
-      return fmt::format(R"(<lane id="{}" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)", id);
-    };
-    const auto roads = road::read_opendrive(
-        fmt::format(
-            R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="290" junction="-1"><planView>)"
-            R"(<geometry s="0" x="0" y="0" hdg="0" length="290"><arc curvature="{}"/></geometry></planView><lanes><laneSection s="0">)"
-            R"(<center><lane id="0" type="none"/></center><right>{}{}</right></laneSection></lanes></road></OpenDRIVE>)",
-            curvature, width(-1), width(-2)),
-        "bend.xodr");
-    REQUIRE(roads);
+    const road::RoadNetwork roads = road::read_or_fail(road::SmallRoad{
+        .length_m = 290.0, .geometry = road::arc(curvature), .sections = road::lane_section("", road::right_lanes(2))}
+                                                           .xml());
     const VehicleModel& own = vehicle_models()[*find_vehicle_model("volvo-s80")];
     const VehicleModel& saloon = vehicle_models()[*find_vehicle_model("saloon")];
     const double own_s_m = 60.0, ahead_s_m = 112.0;
@@ -74,14 +65,14 @@ TEST_CASE("headway and gap of the log are along the lane in which both drive, no
       body.id = id;
       body.model = *find_vehicle_model(id == 1 ? "volvo-s80" : "saloon");
       body.world_from_vehicle =
-          road::world_from_lane(road::evaluate_lane(*roads, {0, lane, id == 1 ? own_s_m : ahead_s_m, 0.0}));
+          road::world_from_lane(road::evaluate_lane(roads, {0, lane, id == 1 ? own_s_m : ahead_s_m, 0.0}));
       snapshot.participants.push_back(body);
     }
     const double stretch = 1.0 - curvature * (lane + 0.5) * 3.5;
     snapshot.driver_car.participant = 1;
     snapshot.driver_car.lane = lane;
     snapshot.driver_car.road_s_m = own_s_m + own.wheelbase_m / stretch;
-    const auto leader = find_leader(snapshot, *roads);
+    const auto leader = find_leader(snapshot, roads);
     REQUIRE(leader);
     const double between_m = (ahead_s_m - own_s_m) * stretch;
     CHECK(leader->distance_gap_m == relative(between_m - saloon.rear_overhang_m - own.front_m(), 1e-6));

@@ -19,6 +19,7 @@
 #include "sim-server/drive/traffic_choice.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
 #include "tests/checkout.hpp"
+#include "tests/engine/road/road_text.hpp"
 
 namespace septet::server {
 namespace {
@@ -53,16 +54,15 @@ std::string lane_text(int id, const std::string& type, const std::string& link,
 /// 600 m with a limit, the driver's car at 60 m, twelve vehicles asked for.
 std::shared_ptr<const simulation::Model> own_road(const std::filesystem::path& folder, const RoadText& text) {
   ::setenv("SEPTET_DATA", source_folder().c_str(), 1);
-  const std::string section =
-      R"(<left><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></left><center><lane id="0" type="none"/></center>)";
-  std::ofstream(folder / "road.xodr") << fmt::format(
-      R"(<OpenDRIVE><header revMajor="1" revMinor="6"/><road id="7" length="600" junction="-1"><type s="0" type="town"><speed max="50" unit="km/h"/></type>)"
-      R"(<planView><geometry s="0" x="0" y="0" hdg="0" length="600">{}</geometry></planView><lanes>)"
-      R"(<laneSection s="0">{}<right>{}</right></laneSection>{}</lanes></road></OpenDRIVE>)",
-      text.shape, section, text.first,
-      text.second.empty()
-          ? std::string()
-          : fmt::format(R"(<laneSection s="300">{}<right>{}</right></laneSection>)", section, text.second));
+  const std::string left = road::left_lanes(1);
+  const road::SmallRoad road{
+      .length_m = 600.0,
+      .geometry = text.shape,
+      .sections = road::lane_section(left, text.first) +
+                  (text.second.empty() ? std::string() : road::lane_section(left, text.second, 300.0)),
+      .id = "7",
+      .before_plan = R"(<type s="0" type="town"><speed max="50" unit="km/h"/></type>)"};
+  std::ofstream(folder / "road.xodr") << road.xml();
   std::ofstream(folder / "road.xosc")
       << R"(<OpenSCENARIO><FileHeader revMajor="1" revMinor="2" date="2026-01-01T00:00:00" author="a" description="d"/>
 <ParameterDeclarations/><CatalogLocations/><RoadNetwork><LogicFile filepath="road.xodr"/></RoadNetwork>

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "engine/road/opendrive_reader.hpp"
+#include "tests/engine/road/road_files.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 #include "tests/relative.hpp"
 
@@ -52,14 +52,8 @@ class StraightSumo final : public SumoClient {
 };
 
 road::RoadNetwork straight_road() {
-  auto network = road::read_opendrive(
-      R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="5000" junction="-1"><planView>)"
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="5000"><line/></geometry></planView><lanes><laneSection s="0">)"
-      R"(<center><lane id="0" type="none"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane>)"
-      R"(</right></laneSection></lanes></road></OpenDRIVE>)",
-      "straight.xodr");
-  REQUIRE(network.has_value());
-  return std::move(*network);
+  return road::read_or_fail(
+      road::SmallRoad{.length_m = 5000.0, .sections = road::lane_section("", road::lane(-1, 4.0))}.xml());
 }
 
 struct Scene {
@@ -152,27 +146,18 @@ TEST_CASE("a SUMO that goes away is one error and the traffic stands still from 
 }
 
 TEST_CASE("a route leads as far as lanes do, and through sections of one road whose lanes the file does not link") {
-  const auto lane = [](int id, const std::string& type) {
-    return fmt::format(R"(<lane id="{}" type="{}"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)", id, type);
-  };
-  const auto road_of = [&](const std::string& second) {
-    auto roads = road::read_opendrive(
-        R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="600" junction="-1"><planView>)"
-        R"(<geometry s="0" x="0" y="0" hdg="0" length="600"><line/></geometry></planView><lanes><laneSection s="0">)"
-        R"(<center><lane id="0" type="none"/></center><right>)" +
-            lane(-1, "driving") +
-            R"(</right></laneSection><laneSection s="300"><center><lane id="0" type="none"/></center><right>)" +
-            second + "</right></laneSection></lanes></road></OpenDRIVE>",
-        "sections.xodr");
-    REQUIRE(roads);
-    return std::move(*roads);
+  const auto road_of = [](const std::string& second) {
+    return road::read_or_fail(
+        road::SmallRoad{.length_m = 600.0,
+                        .sections = road::lane_section("", road::lane(-1, 3.5)) + road::lane_section("", second, 300.0)}
+            .xml());
   };
   const auto edges_of_route = [](const road::RoadNetwork& roads) {
     const auto corridor = traffic::build_corridor(roads, {0, -1, 1.0, 0.0});
     return place_in_sumo(make_sumo_network(roads), roads, corridor, 1, 100.0).route.size();
   };
-  CHECK(edges_of_route(road_of(lane(-1, "driving"))) == 2);
-  CHECK(edges_of_route(road_of(lane(-1, "sidewalk") + lane(-2, "driving"))) == 1);
+  CHECK(edges_of_route(road_of(road::lane(-1, 3.5))) == 2);
+  CHECK(edges_of_route(road_of(road::lane(-1, 3.5, "", "sidewalk") + road::lane(-2, 3.5))) == 1);
 }
 
 TEST_CASE("a road becomes one edge a direction whose lanes begin with the right-most") {

@@ -203,12 +203,4 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   return keyframe;
 }
 
-std::vector<EffectKeyframe> effect_keyframes(const State& state) {
-  std::vector<EffectKeyframe> result;
-  if (!state.shards.empty()) result.push_back({first_effect_id, keyframe_kind, encode(keyframe_of(state.shards))});
-  for (const Piece& piece : state.pieces)
-    result.push_back({first_effect_id + (piece.id & 0xffffff), keyframe_kind, encode(keyframe_of(piece))});
-  return result;
-}
-
 }  // namespace septet::debris

@@ -47,7 +47,4 @@ Bytes encode(const Keyframe& keyframe);
 /// Error: bytes that `encode` would not write; safe on hostile bytes.
 Expected<Keyframe> decode(std::span<const std::byte> bytes);
 
-/// All debris, ascending id, ready for a snapshot.
-std::vector<EffectKeyframe> effect_keyframes(const State& state);
-
 }  // namespace septet::debris

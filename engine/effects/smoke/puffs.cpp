@@ -30,16 +30,4 @@ void add_puffs(const Keyframe& keyframe, double time_s, std::vector<Puff>& puffs
   }
 }
 
-std::vector<Puff> puffs_of(std::span<const EffectKeyframe> effects, double time_s, std::uint32_t* refused) {
-  std::vector<Puff> puffs;
-  for (const EffectKeyframe& effect : effects) {
-    if (effect.kind != keyframe_kind) continue;
-    if (const auto keyframe = decode(effect.data))
-      add_puffs(*keyframe, time_s, puffs);
-    else if (refused)
-      ++*refused;
-  }
-  return puffs;
-}
-
 }  // namespace septet::smoke

@@ -56,9 +56,4 @@ Grid make_grid(const RigidTransform& world_from_grid, double cell_m, int nx, int
 /// Makes a wall of every cell for whose centre `is_wall` is true (world frame).
 void add_walls(Grid& grid, const std::function<bool(const Vec3& world_m)>& is_wall);
 
-/// A tunnel along x of the grid: a box of this length whose cells outside the arch (half width, height of the side
-/// walls, height of the crown over the floor; metres) are wall. Both portals are open.
-Grid make_tunnel_grid(const RigidTransform& world_from_floor_start, double cell_m, double length_m, double half_width_m,
-                      double side_height_m, double crown_height_m);
-
 }  // namespace septet::smoke

@@ -81,7 +81,4 @@ struct Puff {
 /// Appends the puffs of a keyframe as they stand at a simulated time (clamped to the keyframe's span).
 void add_puffs(const Keyframe& keyframe, double time_s, std::vector<Puff>& puffs);
 
-/// All smoke of a snapshot at a time. Unreadable keyframes are left out and counted in `refused`.
-std::vector<Puff> puffs_of(std::span<const EffectKeyframe> effects, double time_s, std::uint32_t* refused = nullptr);
-
 }  // namespace septet::smoke

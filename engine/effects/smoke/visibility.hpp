@@ -1,8 +1,7 @@
 #pragma once
-/// Visibility through smoke: extinction and the transmittance of lines of sight.
+/// Visibility through smoke.
 ///
-/// Extinction of a cell is the sum of its particles' cross-sections over its volume (1/m); transmittance along a line
-/// is exp(−∫ extinction ds) (Beer and Lambert). A screen's picture uses the same cross-sections (smoke_keyframe.hpp).
+/// Extinction of a cell is the sum of its particles' cross-sections over its volume (1/m). A screen's picture uses the same cross-sections (smoke_keyframe.hpp).
 
 #include <optional>
 
@@ -12,9 +11,6 @@ namespace septet::smoke {
 
 /// 1/m at a place of the world; 0 outside the grid.
 double extinction_per_m(const State& state, const Vec3& world_m);
-
-/// Share of the light that passes from one place to the other, 0 to 1. Walls do not count.
-double transmittance(const State& state, const Vec3& from_m, const Vec3& to_m);
 
 /// Distance at which an object is seen through this extinction: 3 over it for reflecting ones, 8 over it for lamps and
 /// lit signs (Jin, "Visibility through fire smoke"). Empty (unlimited) without smoke.

@@ -1,5 +1,5 @@
 #pragma once
-/// Measures of an elastic body: energies, momenta, volumes, stresses.
+/// Measures of an elastic body: energies, momenta, stresses.
 
 #include <Eigen/Core>
 
@@ -23,11 +23,7 @@ struct RigidMotion {
 };
 RigidMotion rigid_motion(const ElasticBody& body);
 
-double least_determinant_of(const ElasticBody& body);
-double volume_m3(const ElasticBody& body);
 /// Cauchy stress of one element, σ = F S Fᵀ / det F.
 Eigen::Matrix3d cauchy_stress_pa(const ElasticBody& body, int element);
-/// Internal force on every node, −∂U/∂x.
-std::vector<Eigen::Vector3d> internal_forces_n(const ElasticBody& body);
 
 }  // namespace septet::elastic

@@ -83,7 +83,4 @@ void derive_structure(ElasticBody& body);
 /// Call after changes of `fixed` or of the elements' rest shapes.
 void invalidate_rest_factor(ElasticBody& body);
 
-/// Fixes every node within the box [low, high] of the rest shape.
-void fix_nodes(ElasticBody& body, const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);
-
 }  // namespace septet::elastic

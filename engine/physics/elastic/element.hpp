@@ -96,12 +96,4 @@ inline void add_volume_stiffness(const Element& e, const Eigen::Matrix3d& f, dou
   });
 }
 
-/// Adds V (g_aᵀ S g_b) I, the geometric stiffness of a stress.
-inline void add_geometric_stiffness(const Element& e, const Eigen::Matrix3d& stress_pa, BlockMatrix& matrix) {
-  const auto g = shape_gradients(e);
-  for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
-    return e.rest_volume_m3 * g[a].dot(stress_pa * g[b]) * Eigen::Matrix3d::Identity();
-  });
-}
-
 }  // namespace septet::elastic

@@ -5,8 +5,8 @@
 #include "engine/physics/vehicle/equations_of_motion.hpp"
 #include "engine/physics/vehicle/published_chassis.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
-#include "engine/physics/vehicle/tyre.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
+#include "engine/physics/vehicle/wheel_load.hpp"
 
 // Velocities are advanced with forces at the old positions, positions with the new velocities (symplectic Euler);
 // brakes and tyres are implicit in wheel spin and in deflection. Left out: gyroscopic moments of the wheels.
@@ -16,163 +16,7 @@ namespace {
 
 constexpr double air_density_kgpm3 = 1.225;
 
-/// One wheel during one step, in the body's axes.
-struct WheelLoad {
-  WheelPlace place;
-  Vec3 contact_m{0.0};
-  Vec3 force_n{0.0};
-  Vec3 aligning_nm{0.0};
-  Vec3 rolling_n{0.0};             ///< Part of force_n along the wheel's heading.
-  double rolling_torque_nm = 0.0;  ///< Torque of that part on the wheel, against its spin.
-  double lean_nm = 0.0;            ///< Moment of the load on a contact shifted sideways.
-  double shaft_torque_nm = 0.0;    ///< Drive and brake together, about the spin axis.
-  double brake_torque_nm = 0.0;    ///< The brake's share.
-};
-
 double square(double x) { return x * x; }
-
-/// Spin after one step. The brake holds up to its torque and never turns the wheel.
-double spin_wheel(double spin_radps, double torque_nm, double brake_nm, double inertia_kgm2, double dt_s,
-                  double& brake_used_nm) {
-  const double free_radps = spin_radps + dt_s * torque_nm / inertia_kgm2;
-  const double most_radps = dt_s * brake_nm / inertia_kgm2;
-  const double taken_radps = std::clamp(free_radps, -most_radps, most_radps);
-  brake_used_nm = -taken_radps * inertia_kgm2 / dt_s;
-  return free_radps - taken_radps;
-}
-
-/// The plane that carries a wheel: its ground, or the one that touches an edge across the line from there to the
-/// wheel's centre (`edge_m` stays set).
-WheelGround carrying_plane(const WheelGround& ground, const Vec3& centre_m, const Vec3& forward) {
-  WheelGround result = ground;
-  result.edge_m.reset();
-  if (!ground.edge_m) return result;
-  const Vec3 to_centre = centre_m - *ground.edge_m;
-  const double ahead_m = glm::dot(to_centre, forward) / glm::length(forward);
-  const double up_m = glm::dot(to_centre, ground.normal);
-  const double distance_m = std::hypot(ahead_m, up_m);
-  constexpr double least_up_m = 0.05;  // A higher edge than the hub is a wall: the hull meets it.
-  if (up_m < least_up_m || distance_m >= glm::dot(ground.normal, centre_m - ground.point_m)) return result;
-  result.normal = glm::normalize(up_m * ground.normal + ahead_m / glm::length(forward) * forward);
-  result.point_m = centre_m - distance_m * result.normal;
-  result.edge_m = ground.edge_m;
-  return result;
-}
-
-/// Contact, tyre force and new spin of one wheel.
-WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& known, int index, const ChassisInput& input,
-                        const WheelGround& ground, double dt_s, const VehicleState& state, const Vec3& velocity_mps,
-                        double opposite_rate_mps, WheelState& wheel) {
-  const TyreParameters& tyre = parameters.tyre;
-  const Quat world_from_body = state.world_from_body.orientation;
-  WheelLoad load;
-  wheel.steer_rad = wheel_steer_rad(parameters, index, wheel, input.steer_rad);
-  load.place = place_wheel(parameters, known, index, wheel, wheel.steer_rad);
-  const Vec3& axis = load.place.spin_axis;
-  const Vec3& centre_m = load.place.centre_m;
-
-  const WheelGround met =
-      carrying_plane(ground, state.world_from_body * centre_m, world_from_body * glm::cross(axis, Vec3(0.0, 0.0, 1.0)));
-  const Vec3 normal = glm::conjugate(world_from_body) * met.normal;
-  // The published height of an axle leaves out that its centre moves sideways under a leaning body.
-  const Vec3 measured_m =
-      parameters.as_published
-          ? Vec3(centre_m.x, side_of(index) * 0.5 * parameters.suspension[axle_of(index)].track_m, centre_m.z)
-          : centre_m;
-  const double height_m = glm::dot(met.normal, state.world_from_body * measured_m - met.point_m);
-  // From 0.6 of the radius on the rim would be flat; the force stays at its value there.
-  const double deflection_m = std::min(tyre.radius_m - height_m, 0.6 * tyre.radius_m);
-  const Vec3 across = glm::cross(axis, normal);
-  const double across_size = glm::length(across);
-  // False in the air, or where the wheel lies on its side or above the car.
-  const bool touching = deflection_m > 0.0 && normal.z > 0.3 && across_size > 0.3;
-
-  const double effective_radius_m =
-      tyre.published ? tyre.radius_m : tyre.radius_m - std::clamp(deflection_m, 0.0, 0.1) / 3.0;
-  double rolling_nm = 0.0;
-  wheel.force_n = Vec3(0.0);
-  wheel.aligning_nm = 0.0;
-  wheel.squeeze_m = touching ? deflection_m : 0.0;
-  press_wheel(tyre, ground.yields ? 0.0 : wheel.squeeze_m, dt_s, wheel.damage);
-  if (touching) {
-    const Vec3 body_forward = level_forward(normal), body_left = glm::cross(normal, body_forward);
-    // The published heading is the steer angle's alone, although a wheel that leans on a pitched body turns by that.
-    const Vec3 forward = parameters.as_published
-                             ? std::cos(wheel.steer_rad) * body_forward + std::sin(wheel.steer_rad) * body_left
-                             : across / across_size;
-    const Vec3 left = glm::cross(normal, forward);
-    // A round wheel's lowest point lies under its centre, however the body pitches; sideways it follows the axle.
-    load.contact_m = centre_m - height_m * normal;
-    if (!met.edge_m) {
-      load.contact_m.y = load.place.contact_left_m;
-      load.contact_m.z = centre_m.z - height_m * (1.0 - square(normal.x)) / normal.z;
-    }
-    const SuspensionParameters& suspension = parameters.suspension[axle_of(index)];
-    Vec3 path_mps = wheel.travel_rate_mps * Vec3(load.place.contact_slope, 1.0);
-    if (suspension.rigid_axle) {
-      // Its joint hangs on the axle: the lower the wheel's centre, the deeper the joint lies under the contact, which
-      // moves only as the axle leans.
-      load.place.contact_slope.y +=
-          side_of(index) * (height_m - known.centre_z_m[axle_of(index)]) / (0.5 * suspension.track_m);
-      path_mps.y = 0.5 * (wheel.travel_rate_mps - opposite_rate_mps) * load.place.contact_slope.y;
-    }
-    const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) + path_mps;
-    const double out_mps = glm::dot(patch_mps, normal);
-    double load_n = std::max(
-        0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) - tyre.vertical_damping_nspm * out_mps);
-    // A wheel whose hub lies under the ground has not been driven there: it is lifted out slowly, not thrown.
-    constexpr double most_out_mps = 1.0;
-    if (height_m < 0.0) load_n *= std::clamp(1.0 - out_mps / most_out_mps, 0.0, 1.0);
-    TyreContact contact;
-    contact.load_n = load_n;
-    contact.friction = ground.friction * wheel.damage.grip();
-    contact.firmness = wheel.damage.firmness();
-    contact.rolling_mps = wheel.spin_radps * effective_radius_m;
-    contact.forward_mps = glm::dot(patch_mps, forward);
-    contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
-    contact.inclination_rad = glm::dot(axis, normal);
-    if (parameters.as_published) {
-      const Vec2 published_mps =
-          published_contact_velocity_mps(parameters, known, index, state, velocity_mps, normal, height_m);
-      contact.forward_mps = published_mps.x;
-      contact.sliding_mps = {published_mps.x - contact.rolling_mps, published_mps.y};
-      contact.inclination_rad = published_inclination_rad(axis, normal);
-    }
-    contact.length_m = std::sqrt(8.0 * tyre.radius_m * deflection_m);
-    if (load_n > 1.0) {
-      const TyreForce steady = steady_force(tyre, contact);
-      const double most_n = 1.3 * load_n * ground.friction / tyre.reference_friction;
-      const Vec2 force_n = relax(steady, most_n, dt_s, wheel.deflection_m);
-      wheel.force_n = Vec3(force_n, load_n);
-      wheel.aligning_nm = -steady.trail_m * force_n.y;
-      wheel.slip = steady.slip.x;
-      wheel.slip_angle_rad = std::atan(steady.slip.y);
-      load.force_n = force_n.x * forward + force_n.y * left + load_n * normal;
-      load.rolling_n = force_n.x * forward;
-      load.rolling_torque_nm = force_n.x * effective_radius_m;
-      load.lean_nm = load_n * force_n.y * suspension.contact_by_lateral_force_mpn;
-      load.aligning_nm = wheel.aligning_nm * normal;
-      rolling_nm = ground.rolling_resistance * wheel.damage.rolling_resistance() * load_n * effective_radius_m *
-                   (tyre.rolling_resistance + tyre.rolling_resistance_s2pm2 * square(contact.rolling_mps));
-    }
-  }
-  if (wheel.force_n.z <= 0.0) {
-    wheel.deflection_m = Vec2(0.0);
-    wheel.slip = wheel.slip_angle_rad = 0.0;
-  }
-
-  const double drive_nm = input.drive_torque_nm[index];
-  const double brake_nm = std::max(0.0, input.brake_torque_nm[index]);
-  double friction_nm = 0.0;
-  wheel.spin_radps = spin_wheel(wheel.spin_radps, drive_nm - load.rolling_torque_nm, brake_nm + rolling_nm,
-                                parameters.suspension[axle_of(index)].wheel_inertia_kgm2, dt_s, friction_nm);
-  load.brake_torque_nm = friction_nm * brake_nm / std::max(brake_nm + rolling_nm, 1e-12);
-  load.shaft_torque_nm = drive_nm + load.brake_torque_nm;
-  wheel.spin_rad += dt_s * wheel.spin_radps;
-  constexpr double turn_rad = 6.283185307179586;
-  wheel.spin_rad -= turn_rad * std::floor(wheel.spin_rad / turn_rad);
-  return load;
-}
 
 /// Drag and lift at the axles; the wind stands still.
 void add_aerodynamics(const BodyParameters& body, const Statics& known, const Vec3& velocity_mps, Vec3& force_n,
@@ -205,8 +49,7 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
   std::array<WheelLoad, wheel_count> loads;
   std::array<WheelPlace, wheel_count> places;
   for (int i = 0; i < wheel_count; ++i) {
-    loads[i] = advance_wheel(parameters, known, i, input, ground[i], dt_s, state, velocity_mps,
-                             state.wheels[i ^ 1].travel_rate_mps, state.wheels[i]);
+    loads[i] = advance_wheel({parameters, known, input, ground[i], state, velocity_mps, dt_s}, i, state.wheels[i]);
     places[i] = loads[i].place;
   }
 

@@ -4,7 +4,15 @@
 #include <cmath>
 
 namespace septet::vehicle {
+namespace {
 
+/// The car's heading on a ground with this normal: forward along the body, level.
+Vec3 level_forward(const Vec3& normal) { return glm::normalize(Vec3(1.0, 0.0, 0.0) - normal.x * normal); }
+
+/// Velocity of one wheel's contact over the ground, along the wheel's heading and to its left: the sideways and forward
+/// velocity of the sprung mass, yaw about the vertical, and the rolling of the axle. Left out are the motion of the
+/// wheels forward or back with a pitching body, and its turn about its roll axis by yaw. `height_m`: of the wheel's
+/// centre.
 Vec2 published_contact_velocity_mps(const VehicleParameters& parameters, const Statics& known, int wheel,
                                     const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal,
                                     double height_m) {
@@ -22,8 +30,31 @@ Vec2 published_contact_velocity_mps(const VehicleParameters& parameters, const S
   return {cosine * forward_mps + sine * left_mps, cosine * left_mps - sine * forward_mps};
 }
 
+/// Inclination of a wheel's spin axis against the ground, steer not counted: a steered wheel does not lean with a
+/// pitched body.
 double published_inclination_rad(const Vec3& spin_axis, const Vec3& normal) {
   return std::sqrt(1.0 - spin_axis.z * spin_axis.z) * normal.y + spin_axis.z * normal.z;
+}
+
+}  // namespace
+
+Vec3 published_measured_m(const VehicleParameters& parameters, int wheel, const Vec3& centre_m) {
+  return {centre_m.x, side_of(wheel) * 0.5 * parameters.suspension[axle_of(wheel)].track_m, centre_m.z};
+}
+
+Vec3 published_heading(double steer_rad, const Vec3& normal) {
+  const Vec3 body_forward = level_forward(normal), body_left = glm::cross(normal, body_forward);
+  return std::cos(steer_rad) * body_forward + std::sin(steer_rad) * body_left;
+}
+
+void publish_contact(const VehicleParameters& parameters, const Statics& known, int wheel, const VehicleState& state,
+                     const Vec3& velocity_mps, const Vec3& spin_axis, const Vec3& normal, double height_m,
+                     TyreContact& contact) {
+  const Vec2 published_mps =
+      published_contact_velocity_mps(parameters, known, wheel, state, velocity_mps, normal, height_m);
+  contact.forward_mps = published_mps.x;
+  contact.sliding_mps = {published_mps.x - contact.rolling_mps, published_mps.y};
+  contact.inclination_rad = published_inclination_rad(spin_axis, normal);
 }
 
 double published_yaw_moment_nm(const VehicleParameters& parameters, const Statics& known, int wheel, const Vec3& up,

@@ -9,23 +9,22 @@
 
 #include "engine/physics/vehicle/equations_of_motion.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
+#include "engine/physics/vehicle/tyre.hpp"
 
 namespace septet::vehicle {
 
-/// The car's heading on a ground with this normal: forward along the body, level.
-inline Vec3 level_forward(const Vec3& normal) { return glm::normalize(Vec3(1.0, 0.0, 0.0) - normal.x * normal); }
+/// The place of which a wheel's height over the ground is taken: the published height of an axle leaves out that its
+/// centre moves sideways under a leaning body.
+Vec3 published_measured_m(const VehicleParameters& parameters, int wheel, const Vec3& centre_m);
 
-/// Velocity of one wheel's contact over the ground, along the wheel's heading and to its left: the sideways and forward
-/// velocity of the sprung mass, yaw about the vertical, and the rolling of the axle. Left out are the motion of the
-/// wheels forward or back with a pitching body, and its turn about its roll axis by yaw. `height_m`: of the wheel's
-/// centre.
-Vec2 published_contact_velocity_mps(const VehicleParameters& parameters, const Statics& known, int wheel,
-                                    const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal,
-                                    double height_m);
+/// Heading of a wheel along the ground: the steer angle's alone, although a wheel that leans on a pitched body turns by
+/// that.
+Vec3 published_heading(double steer_rad, const Vec3& normal);
 
-/// Inclination of a wheel's spin axis against the ground, steer not counted: a steered wheel does not lean with a
-/// pitched body.
-double published_inclination_rad(const Vec3& spin_axis, const Vec3& normal);
+/// Puts the published motion and inclination into a contact whose rolling speed is set.
+void publish_contact(const VehicleParameters& parameters, const Statics& known, int wheel, const VehicleState& state,
+                     const Vec3& velocity_mps, const Vec3& spin_axis, const Vec3& normal, double height_m,
+                     TyreContact& contact);
 
 /// Yaw moment of one wheel's force: the wheels stand as on an upright car, although a leaning body carries its mass
 /// centre sideways over them, and braking forces turn it about that centre.

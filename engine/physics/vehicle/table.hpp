@@ -27,7 +27,6 @@ struct Table {
     if (at <= x[0]) return y[0];
     return at >= x[count - 1] ? y[count - 1] : (*this)(at);
   }
-  double last_x() const { return count == 0 ? 0.0 : x[count - 1]; }
 
  private:
   std::size_t segment(double at) const {

@@ -72,7 +72,4 @@ struct VehicleOutputs {
 };
 VehicleOutputs outputs(const VehicleParameters& parameters, const VehicleState& state);
 
-/// Kinetic and potential energy of the car, without the engine: a check for tests.
-double mechanical_energy_j(const VehicleParameters& parameters, const VehicleState& state);
-
 }  // namespace septet::vehicle

@@ -75,8 +75,6 @@ class RenderGraph {
   /// How each resource is left once the schedule has run.
   std::vector<Access> left(const Schedule& schedule) const;
 
-  const std::string& pass_name(std::uint32_t pass) const { return passes_[pass].name; }
-
  private:
   struct Resource {
     std::string name;

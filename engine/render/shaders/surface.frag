@@ -86,7 +86,8 @@ vec4 headlight(vec4 position, vec4 direction, vec3 n) {
   vec3 to_surface = relative - position.xyz;
   float square = dot(to_surface, to_surface);
   vec3 ray = to_surface * inversesqrt(square);
-  float share = (lamps & 4) != 0 ? beam_share(direction.xyz, ray, direction.w, square + 1.0) : dipped_share(direction.xyz, ray, square + 1.0);
+  float spread_m2 = lamp_spread_m2(square);
+  float share = (lamps & 4) != 0 ? beam_share(direction.xyz, ray, direction.w, spread_m2) : dipped_share(direction.xyz, ray, spread_m2);
   float light = position.w * share;
   vec3 lit = headlight_color * beam_facing(max(0.0, -dot(n, ray)));
   if (retroreflective == 0) return vec4(light * lit, 0.0);

@@ -3,6 +3,7 @@
 #include "engine/light/fresnel.hpp"
 #include "engine/light/lamplight.hpp"
 #include "engine/light/language.hpp"
+#include "engine/light/sky_irradiance.hpp"
 #include "engine/light/sky_tables.hpp"
 #include "engine/light/view_record.hpp"
 
@@ -37,11 +38,8 @@ vec3 mirrored_sky(vec3 direction, float roughness) {
 
 // Light of sky and ground on a surface that faces `n`.
 vec3 irradiance_on(vec3 n) {
-  float x = dot(view.sun_level.xy, n.xy), z2 = n.z * n.z;
-  vec3 sum = view.irradiance[0].rgb + view.irradiance[1].rgb * n.z + view.irradiance[2].rgb * x + view.irradiance[3].rgb * (3.0 * z2 - 1.0) +
-             view.irradiance[4].rgb * (x * n.z) + view.irradiance[5].rgb * (2.0 * x * x + z2 - 1.0) +
-             view.irradiance[6].rgb * ((35.0 * z2 - 30.0) * z2 + 3.0);
-  return max(sum, vec3(0.0));
+  return irradiance_on(vec3[](view.irradiance[0].rgb, view.irradiance[1].rgb, view.irradiance[2].rgb, view.irradiance[3].rgb,
+                              view.irradiance[4].rgb, view.irradiance[5].rgb, view.irradiance[6].rgb), view.sun_level.xy, n);
 }
 
 // What fog between the eye and a place in that direction scatters: as bright as the sky behind it, and below the horizon as the sky just above.

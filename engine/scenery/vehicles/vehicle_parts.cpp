@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "engine/geometry/mesh_measures.hpp"
-
 namespace septet::scenery {
 
 void set_detail(VehiclePart& part, DetailLevel level) {
@@ -47,15 +45,6 @@ VehicleParts vehicle_parts(const VehicleModel& model) {
       if (model.name == "caravan") return caravan_parts(model);
       return car_parts(model);
   }
-}
-
-std::size_t triangles_at(const VehicleParts& parts, float distance_m) {
-  std::size_t count = 0;
-  for (const VehiclePart& part : parts)
-    for (const Placement& place : part.places)
-      if (distance_m >= place.visible_from_m && distance_m < place.visible_to_m)
-        count += geometry::triangle_count(part.mesh, part.subdivision_level);
-  return count;
 }
 
 }  // namespace septet::scenery

@@ -57,7 +57,4 @@ VehicleParts instrument_parts();  ///< The faces of the instruments alone, for a
 VehicleParts water_parts();       ///< Of the material of drops on the windscreen.
 VehicleParts sign_parts();        ///< Of the material of needles and lit signs, which each frame puts in their places.
 
-/// Triangles of everything that is drawn at a distance.
-std::size_t triangles_at(const VehicleParts& parts, float distance_m);
-
 }  // namespace septet::scenery

@@ -83,10 +83,4 @@ std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const
   return changes;
 }
 
-std::optional<double> mean_time_between_lane_changes_s(std::span<const Sample> samples,
-                                                       std::span<const LaneChange> changes) {
-  if (samples.empty() || changes.empty()) return std::nullopt;
-  return (samples.back().simulated_time_s - samples.front().simulated_time_s) / static_cast<double>(changes.size());
-}
-
 }  // namespace septet::logging

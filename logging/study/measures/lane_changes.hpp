@@ -52,9 +52,4 @@ std::vector<Tick> put_before_ticks(std::span<const Event> events);
 std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings = {},
                                           std::span<const Tick> put_before = {});
 
-/// Simulated time from the first to the last sample over the number of lane changes: the paper's "on average every 15
-/// seconds" (Lebram, Engström and Gustavsson 2006, §4). Empty without a lane change.
-std::optional<double> mean_time_between_lane_changes_s(std::span<const Sample> samples,
-                                                       std::span<const LaneChange> changes);
-
 }  // namespace septet::logging

@@ -77,13 +77,6 @@ std::size_t count_reversals(std::span<const double> values, double gap) {
   return upward_swings(stationary, 1.0, gap) + upward_swings(stationary, -1.0, gap);
 }
 
-double reversals_per_minute(std::span<const double> steering_rad, double rate_hz, const ReversalSettings& settings) {
-  SEPTET_CHECK(steering_rad.size() > 1, "a recording of {} values", steering_rad.size());
-  const auto smooth = filtered_both_ways(butterworth_low_pass(settings.cut_off_hz, rate_hz), steering_rad);
-  const double length_s = static_cast<double>(steering_rad.size() - 1) / rate_hz;
-  return static_cast<double>(count_reversals(smooth, settings.gap_rad)) * 60.0 / length_s;
-}
-
 ReversalRate compute_reversal_rate(std::span<const Sample> samples, const ReversalSettings& settings) {
   constexpr double rate_hz = 1.0 / sample_interval_s;
   const auto filter = butterworth_low_pass(settings.cut_off_hz, rate_hz);

@@ -45,8 +45,6 @@ struct ReversalRate {
   std::size_t left_out = 0;  ///< Samples of runs shorter than three periods of the cut-off.
 };
 
-/// Rate of a recording without a gap.
-double reversals_per_minute(std::span<const double> steering_rad, double rate_hz, const ReversalSettings& settings);
 /// Rate of a drive's samples, run by run.
 ReversalRate compute_reversal_rate(std::span<const Sample> samples, const ReversalSettings& settings = {});
 

@@ -13,6 +13,7 @@
 #include "engine/render/renderer.hpp"
 #include "sim-client/ice/ice_viewer.hpp"
 #include "tests/benchmarks/figures/ice_figures.hpp"
+#include "tests/engine/instant/ray_through.hpp"
 
 namespace septet::figures {
 namespace {

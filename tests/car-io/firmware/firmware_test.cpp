@@ -46,12 +46,6 @@ struct DrivenCar : SimulatedCar {
 
 }  // namespace
 
-TEST_CASE("the firmware's report descriptor is the one that the host knows") {
-  const auto host = car_report_descriptor();
-  CHECK(std::vector(host.begin(), host.end()) ==
-        std::vector(septet_report_descriptor, septet_report_descriptor + septet_report_descriptor_bytes));
-}
-
 TEST_CASE("what the firmware packs the host's layout unpacks, and the reverse") {
   SimulatedCar car;
   CarConnection host(car.opener(), {});

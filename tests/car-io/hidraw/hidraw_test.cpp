@@ -18,6 +18,7 @@
 #include "car-io/car_connection.hpp"
 #include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
+#include "tests/car-io/car_side.hpp"
 #include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"

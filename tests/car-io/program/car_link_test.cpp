@@ -6,9 +6,10 @@
 #include <doctest/doctest.h>
 
 #include "car-io/simulated_hid_device.hpp"
-#include "engine/net/bad_network.hpp"
 #include "engine/scene/store.hpp"
 #include "sim-server/host/screen_host.hpp"
+#include "tests/car-io/car_side.hpp"
+#include "tests/engine/net/bad_network.hpp"
 #include "tests/engine/net/simulated_machine.hpp"
 #include "tests/relative.hpp"
 

@@ -1,32 +1,18 @@
 #include "engine/audio/ground_feel.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include <doctest/doctest.h>
 
-#include "engine/core/regular_file.hpp"
 #include "engine/road/lane_geometry.hpp"
-#include "engine/road/opendrive_reader.hpp"
-#include "tests/checkout.hpp"
+#include "tests/engine/road/road_files.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::audio {
 namespace {
-
-road::RoadNetwork motorway() {
-  const std::string file = source_folder() + "/scenarios/motorway-ambulance/motorway.xodr";
-  const auto text = read_regular_file(file);
-  REQUIRE(text);
-  auto roads = road::read_opendrive(*text, file);
-  REQUIRE(roads);
-  return std::move(*roads);
-}
 
 /// The driver's car with the middle of its front axle there, along the road.
 Snapshot car_at(const road::RoadNetwork& roads, const road::RoadPosition& front, double wheelbase_m) {
@@ -46,7 +32,7 @@ Snapshot car_at(const road::RoadNetwork& roads, const road::RoadPosition& front,
 }  // namespace
 
 TEST_CASE("a wheel over a solid line feels it, over a broken one where it is painted, and between lines nothing") {
-  const road::RoadNetwork roads = motorway();
+  const road::RoadNetwork& roads = road::motorway();
   const road::RoadIndex index = 0;
   const road::Road& first = roads.roads[index];
   const double s_m = 0.5 * first.length_m;
@@ -77,7 +63,7 @@ TEST_CASE("a wheel over a solid line feels it, over a broken one where it is pai
 }
 
 TEST_CASE("beside the road the ground is a meadow's, and a car that is nowhere feels a good road") {
-  const road::RoadNetwork roads = motorway();
+  const road::RoadNetwork& roads = road::motorway();
   std::optional<road::RoadPosition> place;
   const double edge_m = road::road_extent(roads.roads[0], 500.0).left_t_m;
   CHECK(feel_ground(roads, car_at(roads, {0, 500.0, edge_m + 8.0}, 2.8), place, 2.8).unevenness_m3 == class_e_m3);

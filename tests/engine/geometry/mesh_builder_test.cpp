@@ -10,6 +10,7 @@
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/noise.hpp"
 #include "engine/geometry/shapes.hpp"
+#include "tests/engine/geometry/solid_measures.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

@@ -41,12 +41,13 @@ inline std::vector<MovingFace> sphere_faces(const Shape& from, const Shape& to) 
       if (r > 0) triangles.push_back({a, a + segments, b});
       if (r < rings - 1) triangles.push_back({b, a + segments, b + segments});
     }
-  std::vector<glm::vec3> start, end;
-  for (const glm::vec3& direction : directions) {
-    start.push_back(from(direction));
-    end.push_back(to(direction));
-  }
-  return moving_faces(start, end, triangles);
+  std::vector<MovingFace> faces(triangles.size());
+  for (std::size_t n = 0; n < faces.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c) {
+      faces[n].from[c] = from(directions[triangles[n][c]]);
+      faces[n].to[c] = to(directions[triangles[n][c]]);
+    }
+  return faces;
 }
 
 inline glm::vec3 sphere(const glm::vec3& d) { return d; }

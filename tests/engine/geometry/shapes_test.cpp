@@ -9,6 +9,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/geometry/noise.hpp"
+#include "tests/engine/geometry/solid_measures.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::geometry {

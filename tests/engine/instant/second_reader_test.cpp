@@ -9,6 +9,7 @@
 
 #include "engine/instant/instant.hpp"
 #include "engine/light/tone_curve.hpp"
+#include "tests/engine/instant/ray_through.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
 

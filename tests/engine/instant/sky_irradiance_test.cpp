@@ -15,6 +15,10 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
+glm::vec3 irradiance_on(const SkyIrradiance& terms, const glm::vec2& sun_level, const glm::vec3& normal) {
+  return light::irradiance_on(terms.data(), sun_level, normal);
+}
+
 /// The radiance of the sky and of an even ground, weighed with the cosine, at 256 × 512 places.
 glm::dvec3 summed(const SkyLight& light, const glm::vec3& normal) {
   constexpr int rows = 256, columns = 512;

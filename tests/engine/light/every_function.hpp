@@ -13,6 +13,7 @@
 #include "engine/light/language.hpp"
 #include "engine/light/microfacets.hpp"
 #include "engine/light/ruts.hpp"
+#include "engine/light/sky_irradiance.hpp"
 #include "engine/light/sky_tables.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
@@ -21,7 +22,7 @@
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 48u;
+LIGHT_CONST uint function_count = 50u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -134,6 +135,19 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
       return vec4(roofed_between(a.x, a.y));
     case 47u:
       return vec4(sky_table_of(a.x));
+    case 48u: {  // Terms are set one by one: neither language has the other's list.
+      vec3 terms[irradiance_terms];
+      terms[0] = vec3(a.x);
+      terms[1] = vec3(a.y, a.z, a.w);
+      terms[2] = one;
+      terms[3] = 0.3f * other;
+      terms[4] = vec3(b.x, b.y, b.z);
+      terms[5] = 0.3f * one;
+      terms[6] = 0.1f * other;
+      return vec4(irradiance_on(terms, normalize(vec2(b.y + 0.1f, b.z)), direction_of(b.w, a.x)), 0.0f);
+    }
+    case 49u:
+      return vec4(lamp_spread_m2(a.x));
     default:
       return vec4(0.0f);
   }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/math/spherical_interpolation.hpp"
+#include "tests/engine/math/orientation_turn.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;
@@ -98,11 +99,12 @@ TEST_CASE("equal vectors stay and antipodal ones are refused") {
   auto still = *Turn::between({0, 1, 0}, {0, 1, 0}, 5, 0.5);
   still.advance();
   CHECK(still.value() == UnitVector<double, 3>{0, 1, 0});
-  CHECK(still.whole_angle_rad() == 0.0);
   CHECK(!Turn::between({0, 1, 0}, {0, -1, 0}, 5));
   // Orientations with opposite signs are equal.
   const Quat q = orientation_from_angles(1.0, 0.0, 0.0);
-  CHECK(turn_between(q, -q, 5)->whole_angle_rad() == 0.0);
+  auto same = *turn_between(q, -q, 5);
+  same.advance();
+  CHECK(to_quat(same.value()) == q);
   // A turn by nearly half a circle still ends where it should.
   auto half = *Turn::between({1, 0, 0}, {-std::cos(1e-5), std::sin(1e-5), 0}, 100);
   for (int n = 0; n < 100; ++n) half.advance();

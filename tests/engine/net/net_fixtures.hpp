@@ -6,19 +6,13 @@
 #include <vector>
 
 #include "engine/core/random.hpp"
-#include "engine/net/bad_network.hpp"
-#include "engine/net/keys.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/secure_server.hpp"
+#include "tests/engine/net/bad_network.hpp"
 #include "tests/engine/net/simulated_machine.hpp"
+#include "tests/engine/net/tick_wire.hpp"
 
 namespace septet::net {
-
-inline Identity identity_of(std::uint8_t number) {
-  std::array<std::uint8_t, 32> seed{};
-  seed[0] = number;
-  return Identity::from_seed(seed);
-}
 
 inline SessionId session_of(std::uint8_t number) {
   SessionId session{};

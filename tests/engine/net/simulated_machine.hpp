@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/random.hpp"
-#include "engine/net/bad_network.hpp"
+#include "tests/engine/net/bad_network.hpp"
 
 namespace septet::net {
 

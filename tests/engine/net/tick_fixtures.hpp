@@ -11,19 +11,6 @@ namespace septet::net {
 
 inline const Address group{0xef070707, 4750};
 
-// Keeps a publisher's datagrams.
-class Recorder final : public DatagramSocket {
- public:
-  bool send(const Address&, std::span<const std::byte> bytes) override {
-    datagrams.emplace_back(bytes.begin(), bytes.end());
-    return true;
-  }
-  void flush() override {}
-  std::optional<ReceivedDatagram> receive() override { return std::nullopt; }
-  std::size_t receive_buffer_bytes() const override { return 0; }
-  std::vector<Bytes> datagrams;
-};
-
 inline std::vector<Bytes> datagrams_of(std::uint64_t tick, const Bytes& payload,
                                        const TickPublisherOptions& options = {}, std::uint8_t key = 1,
                                        std::uint8_t session = 1) {

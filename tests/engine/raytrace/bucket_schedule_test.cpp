@@ -113,13 +113,6 @@ std::vector<Simulated> mixed(std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("a bucket is padded by as many pixels as the paper counts") {
-  static_assert(padding_pixels(100, 2) == 816);
-  static_assert(padding_pixels(10, 2) == 96);
-  CHECK(padding_pixels(20, 2) == 176);
-  CHECK(padding_pixels(16, 0) == 0);
-}
-
 TEST_CASE(
     "workers of speeds from 1 to 9 are used to 90 percent of what they can for one picture and to 95 for a film") {
   const Ended picture = simulate(1, mixed(15), Dealing::split);

@@ -9,6 +9,7 @@
 
 #include "engine/geometry/temporal_normals.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::raytrace {

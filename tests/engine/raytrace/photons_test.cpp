@@ -13,6 +13,7 @@
 
 #include "engine/light/fresnel.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::raytrace {

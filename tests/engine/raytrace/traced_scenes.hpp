@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/raytrace/cornell_box.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 
 namespace septet::raytrace {
 

@@ -11,6 +11,7 @@
 
 #include "engine/effects/ice/glass.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/engine/instant/ray_through.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "engine/effects/ice/objects.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/engine/instant/ray_through.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::render {

@@ -9,6 +9,7 @@
 #include "engine/light/tone_curve.hpp"
 #include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
+#include "tests/engine/instant/ray_through.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
 #include "tests/relative.hpp"

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/engine/rig/upper_right.hpp"
 #include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
@@ -42,8 +43,7 @@ TEST_CASE("seven screens cover 220 by 30 degrees ahead and 60 by 30 behind") {
   CHECK(right_edge(6) == doctest::Approx(150.0));
   for (const auto& screen : rig->screens) {
     const auto& window = screen.views[0].window;
-    for (const Vec3& corner :
-         {window.lower_left_m, window.lower_right_m, window.upper_left_m, window.upper_right_m()}) {
+    for (const Vec3& corner : {window.lower_left_m, window.lower_right_m, window.upper_left_m, upper_right_m(window)}) {
       const Vec3 direction = from_eye(*rig, corner);
       const double elevation_deg =
           std::atan2(std::abs(direction.z), std::hypot(direction.x, direction.y)) * 57.29577951308232;
@@ -59,7 +59,7 @@ TEST_CASE("neighbouring screens ahead share an edge") {
     const auto& left = rig->screens[i].views[0].window;
     const auto& right = rig->screens[i + 1].views[0].window;
     CHECK(glm::length(left.lower_right_m - right.lower_left_m) < 1e-5);
-    CHECK(glm::length(left.upper_right_m() - right.upper_left_m) < 1e-5);
+    CHECK(glm::length(upper_right_m(left) - right.upper_left_m) < 1e-5);
   }
 }
 

@@ -34,14 +34,12 @@ struct LaidRoad {
   bool one_way = false;  ///< Lanes to the right alone.
   std::string objects = {};
 
-  std::string xml() const {
+  std::string text() const {
     std::string plan;
     double s = 0.0, x = x_m, y = y_m, heading = heading_rad;
     for (const Piece& piece : pieces) {
-      plan += fmt::format(
-          R"(<geometry s="{}" x="{}" y="{}" hdg="{}" length="{}">{}</geometry>)", s, x, y, heading, piece.length_m,
-          piece.curvature_per_m == 0.0 ? std::string("<line/>")
-                                       : fmt::format(R"(<arc curvature="{}"/>)", piece.curvature_per_m));
+      plan += plan_piece(s, x, y, heading, piece.length_m,
+                         piece.curvature_per_m == 0.0 ? "<line/>" : arc(piece.curvature_per_m));
       const double turned = piece.length_m * piece.curvature_per_m;
       if (turned == 0.0) {
         x += piece.length_m * std::cos(heading);
@@ -53,28 +51,27 @@ struct LaidRoad {
       heading += turned;
       s += piece.length_m;
     }
-    std::string elevation;
-    for (const Height& height : heights)
-      elevation +=
-          fmt::format(R"(<elevation s="{}" a="{}" b="{}" c="0" d="0"/>)", height.s_m, height.z_m, height.slope);
-    std::string left, right;
-    if (has_walk) left += lane(lanes + 1, 2.0, "", "sidewalk");
-    for (int i = lanes; i > 0; --i) left += lane(i, lane_width_m);
-    for (int i = 1; i <= lanes; ++i) right += lane(-i, lane_width_m);
+    std::string profile;
+    for (const Height& height : heights) profile += elevation(height.z_m, height.s_m, height.slope);
+    std::string left = left_lanes(lanes, lane_width_m), right = right_lanes(lanes, lane_width_m);
+    if (has_walk) left = lane(lanes + 1, 2.0, "", "sidewalk") + left;
     if (has_walk) right += lane(-lanes - 1, 2.0, "", "sidewalk");
-    return fmt::format(
-        R"(<road id="{}" junction="{}" length="{}"><link>{}</link><planView>{}</planView><elevationProfile>{}</elevationProfile>)"
-        R"(<lanes><laneSection s="0">{}<center>{}</center><right>{}</right></laneSection></lanes>)"
-        R"(<objects>{}</objects></road>)",
-        id, junction, s, link, plan, elevation, one_way ? std::string() : fmt::format("<left>{}</left>", left),
-        lane(0, 0), right, objects);
+    return SmallRoad{.length_m = s,
+                     .profiles = fmt::format("<elevationProfile>{}</elevationProfile>", profile),
+                     .sections = lane_section(one_way ? "" : left, right),
+                     .id = id,
+                     .junction = junction,
+                     .link = link,
+                     .plan = plan,
+                     .after_lanes = fmt::format("<objects>{}</objects>", objects)}
+        .text();
   }
 };
 
 inline RoadNetwork laid(std::initializer_list<LaidRoad> roads, std::string_view junctions = "") {
-  std::string text = R"(<OpenDRIVE><header revMajor="1" revMinor="8"/>)";
-  for (const LaidRoad& road : roads) text += road.xml();
-  return read_or_fail(fmt::format("{}{}</OpenDRIVE>", text, junctions));
+  std::string text;
+  for (const LaidRoad& road : roads) text += road.text();
+  return read_or_fail(roads_text(text.append(junctions)));
 }
 
 /// One road crosses another at an angle, `up_m` over it.
@@ -100,17 +97,16 @@ inline RoadNetwork terraces(double apart_m = 6.0, double up_m = 4.0) {
 inline RoadNetwork sharp_bend(double radius_m = 18.0, double slope = 0.1) {
   const double turn_m = radius_m * 1.2;
   LaidRoad before{.id = "1", .x_m = -150, .pieces = {{150, 0}}, .heights = {{0, 0, slope}}};
-  before.link = R"(<successor elementType="road" elementId="2" contactPoint="start"/>)";
+  before.link = link_to_road("successor", "2", "start");
   LaidRoad bend{.id = "2", .pieces = {{turn_m, 1.0 / radius_m}}, .heights = {{0, 150 * slope, slope}}};
-  bend.link =
-      R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="3" contactPoint="start"/>)";
+  bend.link = link_to_road("predecessor", "1", "end") + link_to_road("successor", "3", "start");
   LaidRoad after{.id = "3",
                  .x_m = radius_m * std::sin(1.2),
                  .y_m = radius_m * (1.0 - std::cos(1.2)),
                  .heading_rad = 1.2,
                  .pieces = {{40, 0}, {60, 1.0 / radius_m * 0.6}},
                  .heights = {{0, (150 + turn_m) * slope, slope}}};
-  after.link = R"(<predecessor elementType="road" elementId="2" contactPoint="end"/>)";
+  after.link = link_to_road("predecessor", "2", "end");
   return laid({before, bend, after});
 }
 
@@ -136,7 +132,7 @@ inline RoadNetwork spiral(double radius_m = 25.0, double slope = 0.045) {
 inline RoadNetwork junction_below_deck() {
   const auto arm = [](const char* id, double x, double y, double heading) {
     LaidRoad road{.id = id, .x_m = x, .y_m = y, .heading_rad = heading, .pieces = {{150, 0}}, .has_walk = true};
-    road.link = R"(<successor elementType="junction" elementId="9"/>)";
+    road.link = link_to_junction("successor", "9");
     return road;
   };
   const auto through = [](const char* id, const char* from, const char* to, double x, double y, double heading,
@@ -148,18 +144,14 @@ inline RoadNetwork junction_below_deck() {
                   .pieces = {{length, curvature}},
                   .junction = "9",
                   .has_walk = false};
-    road.link = fmt::format(
-        R"(<predecessor elementType="road" elementId="{}" contactPoint="end"/><successor elementType="road" elementId="{}" contactPoint="end"/>)",
-        from, to);
+    road.link = link_to_road("predecessor", from, "end") + link_to_road("successor", to, "end");
     return road;
   };
   constexpr double quarter = std::numbers::pi / 2;
   std::string connections;
   int number = 0;
   for (const auto& [from, way] : {std::pair{"1", "11"}, {"2", "12"}, {"1", "13"}, {"3", "14"}})
-    connections += fmt::format(
-        R"(<connection id="{}" incomingRoad="{}" connectingRoad="{}" contactPoint="start"><laneLink from="-1" to="-1"/></connection>)",
-        number++, from, way);
+    connections += connection(fmt::format("{}", number++), from, way);
   return laid({arm("1", -165, 0, 0),
                arm("2", 0, -165, quarter),
                arm("3", 165, 0, 2 * quarter),

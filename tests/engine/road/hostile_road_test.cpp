@@ -24,23 +24,21 @@ std::string rich_text() {
       "<superelevation s=\"0\" a=\"0.1\" b=\"0\" c=\"0\" d=\"0\"/><shape s=\"0\" t=\"-3\" a=\"0\" "
       "b=\"0\" c=\"0\" d=\"0\"/></lateralProfile>";
   road.before_sections = "<laneOffset s=\"0\" a=\"0.5\" b=\"0\" c=\"0\" d=\"0\"/>";
-  std::string text = road.xml();
-  const std::string more =
-      "<road id=\"b\" length=\"40\" junction=\"9\"><link><predecessor elementType=\"road\" "
-      "elementId=\"a\" contactPoint=\"end\"/></link>"
-      "<planView><geometry s=\"0\" x=\"30\" y=\"0\" hdg=\"0\" length=\"20\"><spiral "
-      "curvStart=\"0\" curvEnd=\"0.02\"/></geometry>"
-      "<geometry s=\"20\" x=\"50\" y=\"1\" hdg=\"0.2\" length=\"20\"><arc "
-      "curvature=\"0.02\"/></geometry></planView><lanes><laneSection s=\"0\">"
-      "<center>" +
-      lane(0, 0, "<roadMark sOffset=\"0\" type=\"broken\"/>") + "</center><right>" +
-      lane(-1, 3.0, "<link><predecessor id=\"-1\"/></link>") +
-      "</right></laneSection></lanes>"
-      "<objects><object id=\"1\" s=\"3\" t=\"2\"><repeat s=\"0\" length=\"5\"/></object><tunnel "
-      "s=\"1\" length=\"5\" id=\"3\"/></objects></road>"
-      "<junction id=\"9\"><connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"b\" "
-      "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection></junction>";
-  return text.insert(text.find("</OpenDRIVE>"), more);
+  const SmallRoad connecting{
+      .length_m = 40.0,
+      .sections = "<laneSection s=\"0\"><center>" + lane(0, 0, "<roadMark sOffset=\"0\" type=\"broken\"/>") +
+                  "</center><right>" + lane(-1, 3.0, "<link><predecessor id=\"-1\"/></link>") +
+                  "</right></laneSection>",
+      .id = "b",
+      .junction = "9",
+      .link = link_to_road("predecessor", "a", "end"),
+      .plan = plan_piece(0, 30, 0, 0, 20, "<spiral curvStart=\"0\" curvEnd=\"0.02\"/>") +
+              plan_piece(20, 50, 1, 0.2, 20, arc(0.02)),
+      .after_lanes =
+          "<objects><object id=\"1\" s=\"3\" t=\"2\"><repeat s=\"0\" length=\"5\"/></object><tunnel "
+          "s=\"1\" length=\"5\" id=\"3\"/></objects>"};
+  return roads_text(road.text() + connecting.text() + "<junction id=\"9\">" + connection("0", "a", "b") + "</junction>",
+                    road.header);
 }
 
 void use(const std::string& xml) {

@@ -57,40 +57,25 @@ TEST_CASE("the exit leads through the rest area back to the motorway") {
 
 TEST_CASE("a driver who has the choice takes the way that is chosen") {
   // A road that forks into two at a direct junction.
-  const auto road = [](const char* id, const char* y, const char* link) {
-    return std::string("<road id=\"") + id + "\" junction=\"-1\" length=\"50\"><link>" + link +
-           "</link><planView><geometry s=\"0\" x=\"0\" y=\"" + y +
-           "\" hdg=\"0\" length=\"50\"><line/></geometry></planView><lanes>"
-           "<laneSection s=\"0\"><center>" +
-           lane(0, 0) + "</center><right>" + lane(-1, 3.5) + "</right></laneSection></lanes></road>";
+  const auto road = [](const char* id, double y_m, const std::string& link) {
+    return SmallRoad{.length_m = 50.0, .sections = lane_section("", lane(-1, 3.5)), .id = id, .link = link, .y_m = y_m}
+        .text();
   };
-  const std::string from_junction = "<predecessor elementType=\"junction\" elementId=\"j\"/>";
-  const std::string xml = "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/>" +
-                          road("in", "0", "<successor elementType=\"junction\" elementId=\"j\"/>") +
-                          road("left", "10", from_junction.c_str()) + road("right", "-10", from_junction.c_str()) +
-                          "<junction id=\"j\" type=\"direct\">"
-                          "<connection id=\"0\" incomingRoad=\"in\" linkedRoad=\"left\" "
-                          "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
-                          "<connection id=\"1\" incomingRoad=\"in\" linkedRoad=\"right\" "
-                          "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
-                          "</junction></OpenDRIVE>";
+  const std::string from_junction = link_to_junction("predecessor", "j");
+  const std::string xml = roads_text(road("in", 0.0, link_to_junction("successor", "j")) +
+                                     road("left", 10.0, from_junction) + road("right", -10.0, from_junction) +
+                                     "<junction id=\"j\" type=\"direct\">"
+                                     "<connection id=\"0\" incomingRoad=\"in\" linkedRoad=\"left\" "
+                                     "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
+                                     "<connection id=\"1\" incomingRoad=\"in\" linkedRoad=\"right\" "
+                                     "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
+                                     "</junction>");
   const RoadNetwork network = read_or_fail(xml);
   const LanePosition start{0, -1, 45.0, 0.0};
   CHECK(advance(network, start, 10.0).position.road == 1);
   const auto second = [](std::span<const LaneContinuation> ways) { return ways.size() - 1; };
   CHECK(advance(network, start, 10.0, second).position.road == 2);
   CHECK(advance(network, {2, -1, 5.0, 0.0}, -10.0).position.road == 0);
-}
-
-TEST_CASE("neighbours are lanes of the same direction that cars drive on") {
-  const RoadNetwork& network = motorway();
-  const LanePosition fast{0, -3, 500.0, 0.0}, slow{0, -7, 500.0, 0.0}, oncoming{0, 3, 500.0, 0.0};
-  CHECK_FALSE(lane_to_the_left(network, fast).has_value());
-  CHECK(lane_to_the_right(network, fast) == -4);
-  CHECK(lane_to_the_left(network, slow) == -6);
-  CHECK_FALSE(lane_to_the_right(network, slow).has_value());
-  CHECK(lane_to_the_right(network, oncoming) == 4);
-  CHECK_FALSE(lane_to_the_left(network, oncoming).has_value());
 }
 
 TEST_CASE("the limit of a lane is its own or that of the road") {

@@ -127,26 +127,19 @@ TEST_CASE("a banked road with a shape and a crossfall and raised lanes is invert
 }
 
 TEST_CASE("beyond the end the connecting road is chosen whose lane is nearer to the point") {
-  const auto connecting = [](const char* id, double y, double width) {
-    std::ostringstream text;
-    text << "<road id=\"" << id << "\" length=\"50\" junction=\"7\"><link><predecessor "
-         << "elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/></link><planView><geometry "
-         << "s=\"0\" x=\"100\" y=\"" << y << "\" hdg=\"0\" length=\"50\"><line/></geometry>"
-         << "</planView><lanes><laneSection s=\"0\"><center>" << lane(0, 0) << "</center><right>" << lane(-1, width)
-         << "</right></laneSection></lanes></road>";
-    return text.str();
-  };
-  const auto connection = [](const char* id) {
-    return std::string("<connection id=\"") + id + "\" incomingRoad=\"a\" connectingRoad=\"" + id +
-           "\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>";
+  const auto connecting = [](const char* id, double width_m) {
+    return SmallRoad{.length_m = 50.0,
+                     .sections = lane_section("", lane(-1, width_m)),
+                     .id = id,
+                     .junction = "7",
+                     .link = link_to_road("predecessor", "a", "end"),
+                     .x_m = 100.0}
+        .text();
   };
   // Both hold the points from y = -3 to 0; the middle of b is at -1.75, that of c at -4.
-  const std::string more = connecting("b", 0.0, 3.5) + connecting("c", 0.0, 8.0) + "<junction id=\"7\">" +
-                           connection("b") + connection("c") + "</junction>";
-  const std::string xml = replaced(replaced(SmallRoad{}.xml(), "<planView>",
-                                            "<link><successor elementType=\"junction\" elementId=\"7\"/></link>"
-                                            "<planView>"),
-                                   "</OpenDRIVE>", more + "</OpenDRIVE>");
+  const std::string xml = roads_text(SmallRoad{.link = link_to_junction("successor", "7")}.text() +
+                                     connecting("b", 3.5) + connecting("c", 8.0) + "<junction id=\"7\">" +
+                                     connection("b", "a", "b") + connection("c", "a", "c") + "</junction>");
   const RoadNetwork network = read_or_fail(xml);
   const RoadPosition hint{0, 99.0, -1.75};
   const auto near_b = locate(network, {103.0, -1.5}, &hint), near_c = locate(network, {103.0, -3.4}, &hint);
@@ -157,11 +150,8 @@ TEST_CASE("beyond the end the connecting road is chosen whose lane is nearer to 
 }
 
 TEST_CASE("where a road and a connecting road hold a point the road answers") {
-  const std::string over =
-      "<road id=\"b\" length=\"100\" junction=\"7\"><planView><geometry s=\"0\" x=\"0\" y=\"1\" hdg=\"0\" "
-      "length=\"100\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center>" +
-      lane(0, 0) + "</center><right>" + lane(-1, 3.5) + "</right></laneSection></lanes></road><junction id=\"7\"/>";
-  const RoadNetwork network = read_or_fail(replaced(SmallRoad{}.xml(), "</OpenDRIVE>", over + "</OpenDRIVE>"));
+  const SmallRoad over{.sections = lane_section("", lane(-1, 3.5)), .id = "b", .junction = "7", .y_m = 1.0};
+  const RoadNetwork network = read_or_fail(roads_text(SmallRoad{}.text() + over.text() + "<junction id=\"7\"/>"));
   REQUIRE(network.roads.size() == 2);
   // In the middle of the connecting road's lane, and still in that of the other.
   const auto found = locate(network, {50.0, -0.75});

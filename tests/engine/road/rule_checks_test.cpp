@@ -37,19 +37,11 @@ std::string linked_lane(const char* links, const char* width = "a=\"3.5\" b=\"0\
          "</link><width sOffset=\"0\" " + width + " c=\"0\" d=\"0\"/></lane>";
 }
 
-std::string straight(const std::string& id, double x, const std::string& junction, const std::string& links,
+std::string straight(const std::string& id, double x_m, const std::string& junction, const std::string& links,
                      const std::string& lanes) {
-  std::ostringstream text;
-  text << "<road id=\"" << id << "\" length=\"50\" junction=\"" << junction << "\">\n<link>" << links
-       << "</link><planView><geometry s=\"0\" x=\"" << x
-       << "\" y=\"0\" hdg=\"0\" length=\"50\"><line/></geometry></planView>\n<lanes><laneSection "
-          "s=\"0\"><center>"
-       << lane(0, 0) << "</center><right>" << lanes << "</right></laneSection></lanes></road>\n";
-  return text.str();
-}
-
-std::string file_of(const std::string& inside) {
-  return "<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"8\"/>\n" + inside + "</OpenDRIVE>\n";
+  return SmallRoad{
+      .length_m = 50.0, .sections = lane_section("", lanes), .id = id, .junction = junction, .link = links, .x_m = x_m}
+      .text();
 }
 
 constexpr const char *before = "<predecessor id=\"-1\"/>", *after = "<successor id=\"-1\"/>",
@@ -57,22 +49,18 @@ constexpr const char *before = "<predecessor id=\"-1\"/>", *after = "<successor 
 
 /// Two roads, one after the other.
 std::string chain() {
-  return file_of(straight("a", 0, "-1", "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>",
-                          linked_lane(after)) +
-                 straight("b", 50, "-1", "<predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/>",
-                          linked_lane(before)));
+  return roads_text(straight("a", 0, "-1", link_to_road("successor", "b", "start"), linked_lane(after)) +
+                    straight("b", 50, "-1", link_to_road("predecessor", "a", "end"), linked_lane(before)));
 }
 
 /// Two roads and the one that connects them in a junction.
 std::string junction() {
-  return file_of(straight("a", 0, "-1", "<successor elementType=\"junction\" elementId=\"7\"/>", linked_lane("")) +
-                 straight("c", 50, "7",
-                          "<predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/>"
-                          "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>",
-                          linked_lane(both)) +
-                 straight("b", 100, "-1", "<predecessor elementType=\"junction\" elementId=\"7\"/>", linked_lane("")) +
-                 "<junction id=\"7\">\n<connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"c\" "
-                 "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>\n</junction>\n");
+  return roads_text(straight("a", 0, "-1", link_to_junction("successor", "7"), linked_lane("")) +
+                    straight("c", 50, "7",
+                             link_to_road("predecessor", "a", "end") + link_to_road("successor", "b", "start"),
+                             linked_lane(both)) +
+                    straight("b", 100, "-1", link_to_junction("predecessor", "7"), linked_lane("")) +
+                    "<junction id=\"7\">" + connection("0", "a", "c") + "</junction>");
 }
 
 std::string edition(const std::string& xml, const char* minor) {
@@ -106,14 +94,13 @@ TEST_CASE("lanes that go on are linked both ways, have a width there and join") 
 }
 
 TEST_CASE("the surface does not step where lanes are linked") {
-  const auto raised = [](const char* height) {
-    return replaced(chain(), "</planView>\n<lanes>",
-                    std::string("</planView><elevationProfile><elevation s=\"0\" a=\"") + height +
-                        "\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>\n<lanes>");
+  const auto raised = [](double height) {
+    return replaced(chain(), "</planView>\n\n<lanes>",
+                    "</planView><elevationProfile>" + elevation(height) + "</elevationProfile>\n<lanes>");
   };
-  CHECK(broken(raised("0.02")) == Rules{});
-  CHECK(broken(raised("0.3")) == Rules{"the surface steps by 0.300 m from lane -1 of road a at "
-                                       "s=50.000 to lane -1 of road b at s=0.000"});
+  CHECK(broken(raised(0.02)) == Rules{});
+  CHECK(broken(raised(0.3)) == Rules{"the surface steps by 0.300 m from lane -1 of road a at "
+                                     "s=50.000 to lane -1 of road b at s=0.000"});
 }
 
 TEST_CASE("outside a level lane and in its continuation lanes are level") {
@@ -129,8 +116,7 @@ TEST_CASE("outside a level lane and in its continuation lanes are level") {
 }
 
 TEST_CASE("a road has one road at each end or a junction") {
-  const std::string third = straight(
-      "c", 0, "-1", "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>", linked_lane(""));
+  const std::string third = straight("c", 0, "-1", link_to_road("successor", "b", "start"), linked_lane(""));
   CHECK(broken(replaced(chain(), "</OpenDRIVE>", third + "</OpenDRIVE>")) ==
         Rules{"1.4.0:road.linkage.is_junction_needed"});
   CHECK(broken(replaced(SmallRoad{}.xml(), "<planView>",
@@ -157,8 +143,7 @@ TEST_CASE("connections lead from roads outside into the junction, with the traff
   const std::string twice = replaced(good, "</junction>", again);
   CHECK(broken(twice) == Rules{});
   CHECK(broken(edition(twice, "7")) == Rules{"1.7.0:junctions.connection.one_connection_element"});
-  CHECK(broken(replaced(good, "road id=\"a\" length=\"50\" junction=\"-1\"",
-                        "road id=\"a\" length=\"50\" junction=\"7\"")) ==
+  CHECK(broken(replaced(good, "road id=\"a\" junction=\"-1\"", "road id=\"a\" junction=\"7\"")) ==
         Rules{"1.4.0:junctions.connection.connect_road_no_incoming_road"});
 }
 

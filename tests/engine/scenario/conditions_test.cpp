@@ -184,21 +184,18 @@ TEST_CASE("a distance in lane coordinates is along the lanes, in road coordinate
 }
 
 TEST_CASE("what is behind on the next road is behind in either direction of driving") {
-  const auto straight = [](const std::string& id, double x, double length, const std::string& link) {
-    return "<road id=\"" + id + "\" length=\"" + std::to_string(length) + "\" junction=\"-1\"><link>" + link +
-           "</link><planView><geometry s=\"0\" x=\"" + std::to_string(x) + "\" y=\"0\" hdg=\"0\" length=\"" +
-           std::to_string(length) +
-           "\"><line/></geometry></planView><lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\"><width "
-           "sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></left><center><lane id=\"0\" "
-           "type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" "
-           "c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>";
+  const auto straight = [](const std::string& id, double x_m, double length_m, const std::string& link) {
+    return road::SmallRoad{.length_m = length_m,
+                           .sections = road::lane_section(road::left_lanes(1), road::right_lanes(1)),
+                           .id = id,
+                           .link = link,
+                           .x_m = x_m}
+        .text();
   };
-  const auto network = road::read_opendrive(
-      "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/>" +
-          straight("p", 0.0, 100.0, "<successor elementType=\"road\" elementId=\"q\" contactPoint=\"start\"/>") +
-          straight("q", 100.0, 200.0, "<predecessor elementType=\"road\" elementId=\"p\" contactPoint=\"end\"/>") +
-          "</OpenDRIVE>",
-      "two.xodr");
+  const auto network =
+      road::read_opendrive(road::roads_text(straight("p", 0.0, 100.0, road::link_to_road("successor", "q", "start")) +
+                                            straight("q", 100.0, 200.0, road::link_to_road("predecessor", "p", "end"))),
+                           "two.xodr");
   REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
   const road::LanePosition on_p{0, 1, 30.0, 0.0}, on_q{1, 1, 50.0, 0.0};
   CHECK(road_distance_m(*network, on_p, true, on_q) == doctest::Approx(120.0));

@@ -8,22 +8,18 @@
 
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
+#include "tests/engine/road/road_text.hpp"
 
 namespace septet::scenario {
 
 /// 2 km, straight along x by default, lanes 3.5 m wide, ids 1 to 3 and −1 to −3, right-hand traffic.
 inline std::string road_text(const std::string& shape = "<line/>", const std::string& profiles = "") {
-  std::string lanes[2];
-  for (int id = 3; id >= 1; --id) {
-    const std::string width = R"( type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
-    lanes[0] += "<lane id=\"" + std::to_string(id) + "\"" + width;
-    lanes[1] = "<lane id=\"-" + std::to_string(id) + "\"" + width + lanes[1];
-  }
-  return R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="R" length="2000" junction="-1"><planView>)"
-         R"(<geometry s="0" x="0" y="0" hdg="0" length="2000">)" +
-         shape + "</geometry></planView>" + profiles + R"(<lanes><laneSection s="0"><left>)" + lanes[0] +
-         R"(</left><center><lane id="0" type="none"/></center><right>)" + lanes[1] +
-         "</right></laneSection></lanes></road></OpenDRIVE>";
+  return road::SmallRoad{.length_m = 2000.0,
+                         .geometry = shape,
+                         .profiles = profiles,
+                         .sections = road::lane_section(road::left_lanes(3), road::right_lanes(3)),
+                         .id = "R"}
+      .xml();
 }
 
 inline road::RoadNetwork test_road(const std::string& text = road_text()) {

@@ -54,40 +54,34 @@ const std::string relative_times = R"(<Timing domainAbsoluteRelative="relative" 
 /// A road that forks after 100 m: straight on ("S", then "D") or in a quarter turn to the left of radius 50 m ("T",
 /// then "E").
 road::RoadNetwork fork() {
-  const std::string lanes =
-      R"(<lanes><laneSection s="0"><center><lane id="0" type="none"/></center><right><lane id="-1" type="driving">)";
-  const auto lane = [&](const std::string& link) {
-    return lanes + "<link>" + link +
-           R"(</link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right></laneSection></lanes></road>)";
-  };
-  const auto road = [](const std::string& id, const std::string& length, const std::string& junction,
-                       const std::string& link, const std::string& start, const std::string& shape) {
-    return "<road id=\"" + id + "\" length=\"" + length + "\" junction=\"" + junction + "\"><link>" + link +
-           "</link><planView><geometry s=\"0\" " + start + " length=\"" + length + "\">" + shape +
-           "</geometry></planView>";
+  const auto road = [](road::SmallRoad of, const std::string& lane_link) {
+    of.sections = road::lane_section("", road::lane(-1, 3.5, "<link>" + lane_link + "</link>"));
+    return of.text();
   };
   const std::string both = R"(<predecessor id="-1"/><successor id="-1"/>)";
-  const std::string from_a = R"(<predecessor elementType="road" elementId="A" contactPoint="end"/>)";
-  const std::string quarter = "78.539816339744831";
-  const std::string text =
-      R"(<OpenDRIVE><header revMajor="1" revMinor="8"/>)" +
-      road("A", "100", "-1", R"(<successor elementType="junction" elementId="J"/>)", R"(x="0" y="0" hdg="0")",
-           "<line/>") +
-      lane("") +
-      road("S", "50", "J", from_a + R"(<successor elementType="road" elementId="D" contactPoint="start"/>)",
-           R"(x="100" y="0" hdg="0")", "<line/>") +
-      lane(both) +
-      road("T", quarter, "J", from_a + R"(<successor elementType="road" elementId="E" contactPoint="start"/>)",
-           R"(x="100" y="0" hdg="0")", "<arc curvature=\"0.02\"/>") +
-      lane(both) +
-      road("D", "500", "-1", R"(<predecessor elementType="junction" elementId="J"/>)", R"(x="150" y="0" hdg="0")",
-           "<line/>") +
-      lane("") +
-      road("E", "500", "-1", R"(<predecessor elementType="junction" elementId="J"/>)",
-           R"(x="150" y="50" hdg="1.5707963267948966")", "<line/>") +
-      lane("") +
-      R"(<junction id="J" name="J"><connection id="0" incomingRoad="A" connectingRoad="S" contactPoint="start"><laneLink from="-1" to="-1"/></connection>)"
-      R"(<connection id="1" incomingRoad="A" connectingRoad="T" contactPoint="start"><laneLink from="-1" to="-1"/></connection></junction></OpenDRIVE>)";
+  const std::string from_a = road::link_to_road("predecessor", "A", "end");
+  const std::string from_junction = road::link_to_junction("predecessor", "J");
+  constexpr double quarter_rad = 0.5 * std::numbers::pi;
+  const std::string text = road::roads_text(
+      road({.length_m = 100.0, .id = "A", .link = road::link_to_junction("successor", "J")}, "") +
+      road({.length_m = 50.0,
+            .id = "S",
+            .junction = "J",
+            .link = from_a + road::link_to_road("successor", "D", "start"),
+            .x_m = 100.0},
+           both) +
+      road({.length_m = 50.0 * quarter_rad,
+            .geometry = road::arc(0.02),
+            .id = "T",
+            .junction = "J",
+            .link = from_a + road::link_to_road("successor", "E", "start"),
+            .x_m = 100.0},
+           both) +
+      road({.length_m = 500.0, .id = "D", .link = from_junction, .x_m = 150.0}, "") +
+      road({.length_m = 500.0, .id = "E", .link = from_junction, .x_m = 150.0, .y_m = 50.0, .heading_rad = quarter_rad},
+           "") +
+      "<junction id=\"J\" name=\"J\">" + road::connection("0", "A", "S") + road::connection("1", "A", "T") +
+      "</junction>");
   auto network = road::read_opendrive(text, "fork.xodr");
   REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
   return std::move(*network);

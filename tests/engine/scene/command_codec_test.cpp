@@ -99,12 +99,3 @@ TEST_CASE("vertices on a grid of a millimetre take less than half of their float
   CHECK(bytes.size() < 1000 * 12 / 2);
   CHECK(std::get<VerticesSet>(*decode(bytes)).positions_m == strip.positions_m);
 }
-
-TEST_CASE("set and destroy of one thing have one address and other things have others") {
-  CHECK(address_of(TagSet{1, 2, 3, {}}) == address_of(TagDestroy{1, 2, 3}));
-  CHECK(address_of(LinkSet{1, 2, {}}) == address_of(LinkDestroy{1, 2}));
-  CHECK(address_of(TagSet{1, 2, 3, {}}) != address_of(TagSet{1, 2, 4, {}}));
-  CHECK(address_of(TransformSet{1, {}}) != address_of(TransformSet{2, {}}));
-  CHECK(address_of(HideSet{1, false}) == address_of(HideSet{1, true}));
-  CHECK(address_of(VerticesSet{1, 0, {{}, {}}}) != address_of(VerticesSet{1, 0, {{}}}));
-}

@@ -10,6 +10,7 @@
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/world/vehicle_body.hpp"
+#include "tests/engine/simulation/placed_participant.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;
@@ -17,23 +18,13 @@ using namespace septet::simulation;
 
 namespace {
 
-Participant participant(ParticipantId id, std::string_view model, double x_m, double y_m, double heading_rad,
-                        double speed_mps) {
-  Participant p;
-  p.id = id;
-  p.model = *find_vehicle_model(model);
-  p.world_from_vehicle = {{x_m, y_m, 0.0}, orientation_from_angles(heading_rad, 0.0, 0.0)};
-  p.velocity_mps = p.world_from_vehicle.orientation * Vec3(speed_mps, 0.0, 0.0);
-  return p;
-}
-
 double front_m(const Participant& p) { return vehicle_models()[p.model].front_m(); }
 double rear_m(const Participant& p) { return vehicle_models()[p.model].rear_overhang_m; }
 
 /// The driver's car behind another one, their bumpers ten centimetres in each other.
 std::vector<Participant> in_a_row(std::string_view ahead, double speed_mps, double ahead_mps) {
-  std::vector<Participant> both{participant(1, "volvo-s80", 0.0, 0.0, 0.0, speed_mps),
-                                participant(7, ahead, 0.0, 0.0, 0.0, ahead_mps)};
+  std::vector<Participant> both{placed_participant(1, "volvo-s80", 0.0, 0.0, 0.0, speed_mps),
+                                placed_participant(7, ahead, 0.0, 0.0, 0.0, ahead_mps)};
   both[1].world_from_vehicle.position_m.x = front_m(both[0]) + rear_m(both[1]) - 0.1;
   return both;
 }
@@ -81,7 +72,7 @@ TEST_CASE("cars that part or touch at walking pace have no crash") {
 }
 
 TEST_CASE("two boxes touch where their sides do and the shortest way out is the normal") {
-  Participant one = participant(1, "saloon", 0.0, 0.0, 0.5, 0.0);
+  Participant one = placed_participant(1, "saloon", 0.0, 0.0, 0.5, 0.0);
   const debris::Box a = body_box(one);
   const Vec3 left = a.world_from_box.orientation * Vec3(0.0, 1.0, 0.0),
              ahead = a.world_from_box.orientation * Vec3(1.0, 0.0, 0.0);
@@ -107,7 +98,7 @@ TEST_CASE("two boxes touch where their sides do and the shortest way out is the 
 }
 
 TEST_CASE("a corner that a turned box keeps free is no contact") {
-  const debris::Box a = body_box(participant(1, "saloon", 0.0, 0.0, 0.0, 0.0));
+  const debris::Box a = body_box(placed_participant(1, "saloon", 0.0, 0.0, 0.0, 0.0));
   // Turned by 45 degrees beside the front corner: the axes of a alone would have them overlap.
   debris::Box b = a;
   b.world_from_box.orientation = orientation_from_angles(0.785398, 0.0, 0.0);
@@ -118,7 +109,7 @@ TEST_CASE("a corner that a turned box keeps free is no contact") {
 }
 
 TEST_CASE("a body begins above the ground and its middle moves with the turn of the vehicle") {
-  Participant car = participant(1, "saloon", 3.0, 4.0, 1.0, 10.0);
+  Participant car = placed_participant(1, "saloon", 3.0, 4.0, 1.0, 10.0);
   car.angular_velocity_radps = {0.0, 0.0, 0.5};
   const VehicleModel& model = vehicle_models()[car.model];
   const debris::Box box = body_box(car);
@@ -135,7 +126,7 @@ TEST_CASE("a body begins above the ground and its middle moves with the turn of 
 }
 
 TEST_CASE("a car's front is cut off from the edge of its bonnet to where its roof begins") {
-  const Participant car = participant(1, "saloon", 0.0, 0.0, 0.0, 0.0);
+  const Participant car = placed_participant(1, "saloon", 0.0, 0.0, 0.0, 0.0);
   const VehicleModel& model = vehicle_models()[car.model];
   const FrontSlope slope = front_slope(model.kind).value();
   const debris::Box box = body_box(car);
@@ -149,7 +140,7 @@ TEST_CASE("a car's front is cut off from the edge of its bonnet to where its roo
 
 TEST_CASE(
     "parts are thrown with the motion that the car had when it touched what stands, though it stands itself now") {
-  const std::vector<Participant> stopped{participant(1, "volvo-s80", 0.0, 0.0, 0.0, 0.0)};
+  const std::vector<Participant> stopped{placed_participant(1, "volvo-s80", 0.0, 0.0, 0.0, 0.0)};
   vehicle::HullTouch touch;
   touch.point_m = stopped[0].world_from_vehicle * Vec3(front_m(stopped[0]), 0.5, 0.5);
   touch.normal = {-1.0, 0.0, 0.0};

@@ -16,6 +16,7 @@
 #include "engine/world/snapshot.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/engine/simulation/placed_participant.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;
@@ -25,15 +26,6 @@ namespace {
 
 constexpr double undented_mps = 3.0, b1_per_s = 23.5;
 
-Participant standing_vehicle(ParticipantId id, std::string_view model, double x_m, double y_m, double heading_rad,
-                             double speed_mps) {
-  Participant p;
-  p.id = id;
-  p.model = *find_vehicle_model(model);
-  p.world_from_vehicle = {{x_m, y_m, 0.0}, orientation_from_angles(heading_rad, 0.0, 0.0)};
-  p.velocity_mps = p.world_from_vehicle.orientation * Vec3(speed_mps, 0.0, 0.0);
-  return p;
-}
 const VehicleModel& model_of(const Participant& p) { return vehicle_models()[p.model]; }
 
 CrashOutcome run_into(const std::vector<Participant>& both) {
@@ -56,8 +48,8 @@ double turned(double rad) { return std::remainder(rad, 2.0 * std::numbers::pi); 
 TEST_CASE("who runs into another is dented in front and the other behind, each for the speed that it loses") {
   // A van of 2400 kg, so the car of 1500 kg loses more.
   const double closing_mps = 20.0;
-  std::vector<Participant> both{standing_vehicle(1, "volvo-s80", 0.0, 0.0, 0.0, closing_mps),
-                                standing_vehicle(7, "van", 0.0, 0.3, 0.0, 0.0)};
+  std::vector<Participant> both{placed_participant(1, "volvo-s80", 0.0, 0.0, 0.0, closing_mps),
+                                placed_participant(7, "van", 0.0, 0.3, 0.0, 0.0)};
   both[1].world_from_vehicle.position_m.x = model_of(both[0]).front_m() + model_of(both[1]).rear_overhang_m - 0.1;
   const CrashOutcome outcome = run_into(both);
   REQUIRE(outcome.dents.size() == 2);
@@ -84,8 +76,8 @@ TEST_CASE("who is run into from the side is dented there, in his own frame which
   for (const double heading : {0.0, 2.0, -1.2}) {
     CAPTURE(heading);
     // The driver comes from the other's left, at its middle.
-    std::vector<Participant> both{standing_vehicle(1, "volvo-s80", 0.0, 0.0, heading - 0.5 * std::numbers::pi, 15.0),
-                                  standing_vehicle(7, "saloon", 40.0, -7.0, heading, 0.0)};
+    std::vector<Participant> both{placed_participant(1, "volvo-s80", 0.0, 0.0, heading - 0.5 * std::numbers::pi, 15.0),
+                                  placed_participant(7, "saloon", 40.0, -7.0, heading, 0.0)};
     const VehicleModel &striker = model_of(both[0]), &struck = model_of(both[1]);
     const Vec3 nose = both[1].world_from_vehicle * Vec3(struck.centre_x_m(), 0.5 * struck.width_m - 0.05, 0.0);
     both[0].world_from_vehicle.position_m =
@@ -104,8 +96,8 @@ TEST_CASE("who is run into from the side is dented there, in his own frame which
 }
 
 TEST_CASE("a corner that strikes is dented at the corner") {
-  std::vector<Participant> both{standing_vehicle(1, "volvo-s80", 0.0, 0.0, 0.5, 14.0),
-                                standing_vehicle(7, "lorry", 0.0, 0.0, 0.0, 0.0)};
+  std::vector<Participant> both{placed_participant(1, "volvo-s80", 0.0, 0.0, 0.5, 14.0),
+                                placed_participant(7, "lorry", 0.0, 0.0, 0.0, 0.0)};
   const VehicleModel& car = model_of(both[0]);
   // Its left front corner in the lorry's right side.
   const Vec3 corner_m = both[0].world_from_vehicle * Vec3(car.front_m(), 0.5 * car.width_m, 0.0);
@@ -122,7 +114,7 @@ TEST_CASE("a corner that strikes is dented at the corner") {
 }
 
 TEST_CASE("a trunk dents as wide as it is, a wall all of the front, and what yields not at all") {
-  const Participant car = standing_vehicle(1, "volvo-s80", 100.0, 50.0, 0.7, 0.0);
+  const Participant car = placed_participant(1, "volvo-s80", 100.0, 50.0, 0.7, 0.0);
   vehicle::HullTouch touch;
   touch.point_m = car.world_from_vehicle * Vec3(model_of(car).front_m(), 0.5, 0.5);
   touch.normal = car.world_from_vehicle.orientation * Vec3(-1.0, 0.0, 0.0);
@@ -158,8 +150,8 @@ TEST_CASE("a trunk dents as wide as it is, a wall all of the front, and what yie
 TEST_CASE("people and who is on two wheels leave the car its shape, and have none to lose") {
   for (const char* model : {"pedestrian", "bicycle", "motorcycle"}) {
     CAPTURE(model);
-    std::vector<Participant> both{standing_vehicle(1, "volvo-s80", 0.0, 0.0, 0.0, 14.0),
-                                  standing_vehicle(7, model, 0.0, 0.0, 0.0, 0.0)};
+    std::vector<Participant> both{placed_participant(1, "volvo-s80", 0.0, 0.0, 0.0, 14.0),
+                                  placed_participant(7, model, 0.0, 0.0, 0.0, 0.0)};
     both[1].world_from_vehicle.position_m.x = model_of(both[0]).front_m() + model_of(both[1]).rear_overhang_m - 0.05;
     CHECK(run_into(both).dents.empty());
   }
@@ -167,8 +159,8 @@ TEST_CASE("people and who is on two wheels leave the car its shape, and have non
 
 TEST_CASE("a crash's dents are in every snapshot from then on, for who joins late too, until the vehicle has left") {
   const RigidTransform lane = road::world_from_lane(road::evaluate_lane(road::motorway(), {0, -5, 810.0, 0.0}));
-  std::vector<Participant> participants{standing_vehicle(1, "volvo-s80", 0, 0, 0, 0),
-                                        standing_vehicle(7, "saloon", 0, 0, 0, 0)};
+  std::vector<Participant> participants{placed_participant(1, "volvo-s80", 0, 0, 0, 0),
+                                        placed_participant(7, "saloon", 0, 0, 0, 0)};
   for (Participant& p : participants) p.world_from_vehicle = lane;
   participants[0].velocity_mps = lane.orientation * Vec3(20.0, 0.0, 0.0);
   participants[1].world_from_vehicle.position_m =

@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/effects/smoke/visibility.hpp"
+#include "tests/engine/effects/smoke/puffs_of.hpp"
+#include "tests/engine/effects/smoke/transmittance.hpp"
 #include "tests/engine/road/road_files.hpp"
 
 using namespace septet;

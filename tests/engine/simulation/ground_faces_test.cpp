@@ -7,11 +7,11 @@
 #include <string>
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "engine/simulation/driver_car.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 #include "tests/engine/road/road_files.hpp"
 
 using namespace septet;
@@ -32,13 +32,8 @@ Model model_on(const std::string& xml) {
 /// 200 m along x, 200 m wide, whose elevation rises by `step_m` at s = 40.
 std::string stepped(double step_m) {
   road::SmallRoad road{.length_m = 200.0};
-  road.profiles = fmt::format(
-      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><elevation s=\"40\" a=\"{}\" b=\"0\" "
-      "c=\"0\" "
-      "d=\"0\"/></elevationProfile>",
-      step_m);
-  road.sections = "<laneSection s=\"0\"><left>" + road::lane(1, 100.0) + "</left><center>" + road::lane(0, 0) +
-                  "</center><right>" + road::lane(-1, 100.0) + "</right></laneSection>";
+  road.profiles = "<elevationProfile>" + road::elevation(0.0) + road::elevation(step_m, 40.0) + "</elevationProfile>";
+  road.sections = road::lane_section(road::lane(1, 100.0), road::lane(-1, 100.0));
   return road.xml();
 }
 
@@ -136,16 +131,16 @@ TEST_CASE("a car that pushes against a face with all its power stays before it")
 
 TEST_CASE("a bridge over the road is no face and a road that lies higher beside it stops nobody who stays on his") {
   // Road b crosses 6 m above road a at x = 50.
-  const auto one = [](const char* id, double x, double y, double heading, double z) {
-    return fmt::format(
-        "<road id=\"{}\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" "
-        "length=\"100\"><line/></geometry></planView><elevationProfile><elevation s=\"0\" a=\"{}\" b=\"0\" c=\"0\" "
-        "d=\"0\"/></elevationProfile><lanes><laneSection s=\"0\"><left>{}</left><center>{}</center><right>{}</right>"
-        "</laneSection></lanes></road>",
-        id, x, y, heading, z, road::lane(1, 3.5), road::lane(0, 0), road::lane(-1, 3.5));
+  const auto one = [](const char* id, double x_m, double y_m, double heading_rad, double z_m) {
+    return road::SmallRoad{.profiles = "<elevationProfile>" + road::elevation(z_m) + "</elevationProfile>",
+                           .sections = road::lane_section(road::left_lanes(1), road::right_lanes(1)),
+                           .id = id,
+                           .x_m = x_m,
+                           .y_m = y_m,
+                           .heading_rad = heading_rad}
+        .text();
   };
-  const Model model = model_on("<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/>" + one("a", 0, 0, 0, 0) +
-                               one("b", 50, -50, 1.5707963267948966, 6.0) + "</OpenDRIVE>");
+  const Model model = model_on(road::roads_text(one("a", 0, 0, 0, 0) + one("b", 50, -50, 1.5707963267948966, 6.0)));
   for (const double y_m : {-1.75, -3.2, 0.0}) {  // One with a corner beside its own lanes.
     CAPTURE(y_m);
     State state;

@@ -11,6 +11,7 @@
 #include "engine/roadside/ground_beside.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 #include "tests/engine/road/road_files.hpp"
 
 using namespace septet;

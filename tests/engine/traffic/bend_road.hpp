@@ -3,10 +3,9 @@
 
 #include <string>
 
-#include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "engine/road/opendrive_reader.hpp"
+#include "tests/engine/road/road_files.hpp"
 
 namespace septet::traffic {
 
@@ -22,33 +21,26 @@ struct RoadText {
 
 /// One lane to the left, two to the right of the reference line, 3.5 m each.
 inline road::RoadNetwork read_road(const RoadText& text) {
-  const auto lane = [](int id, const std::string& more, const std::string& widening) {
-    return fmt::format(R"(<lane id="{}" type="driving"><width sOffset="0" a="3.5" {} d="0"/>{}</lane>)", id, widening,
-                       more);
-  };
-  const std::string none = R"(b="0" c="0")";
-  const std::string file = fmt::format(
-      R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="{0}" junction="-1">{1}<planView>{2}</planView>)"
-      R"(<elevationProfile>{3}</elevationProfile><lateralProfile>{4}</lateralProfile><lanes><laneSection s="0"><left>{5}</left>)"
-      R"(<center><lane id="0" type="none"/></center><right>{6}{7}</right></laneSection></lanes></road></OpenDRIVE>)",
-      text.length_m, text.type, text.geometry, text.elevation, text.superelevation, lane(1, "", none),
-      lane(-1, text.lane_speed, text.widening), lane(-2, "", none));
-  auto network = road::read_opendrive(file, "road.xodr");
-  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
-  return std::move(*network);
+  const std::string first = fmt::format(
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" {} d="0"/>{}</lane>)", text.widening, text.lane_speed);
+  return road::read_or_fail(road::SmallRoad{
+      .length_m = text.length_m,
+      .profiles = fmt::format("<elevationProfile>{}</elevationProfile><lateralProfile>{}</lateralProfile>",
+                              text.elevation, text.superelevation),
+      .sections = road::lane_section(road::lane(1, 3.5), first + road::lane(-2, 3.5)),
+      .id = "1",
+      .plan = text.geometry,
+      .before_plan = text.type}
+                                .xml());
 }
 
 inline std::string arc(double length_m, double curvature_per_m) {
-  return fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="{}"><arc curvature="{}"/></geometry>)", length_m,
-                     curvature_per_m);
+  return road::plan_piece(0, 0, 0, 0, length_m, road::arc(curvature_per_m));
 }
 inline std::string spiral(double length_m, double from_per_m, double to_per_m) {
-  return fmt::format(
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="{}"><spiral curvStart="{}" curvEnd="{}"/></geometry>)", length_m,
-      from_per_m, to_per_m);
+  return road::plan_piece(0, 0, 0, 0, length_m,
+                          fmt::format(R"(<spiral curvStart="{}" curvEnd="{}"/>)", from_per_m, to_per_m));
 }
-inline std::string straight(double length_m) {
-  return fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="{}"><line/></geometry>)", length_m);
-}
+inline std::string straight(double length_m) { return road::plan_piece(0, 0, 0, 0, length_m); }
 
 }  // namespace septet::traffic

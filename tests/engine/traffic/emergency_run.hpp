@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/engine/traffic/ambulance_between_lanes.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 
 namespace septet::traffic {

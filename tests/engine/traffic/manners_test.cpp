@@ -39,14 +39,13 @@ bool changes_left(double politeness) {
   ring.add(3, own_x, own_mps, driver);  // The path to the right is blocked.
   ring.add(1, own_x - length - gap_behind_m, behind_mps, driver);
   ring.traffic().next_decision_s[0] = 0.0;
-  const auto& law = driver.following;
-  const double gain =
-      idm_acceleration(law, own_mps, 0.0, no_leader) - idm_acceleration(law, own_mps, own_mps, gap_ahead_m);
+  const FollowingLaw law(driver.following);
+  const double gain = law.acceleration(own_mps, 0.0, no_leader) - law.acceleration(own_mps, own_mps, gap_ahead_m);
   const double loss =
-      idm_acceleration(law, behind_mps, 0.0, no_leader) - idm_acceleration(law, behind_mps, own_mps, gap_behind_m);
+      law.acceleration(behind_mps, 0.0, no_leader) - law.acceleration(behind_mps, own_mps, gap_behind_m);
   CHECK(gain > 0.5 + driver.lane_change.threshold_mps2 + driver.lane_change.keep_right_mps2);
   CHECK(loss > 1.2 * gain);
-  CHECK(idm_acceleration(law, behind_mps, own_mps, gap_behind_m) > -driver.lane_change.largest_braking_mps2);
+  CHECK(law.acceleration(behind_mps, own_mps, gap_behind_m) > -driver.lane_change.largest_braking_mps2);
   ring.advance_one({}, 0.1);
   return ring.traffic().lane[0] == 1;
 }

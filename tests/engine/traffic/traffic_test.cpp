@@ -7,18 +7,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/road/opendrive_reader.hpp"
+#include "tests/engine/road/road_files.hpp"
 #include "tests/relative.hpp"
-#include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
 namespace {
-
-road::RoadNetwork motorway() {
-  auto network = road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
-  REQUIRE(network);
-  return *network;
-}
 
 /// A car that stays at x = 5 km in the middle lane at 30 m/s; the swarm's middle.
 ForeignVehicle driver_at(const road::RoadNetwork& network, double s_m) {
@@ -50,7 +43,7 @@ double distance(const Participant& a, const Participant& b) {
 }  // namespace
 
 TEST_CASE("a vehicle whose acceleration is no number goes on at its speed and is counted") {
-  const road::RoadNetwork network = motorway();
+  const road::RoadNetwork& network = road::motorway();
   const ForeignVehicle driver = driver_at(network, 3000.0);
   Random random(1, 1);
   const TrafficParameters parameters = motorway_traffic(20, 300.0);
@@ -72,12 +65,12 @@ TEST_CASE("the equilibrium gap of the intelligent driver model gives no accelera
   for (const double speed : {5.0, 15.0, 28.0}) {
     const double gap = (driver.standstill_gap_m + speed * driver.time_gap_s) /
                        std::sqrt(1.0 - std::pow(speed / driver.desired_speed_mps, 4));
-    CHECK(std::abs(idm_acceleration(driver, speed, speed, gap)) < 1e-12);
+    CHECK(std::abs(FollowingLaw(driver).acceleration(speed, speed, gap)) < 1e-12);
   }
 }
 
 TEST_CASE("both directions of the motorway are one corridor each as long as the road") {
-  const auto network = motorway();
+  const road::RoadNetwork& network = road::motorway();
   const Corridor along = build_corridor(network, {0, -3, 5000.0, 0.0});
   const auto opposite = opposite_lane(network, {0, -3, 5000.0, 0.0});
   REQUIRE(opposite);
@@ -93,7 +86,7 @@ TEST_CASE("both directions of the motorway are one corridor each as long as the 
 }
 
 TEST_CASE("two hundred vehicles on the motorway keep clear of each other for a minute") {
-  const auto network = motorway();
+  const road::RoadNetwork& network = road::motorway();
   const TrafficParameters parameters = motorway_traffic(200, 1500.0);
   Random random(7, 1);
   double s_m = 2500.0;
@@ -119,7 +112,7 @@ TEST_CASE("two hundred vehicles on the motorway keep clear of each other for a m
 }
 
 TEST_CASE("vehicles leave by the exit and merge from the entry before its lane ends") {
-  const auto network = motorway();
+  const road::RoadNetwork& network = road::motorway();
   TrafficParameters parameters = motorway_traffic(120, 1500.0);
   parameters.exit_share = 0.4;
   Random random(5, 1);
@@ -196,7 +189,7 @@ TEST_CASE("a mix gives each kind its share and splits it among the classes as be
 }
 
 TEST_CASE("the same seed gives the same traffic") {
-  const auto network = motorway();
+  const road::RoadNetwork& network = road::motorway();
   const TrafficParameters parameters = motorway_traffic(60, 1000.0);
   std::uint64_t hashes[2];
   for (auto& value : hashes) {
@@ -212,7 +205,7 @@ TEST_CASE("the same seed gives the same traffic") {
 }
 
 TEST_CASE("shown motion agrees with shown velocity through lane changes") {
-  const auto network = motorway();
+  const road::RoadNetwork& network = road::motorway();
   const TrafficParameters parameters = motorway_traffic(120, 1200.0);
   Random random(3, 1);
   const std::vector driver{driver_at(network, 3000.0)};

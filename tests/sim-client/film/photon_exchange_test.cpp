@@ -12,6 +12,7 @@
 
 #include "sim-client/film/traced/messages.hpp"
 #include "tests/engine/raytrace/cornell_box.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 
 namespace septet::film {
 namespace {

@@ -10,6 +10,7 @@
 #include "engine/world/instrument_panel.hpp"
 #include "engine/world/interpolate.hpp"
 #include "sim-client/frame/client_frame.hpp"
+#include "tests/engine/rig/upper_right.hpp"
 #include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
@@ -47,7 +48,7 @@ TEST_CASE("from wherever the head is each screen stays a window onto the same wo
       const auto views = screen_views(rig, screen, {moved_m, 0.0});
       REQUIRE(views);
       const rig::Window& window = screen.views.front().window;
-      const Vec3 beyond_m = 3.0 * (0.4 * window.lower_left_m + 0.6 * window.upper_right_m());
+      const Vec3 beyond_m = 3.0 * (0.4 * window.lower_left_m + 0.6 * upper_right_m(window));
       const Vec2 drawn = drawn_at(views->views.front(), beyond_m);
       const Vec2 passed = passed_at(window, rig.eye_point_m + moved_m, beyond_m);
       CHECK(drawn.x == relative(passed.x, 1e-9));

@@ -18,6 +18,7 @@
 #include "engine/render/renderer.hpp"
 #include "sim-client/frame/debris_drawing.hpp"
 #include "sim-client/frame/ice_drawing.hpp"
+#include "tests/engine/instant/ray_through.hpp"
 
 namespace septet::frame {
 namespace {

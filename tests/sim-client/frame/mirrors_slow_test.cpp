@@ -17,6 +17,7 @@
 #include "engine/world/instrument_panel.hpp"
 #include "sim-client/frame/prototype_of.hpp"
 #include "tests/engine/instant/reflection_point.hpp"
+#include "tests/engine/rig/upper_right.hpp"
 #include "tests/relative.hpp"
 #include "tests/sim-client/frame/cockpit_view.hpp"
 
@@ -109,7 +110,7 @@ class Stage {
     if (within) {
       const rig::Window& glass = within->glass;
       const glm::dvec2 corners[] = {pixel(glass.lower_left_m), pixel(glass.lower_right_m), pixel(glass.upper_left_m),
-                                    pixel(glass.upper_right_m())};
+                                    pixel(upper_right_m(glass))};
       low = high = corners[0];
       for (const glm::dvec2& corner : corners) low = glm::min(low, corner), high = glm::max(high, corner);
     }

@@ -2,27 +2,19 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/road/opendrive_reader.hpp"
 #include "sim-server/page/road_map.hpp"
+#include "tests/engine/road/road_files.hpp"
 
 namespace septet::page {
 namespace {
 
-/// Two lanes each way, 1 km straight, then a quarter circle.
+/// A lane each way and a pavement, 1 km straight, then a quarter circle.
 road::RoadNetwork bend() {
-  constexpr std::string_view text = R"(<OpenDRIVE><header revMajor="1" revMinor="8"/>
-    <road name="" length="1157.0796" id="1" junction="-1"><planView>
-      <geometry s="0" x="0" y="0" hdg="0" length="1000"><line/></geometry>
-      <geometry s="1000" x="1000" y="0" hdg="0" length="157.0796"><arc curvature="0.01"/></geometry></planView>
-    <lanes><laneSection s="0">
-      <left><lane id="1" type="driving" level="false"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></left>
-      <center><lane id="0" type="none" level="false"/></center>
-      <right><lane id="-1" type="driving" level="false"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
-        <lane id="-2" type="sidewalk" level="false"><width sOffset="0" a="2" b="0" c="0" d="0"/></lane></right>
-    </laneSection></lanes></road></OpenDRIVE>)";
-  auto network = road::read_opendrive(text, "test");
-  REQUIRE(network.has_value());
-  return std::move(*network);
+  const road::SmallRoad road{
+      .length_m = 1157.0796,
+      .sections = road::lane_section(road::left_lanes(1), road::right_lanes(1) + road::lane(-2, 2.0, "", "sidewalk")),
+      .plan = road::plan_piece(0, 0, 0, 0, 1000) + road::plan_piece(1000, 1000, 0, 0, 157.0796, road::arc(0.01))};
+  return road::read_or_fail(road.xml());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "engine/physics/elastic/body_measures.hpp"
 #include "tests/engine/effects/debris/crashes.hpp"
 #include "tests/engine/effects/debris/pieces.hpp"
+#include "tests/engine/physics/elastic/element_measures.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

@@ -1,5 +1,6 @@
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/effects/debris/piece.hpp"
+#include "tests/engine/effects/debris/all_keyframes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -10,6 +10,7 @@
 
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
+#include "tests/engine/effects/debris/all_keyframes.hpp"
 #include "tests/engine/effects/debris/pieces.hpp"
 #include "tests/relative.hpp"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/effects/smoke/smoke_state.hpp"
+#include "tests/engine/effects/smoke/tunnel_grid.hpp"
 
 namespace septet::smoke {
 

@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "smoke_fixtures.hpp"
+#include "tests/engine/effects/smoke/puffs_of.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

@@ -3,6 +3,7 @@
 #include "engine/effects/smoke/attraction.hpp"
 #include "engine/effects/smoke/visibility.hpp"
 #include "smoke_fixtures.hpp"
+#include "tests/engine/effects/smoke/transmittance.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

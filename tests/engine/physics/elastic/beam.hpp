@@ -10,8 +10,10 @@
 #include "engine/core/check.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
-#include "engine/physics/elastic/equilibrium.hpp"
 #include "engine/physics/elastic/step.hpp"
+#include "tests/engine/physics/elastic/element_measures.hpp"
+#include "tests/engine/physics/elastic/equilibrium.hpp"
+#include "tests/engine/physics/elastic/fixed_nodes.hpp"
 
 namespace septet::elastic::beam {
 

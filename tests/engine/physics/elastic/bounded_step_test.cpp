@@ -1,4 +1,4 @@
-#include "engine/physics/elastic/bounded_step.hpp"
+#include "tests/engine/physics/elastic/bounded_step.hpp"
 
 #include <doctest/doctest.h>
 

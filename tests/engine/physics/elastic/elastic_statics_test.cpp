@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/elastic/beam.hpp"
+#include "tests/engine/physics/elastic/element_measures.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

@@ -5,6 +5,7 @@
 
 #include "engine/physics/elastic/element.hpp"
 #include "tests/engine/physics/elastic/beam.hpp"
+#include "tests/engine/physics/elastic/element_measures.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

@@ -7,6 +7,7 @@
 
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/step.hpp"
+#include "tests/engine/physics/elastic/fixed_nodes.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

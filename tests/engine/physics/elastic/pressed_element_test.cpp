@@ -8,6 +8,7 @@
 #include "engine/physics/elastic/elastic_body.hpp"
 #include "engine/physics/elastic/element.hpp"
 #include "engine/physics/elastic/step.hpp"
+#include "tests/engine/physics/elastic/element_measures.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet::elastic;

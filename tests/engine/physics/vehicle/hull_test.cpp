@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

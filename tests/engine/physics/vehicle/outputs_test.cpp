@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;

@@ -2,6 +2,7 @@
 
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/physics/vehicle/hostile_driving.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;

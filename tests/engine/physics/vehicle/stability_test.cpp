@@ -8,6 +8,7 @@
 #include "engine/physics/vehicle/controls.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/physics/vehicle/hostile_driving.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;

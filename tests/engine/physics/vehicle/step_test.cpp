@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/physics/vehicle/mechanical_energy.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;

@@ -25,6 +25,7 @@
 #include "engine/image/png.hpp"
 #include "engine/raytrace/smoke.hpp"
 #include "tests/engine/raytrace/peers/peer_scenes.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 
 namespace septet::raytrace {
 namespace {

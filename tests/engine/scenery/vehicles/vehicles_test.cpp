@@ -18,6 +18,7 @@
 #include "engine/scenery/vehicles/surface_patch.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 #include "engine/world/vehicle_body.hpp"
+#include "tests/engine/geometry/solid_measures.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::scenery {
@@ -48,6 +49,16 @@ geometry::PolygonMesh opaque_part(const VehicleParts& parts, std::string_view na
     if (part->mesh.polygon_materials[i] != index_of(Finish::clear_glass))
       opaque.polygons.push_back(part->mesh.polygons[i]);
   return opaque;
+}
+
+/// Triangles of everything that is drawn at a distance.
+std::size_t triangles_at(const VehicleParts& parts, float distance_m) {
+  std::size_t count = 0;
+  for (const VehiclePart& part : parts)
+    for (const Placement& place : part.places)
+      if (distance_m >= place.visible_from_m && distance_m < place.visible_to_m)
+        count += geometry::triangle_count(part.mesh, part.subdivision_level);
+  return count;
 }
 
 }  // namespace

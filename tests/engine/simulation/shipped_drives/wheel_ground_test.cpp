@@ -7,8 +7,8 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include "engine/road/opendrive_reader.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "tests/engine/road/road_files.hpp"
 #include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
@@ -17,17 +17,10 @@ namespace {
 
 /// 200 m straight along x, one lane each way, with the given road objects.
 road::RoadNetwork straight_road(const std::string& objects) {
-  const std::string lane = "type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
-  auto network = road::read_opendrive(
-      "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"R\" length=\"200\" junction=\"-1\"><planView>"
-      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection "
-      "s=\"0\"><left>"
-      "<lane id=\"1\" " +
-          lane + "</left><center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" " + lane +
-          "</right></laneSection></lanes><objects>" + objects + "</objects></road></OpenDRIVE>",
-      "test.xodr");
-  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
-  return std::move(*network);
+  return road::read_or_fail(road::SmallRoad{.length_m = 200.0,
+                                            .sections = road::lane_section(road::left_lanes(1), road::right_lanes(1)),
+                                            .after_lanes = "<objects>" + objects + "</objects>"}
+                                .xml());
 }
 
 double friction_at(const road::RoadNetwork& roads, const RoadWeather& weather, double x_m, double y_m) {
@@ -85,22 +78,17 @@ TEST_CASE("far from every road there is no surface to find") {
 }
 
 TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the road there is none") {
-  const std::string width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
-  const auto roads = road::read_opendrive(
-      "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"R\" length=\"200\" junction=\"-1\"><planView>"
-      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection "
-      "s=\"0\">"
-      "<center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\">" +
-          width + "</lane><lane id=\"-2\" type=\"sidewalk\">" + width +
-          "<height sOffset=\"0\" inner=\"0.12\" "
-          "outer=\"0.12\"/></lane></right></laneSection></lanes></road></OpenDRIVE>",
-      "kerb.xodr");
-  REQUIRE(roads.has_value());
+  const road::SmallRoad with_kerb{
+      .length_m = 200.0,
+      .sections = road::lane_section(
+          "", road::lane(-1, 3.5) +
+                  road::lane(-2, 3.5, "", "sidewalk", "<height sOffset=\"0\" inner=\"0.12\" outer=\"0.12\"/>"))};
+  const road::RoadNetwork roads = road::read_or_fail(with_kerb.xml());
   const auto edge = [&](const Vec3& centre_m, const Vec2& ahead) {
     vehicle::WheelGround wheel;
     road::RoadPosition place;
-    REQUIRE(find_wheel_ground(*roads, nullptr, {}, centre_m, false, place, wheel).has_value());
-    find_kerb(*roads, nullptr, centre_m, ahead, 0.32, place, wheel);
+    REQUIRE(find_wheel_ground(roads, nullptr, {}, centre_m, false, place, wheel).has_value());
+    find_kerb(roads, nullptr, centre_m, ahead, 0.32, place, wheel);
     return wheel.edge_m;
   };
   CHECK_FALSE(edge({50.0, -2.0, 0.3}, {0.0, -1.0}).has_value());

@@ -1,4 +1,4 @@
-#include "engine/net/bad_network.hpp"
+#include "tests/engine/net/bad_network.hpp"
 
 #include <algorithm>
 

@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "engine/simulation/server_step.hpp"
-#include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
-#include "tests/temporary_folder.hpp"
 
-namespace septet::server {
+namespace septet::simulation {
 namespace {
 
 /// Empty traffic that reports two bad numbers.
@@ -31,19 +31,19 @@ class EmptyTraffic final : public traffic::TrafficEngine {
 TEST_CASE(
     "a number gone bad in controls, car, scripted vehicle or traffic is counted, reset and told, and the drive goes "
     "on") {
-  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
-  auto state = simulation::initial_state(*drive.model, std::make_unique<EmptyTraffic>());
+  const server::LoadedDrive drive = server::shipped_drive("behind-ambulance", "desktop");
+  auto state = initial_state(*drive.model, std::make_unique<EmptyTraffic>());
   REQUIRE(state.has_value());
-  std::vector<simulation::Event> events;
+  std::vector<Event> events;
   const auto told = [&](const DriverInput& input) {
     events.clear();
-    const Snapshot snapshot = simulation::server_step(*drive.model, input, *state, events);
+    const Snapshot snapshot = server_step(*drive.model, input, *state, events);
     for (const Participant& participant : snapshot.participants)
       CHECK(std::isfinite(glm::length(participant.world_from_vehicle.position_m)));
     CHECK(std::isfinite(snapshot.driver_car.speed_mps + snapshot.driver_car.accelerator +
                         snapshot.driver_car.steering_wheel_rad));
     const bool is_told =
-        std::ranges::any_of(events, [](const simulation::Event& event) { return event.kind == "bad_number"; });
+        std::ranges::any_of(events, [](const Event& event) { return event.kind == "bad_number"; });
     return is_told ? snapshot.diagnostics.bad_numbers : 0;
   };
   CHECK(told({}) == 2);  // Traffic's.
@@ -62,16 +62,4 @@ TEST_CASE(
   CHECK(told({}) == 0);
 }
 
-TEST_CASE("the last line of a drive and its outcome tell how many numbers went bad") {
-  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
-  const septet::TemporaryFolder folder;
-  auto log = SessionLog::create(drive, {.out = folder.path(), .lockstep = true});
-  REQUIRE(log.has_value());
-  Snapshot snapshot;
-  snapshot.diagnostics.bad_numbers = 3;
-  log->record_tick(std::make_shared<const TakenSnapshot>(snapshot), {});
-  CHECK(log->ending({}).find("3 numbers went bad") != std::string::npos);
-  CHECK(log->outcome({}, {}).bad_numbers == 3);
-}
-
-}  // namespace septet::server
+}  // namespace septet::simulation

@@ -1,17 +1,37 @@
-#include "engine/physics/elastic/equilibrium.hpp"
+#pragma once
+/// The static shape of a loaded body: Newton's method on the full energy, geometric stiffness
+/// included. For validation of the elements.
 
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Core>
+
 #include "engine/physics/elastic/block_cholesky.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
+#include "engine/physics/elastic/elastic_body.hpp"
 #include "engine/physics/elastic/element.hpp"
+#include "tests/engine/physics/elastic/element_measures.hpp"
 
 namespace septet::elastic {
-namespace {
+
+struct EquilibriumReport {
+  bool converged = false;
+  int iterations = 0;
+};
+
+namespace equilibrium {
+
+/// Adds V (g_aᵀ S g_b) I, the geometric stiffness of a stress.
+inline void add_geometric_stiffness(const Element& e, const Eigen::Matrix3d& stress_pa, BlockMatrix& matrix) {
+  const auto g = shape_gradients(e);
+  for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
+    return e.rest_volume_m3 * g[a].dot(stress_pa * g[b]) * Eigen::Matrix3d::Identity();
+  });
+}
 
 /// Stiffness of the whole body; without the geometric part it is always positive definite.
-BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
+inline BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
   const LameConstants lame = lame_constants(body.material);
   BlockMatrix matrix;
   matrix.set_zero(body.pattern);
@@ -36,16 +56,18 @@ BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
   return matrix;
 }
 
-double potential_j(const ElasticBody& body, const Eigen::Vector3d& gravity) {
+inline double potential_j(const ElasticBody& body, const Eigen::Vector3d& gravity) {
   double energy = elastic_energy_j(body);
   for (int i = 0; i < body.node_count(); ++i)
     energy -= (body.force_n[i] + body.mass_kg[i] * gravity).dot(body.position_m[i] - body.rest_position_m[i]);
   return energy;
 }
 
-}  // namespace
+}  // namespace equilibrium
 
-EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2, int max_iterations) {
+/// Moves the free nodes until `force_n`, gravity and the internal forces balance. Sets the nodes' velocities to zero.
+inline EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2,
+                                          int max_iterations = 40) {
   EquilibriumReport report;
   std::ranges::fill(body.velocity_mps, Eigen::Vector3d::Zero());
   BlockFactor<double> factor;
@@ -56,21 +78,21 @@ EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gra
     BlockVector move(body.position_m.size(), Eigen::Array4d::Zero());
     for (int i = 0; i < body.node_count(); ++i)
       if (!body.fixed[i]) move[i] = padded(internal[i] + body.force_n[i] + body.mass_kg[i] * gravity_mps2);
-    if (!factorise(body.pattern, body.factor_structure, stiffness(body, true), factor) &&
-        !factorise(body.pattern, body.factor_structure, stiffness(body, false), factor))
+    if (!factorise(body.pattern, body.factor_structure, equilibrium::stiffness(body, true), factor) &&
+        !factorise(body.pattern, body.factor_structure, equilibrium::stiffness(body, false), factor))
       return report;
     solve(body.factor_structure, factor, move);
 
     // Halve the step until the potential falls: far from equilibrium a full one may overshoot.
     const auto start = body.position_m;
-    const double before = potential_j(body, gravity_mps2);
+    const double before = equilibrium::potential_j(body, gravity_mps2);
     double largest = 0.0;
     for (const auto& m : move) largest = std::max(largest, m.matrix().norm());
     if (report.iterations == 1) first_change = largest;
     double part = 1.0;
     for (int halving = 0; halving < 20; ++halving, part *= 0.5) {
       for (int i = 0; i < body.node_count(); ++i) body.position_m[i] = start[i] + part * move[i].head<3>().matrix();
-      if (potential_j(body, gravity_mps2) <= before + 1e-9 * std::abs(before)) break;
+      if (equilibrium::potential_j(body, gravity_mps2) <= before + 1e-9 * std::abs(before)) break;
     }
     report.converged = part == 1.0 && largest <= 1e-8 * first_change;
   }
