@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The page's files of a language: each has every key once, with the same {names} in its text, and the page asks for no other.
 
-Every word that Septet's own lessons and things bring onto it is told likewise.
+Every word that Septet's own lessons and things bring onto it is told likewise, and every refusal of a wish.
 
     language_test.py FOLDER_OF_THE_PAGE ROOT
 """
@@ -38,6 +38,15 @@ def brought_words(root):
     yield from (f"said.{name.replace('_', ' ')}" for name in things)
 
 
+def refusals(root):
+    """The keys of sentences by which a wish of the operator is refused, as the sources have them."""
+    for file, sentence in (("sim-server/drive/operator_desk.cpp", r'return "([a-z][^"=]* [^"=]*)";'),
+                           ("engine/simulation/operator_command.cpp", r'failure\((?:[\w.]+ \? )?"([^"]+)"(?: : "([^"]+)")?')):
+        found = re.findall(sentence, (root / file).read_text(encoding="utf-8"))
+        assert found, file
+        yield from (f"said.{text}" for match in found for text in ([match] if isinstance(match, str) else match) if text)
+
+
 def names_in(text):
     return sorted(set(re.findall(r"\{(\w+)\}", text)))
 
@@ -56,7 +65,7 @@ def main():
                 mistakes.append(f"{code}: {key} is empty")
             if names_in(texts[key]) != names_in(english[key]):
                 mistakes.append(f"{code}: {key} has the names {names_in(texts[key])}, English has {names_in(english[key])}")
-    mistakes += [f"the page is told of {key}" for key in brought_words(root) if key not in english]
+    mistakes += [f"the page is told of {key}" for key in [*brought_words(root), *refusals(root)] if key not in english]
     asked = set()
     areas = {key.split(".")[0] for key in english} - {made.rstrip(".") for made in MADE}
     for file in folder.iterdir():
