@@ -90,7 +90,9 @@ class Reader {
     line_ = scan_.line();
     if (scan_.peek() == '/') return scan_.skip_line();  // A person's remark; the format itself has CM_.
     const auto word = scan_.take_identifier();
+    const bool follows_message = std::exchange(in_message_, word == "BO_" || word == "SG_");
     if (!word || !is_statement(*word)) {
+      if (follows_message) return leave_line_unread();
       refuse(word ? fmt::format("\"{}\" begins no statement of a DBC file", printable(std::string(word->substr(0, 40))))
                   : fmt::format("a statement begins with \"{}\"", printable(std::string(1, scan_.peek()))));
     } else if (*word == "VERSION") {
@@ -141,11 +143,22 @@ class Reader {
     if (scan_.line() == line_) scan_.skip_line();
   }
 
+  /// Names of nodes, which nothing here depends on: other signs in their line are passed over, up to a text or a remark.
   void names_until_statement() {
     for (auto word = scan_.peek_identifier(); !word || !is_statement(*word); word = scan_.peek_identifier()) {
-      if (!scan_.take_name()) return;
-      scan_.take(',');
+      if (scan_.take_name() || scan_.take(',')) continue;
+      if (scan_.peek() == '"' || scan_.peek() == '/' || scan_.line() != line_ || !scan_.skip_word()) return;
     }
+  }
+
+  /// A line among a message's that begins no statement: a part of that message, or a next one's beginning. Signals that
+  /// follow belong to neither for certain.
+  void leave_line_unread() {
+    if (!ignored_)
+      leave_unread(database_.messages.size() - 1,
+                   fmt::format("a line of {}, or after it, begins no statement", database_.messages.back().name));
+    ignored_ = in_message_ = true;
+    skip_rest_of_line();
   }
 
   /// A list of words that are statements elsewhere, up to the first other word.
@@ -168,6 +181,8 @@ class Reader {
   }
   bool is_unread(std::size_t message) const { return unread_.contains(message); }
 
+  static constexpr const char* form_of_message = "a BO_ is not of the form BO_ ID NAME: BYTES SENDER";
+
   void message() {
     const auto id = scan_.take_unsigned();
     const auto name = take_name_in_line();
@@ -180,11 +195,15 @@ class Reader {
     Message& message = database_.messages.emplace_back();
     if (name) message.name = *name;
     if (!id || !name || !has_colon || !bytes) {
-      leave_unread(place, "a BO_ is not of the form BO_ ID NAME: BYTES SENDER");
+      leave_unread(place, form_of_message);
       return skip_rest_of_line();
     }
     // Its sender may be missing.
-    if (const auto sender = scan_.peek_identifier(); !sender || !is_statement(*sender)) scan_.take_name();
+    const auto sender = scan_.peek_identifier();
+    if (scan_.line() == line_ && !scan_.at_end() && !(sender && is_statement(*sender))) {
+      if (!scan_.take_name()) leave_unread(place, form_of_message);
+      names_until_statement();
+    }
     const std::uint64_t number = *id & ~extended_flag;
     // Many files of other people leave the flag out.
     message.is_extended = (*id & extended_flag) != 0 || number > 0x7FFu;
@@ -210,7 +229,7 @@ class Reader {
     Message& message = database_.messages.back();
     const std::size_t place = database_.messages.size() - 1;
     if (message.signals.size() == most_signals)
-      return refuse(fmt::format("{} has more than 1024 signals", message.name));
+      return leave_unread(place, fmt::format("{} has more than {} signals", message.name, most_signals));
     if (fault)
       leave_unread(place, *fault);
     else if (is_nested_ ||
@@ -290,8 +309,12 @@ class Reader {
     };
     if (!pair('(', ',', ')', signal.scale, signal.offset) || !pair('[', '|', ']', signal.low, signal.high))
       return false;
+    const Scanner before = scan_;
     auto unit = scan_.take_string();
-    if (!unit) return false;
+    if (!unit || scan_.line() != before.line()) {  // An end that is missing is not looked for in other statements.
+      scan_ = before;
+      return false;
+    }
     signal.unit = std::move(*unit);
     return true;
   }
@@ -455,9 +478,10 @@ class Reader {
   std::map<std::size_t, FrameFormat> formats_;
   std::vector<std::string> frame_formats_;  ///< The names of VFrameFormat's values, where the file lists them.
   std::optional<FrameFormat> default_format_;
-  int line_ = 1;            ///< Of the statement's beginning.
-  bool ignored_ = false;    ///< The signals that follow belong to no message.
-  bool is_nested_ = false;  ///< The signal that was read is selected and selects.
+  int line_ = 1;             ///< Of the statement's beginning.
+  bool ignored_ = false;     ///< The signals that follow belong to no message.
+  bool in_message_ = false;  ///< The statement before was a message, or a signal of one.
+  bool is_nested_ = false;   ///< The signal that was read is selected and selects.
   double default_period_ms_ = 0.0;
   Error error_;
 };

@@ -1,6 +1,10 @@
 #include "command-line/command/check_rig.hpp"
 
 #include <cstdlib>
+#include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
 
 #include "car-io/can/rig_can.hpp"
 #include "car-io/car_layout.hpp"
@@ -27,6 +31,14 @@ Expected<void> check_vehicle(const std::string& name) {
   });
 }
 
+/// Where a fault is of what a rig names: the rig's file and key stand before it.
+std::string named_at(const std::filesystem::path& file, std::string_view key, std::string_view where) {
+  constexpr std::string_view unnamed = "rig, ";
+  if (where.empty() || where == "the rig") return fmt::format("{}, {}", file.string(), key);
+  if (where.starts_with(unnamed)) return fmt::format("{}, {}", file.string(), where.substr(unnamed.size()));
+  return fmt::format("{}, {}: {}", file.string(), key, where);
+}
+
 }  // namespace
 
 std::vector<Finding> check_rig(const std::string& text, const std::filesystem::path& file) {
@@ -36,19 +48,25 @@ std::vector<Finding> check_rig(const std::string& text, const std::filesystem::p
     const int line = error.where.starts_with(here) ? std::atoi(error.where.c_str() + here.size()) : 0;
     findings.push_back({severity, line, error});
   };
-  const auto must_hold = [&](const auto& expected) {
-    if (!expected) add(Severity::error, expected.error());
-  };
   const auto rig = rig::read_rig(text, file.string());
-  must_hold(rig);
-  if (!rig) return findings;
-  must_hold(check_vehicle(rig->car.vehicle));
-  must_hold(car_io::find_car_layout(rig->car.layout));
-  must_hold(driver::find_driver(rig->car.driver));
+  if (!rig) {
+    add(Severity::error, rig.error());
+    return findings;
+  }
+  const auto add_named = [&](Severity severity, std::string_view key, Error error) {
+    error.where = named_at(file, key, error.where);
+    add(severity, error);
+  };
+  const auto must_hold = [&](std::string_view key, const auto& expected) {
+    if (!expected) add_named(Severity::error, key, expected.error());
+  };
+  must_hold("[car] vehicle", check_vehicle(rig->car.vehicle));
+  must_hold("[car] layout", car_io::find_car_layout(rig->car.layout));
+  must_hold("[car] driver", driver::find_driver(rig->car.driver));
   if (rig->can) {
     const auto can = car_io::read_rig_can(*rig, file);
-    must_hold(can);
-    if (can && can->notice) add(Severity::warning, *can->notice);
+    must_hold("[can]", can);
+    if (can && can->notice) add_named(Severity::warning, "[can] dbc", *can->notice);
   }
   for (const Error& doubt : rig::doubts_of(*rig, file.string())) add(Severity::warning, doubt);
   return findings;

@@ -92,6 +92,10 @@ LeftOver delete_drives(const std::vector<fs::path>& sessions) {
   LeftOver result;
   std::error_code error;
   for (const fs::path& session : sessions) {
+    if (auto ended = logging::check_has_ended(session); !ended) {
+      result.why.push_back(std::move(ended.error()));
+      continue;
+    }
     fs::rename(session, hidden(session), error);
     if (error)
       result.why.push_back({error.message(), session.string(), "make its folder one that can be written"});
@@ -134,6 +138,14 @@ LeftOver make_anonymous(const std::vector<fs::path>& sessions) {
       result.why.push_back(std::move(done.error()));
   }
   return result;
+}
+
+/// The file that holds a session's data, where a folder has a link to it: with the link alone nothing would be forgotten.
+fs::path holder_of(const fs::path& session) {
+  std::error_code error;
+  if (!fs::is_symlink(session, error)) return session;
+  auto file = fs::canonical(session, error);
+  return error ? session : file;
 }
 
 }  // namespace
@@ -219,8 +231,10 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
     if (!reader)
       unread.push_back(std::move(reader.error()));
     else if (reader->info().participant == options.participant)
-      theirs.push_back(session);
+      theirs.push_back(holder_of(session));
   }
+  std::ranges::sort(theirs);
+  theirs.erase(std::unique(theirs.begin(), theirs.end()), theirs.end());
   const auto name_unread = [&] {
     for (const Error& why : unread) program::say("septet: it could not be read whose it is: " + describe(why));
   };

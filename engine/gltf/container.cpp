@@ -178,11 +178,16 @@ Expected<Container> open_container(std::string_view bytes, std::string_view wher
   container.json = std::make_shared<const Json>(Json::parse(chunks->json, nullptr, false));
   const Json& json = *container.json;
   if (!json.is_object()) return failure("its JSON cannot be read", where, export_anew);
-  const std::string version = json.contains("asset") ? text_in(json["asset"], "version") : std::string();
+  static const Json nothing = Json::object();
+  const Json& asset = json.contains("asset") ? json["asset"] : nothing;
+  const std::string version = text_in(asset, "version");
   if (!version.starts_with("2."))
     return failure(
         version.empty() ? "it names no version of glTF" : fmt::format("it is of glTF {}", printable(version, 20)),
         where, export_anew);
+  if (const std::string least = text_in(asset, "minVersion");
+      !least.empty() && least != "2.0")  // 3.2: it is not loaded.
+    return failure(fmt::format("it requires glTF {}", printable(least, 20)), where, export_anew);
   const Json& buffers = list_of(json, "buffers");
   if (buffers.size() > most_buffers)
     return failure(fmt::format("it has {} buffers, more than {}", buffers.size(), most_buffers), where, export_anew);

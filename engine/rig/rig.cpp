@@ -13,6 +13,7 @@
 #include "engine/core/printable.hpp"
 #include "engine/document/table_reader.hpp"
 #include "engine/document/toml_table.hpp"
+#include "engine/rig/network_reader.hpp"
 #include "engine/rig/sight_reader.hpp"
 
 namespace septet::rig {
@@ -66,9 +67,11 @@ Screen read_screen(const toml::table& table, const std::vector<Mirror>& mirrors,
   TableReader reader(table, file, "screen", error);
   Screen screen;
   screen.name = reader.get_string("name", "");
-  if (screen.name.empty() ||
+  constexpr std::size_t longest_name = 63;  // It names files, and a machine's key.
+  if (screen.name.empty() || screen.name.size() > longest_name ||
       screen.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
-    reader.report("name", fmt::format("screen.name is \"{}\"", screen.name), "use small letters, digits and hyphens");
+    reader.report("name", fmt::format("screen.name is \"{}\"", printable(screen.name, longest_name)),
+                  fmt::format("use small letters, digits and hyphens, {} at most", longest_name));
   screen.width_px = static_cast<std::uint32_t>(reader.get_integer("width_px", screen.width_px, 16, 16384));
   screen.height_px = static_cast<std::uint32_t>(reader.get_integer("height_px", screen.height_px, 16, 16384));
   if (screen.name == "car" || screen.name == "server")
@@ -91,45 +94,6 @@ Screen read_screen(const toml::table& table, const std::vector<Mirror>& mirrors,
                   "put the insets on a screen that shows the road");
   reader.finish(documented_in);
   return screen;
-}
-
-/// An address in dotted form has four numbers up to 255; anything else may be a machine's name.
-bool is_wrong_address(std::string_view text) {
-  if (text.empty() || text.find_first_not_of("0123456789.") != std::string_view::npos) return false;
-  int numbers = 0;
-  for (std::size_t begin = 0; begin <= text.size(); ++numbers) {
-    const std::size_t end = std::min(text.find('.', begin), text.size());
-    const std::string_view number = text.substr(begin, end - begin);
-    if (number.empty() || number.size() > 3 || (number.size() == 3 && number > "255")) return true;
-    begin = end + 1;
-  }
-  return numbers != 4;
-}
-
-void check_address(TableReader& reader, const char* key, const std::string& address) {
-  if (is_wrong_address(address))
-    reader.report(key, fmt::format("network.{} is \"{}\"", key, address),
-                  "write four numbers of 0 to 255, such as 10.7.0.3");
-}
-
-Network read_network(const toml::table& table, std::string_view file, Error& error) {
-  TableReader reader(table, file, "network", error);
-  Network network;
-  network.server_address = reader.get_string("server_address", network.server_address);
-  network.scene_port = static_cast<std::uint16_t>(reader.get_integer("scene_port", network.scene_port, 0, 65535));
-  network.tick_group = reader.get_string("tick_group", network.tick_group);
-  network.tick_port = static_cast<std::uint16_t>(reader.get_integer("tick_port", network.tick_port, 0, 65535));
-  network.interface_address = reader.get_string("interface_address", network.interface_address);
-  check_address(reader, "server_address", network.server_address);
-  check_address(reader, "tick_group", network.tick_group);
-  check_address(reader, "interface_address", network.interface_address);
-  network.transport =
-      static_cast<TickTransport>(reader.get_choice("transport", 0, {"automatic", "multicast", "unicast"}));
-  network.max_payload_bytes =
-      static_cast<std::uint32_t>(reader.get_integer("max_payload_bytes", network.max_payload_bytes, 512, 8900));
-  network.playout_delay_ticks = reader.get_double("playout_delay_ticks", network.playout_delay_ticks, 0.0, 60.0);
-  reader.finish(documented_in);
-  return network;
 }
 
 AxisCalibration read_axis(TableReader& calibration, std::string_view axis, AxisCalibration fallback,
@@ -194,6 +158,8 @@ CarActuators read_actuators(const toml::table& table, std::string_view file, Err
   actuators.fan_least = reader.get_double("fan_least", actuators.fan_least, 0.0, 1.0);
   if (const toml::array* points = reader.get_array("fan_curve")) actuators.fan_curve = read_fan_curve(*points, reader);
   actuators.fan_most = reader.get_double("fan_most", actuators.fan_most, 0.0, 1.0);
+  if (actuators.fan_least > actuators.fan_most)
+    reader.report("fan_least", "the fan just turns at more than its most", "give fan_least below fan_most");
   actuators.vibration_most = reader.get_double("vibration_most", actuators.vibration_most, 0.0, 1.0);
   actuators.vibration_full_mps2 = reader.get_double("vibration_full_mps2", actuators.vibration_full_mps2, 0.0, 100.0);
   actuators.vibration_dose_mps2 = reader.get_double("vibration_dose_mps2", actuators.vibration_dose_mps2, 0.01, 1.15);

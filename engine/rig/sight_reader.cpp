@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "engine/core/printable.hpp"
+#include "engine/rig/network_reader.hpp"
 
 namespace septet::rig {
 
@@ -75,6 +76,7 @@ HeadTracking read_head(const toml::table& table, std::string_view file, Error& e
   TableReader reader(table, file, "head", error);
   HeadTracking head;
   head.listen = reader.get_string("listen", head.listen);
+  check_address(reader, "head.listen", head.listen);
   head.port = static_cast<std::uint16_t>(reader.get_integer("port", head.port, 1, 65535));
   head.forward = read_head_axis(reader, "forward", head.forward);
   head.left = read_head_axis(reader, "left", head.left);

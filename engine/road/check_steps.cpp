@@ -172,6 +172,37 @@ void check_offset(const CheckedFile& file, RoadIndex index) {
   }
 }
 
+/// The element of a lane in a section that begins at a station, else the road's.
+pugi::xml_node node_of_lane(const pugi::xml_node& road_node, double section_s_m, int id) {
+  for (const pugi::xml_node section : road_node.child("lanes").children("laneSection")) {
+    if (std::abs(section.attribute("s").as_double() - section_s_m) > beside_m) continue;
+    for (const pugi::xml_node lane : section.child(id > 0 ? "left" : "right").children("lane"))
+      if (lane.attribute("id").as_int() == id) return lane;
+  }
+  return road_node;
+}
+
+/// Steps of a lane's width, or of its border, within a section. A lane that begins or ends there does not step.
+void check_width_steps(const CheckedFile& file, RoadIndex index) {
+  constexpr double least_width_m = 0.1;
+  const Road& road = file.network.roads[index];
+  for (const LaneSection& section : road.sections)
+    for (const Lane& lane : section.lanes) {
+      if (lane.id == 0 || !is_drivable(lane.type)) continue;
+      for (const CubicRecord& record : lane.widths.empty() ? lane.borders : lane.widths) {
+        const double s = record.s_m;
+        if (s < section.s_m + at_an_end_m || s > section.s_end_m - at_an_end_m) continue;
+        const double before_m = lane_borders(road, section, lane.id, s - beside_m).width_m(),
+                     after_m = lane_borders(road, section, lane.id, s + beside_m).width_m();
+        if (std::min(before_m, after_m) < least_width_m || !(std::abs(after_m - before_m) > least_step_m)) continue;
+        file.findings.warning(node_of_lane(file.road_nodes[index], section.s_m, lane.id),
+                              fmt::format("lane {} of road {} is {:.3f} m wide before s={:.3f} and {:.3f} m behind it",
+                                          lane.id, road.id, before_m, s, after_m),
+                              "let each record begin where the one before ends");
+      }
+    }
+}
+
 }  // namespace
 
 void check_steps(const CheckedFile& file) {
@@ -180,6 +211,7 @@ void check_steps(const CheckedFile& file) {
     check_along(file, index);
     check_shapes(file, index);
     check_offset(file, index);
+    check_width_steps(file, index);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "engine/core/check.hpp"
 #include "engine/road/cross_section.hpp"
 
@@ -176,6 +178,18 @@ std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& 
   return locate_on_level(network, world_m, reach_m, std::nullopt);
 }
 
+/// Way along a surface from `point` by `step_m`: ahead, or up to the point where that is less steep, since the first may
+/// cross a step. `at(step)`: the surface's point beside it.
+template <class At>
+Vec3 way_on_surface(const Vec3& point, double step_m, At at) {
+  constexpr double steep = 0.1;
+  const Vec3 ahead = at(step_m) - point;
+  if (std::abs(ahead.z) < steep * std::abs(step_m)) return ahead;
+  const Vec3 behind = point - at(-step_m);
+  const bool is_whole = glm::length(behind) > 0.5 * std::abs(step_m);  // It may end with the road.
+  return is_whole && std::abs(behind.z) < std::abs(ahead.z) ? behind : ahead;
+}
+
 }  // namespace
 
 std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
@@ -234,9 +248,15 @@ std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& w
     return surface;
   }
   // Across the surface and along it, by differences over a centimetre that stay on the road.
-  const double ds = s + 0.01 <= road.length_m ? 0.01 : -0.01;
-  const Vec3 along = (cross_section_at(road, s + ds).place(t, surface_offset_m(road, s + ds, t)) - point) / ds;
-  const Vec3 across = section.place(t + 0.01, surface_offset_m(road, s, t + 0.01)) - point;
+  constexpr double beside_m = 0.01;
+  const double ds = s + beside_m <= road.length_m ? beside_m : -beside_m;
+  const auto along_road = [&](double ds_m) {
+    const double there = std::clamp(s + ds_m, 0.0, road.length_m);
+    return cross_section_at(road, there).place(t, surface_offset_m(road, there, t));
+  };
+  const auto across_road = [&](double dt_m) { return section.place(t + dt_m, surface_offset_m(road, s, t + dt_m)); };
+  const Vec3 along = way_on_surface(point, ds, along_road) / ds;
+  const Vec3 across = way_on_surface(point, beside_m, across_road);
   surface.normal = glm::normalize(glm::cross(along, across));
   return surface;
 }

@@ -47,8 +47,8 @@ Expected<void> strip(const Database& database, const SessionInfo& info) {
   for (const auto& [key, value] : info.other)
     if (done && is_personal(key)) done = database.execute("DELETE FROM meta WHERE key = " + quoted(key));
   if (done) done = database.execute("UPDATE questionnaire SET reason = ''");
-  // An operator's words, at the drive's end or at a moment, may be about them.
-  for (const auto& [kind, words] : {std::pair("mark", " note="), {"operator", " reason="}})
+  // An operator's words, at the drive's end, at a moment or to them, may name them.
+  for (const auto& [kind, words] : {std::pair("mark", " note="), {"word", " text="}, {"operator", " reason="}})
     if (done)
       done =
           database.execute(fmt::format("UPDATE events SET detail = substr(detail, 1, instr(detail, '{0}') - 1) WHERE "
@@ -69,6 +69,11 @@ bool is_synchronised(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+Expected<void> check_has_ended(const std::filesystem::path& session) {
+  if (const auto database = open_closed(session); !database) return tl::unexpected(database.error());
+  return {};
+}
 
 Expected<void> add_answers(const std::filesystem::path& session, const std::vector<QuestionnaireRecord>& answers,
                            const std::string& replace) {

@@ -11,6 +11,9 @@
 
 namespace septet::logging {
 
+/// Error: not a session, or its drive is still going on.
+Expected<void> check_has_ended(const std::filesystem::path& session);
+
 /// Rows for the table `questionnaire`. Unless `replace` is empty, rows whose item begins with it are removed first.
 /// Error: the drive is still running, or the file cannot be changed.
 Expected<void> add_answers(const std::filesystem::path& session, const std::vector<QuestionnaireRecord>& answers,

@@ -24,16 +24,16 @@
 namespace septet::frame {
 namespace {
 
+/// At least one pixel of the screen, however small its window is.
 instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
-  const auto pixel = [](double fraction, std::uint32_t size) {
-    return static_cast<std::int32_t>(std::lround(fraction * size));
+  const auto span = [](double from, double length, std::uint32_t size) {
+    const auto begin = std::clamp<std::int64_t>(std::lround(from * size), 0, std::int64_t{size} - 1);
+    const auto end = std::clamp<std::int64_t>(std::lround((from + length) * size), begin + 1, std::int64_t{size});
+    return std::pair(static_cast<std::int32_t>(begin), static_cast<std::uint32_t>(end - begin));
   };
-  instant::PixelRectangle rectangle;
-  rectangle.x = pixel(view.left, screen.width_px);
-  rectangle.y = pixel(view.top, screen.height_px);
-  rectangle.width = static_cast<std::uint32_t>(pixel(view.left + view.width, screen.width_px) - rectangle.x);
-  rectangle.height = static_cast<std::uint32_t>(pixel(view.top + view.height, screen.height_px) - rectangle.y);
-  return rectangle;
+  const auto across = span(view.left, view.width, screen.width_px),
+             down = span(view.top, view.height, screen.height_px);
+  return {.x = across.first, .y = down.first, .width = across.second, .height = down.second};
 }
 
 /// The panel of the instruments from its front, in the middle of the screen, from so far that needles do not shift

@@ -29,15 +29,21 @@ instant::OverlayText line(std::string text, double x_px, double y_px, double hei
           .color = color};
 }
 
+/// Letters are a share of it: of the screen's height, and of less where that stands upright, so that lines fit into it.
+double height_for_letters_px(const rig::Screen& screen) {
+  return std::min<double>(screen.height_px, 0.75 * screen.width_px);
+}
+
 /// A text's lines, wrapped between words to the screen's width; empty for an empty text.
-std::vector<std::string> lines_of(const std::string& text, const rig::Screen& screen, double height_px) {
+std::vector<std::string> lines_of(const std::string& text, const rig::Screen& screen, double first_px, double next_px) {
   constexpr double letter = 0.45;  // Its width over a line's height, in the mean.
-  const auto most = static_cast<std::size_t>(std::max(20.0, 0.9 * screen.width_px / (letter * height_px)));
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     std::size_t until = end;
-    if (!lines.empty() && end - at > most) {
+    const double height_px = lines.empty() ? first_px : next_px;
+    const auto most = static_cast<std::size_t>(std::max(20.0, 0.9 * screen.width_px / (letter * height_px)));
+    if (end - at > most) {
       const std::size_t space = text.rfind(' ', at + most);
       if (space != std::string::npos && space > at) until = space;
     }
@@ -75,7 +81,7 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
   const DriverCar& car = shown.driver_car;
   const Participant* participant = find_participant(shown, car.participant);
   const Lamps lamps = participant ? participant->lamps : Lamps{};
-  const double height_px = std::max(12.0, std::round(screen.height_px / 17.0)),
+  const double height_px = std::max(12.0, std::round(height_for_letters_px(screen) / 17.0)),
                small_px = std::max(9.0, std::round(0.55 * height_px));
   const double half_width_px = 4.5 * height_px, width_px = screen.width_px;
   const auto ahead = rig::point_ahead(rig, screen);
@@ -105,7 +111,7 @@ std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig
   std::vector<instant::OverlayText> texts;
   if (!shown.game || &screen != &rig::screen_ahead(rig)) return texts;
   const GameStanding& game = *shown.game;
-  const double height_px = std::max(12.0, std::round(screen.height_px / 20.0));
+  const double height_px = std::max(12.0, std::round(height_for_letters_px(screen) / 20.0));
   const auto ahead = rig::point_ahead(rig, screen);
   const auto add = [&](std::string text, double y_px, const glm::vec4& color) {
     texts.push_back(line(std::move(text), (ahead ? ahead->x : 0.5) * screen.width_px, y_px, height_px, color));
@@ -136,9 +142,10 @@ std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig
 
 std::vector<instant::OverlayText> notice(const std::string& text, const rig::Screen& screen) {
   std::vector<instant::OverlayText> texts;
-  const double large_px = std::max(12.0, screen.height_px / 22.0), small_px = std::max(9.0, screen.height_px / 32.0);
+  const double letters_px = height_for_letters_px(screen);
+  const double large_px = std::max(12.0, letters_px / 22.0), small_px = std::max(9.0, letters_px / 32.0);
   double y_px = 0.5 * screen.height_px;
-  for (const std::string& words : lines_of(text, screen, small_px)) {
+  for (const std::string& words : lines_of(text, screen, large_px, small_px)) {
     const double height_px = texts.empty() ? large_px : small_px;
     if (!texts.empty()) y_px += 0.5 * (texts.back().height_px + height_px) + 4.0;
     texts.push_back(in_the_middle(words, screen, y_px, height_px));
@@ -148,11 +155,12 @@ std::vector<instant::OverlayText> notice(const std::string& text, const rig::Scr
 
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen) {
   std::vector<instant::OverlayText> texts;
-  const std::vector<std::string> above = lines_of(headline, screen, std::max(8.0, screen.height_px / 32.0));
+  const double letters_px = height_for_letters_px(screen), next_px = std::max(8.0, letters_px / 32.0);
+  const std::vector<std::string> above = lines_of(headline, screen, 1.5 * next_px, next_px);
   const double rows = static_cast<double>(car_io::driving_keys().size() + above.size()) + (above.empty() ? 0.0 : 0.5);
   constexpr double box_px = 4.0;  // A box is that much higher than its line.
   const double fits_px = 0.72 * screen.height_px / rows - box_px;
-  const double row_px = std::clamp(std::floor(std::min(screen.height_px / 32.0, fits_px)), 8.0, 30.0),
+  const double row_px = std::clamp(std::floor(std::min(letters_px / 32.0, fits_px)), 8.0, 30.0),
                step_px = row_px + box_px;
   double y_px = std::max(0.0, std::round(0.45 * screen.height_px - 0.5 * rows * step_px));
   // Two columns, whose boxes touch: one panel.
@@ -178,7 +186,7 @@ std::vector<instant::OverlayText> key_table(const std::string& headline, const r
 }
 
 instant::OverlayText low_line(std::string text, const rig::Screen& screen) {
-  const double height_px = std::clamp(screen.height_px / 36.0, 10.0, 22.0);
+  const double height_px = std::clamp(height_for_letters_px(screen) / 36.0, 8.0, 22.0);
   auto result = line(std::move(text), 0.01 * screen.width_px, screen.height_px - 4.0 * height_px, height_px, amber);
   result.background = dark_panel;
   return result;

@@ -257,7 +257,7 @@ std::optional<std::string> OperatorDesk::restart(const page::OperatorWish& wish,
 std::optional<std::string> OperatorDesk::say(const page::OperatorWish& wish, const page::Say& word) {
   // As long as a sentence takes to be read by somebody who drives.
   constexpr double least_s = 6.0, most_s = 15.0, a_character_s = 0.12;
-  if (word.text.empty()) return "there is no word";
+  if (word.text.find_first_not_of(" \t\r\n") == std::string::npos) return "there is no word";
   word_ = word.text;
   word_until_s_ = now_s_ + std::clamp(a_character_s * static_cast<double>(word.text.size()), least_s, most_s);
   if (word.aloud) speaker_.say(word.text, word.language);

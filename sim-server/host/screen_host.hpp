@@ -115,6 +115,8 @@ class ScreenHost {
   std::optional<logging::DriveEnd> end_requested() const { return end_requested_; }
   /// Whether the person at one of the screens wants the world to stand still.
   bool pause_requested() const { return pause_requested_; }
+  /// Takes it that this person wants that, until Escape is pressed.
+  void stand_until_escape() { pause_requested_ = true; }
   /// The newest controls that a screen with keyboard or gamepad has sent, once.
   std::optional<DriverInput> take_controls();
   /// What the driver is to read, on all screens that are there or will come.

@@ -293,8 +293,8 @@ void run_real_time(ScreenLoop& loop) {
   }
 }
 
-/// A drive that has come to its own end stays on the screens, with what to press, until that is pressed or has been read. The end in the
-/// result stays, unless there is an error.
+/// A drive that has come to its own end stays on the screens, with what to press, until that or Escape is pressed, or it has been read. The
+/// end in the result stays, unless there is an error.
 void show_end(ScreenLoop& loop) {
   const DriveEnd end = loop.result.end;
   if (!loop.options.words_at_end || loop.result.error || exit_status(end) != logging::finished_status) return;
@@ -307,8 +307,11 @@ void show_end(ScreenLoop& loop) {
     loop.report("over");
   };
   rest();
-  const auto is_unseen = [&] { return loop.host.missing().size() == loop.host.screens().size(); };
-  loop.pump_until(is_unseen, loop.options.end_shown_s, 0.1, rest);
+  loop.host.stand_until_escape();
+  const auto is_left = [&] {
+    return !loop.host.pause_requested() || loop.host.missing().size() == loop.host.screens().size();
+  };
+  loop.pump_until(is_left, loop.options.end_shown_s, 0.1, rest);
   loop.result.begins_again = loop.result.end == DriveEnd::restart;
   if (!loop.result.error) loop.result.end = end;
 }

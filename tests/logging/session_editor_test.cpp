@@ -27,6 +27,7 @@ void write_session(const std::filesystem::path& path) {
   REQUIRE(writer.has_value());
   writer->record(QuestionnaireRecord{"drive_completed", "", std::nullopt, std::nullopt, 12.0, true, "felt-very-sick"});
   writer->record(Event{120, 1.0, "mark", std::nullopt, "by=Ann note=looks-pale note=twice"});
+  writer->record(Event{180, 1.5, "word", std::nullopt, "by=Ann text=look-left-Zoe text=Zoe"});
   writer->record(Event{240, 2.0, "operator", std::nullopt, "by=Ann wish=end reason=had-to-lie-down"});
   REQUIRE(writer->finish().has_value());
 }
@@ -77,7 +78,7 @@ TEST_CASE(
   REQUIRE_MESSAGE(draft.has_value(), draft.error().what);
   CHECK(bytes_of_file(folder / "s.sqlite").find(code) != std::string::npos);  // Untouched until it is renamed.
   const std::string bytes = bytes_of_file(*draft);
-  for (const char* gone : {code, "limps", "secret-age", "very-sick", "pale", "twice", "lie-down"})
+  for (const char* gone : {code, "limps", "secret-age", "very-sick", "pale", "twice", "Zoe", "lie-down"})
     CHECK_MESSAGE(bytes.find(gone) == std::string::npos, gone);
   const auto reader = SessionReader::open(*draft);
   REQUIRE(reader.has_value());
@@ -86,9 +87,10 @@ TEST_CASE(
   REQUIRE(reader->questionnaire()->size() == 1);
   CHECK(reader->questionnaire()->front().censored);
   const auto events = reader->events();
-  REQUIRE(events->size() == 2);
+  REQUIRE(events->size() == 3);
   CHECK((*events)[0].detail == "by=Ann");
-  CHECK((*events)[1].detail == "by=Ann wish=end");
+  CHECK((*events)[1].detail == "by=Ann");
+  CHECK((*events)[2].detail == "by=Ann wish=end");
   CHECK(reader->ended_cleanly());
 }
 

@@ -248,6 +248,35 @@ TEST_CASE("a drive that has come to its end says so and what to press, keeps its
   }
 }
 
+TEST_CASE("who presses Escape at a drive's end leaves it at once, also one who had paused it before") {
+  for (const bool paused_before : {false, true}) {
+    CAPTURE(paused_before);
+    SimulatedRig rig({.screens = 1, .real_time = false});
+    rig.run_for(0.5);
+    DrivenCircles circles;
+    double read_s = 0.0, stood_s = 0.0;
+    RigClock clock(rig, [&] {
+      auto& link = *rig.screen(0).link;
+      if (link.finished()) link.report({});
+      const auto pause = [&](bool wanted) { link.send(control::Pause{wanted}, net::Reliability::reliable); };
+      if (paused_before && circles.tick == 20) {
+        stood_s += 0.001;
+        if (stood_s > 0.0005 && stood_s < 0.0015) pause(true);
+        if (stood_s > 1.0 && stood_s < 1.0015) pause(false);
+      }
+      if (circles.tick < 60 || link.notice().text.empty()) return;
+      if ((read_s += 0.001) > 3.0 && read_s < 3.0015) pause(false);
+    });
+    const auto served = server::serve(
+        circles, rig.host(), {.ticks = 60, .words_at_end = [](logging::DriveEnd) { return "The lesson is over."; }}, {},
+        clock);
+    CHECK(served.end == logging::DriveEnd::time_over);
+    CHECK_FALSE(served.begins_again);
+    CHECK(read_s > 3.0);
+    CHECK(read_s < 5.0);
+  }
+}
+
 TEST_CASE("the words at a drive's end are read for a minute at most, and not at all where the operator ended it") {
   for (const bool by_operator : {false, true}) {
     SimulatedRig rig({.screens = 1, .real_time = false});

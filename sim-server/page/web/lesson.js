@@ -8,8 +8,8 @@ function make_lesson() {
   $('lessonbox').hidden = !hello.lesson;
   $('drivemain').classList.toggle('taught', Boolean(hello.lesson));
   if (!hello.lesson) return;
-  $('lessontitle').textContent = hello.lesson.title;
-  $('lessonaim').textContent = hello.lesson.aim;
+  $('lessontitle').textContent = title_of({ scenario: hello.scenario, lesson: hello.lesson.title });
+  $('lessonaim').textContent = heard(hello.lesson.aim);
   show_lesson();
 }
 
@@ -34,7 +34,7 @@ function show_lesson() {
   $('lessonmark').className = lesson && lesson.mark !== null ? (lesson.passed ? 'good' : 'bad') : '';
   fill($('lessontasks'), facts.tasks.map((task, i) => {
     const now = lesson && lesson.tasks[i];
-    return [task.says, now && now.mark !== null ? figure(now.mark, 1) : t('severity.not_seen'), now && now.faults ? String(now.faults) : ''];
+    return [heard(task.says), now && now.mark !== null ? figure(now.mark, 1) : t('severity.not_seen'), now && now.faults ? String(now.faults) : ''];
   }), (i) => lesson && lesson.tasks[i] ? `severity-${lesson.tasks[i].severity}` : '');
   const faults = lesson ? lesson.faults : [];
   const list = $('faults'), there = new Map([...list.children].map((item) => [Number(item.dataset.number), item]));

@@ -3,8 +3,10 @@
 
 let placing = false;
 
+const name_of_thing = (name) => heard(name.replaceAll('-', ' '));
+
 function make_things() {
-  $('thing').replaceChildren(...hello.things.map((name) => option(name, name.replaceAll('-', ' '))));
+  $('thing').replaceChildren(...hello.things.map((name) => option(name, name_of_thing(name))));
   $('thing').value = hello.things.includes('traffic-cone') ? 'traffic-cone' : hello.things[0];
   set_placing(false);
 }
@@ -40,7 +42,7 @@ function show_buttons(list, buttons) {
 function show_entities() {
   show_buttons($('entities'), state.entities.map(({ name, shown }) => [t(shown ? 'controls.hide' : 'controls.show', { name }), `${shown ? 'hide' : 'show'} entity=${name}`]));
   // After a crash there are more pieces than anybody takes away one by one; all of them are on the map.
-  show_buttons($('lying'), state.lying.slice(-12).map(({ id, name }) => [t('controls.take_away', { name: name.replaceAll('-', ' '), id }), `remove thing=${id}`]));
+  show_buttons($('lying'), state.lying.slice(-12).map(({ id, name }) => [t('controls.take_away', { name: name_of_thing(name), id }), `remove thing=${id}`]));
 }
 
 $('place').onclick = () => { set_putting(false); set_placing(!placing); };

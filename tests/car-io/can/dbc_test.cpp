@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include "car-io/can/signal_codec.hpp"
 #include "tests/shipped_files.hpp"
@@ -132,7 +133,7 @@ TEST_CASE("data too short for a signal hold nothing for it and take nothing from
 TEST_CASE("a file that is no DBC file is refused with its line") {
   const std::pair<const char*, std::string_view> files[] = {
       {"\nSG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n", "a SG_ stands before the first BO_"},
-      {"BO_ 7 A: 8 X\nHello;\n", "\"Hello\" begins no statement of a DBC file"},
+      {"VAL_ 7 s;\nHello;\n", "\"Hello\" begins no statement of a DBC file"},
       {"\n\x01\n", "a statement begins with"},
   };
   for (const auto& file : files) {
@@ -165,6 +166,15 @@ TEST_CASE("a message with a fault is left unread with its line, and every other 
       {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 3600000;\n", "A is sent every 3600000 ms"},
       {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 often;\n",
        "BA_ \"GenMsgCycleTime\" BO_ 7 is not followed by a number"},
+      {"BO_ 7 A: 8 X\nHello;\n", "a line of A, or after it, begins no statement"},
+      {"BO_ 7 A: 8 X\n SG s : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ t : 0|8@1+ (1,0) [0|0] \"\" X\n",
+       "a line of A, or after it, begins no statement"},
+      {"BO_ 7 A: 8 X\nBO 8 B: 8 X\n SG_ t : 0|8@1+ (1,0) [0|0] \"\" X\n",
+       "a line of A, or after it, begins no statement"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\"\" X\n", "a line of A, or after it, begins no statement"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"km X\n", "the signal s is not of the form"},
+      {"\nBO_ 7 A: 8.5 X\n", "a BO_ is not of the form"},
+      {"\nBO_ 7 A: 8 \"X\n", "a BO_ is not of the form"},
   };
   constexpr const char* sound = "BO_ 100 SOUND: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n";
   for (const auto& fault : faults) {
@@ -180,6 +190,28 @@ TEST_CASE("a message with a fault is left unread with its line, and every other 
       CHECK(unread.why.where == "bad.dbc:6");
     }
   }
+}
+
+TEST_CASE("a message of more signals than any frame carries is left unread and the others are read") {
+  std::string many = "BO_ 7 A: 8 X\n";
+  for (int i = 0; i < 1100; ++i) many += fmt::format(" SG_ s{} m{} : 8|8@1+ (1,0) [0|0] \"\" X\n", i, i);
+  const auto database = read_dbc(head + many + "BO_ 8 B: 8 X\n", "many.dbc");
+  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE(database->messages.size() == 1);
+  CHECK(database->messages[0].name == "B");
+  REQUIRE(database->unread.size() == 1);
+  CHECK(database->unread[0].why.what == "A has more than 1024 signals");
+}
+
+TEST_CASE("nodes with signs of other alphabets and hyphens are passed over") {
+  const auto database = read_dbc(
+      "VERSION \"\"\nBS_:\nBU_: Gerät Rear-ECU\nBO_ 7 A: 8 Gerät\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" Gerät, Rear-ECU;\n"
+      " SG_ t : 8|8@1+ (1,0) [0|0] \"\" Rear-ECU // a remark: BO_\nBO_ 8 B: 8 Rear-ECU\n",
+      "nodes.dbc");
+  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  CHECK(database->unread.empty());
+  REQUIRE(database->messages.size() == 2);
+  CHECK(database->messages[0].signals.size() == 2);
 }
 
 TEST_CASE("what makers' files do with names, senders, remarks and ends of statements is read") {

@@ -74,11 +74,12 @@ TEST_CASE("a rig is checked with the files that it names and for screens that no
     CHECK(answer.text.find(what) != std::string::npos);
   };
   says(rig_with("", "", upright), 0, "1 files, 0 errors, 0 warnings");
-  says(rig_with("vehicle = \"volvo-s81\"", "", upright), 1, "volvo-s81");
+  says(rig_with("vehicle = \"volvo-s81\"", "", upright), 1, "rig.toml, [car] vehicle: volvo-s81");
+  says(rig_with("vehicle = \"\"", "", upright), 1, "rig.toml, [car] vehicle: there is no such");
   says(rig_with("driver = \"nobody\"", "", upright), 1, "nobody");
-  says(rig_with("layout = \"no-such\"", "", upright), 1, "no-such");
+  says(rig_with("layout = \"no-such\"", "", upright), 1, "rig.toml, [car] layout: there is no report layout 'no-such'");
   const std::string can = "[can]\ninterface = \"can0\"\ndbc = \"own.dbc\"\n[can.signals]\n\"";
-  says(rig_with("", can + "A.s\" = \"speed_kmh\"\n", upright), 1, "own.dbc");
+  says(rig_with("", can + "A.s\" = \"speed_kmh\"\n", upright), 1, "rig.toml, [can]: ");
   const std::string good = "BS_:\nBU_: X\nBO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n";
   std::ofstream(folder / "own.dbc") << good;
   says(rig_with("", can + "A.s\" = \"speed_kmh\"\n", upright), 0, "0 errors, 0 warnings");

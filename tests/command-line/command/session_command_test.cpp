@@ -65,6 +65,40 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("a link to a session is no session of its own: the driver is forgotten where the data are") {
+  for (const bool delete_data : {false, true}) {
+    CAPTURE(delete_data);
+    const TemporaryFolder folder;
+    const auto held = write_session(folder / "disk/a", "P07");
+    fs::create_directories(folder / "data/a");
+    fs::create_symlink(held, folder / "data/a/session.sqlite");
+    CHECK(run_session_forget({"P07", {folder / "data", folder / "disk"}, delete_data}) == 0);
+    if (delete_data)
+      CHECK_FALSE(fs::exists(held));
+    else
+      CHECK(participant_of(held) == "");
+  }
+}
+
+TEST_CASE("a drive that is still going on is neither deleted nor changed and the driver's other drives are") {
+  for (const bool delete_data : {false, true}) {
+    CAPTURE(delete_data);
+    const TemporaryFolder folder;
+    const auto over = write_session(folder / "data/a", "P07");
+    auto info = logging::example_info();
+    info.participant = "P07";
+    fs::create_directories(folder / "data/b");
+    const fs::path going_on = folder / "data/b/session.sqlite";
+    auto writer = logging::SessionWriter::create(going_on, info);
+    REQUIRE(writer.has_value());
+    CHECK(run_session_forget({"P07", {folder / "data"}, delete_data}) == 1);
+    CHECK(participant_of(going_on) == "P07");
+    CHECK((delete_data ? !fs::exists(over) : participant_of(over).empty()));
+    CHECK(writer->finish().has_value());
+    CHECK(run_session_forget({"P07", {folder / "data"}, delete_data}) == 0);
+  }
+}
+
 TEST_CASE("who is in none of the sessions that can be read is not forgotten and that some cannot is said") {
   const TemporaryFolder folder;
   write_session(folder / "a", "P08");

@@ -290,6 +290,7 @@ TEST_CASE("hostile files are refused, each by what is wrong with it") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   CHECK(has(refused("no file"), "no glTF"));
   CHECK(has(refused(R"({"asset":{"version":"1.0"}})"), "glTF 1.0"));
+  CHECK(has(refused(R"({"asset":{"version":"2.1","minVersion":"2.1"}})"), "requires glTF 2.1"));
   CHECK(has(refused("{" + std::string(2'000'000, '[')), "values"));
   CHECK(has(refused(File{.nodes = R"([{"mesh":0,"children":[1]},{"children":[0]}])"}), "below itself"));
   CHECK(has(refused(File{.nodes = R"([{"mesh":0,"children":[7]}])"}), "none of its 1"));

@@ -139,6 +139,27 @@ TEST_CASE("a wrong rig is refused with its line and column and a remedy") {
   refuse(good + "monitor = 64\n", "my.toml:8:11", "monitor");
   refuse(good + "full_screen = \"left\"\n", "my.toml:8:15", "full_screen");
   refuse(good + "[network]\ntransport = \"pigeon\"\n", "my.toml:9:13", "pigeon");
+  const auto network = [&](const std::string& key, const std::string& address, const std::string& where) {
+    refuse(good + "[network]\n" + key + " = \"" + address + "\"\n", where,
+           "network." + key + " is \"" + address + "\"");
+  };
+  network("server_address", "10.7.0.300", "my.toml:9:18");
+  network("server_address", "", "my.toml:9:18");
+  // The server opens these, and no name of a machine is one.
+  for (const char* none : {"10.7.0.300", "10.7.0", "10.7.0.1.2", "::1", "localhost", " 127.0.0.1", "0x7f.1"})
+    network("interface_address", none, "my.toml:9:21");
+  for (const char* none : {"", "239.77.77.256", "ff02::1", "10.7.0.3", "223.1.1.1", "240.1.1.1", "255.255.255.255"})
+    network("tick_group", none, "my.toml:9:14");
+  refuse(good + "[head]\nlisten = \"10.7.0.300\"\n", "my.toml:9:10", "head.listen is \"10.7.0.300\"");
+  refuse(good + "[car.actuators]\nfan_least = 0.5\nfan_most = 0.4\n", "my.toml:9:13", "the fan just turns");
+  const std::string desktop = shipped("desktop"), named = "[[screen]]\nname = \"";
+  const auto called = [&](const std::string& name) {
+    std::string text = desktop;
+    return read_rig(text.replace(text.find(named) + named.size(), 7, name), "long.toml");
+  };
+  CHECK(called(std::string(63, 's')));
+  REQUIRE_FALSE(called(std::string(64, 's')));
+  CHECK(called(std::string(64, 's')).error().remedy == "use small letters, digits and hyphens, 63 at most");
   refuse(
       "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
       "0]\nupper_left_m = [2, 0, 2]\n",

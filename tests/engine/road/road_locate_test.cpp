@@ -1,6 +1,7 @@
 #include "engine/road/road_locate.hpp"
 
 #include <cmath>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -168,6 +169,31 @@ TEST_CASE("a raised lane rises evenly from its inner height to its outer one") {
   for (const double share : {0.01, 0.25, 0.5, 0.75, 0.99}) {
     CAPTURE(share);
     CHECK(evaluate(network, {0, 50.0, -4.0 * share}).position_m.z == doctest::Approx(0.4 + 0.2 * share));
+  }
+}
+
+TEST_CASE("the normal of the surface is that of its own side of a step, as near to it as one likes") {
+  const auto cubic = [](const std::string& name, double s_m, double a, const std::string& more = "") {
+    return "<" + name + " s=\"" + std::to_string(s_m) + "\" a=\"" + std::to_string(a) + "\" b=\"0\" c=\"0\" d=\"0\" " +
+           more + "/>";
+  };
+  const std::string twisted =
+      "<lateralProfile>" + cubic("superelevation", 0, 0.0) + cubic("superelevation", 40, 0.05) + "</lateralProfile>";
+  const std::string shaped =
+      "<lateralProfile>" + cubic("shape", 0, 0.0, "t=\"-5\"") + cubic("shape", 0, 0.1, "t=\"1\"") + "</lateralProfile>";
+  const auto is_level = [](const std::string& profiles, double s_m, double t_m) {
+    SmallRoad road{.length_m = 100.0};
+    road.profiles = profiles;
+    const RoadNetwork network = read_or_fail(road.xml());
+    const RoadPosition position{0, s_m, t_m};
+    return surface_at(network, Vec2(evaluate(network, position).position_m), &position)->normal.z > 0.998;
+  };
+  for (const double before_m : {1e-4, 1e-3, 5e-3, 9e-3, 0.02}) {
+    CAPTURE(before_m);
+    CHECK(is_level(twisted, 40.0 - before_m, -2.0));
+    CHECK(is_level(twisted, 40.0 + before_m, -2.0));
+    CHECK(is_level(shaped, 50.0, 1.0 - before_m));
+    CHECK(is_level(shaped, 50.0, 1.0 + before_m));
   }
 }
 

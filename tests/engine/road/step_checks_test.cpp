@@ -134,4 +134,28 @@ TEST_CASE("a lane offset that moves the lanes is named and one that renumbers th
   CHECK(steps_of(two_sections(moved, lane(-1, 3.5, goes_on), lane(-1, 3.5, from_1))).size() == 1);
 }
 
+TEST_CASE("a step of a driving lane's width is named and one of a lane that begins or of a shoulder is not") {
+  const auto found = [](double before_m, double after_m, const std::string& type = "driving") {
+    SmallRoad road;
+    const auto width = [](double s_m, double a_m) {
+      return fmt::format("<width sOffset=\"{}\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", s_m, a_m);
+    };
+    road.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right><lane id=\"-1\" type=\"" + type +
+                    "\">" + width(0, before_m) + width(40, after_m) + "</lane></right></laneSection>";
+    Texts texts;
+    for (const Finding& finding : check_opendrive(road.xml(), "steps.xodr"))
+      if (finding.error.what.find(" m wide before ") != std::string::npos) {
+        CHECK(finding.severity == Severity::warning);
+        CHECK(finding.line > 0);
+        texts.push_back(finding.error.what);
+      }
+    return texts;
+  };
+  CHECK(found(3.5, 3.54) == Texts{});
+  CHECK(found(3.5, 3.56) == Texts{"lane -1 of road a is 3.500 m wide before s=40.000 and 3.560 m behind it"});
+  CHECK(found(3.5, 1.0).size() == 1);
+  CHECK(found(0.0, 3.5) == Texts{});
+  CHECK(found(3.5, 2.0, "shoulder") == Texts{});
+}
+
 }  // namespace septet::road

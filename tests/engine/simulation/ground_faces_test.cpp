@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -47,9 +49,10 @@ struct Drive {
   std::uint32_t bad_numbers = 0;
 };
 
-Drive drive_over(const Model& model, double speed_mps, double heading_rad, double seconds = 4.0) {
+Drive drive_over(const Model& model, double speed_mps, double heading_rad, double seconds = 4.0,
+                 double before_m = 6.0) {
   State state;
-  const RigidTransform start{Vec3(40.0 - 6.0 * std::cos(heading_rad), -6.0 * std::sin(heading_rad), 0.0),
+  const RigidTransform start{Vec3(40.0 - before_m * std::cos(heading_rad), -before_m * std::sin(heading_rad), 0.0),
                              glm::angleAxis(heading_rad, Vec3(0.0, 0.0, 1.0))};
   state.car = vehicle::standstill(model.car, start, speed_mps);
   state.input.selector = GearSelector::neutral;
@@ -92,6 +95,60 @@ TEST_CASE("over no step of a road does the ground give the car energy") {
         CHECK(drive.most_over_start_j < 1.0);
         CHECK(drive.most_gain_j < 1500.0 + 0.25 * (drive.start_j + fallen_j));
         CHECK(drive.most_rise_m < 1.2);  // 0.24 m at 45 m/s lifts one side, 0.9 m.
+      }
+  }
+}
+
+TEST_CASE("over no twist, lane height, shape or row of steps of a road does the ground give the car energy") {
+  const auto cubic = [](const char* name, double s_m, double a, const char* more = "") {
+    return fmt::format("<{} s=\"{}\" {} a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", name, s_m, more, a);
+  };
+  const auto wide = [](const std::string& profiles, const std::string& in_lane = "") {
+    road::SmallRoad road{.length_m = 200.0};
+    road.profiles = profiles;
+    road.sections = "<laneSection s=\"0\"><left>" + road::lane(1, 20.0, in_lane) + "</left><center>" +
+                    road::lane(0, 0) + "</center><right>" + road::lane(-1, 20.0, in_lane) + "</right></laneSection>";
+    return road.xml();
+  };
+  std::vector<std::pair<std::string, std::string>> roads;
+  for (const double roll_rad : {0.02, 0.1, 0.3, -0.3}) {
+    roads.emplace_back(fmt::format("superelevation {}", roll_rad),
+                       wide("<lateralProfile>" + cubic("superelevation", 0, 0.0) +
+                            cubic("superelevation", 40, roll_rad) + "</lateralProfile>"));
+    roads.emplace_back(
+        fmt::format("superelevation for a metre {}", roll_rad),
+        wide("<lateralProfile>" + cubic("superelevation", 0, 0.0) + cubic("superelevation", 40, roll_rad) +
+             cubic("superelevation", 41, 0.0) + "</lateralProfile>"));
+    roads.emplace_back(fmt::format("crossfall {}", roll_rad),
+                       wide("<lateralProfile>" + cubic("crossfall", 0, 0.0, "side=\"both\"") +
+                            cubic("crossfall", 40, roll_rad, "side=\"both\"") + "</lateralProfile>"));
+  }
+  for (const double step_m : {0.1, 0.3, 2.0, -0.1, -2.0}) {
+    roads.emplace_back(fmt::format("lane height {}", step_m),
+                       wide("", fmt::format("<height sOffset=\"0\" inner=\"0\" outer=\"0\"/><height sOffset=\"40\" "
+                                            "inner=\"{0}\" outer=\"{0}\"/>",
+                                            step_m)));
+    roads.emplace_back(fmt::format("shape {}", step_m),
+                       wide(fmt::format("<lateralProfile>{}{}</lateralProfile>", cubic("shape", 0, 0.0, "t=\"-25\""),
+                                        cubic("shape", 0, step_m, "t=\"1\""))));
+    if (step_m < -1.0) continue;  // Trenches narrower than a wheel, as deep as a man.
+    roads.emplace_back(fmt::format("comb {}", step_m), [&] {
+      std::string records;
+      for (int i = 0; i < 40; ++i) records += cubic("elevation", 40.0 + 0.3 * i, i % 2 == 1 ? step_m : 0.0);
+      return wide("<elevationProfile>" + cubic("elevation", 0, 0.0) + records + "</elevationProfile>");
+    }());
+  }
+  for (const auto& named : roads) {
+    const Model model = model_on(named.second);
+    for (const double speed_mps : {3.0, 15.0, 45.0})
+      for (const double heading_rad : {0.0, 0.5, 1.2}) {
+        CAPTURE(named.first);
+        CAPTURE(speed_mps);
+        CAPTURE(heading_rad);
+        const Drive drive = drive_over(model, speed_mps, heading_rad, 5.0, 9.0);
+        CHECK(drive.bad_numbers == 0);
+        CHECK(drive.most_over_start_j < 1.0);
+        CHECK(drive.most_rise_m < 0.5 * speed_mps * speed_mps / 9.81 + 0.5);
       }
   }
 }

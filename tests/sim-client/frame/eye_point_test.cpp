@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -100,6 +101,26 @@ TEST_CASE("a car behind and to the left is in the left mirror and one straight b
   CHECK(shows("right mirror", right_lane));
   CHECK_FALSE(shows("right mirror", left_lane));
   CHECK(shows("inside mirror", same_lane));
+}
+
+TEST_CASE("a window of a few pixels has views of one pixel at least, all within it") {
+  const rig::Rig rig = rig_of("desktop");
+  rig::Screen screen = rig.screens.front();
+  for (const std::uint32_t width_px : {1u, 2u, 5u, 2000u})
+    for (const std::uint32_t height_px : {1u, 3u, 7u, 1100u}) {
+      CAPTURE(width_px);
+      CAPTURE(height_px);
+      screen.width_px = width_px;
+      screen.height_px = height_px;
+      const auto views = screen_views(rig, screen);
+      REQUIRE(views);
+      for (const auto& view : views->views) {
+        const auto& at = view.viewport;
+        CHECK((at.x >= 0 && at.y >= 0 && at.width > 0 && at.height > 0));
+        CHECK(at.x + std::int64_t{at.width} <= width_px);
+        CHECK(at.y + std::int64_t{at.height} <= height_px);
+      }
+    }
 }
 
 TEST_CASE("between two ticks the head is between its two places") {

@@ -126,6 +126,23 @@ TEST_CASE(
   CHECK(notice("a\n" + std::string(300, 'b'), screen).size() == 2);
 }
 
+TEST_CASE("a window that stands upright has its keys and its notices within its width") {
+  rig::Screen screen;
+  screen.width_px = 500;
+  screen.height_px = 900;
+  for (const auto& text : key_table("Press any key to start", screen))
+    CHECK(text.centered ? text.text.size() * 0.45f * text.height_px < 500.0f : text.x_px + text.least_box_px < 500.0f);
+  const std::string paused = "Paused. Escape: go on. R: begin again. Enter: end";
+  for (const std::string& said : {paused, "no signal from the car, check its cable and its hub. " + paused}) {
+    std::string joined;
+    for (const auto& text : notice(said, screen)) {
+      CHECK(text.text.size() * 0.45f * text.height_px < 500.0f);
+      joined += (joined.empty() ? "" : " ") + text.text;
+    }
+    CHECK(joined == said);
+  }
+}
+
 TEST_CASE("an engine that idles is not called stalled and one that stands is") {
   const rig::Rig rig = shipped_rig("desktop");
   const auto is_told_at = [&](double engine_radps) {

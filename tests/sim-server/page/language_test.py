@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """The page's files of a language: each has every key once, with the same {names} in its text, and the page asks for no other.
 
-    language_test.py FOLDER_OF_THE_PAGE
+Every word that Septet's own lessons and things bring onto it is told likewise, and every refusal of a wish.
+
+    language_test.py FOLDER_OF_THE_PAGE ROOT
 """
 import json
 import pathlib
 import re
 import sys
+import tomllib
 
 # Keys that are put together when they are needed: a drive's end, a condition of the weather, a sentence of the server,
 # a drive's title.
@@ -25,12 +28,31 @@ def texts_of(file):
     return json.loads(text[text.index("{", text.index("languages.")):text.rindex("}") + 1], object_pairs_hook=once)
 
 
+def brought_words(root):
+    """The keys of what the page is told of lessons and things by files."""
+    for file in root.glob("scenarios/*/*.lesson.toml"):
+        lesson = tomllib.loads(file.read_text(encoding="utf-8"))
+        yield f"scenario.{file.name.removesuffix('.lesson.toml')}"
+        yield from (f"said.{text}" for text in [lesson["aim"], *(task["says"] for task in lesson["task"])])
+    things = tomllib.loads((root / "engine/effects/debris/parts.toml").read_text(encoding="utf-8"))
+    yield from (f"said.{name.replace('_', ' ')}" for name in things)
+
+
+def refusals(root):
+    """The keys of sentences by which a wish of the operator is refused, as the sources have them."""
+    for file, sentence in (("sim-server/drive/operator_desk.cpp", r'return "([a-z][^"=]* [^"=]*)";'),
+                           ("engine/simulation/operator_command.cpp", r'failure\((?:[\w.]+ \? )?"([^"]+)"(?: : "([^"]+)")?')):
+        found = re.findall(sentence, (root / file).read_text(encoding="utf-8"))
+        assert found, file
+        yield from (f"said.{text}" for match in found for text in ([match] if isinstance(match, str) else match) if text)
+
+
 def names_in(text):
     return sorted(set(re.findall(r"\{(\w+)\}", text)))
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1])
+    folder, root = map(pathlib.Path, sys.argv[1:3])
     languages = {file.stem.removeprefix("language_"): texts_of(file) for file in folder.glob("language_*.js")}
     assert {"en", "de", "sv"} <= languages.keys(), languages.keys()
     english = languages["en"]
@@ -43,6 +65,7 @@ def main():
                 mistakes.append(f"{code}: {key} is empty")
             if names_in(texts[key]) != names_in(english[key]):
                 mistakes.append(f"{code}: {key} has the names {names_in(texts[key])}, English has {names_in(english[key])}")
+    mistakes += [f"the page is told of {key}" for key in [*brought_words(root), *refusals(root)] if key not in english]
     asked = set()
     areas = {key.split(".")[0] for key in english} - {made.rstrip(".") for made in MADE}
     for file in folder.iterdir():

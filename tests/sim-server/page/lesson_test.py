@@ -84,6 +84,11 @@ def at_the_desk(trial, server_program, folder):
     assert desk.value("[...document.querySelectorAll('#events li')].some((line) => line.textContent.includes('Der Fahrlehrer bremst'))")
     pictures(desk, folder, "lesson-de")
 
+    # Blanks are no word.
+    desk.value("var blank_why = []; ask({ do: 'say', text: '   ', aloud: true, language: 'de' }, (answer) => blank_why.push(answer.why || 'said'))")
+    desk.until("blank_why.length === 1")
+    assert desk.value("blank_why[0]") == "there is no word", desk.value("blank_why")
+
     # A word to the student, aloud in the page's language.
     desk.value("document.getElementById('word').value = '-v „Langsamer“, bitte'")
     desk.click("#wordform button")
