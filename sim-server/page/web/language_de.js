@@ -436,7 +436,6 @@ languages.de = {
   "said.this server was started by itself: only septet drive begins again": "dieser Server wurde für sich gestartet: nur septet drive beginnt neu",
   "said.the drive has not come so far": "so weit ist die Fahrt noch nicht",
   "said.this drive began later": "diese Fahrt hat später begonnen",
-  "said.the drive is ending already": "die Fahrt endet schon",
   "said.Emergency stop": "Not-Aus",
   "said.Emergency stop: released, waits to be re-armed": "Not-Aus: gelöst, wartet auf Freigabe",
   "said.the scenario's StopTrigger fired": "das Szenario ist durchgefahren",

@@ -436,7 +436,6 @@ languages.en = {
   "said.this server was started by itself: only septet drive begins again": "this server was started by itself: only septet drive begins again",
   "said.the drive has not come so far": "the drive has not come so far",
   "said.this drive began later": "this drive began later",
-  "said.the drive is ending already": "the drive is ending already",
   "said.Emergency stop": "Emergency stop",
   "said.Emergency stop: released, waits to be re-armed": "Emergency stop: released, waits to be re-armed",
   "said.the scenario's StopTrigger fired": "the scenario's StopTrigger fired",

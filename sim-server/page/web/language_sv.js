@@ -436,7 +436,6 @@ languages.sv = {
   "said.this server was started by itself: only septet drive begins again": "den här servern startades för sig: bara septet drive börjar om",
   "said.the drive has not come so far": "körningen har inte kommit så långt",
   "said.this drive began later": "den här körningen började senare",
-  "said.the drive is ending already": "körningen håller redan på att sluta",
   "said.Emergency stop": "Nödstopp",
   "said.Emergency stop: released, waits to be re-armed": "Nödstopp: släppt, väntar på inkoppling",
   "said.the scenario's StopTrigger fired": "scenariot är genomkört",
