@@ -3,6 +3,7 @@
 /// Every function of engine/light at one point of its arguments, in the language that these are written in: the same
 /// text runs on the device and on the host. A new function gets its case here, and `function_count` grows by one.
 
+#include "engine/light/beacon.hpp"
 #include "engine/light/beam.hpp"
 #include "engine/light/clouds.hpp"
 #include "engine/light/crack.hpp"
@@ -21,7 +22,7 @@
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 48u;
+LIGHT_CONST uint function_count = 50u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -134,6 +135,10 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
       return vec4(roofed_between(a.x, a.y));
     case 47u:
       return vec4(sky_table_of(a.x));
+    case 48u:
+      return vec4(beacon_share(one, normalize(vec2(b.x - 0.5f, 0.6f * b.y + 0.1f))));
+    case 49u:
+      return vec4(beacon_irradiance((1.0f + 3.0f * b.z) * one, other, normalize(vec2(b.x - 0.5f, 0.6f * b.y + 0.1f))));
     default:
       return vec4(0.0f);
   }
