@@ -37,12 +37,10 @@ std::vector<Headlight> seen_headlights(std::vector<Headlight> all, const SceneSu
   return all;
 }
 
-/// Beacons that can be seen to light something, as bright as their lenses are shown.
-std::vector<BeaconLight> seen_beacons(std::vector<BeaconLight> all, const SceneSummary& scene, const SkyLight& light,
-                                      float emission_share) {
+/// Beacons that can be seen to light something.
+std::vector<BeaconLight> seen_beacons(std::vector<BeaconLight> all, const SceneSummary& scene, const SkyLight& light) {
   constexpr float near_by_m2 = 9.0f, tunnel_lamps = 0.45f;
-  std::erase_if(all, [&](BeaconLight& beacon) {
-    beacon.intensity *= emission_share;
+  std::erase_if(all, [&](const BeaconLight& beacon) {
     const float brightest = std::max({beacon.intensity.r, beacon.intensity.g, beacon.intensity.b});
     const float open = std::max({light.sky_irradiance.r, light.sky_irradiance.g, light.sky_irradiance.b});
     return brightest / near_by_m2 < 0.02f * glm::mix(tunnel_lamps, open, share_of_sky(scene, beacon.position_m));
@@ -103,7 +101,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
     if (participant.reshaped) instant.reshaped.push_back(participant.reshaped);
   instant.lamps = std::move(placed.glows);
   instant.headlights = seen_headlights(std::move(placed.headlights), scene, *instant.light);
-  instant.beacons = seen_beacons(std::move(placed.beacons), scene, *instant.light, instant.emission_share);
+  instant.beacons = seen_beacons(std::move(placed.beacons), scene, *instant.light);
   instant.contacts = contacts_of(input.participants, scene);
   for (DynamicMesh& mesh : input.meshes) {
     const std::uint32_t material = material_of(scene, mesh.prototype);

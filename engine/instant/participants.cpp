@@ -138,10 +138,18 @@ RigidTransform limb_of(const scene::Instance& part, const DrawnParticipant& part
   }
 }
 
-/// To any side, of a lens that shines all over: a body that is nowhere hollow shows a quarter of its surface in the mean.
+/// On the level, the mean all round, of a box that shines all over: a side is seen from half of all places, by 2/π of
+/// its area in the mean.
 glm::vec3 shone_around(const scene::Instance& part, const MeshSummary& mesh) {
   const glm::vec3 size = glm::abs((mesh.bounds.max_m - mesh.bounds.min_m) * part.scale);
-  return mesh.emission * (0.5f * (size.x * size.y + size.y * size.z + size.z * size.x));
+  return mesh.emission * (2.0f / std::numbers::pi_v<float> * size.z * (size.x + size.y));
+}
+
+/// Ahead of a vehicle on the level.
+glm::vec2 level_ahead(const RigidTransform& world_from_vehicle) {
+  const glm::vec2 ahead(world_from_vehicle.orientation * Vec3(1, 0, 0));
+  const float length = glm::length(ahead);
+  return length > 1e-3f ? ahead / length : glm::vec2(1.0f, 0.0f);
 }
 
 /// Beams of the lamps on the left and of those on the right of a vehicle, which move together between these distances from the eye: from further away no
@@ -222,6 +230,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       const auto& lift = participant.wheel_lift_m;
       placed.over_road_m = static_cast<float>(in_vehicle.position_m.z - 0.25 * (lift[0] + lift[1] + lift[2] + lift[3]));
       placed.tint = glm::vec4(participant.paint, lit);
+      placed.lights_around = part.role == PartRole::beacon;
       result.meshes.push_back(placed);
       if (part.role == PartRole::lamp_head) {
         head_lamps_m.push_back(middle_m);
@@ -233,7 +242,8 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
                                 mesh.emission * lit, glow_radius_m(part.role),
                                 participant.world_from_vehicle.position_m.z, main_beam});
       if (part.role == PartRole::beacon && lit > 0.0f && whole && in_range)
-        result.beacons.push_back({participant.world_from_vehicle * middle_m, shone_around(part, mesh) * lit});
+        result.beacons.push_back({participant.world_from_vehicle * middle_m, shone_around(part, mesh) * lit,
+                                  level_ahead(participant.world_from_vehicle)});
     }
     if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
       add_headlights(result.headlights, participant.world_from_vehicle, head_lamps_m, distance_m, main_beam);

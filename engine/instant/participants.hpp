@@ -29,10 +29,13 @@ struct Headlight {
   float main_beam = 0.0f;  ///< How far the main beam is lit beside the dipped one, 0 to 1.
 };
 
-/// A beacon that flashes now and lights what is around it, as far as its body does not keep the light off: to all sides alike.
+/// A beacon that flashes now and lights what is around it (engine/light/beacon.hpp).
 struct BeaconLight {
-  Vec3 position_m{0.0};       ///< World.
-  glm::vec3 intensity{0.0f};  ///< By colour, the emission of its lens times a quarter of its surface.
+  Vec3 position_m{0.0};  ///< World.
+  /// On the level, by colour: the emission of its lens, not dimmed as a lens that is shown, times the mean area of its
+  /// sides.
+  glm::vec3 intensity{0.0f};
+  glm::vec2 ahead{1.0f, 0.0f};  ///< Of its vehicle, unit, on the level.
 };
 
 /// A body that stands on the ground and hides the sky from it: a box above its footprint.

@@ -22,10 +22,11 @@ struct PlacedMesh {
   float visible_from_m = 0.0f,
         visible_to_m = 1e9f;  ///< Seen while the eye's distance from the origin is in [from, to); see level_fade.hpp.
   bool casts_shadow = true;
-  bool seen = true;           ///< False: casts a shadow only.
-  glm::vec4 tint{1.0f};       ///< Paint, for materials that take it; w: how much of the materials' emission shines.
-  float share_of_sky = 1.0f;  ///< That reaches it; times that of its materials.
-  bool snowed_on = true;      ///< Snow lies on what looks up, but not on what one sees through.
+  bool seen = true;            ///< False: casts a shadow only.
+  glm::vec4 tint{1.0f};        ///< Paint, for materials that take it; w: how much of the materials' emission shines.
+  float share_of_sky = 1.0f;   ///< That reaches it; times that of its materials.
+  bool snowed_on = true;       ///< Snow lies on what looks up, but not on what one sees through.
+  bool lights_around = false;  ///< A beacon's lens: it is shown dimmed, what it lights is not.
   /// Height of the origin over the road that its vehicle stands on, whose water mirrors it; of what stands still that is not known.
   float over_road_m = unknown_road;
   static constexpr float unknown_road = -1e4f;

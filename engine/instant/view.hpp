@@ -23,6 +23,7 @@ struct FrameView {
   Vec3 velocity_mps{0.0};  ///< Of the eye, world frame: rain falls past it.
   PixelRectangle viewport;
   bool mirrored = false;  ///< Left and right are exchanged, as a mirror does.
+  bool housed = false;    ///< A mirror's picture over another view, around which its housing is drawn.
 };
 
 /// Eye of a view, world.

@@ -55,12 +55,12 @@ struct GlassRecord {
 };
 LIGHT_RECORD(GlassRecord, at, 2)
 
-/// A box or a line of text over the picture.
+/// A box, a line of text or a mirror's frame over the picture.
 struct QuadConstants {
   vec4 ndc;    ///< Left, top, right, bottom.
-  vec4 uv;     ///< The same in the atlas.
+  vec4 uv;     ///< The same in the atlas; of a frame, pixels from its middle.
   vec4 color;  ///< sRGB, premultiplied.
-  vec4 kind;   ///< x: 1 text from the atlas, 0 a plain box.
+  vec4 kind;   ///< x: 1 text, 0 a box, 2 a frame; of that y: its width, z: its corners' outer radius, pixels.
 };
 LIGHT_RECORD(QuadConstants, kind, 4)
 

@@ -44,7 +44,8 @@ inline HeadlightRow::Strengths HeadlightRow::strengths(std::size_t first, const 
     const float square = way.x * way.x + way.y * way.y + way.z * way.z;
     const float per_m = 1.0f / std::sqrt(std::max(square, 1e-6f));
     const glm::vec3 level(row[level_x][k], row[level_y][k], row[level_z][k]);
-    strengths[k] = row[intensity][k] * light::beam_share(level, way * per_m, row[main_beam][k], light::lamp_spread_m2(square));
+    strengths[k] =
+        row[intensity][k] * light::beam_share(level, way * per_m, row[main_beam][k], light::lamp_spread_m2(square));
   }
   return strengths;
 }

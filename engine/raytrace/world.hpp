@@ -136,6 +136,7 @@ class World : public Openings {
     std::optional<Motion> motion{};
     std::span<const scene::SurfaceVertex> later{};  ///< Its vertices at time 1, if they move.
     const ice::IceBody* on_glass = nullptr;         ///< What lies on a pane, if it is that.
+    bool lights_around = false;                     ///< As instant::PlacedMesh.
     bool is_turned = turn != glm::mat3(1.0f);
 
     glm::vec3 turned(const glm::vec3& way) const { return is_turned ? turn * way : way; }

@@ -103,6 +103,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
                      nullptr,
                      static_cast<std::uint32_t>(object)});
   placed_.back().motion = motion;
+  placed_.back().lights_around = placed.lights_around;
 }
 
 /// Triangles of this instant alone.
@@ -191,8 +192,10 @@ bool World::is_street_lamp(const PlacedSurface& placed, const scene::SurfaceMate
          material.share_of_sky * placed.share_of_sky >= 0.5f;
 }
 
-/// Lamps that stand are seen no brighter than a picture shows them; what those that look down light is lit as brightly as the rasteriser has it.
+/// Beacons and lamps that stand are seen no brighter than a picture shows them. What a beacon lights is lit by all of
+/// it, what lamps that look down light as brightly as the rasteriser has it.
 float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const {
+  if (placed.lights_around) return 1.0f / instant_.emission_share;
   if (!placed.stands) return 1.0f;
   const float open = looks_down ? instant::open_lamps_light_up(*instant_.light) / instant_.emission_share : 1.0f;
   return glm::mix(instant::roofed_lamps_light_up, open, material.share_of_sky * placed.share_of_sky);

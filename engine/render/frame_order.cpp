@@ -10,6 +10,7 @@
 #include "engine/render/frame_preparation.hpp"
 #include "engine/render/ice_frame.hpp"
 #include "engine/render/passes/frame_graph.hpp"
+#include "engine/render/passes/inset_housing.hpp"
 #include "engine/render/view_drawing.hpp"
 #include "engine/render/window.hpp"
 
@@ -22,6 +23,7 @@ struct Frame {
   PassContext& context;
   const Instant& instant;
   const PreparedFrame prepared;
+  const std::vector<light::QuadConstants> housings;
   FrameGraph graph;
   std::vector<ResourceUse> view_reads;  ///< What a view reads, of what has been added so far.
 };
@@ -175,26 +177,26 @@ void add_overlay(Frame& frame, ResourceId picture, bool new_text, const std::vec
   if (new_text)
     frame.graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}},
                          [&frame] { upload_atlas(*frame.state.overlay_pass, frame.context); });
-  const auto add = [&](const std::vector<OverlayText>& texts) {
-    if (texts.empty()) return;
+  const auto add = [&](const std::vector<OverlayText>& texts, std::span<const light::QuadConstants> below) {
+    if (texts.empty() && below.empty()) return;
     frame.graph.add_pass(
         "overlay",
         {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}},
-        [&frame, texts = &texts] {
+        [&frame, texts = &texts, below] {
           const FrameTargets& targets = frame.state.targets;
-          draw_overlay(*frame.state.overlay_pass, frame.context, *texts, targets.picture.view, targets.width,
+          draw_overlay(*frame.state.overlay_pass, frame.context, below, *texts, targets.picture.view, targets.width,
                        targets.height);
           mark_pass(frame.context, "overlay");
         });
   };
-  add(frame.instant.overlay);
+  add(frame.instant.overlay, frame.housings);
   if (passing.empty()) return;
   const ResourceId kept =
       frame.graph.add_image("picture without passing texts", state.targets.kept, state.targets.kept_access);
   frame.graph.add_pass("kept picture", {{{picture, Access::transfer_source}}, {{kept, Access::transfer_destination}}},
                        [&frame] { keep_picture(frame.state.targets, frame.context); });
   frame.graph.keep(kept, Access::transfer_source);
-  add(passing);
+  add(passing, {});
 }
 
 void add_present(Frame& frame, ResourceId picture, std::uint32_t window_image) {
@@ -224,13 +226,16 @@ void draw_frame(RendererState& state, const Instant& instant, const std::vector<
   FrameTargets& targets = state.targets;
   const SeenFrame seen = seen_frame(instant, state.scene.revision.value_or(0));
   const glm::vec2 offset_px = state.temporal_pass.present() ? begin_frame(state.temporal_pass, seen) : glm::vec2(0.0f);
-  Frame frame{
-      state,   context,
-      instant, prepare_frame(context, state.scene, instant, state.lamps, targets.width, targets.height, offset_px),
-      {},      {}};
+  Frame frame{state,
+              context,
+              instant,
+              prepare_frame(context, state.scene, instant, state.lamps, targets.width, targets.height, offset_px),
+              inset_housings(instant, targets.width, targets.height),
+              {},
+              {}};
   std::vector<OverlayText> texts = instant.overlay;
   texts.insert(texts.end(), passing.begin(), passing.end());
-  const bool new_text = lay_out(*state.overlay_pass, texts);
+  const bool new_text = lay_out(*state.overlay_pass, texts, !frame.housings.empty());
   targets.is_kept = !passing.empty();
   if (targets.is_kept && targets.kept.image == VK_NULL_HANDLE) create_kept_target(targets, state.memory);
   prepare_rare_targets(state, context, instant, frame.prepared);

@@ -81,7 +81,7 @@ void draw_views(RendererState& state, PassContext& context, const PreparedFrame&
   begin_view_rendering(context, state.targets.radiance, state.targets.depth);
   for (std::uint32_t i = 0; i < frame.views.size(); ++i) {
     const PreparedView& prepared = frame.views[i];
-    if (i > 0) clear_inset(context, state.targets, prepared.view->viewport);
+    if (i > 0) clear_inset(context, state.targets, *prepared.view);
     const Vec3 eye_m = world_eye(*prepared.view);
     draw_view(
         state, context, prepared, instant, soot,

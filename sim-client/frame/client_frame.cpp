@@ -143,6 +143,7 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
     frame_view.projection = *projection;
     frame_view.viewport = viewport(view, screen);
     frame_view.mirrored = view.mirrored;
+    frame_view.housed = view.mirror.has_value();
     // An inset that would lie on the dials, which move when the head turns, lies above them.
     if (view.mirror && screen.show_interior)
       if (const auto dials = dials_in(result.views.front()); dials && overlap(*dials, frame_view.viewport))

@@ -90,6 +90,13 @@ class Motorway {
     return shown;
   }
 
+  /// One that stands there, without lamps.
+  instant::DrawnParticipant vehicle(std::string_view name, const RigidTransform& world_from_vehicle) const {
+    Participant participant{.id = 1, .model = *find_vehicle_model(name)};
+    participant.world_from_vehicle = world_from_vehicle;
+    return instant::drawn_participant(participant, prototype(name));
+  }
+
   /// Adds this many vehicles, evenly along all 10 km and over its five lanes.
   void add_traffic(instant::FrameInput& input, std::size_t count, bool lit) const {
     double length_m = 0.0;

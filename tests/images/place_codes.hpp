@@ -12,8 +12,10 @@
 
 namespace septet {
 
-/// Mean code of green in a square of five pixels around a place of the car's frame, in a picture that is this view alone.
-inline double green_at(const image::Image& picture, const instant::OffAxisView& view, const Vec3& place_m) {
+/// Mean code of one colour in a square of five pixels around a place of the car's frame, in a picture that is this view
+/// alone.
+inline double mean_code_at(const image::Image& picture, const instant::OffAxisView& view, const Vec3& place_m,
+                           std::uint8_t image::Color::*code) {
   const glm::dvec4 clip = view.clip_from_eye_relative * glm::dvec4(place_m - view.eye_m, 1.0);
   const auto x = static_cast<int>((0.5 + 0.5 * clip.x / clip.w) * picture.width);
   const auto y = static_cast<int>((0.5 + 0.5 * clip.y / clip.w) * picture.height);
@@ -25,8 +27,12 @@ inline double green_at(const image::Image& picture, const instant::OffAxisView& 
   int count = 0;
   for (int dy = -reach_px; dy <= reach_px; ++dy)
     for (int dx = -reach_px; dx <= reach_px; ++dx, ++count)
-      sum += picture.at(static_cast<std::uint32_t>(x + dx), static_cast<std::uint32_t>(y + dy)).green;
+      sum += picture.at(static_cast<std::uint32_t>(x + dx), static_cast<std::uint32_t>(y + dy)).*code;
   return sum / count;
+}
+
+inline double green_at(const image::Image& picture, const instant::OffAxisView& view, const Vec3& place_m) {
+  return mean_code_at(picture, view, place_m, &image::Color::green);
 }
 
 }  // namespace septet

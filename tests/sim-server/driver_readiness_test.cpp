@@ -7,6 +7,7 @@
 
 #include "car-io/simulated_hid_device.hpp"
 #include "sim-server/drive/driver_seat.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -169,7 +170,7 @@ TEST_CASE(
     REQUIRE(live->next(std::nullopt).has_value());
   }
   CHECK(live->state().time_s() == doctest::Approx(2.5));
-  CHECK(live->state().input.accelerator == doctest::Approx(0.5).epsilon(0.01));
+  CHECK(live->state().input.accelerator == relative(0.5, 0.01));
   CHECK(live->state().diagnostics.input_stale_ticks == 0);
   CHECK_FALSE(live->actuators_cut().has_value());
 }

@@ -84,8 +84,9 @@ void begin_view_rendering(PassContext& context, const vulkan::DeviceImage& targe
   vkCmdBeginRendering(context.slot.commands, &rendering);
 }
 
-void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle) {
-  constexpr std::int32_t rim_px = 3;
+void clear_inset(PassContext& context, const FrameTargets& targets, const FrameView& view) {
+  const PixelRectangle& rectangle = view.viewport;
+  const std::int32_t rim_px = view.housed ? 0 : 3;
   const std::int32_t left = std::max(0, rectangle.x - rim_px), top = std::max(0, rectangle.y - rim_px);
   const std::int32_t right =
       std::min(std::int32_t(targets.width), rectangle.x + std::int32_t(rectangle.width) + rim_px);

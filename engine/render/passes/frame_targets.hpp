@@ -33,8 +33,9 @@ void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory);
 /// Begins drawing into all of a target and its depth, cleared to darkness of this alpha and an empty depth.
 void begin_view_rendering(PassContext& context, const vulkan::DeviceImage& target,
                           const vulkan::DeviceImage& depth_target, float alpha = 1.0f);
-/// Empties the depth of a part of the target, for a view that lies over another, and draws a black rim around it.
-void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle);
+/// Empties the depth of a part of the target, for a view that lies over another, and draws a black rim around one that
+/// is not housed.
+void clear_inset(PassContext& context, const FrameTargets& targets, const FrameView& view);
 
 /// Replaces an image's texels by way of the frame's arena.
 void upload_texels(PassContext& context, const vulkan::DeviceImage& image, std::span<const std::byte> texels);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/light/records.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
@@ -83,9 +82,13 @@ bool add_line(OverlayPass& pass, const OverlayText& text) {
 
 }  // namespace
 
-bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts) {
+bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts, bool any_below) {
   const auto is_new = [&](const OverlayText& text) { return !find_line(pass, text).has_value(); };
-  if (std::ranges::none_of(texts, is_new)) return false;
+  if (std::ranges::none_of(texts, is_new)) {
+    if (!any_below || !pass.pixels.rgba.empty()) return false;
+    clear(pass);  // It is bound, so it has been written once.
+    return true;
+  }
   if (pass.lines.empty()) clear(pass);
   const auto add_new = [&] {
     return std::ranges::all_of(texts, [&](const OverlayText& text) { return !is_new(text) || add_line(pass, text); });
@@ -109,8 +112,9 @@ void upload_atlas(OverlayPass& pass, PassContext& context) {
                          1, &region);
 }
 
-void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts,
-                  VkImageView target, std::uint32_t width, std::uint32_t height) {
+void draw_overlay(const OverlayPass& pass, PassContext& context, std::span<const QuadConstants> below,
+                  const std::vector<OverlayText>& texts, VkImageView target, std::uint32_t width,
+                  std::uint32_t height) {
   const VkCommandBuffer commands = context.slot.commands;
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   color.imageView = target;
@@ -128,17 +132,20 @@ void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vect
   vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
   push_image(context, pass.atlas.view, context.samplers.table);
-  const auto draw_quad = [&](float x, float y, float w, float h, const glm::vec4& uv, const glm::vec4& rgba,
-                             float kind) {
-    const float across = 2.0f / static_cast<float>(width), down = 2.0f / static_cast<float>(height);
-    const QuadConstants quad{{x * across - 1.0f, y * down - 1.0f, (x + w) * across - 1.0f, (y + h) * down - 1.0f},
-                             uv,
-                             premultiplied(rgba),
-                             {kind, 0.0f, 0.0f, 0.0f}};
+  const auto draw = [&](const QuadConstants& quad) {
     push_constants(context, std::as_bytes(std::span(&quad, 1)));
     vkCmdDraw(commands, 6, 1, 0, 0);
     ++context.statistics.draws;
     context.statistics.triangles += 2;
+  };
+  for (const QuadConstants& quad : below) draw(quad);
+  const auto draw_quad = [&](float x, float y, float w, float h, const glm::vec4& uv, const glm::vec4& rgba,
+                             float kind) {
+    const float across = 2.0f / static_cast<float>(width), down = 2.0f / static_cast<float>(height);
+    draw({{x * across - 1.0f, y * down - 1.0f, (x + w) * across - 1.0f, (y + h) * down - 1.0f},
+          uv,
+          premultiplied(rgba),
+          {kind, 0.0f, 0.0f, 0.0f}});
   };
   for (const OverlayText& text : texts) {
     const OverlayPass::Line line = *find_line(pass, text);

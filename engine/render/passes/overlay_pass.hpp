@@ -1,13 +1,15 @@
 #pragma once
-/// Draws lines of text, and the boxes behind them, over the finished picture.
+/// Draws mirrors' housings, lines of text and the boxes behind them over the finished picture.
 ///
 /// Lines are rasterised on the CPU (engine/image) into one atlas, which is uploaded again only when there is a new text; it is
 /// begun anew when it is full.
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/image/font.hpp"
+#include "engine/light/records.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
@@ -32,12 +34,13 @@ void create_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan
                          const vulkan::PipelineLayout& layout, const TargetFormats& formats);
 void destroy_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
 
-/// Brings the atlas's pixels up to these texts; true if it must be uploaded.
-bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts);
+/// Brings the atlas's pixels up to these texts; true if it must be uploaded. `any_below`: something is drawn below
+/// them.
+bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts, bool any_below);
 /// Copies the pixels to the atlas image, which is a transfer destination.
 void upload_atlas(OverlayPass& pass, PassContext& context);
-/// Draws into `target`, over what it holds.
-void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts,
-                  VkImageView target, std::uint32_t width, std::uint32_t height);
+/// Draws into `target`, over what it holds: first `below`, such as mirrors' housings, then the texts.
+void draw_overlay(const OverlayPass& pass, PassContext& context, std::span<const light::QuadConstants> below,
+                  const std::vector<OverlayText>& texts, VkImageView target, std::uint32_t width, std::uint32_t height);
 
 }  // namespace septet::render

@@ -30,8 +30,8 @@ std::vector<const Light*> nearest_of(std::span<const Light> lights, const Vec3& 
 void set_beacons(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const instant::BeaconLight> beacons) {
   const auto nearest = nearest_of(beacons, eye_m, most_beacons);
   for (std::size_t i = 0; i < nearest.size(); ++i) {
-    uniforms.beacon_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), 0.0f);
-    uniforms.beacon_intensity[i] = glm::vec4(nearest[i]->intensity, 0.0f);
+    uniforms.beacon_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), nearest[i]->ahead.x);
+    uniforms.beacon_intensity[i] = glm::vec4(nearest[i]->intensity, nearest[i]->ahead.y);
   }
   uniforms.soot_size.w = static_cast<float>(nearest.size());
 }

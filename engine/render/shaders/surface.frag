@@ -6,6 +6,7 @@
 #include "lamplight.glsl"
 #include "wet_road.glsl"
 #include "fade.glsl"
+#include "engine/light/beacon.hpp"
 #include "engine/light/beam.hpp"
 #include "engine/light/microfacets.hpp"
 #include "engine/light/ruts.hpp"
@@ -115,9 +116,8 @@ vec4 headlights(vec3 n) {
 vec3 beacons(vec3 n) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < int(view.soot_size.w); ++i) {
-    vec3 to_lamp = view.beacon_position[i].xyz - relative;
-    float square = dot(to_lamp, to_lamp);
-    sum += view.beacon_intensity[i].rgb * (max(0.0, dot(n, to_lamp)) * inversesqrt(square) / (square + 0.1));
+    vec4 place = view.beacon_position[i], light = view.beacon_intensity[i];
+    sum += light.rgb * beacon_irradiance(place.xyz - relative, n, vec2(place.w, light.w));
   }
   return sum;
 }

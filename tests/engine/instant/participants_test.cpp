@@ -276,8 +276,9 @@ TEST_CASE("a beacon lights what is around it while it flashes, in its colour, an
   const std::vector<BeaconLight> flash = lit(0.03);
   REQUIRE(flash.size() == 1);
   CHECK(flash[0].intensity.b > 4.0f * flash[0].intensity.g);
-  // A quarter of the box's surface, 0.46 m².
-  CHECK(flash[0].intensity.b == relative(16.0 * 0.115, 0.01));
+  // Of sides of 0.3 x 0.1 and 0.5 x 0.1 m² the mean from all round.
+  CHECK(flash[0].intensity.b == relative(16.0 * 0.08 * 2.0 / 3.14159, 0.01));
+  CHECK(flash[0].ahead == glm::vec2(1.0f, 0.0f));
   CHECK(glm::length(flash[0].position_m - Vec3(20.5, 0.5, 2.0)) < 1e-6);
   CHECK(lit(0.4).empty());
   ambulance.shown = Shown::shadow_and_light;

@@ -3,6 +3,7 @@
 /// Every function of engine/light at one point of its arguments, in the language that these are written in: the same
 /// text runs on the device and on the host. A new function gets its case here, and `function_count` grows by one.
 
+#include "engine/light/beacon.hpp"
 #include "engine/light/beam.hpp"
 #include "engine/light/clouds.hpp"
 #include "engine/light/crack.hpp"
@@ -22,7 +23,7 @@
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 50u;
+LIGHT_CONST uint function_count = 52u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -148,6 +149,10 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
     }
     case 49u:
       return vec4(lamp_spread_m2(a.x));
+    case 50u:
+      return vec4(beacon_share(one, normalize(vec2(b.x - 0.5f, 0.6f * b.y + 0.1f))));
+    case 51u:
+      return vec4(beacon_irradiance((1.0f + 3.0f * b.z) * one, other, normalize(vec2(b.x - 0.5f, 0.6f * b.y + 0.1f))));
     default:
       return vec4(0.0f);
   }

@@ -42,8 +42,7 @@ TEST_CASE(
       CHECK(std::isfinite(glm::length(participant.world_from_vehicle.position_m)));
     CHECK(std::isfinite(snapshot.driver_car.speed_mps + snapshot.driver_car.accelerator +
                         snapshot.driver_car.steering_wheel_rad));
-    const bool is_told =
-        std::ranges::any_of(events, [](const Event& event) { return event.kind == "bad_number"; });
+    const bool is_told = std::ranges::any_of(events, [](const Event& event) { return event.kind == "bad_number"; });
     return is_told ? snapshot.diagnostics.bad_numbers : 0;
   };
   CHECK(told({}) == 2);  // Traffic's.
