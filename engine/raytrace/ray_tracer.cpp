@@ -11,7 +11,6 @@
 namespace septet::raytrace {
 namespace {
 
-
 /// Offset from a pixel's middle, pixels.
 glm::vec2 filtered_offset(Filter filter, PathRandom& random) {
   const int degree = static_cast<int>(filter);
