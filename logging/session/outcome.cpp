@@ -14,8 +14,6 @@ namespace {
 
 using document::Json, document::number;
 
-std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
-
 std::uint64_t from_hex(const std::string& text) {
   std::uint64_t value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value, 16);
@@ -75,6 +73,8 @@ ScreenOutcome screen_of(const Json& json) {
 
 }  // namespace
 
+std::string hash_digits(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
 Json json_of(const DriveOutcome& outcome) {
   Json screens = Json::array();
   for (const ScreenOutcome& screen : outcome.screens) screens.push_back(json_of(screen));
@@ -85,8 +85,8 @@ Json json_of(const DriveOutcome& outcome) {
           {"ticks", outcome.ticks},
           {"simulated_s", number(outcome.simulated_s)},
           {"wall_s", number(outcome.wall_s)},
-          {"state_hash", hex(outcome.state_hash)},
-          {"inputs_hash", hex(outcome.inputs_hash)},
+          {"state_hash", hash_digits(outcome.state_hash)},
+          {"inputs_hash", hash_digits(outcome.inputs_hash)},
           {"late_ticks", outcome.late_ticks},
           {"bad_numbers", outcome.bad_numbers},
           {"log", {{"lost_records", outcome.lost_records}, {"waited_s", number(outcome.log_waited_s)}}},

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/document/json.hpp"
+#include "logging/session/outcome_json.hpp"
 #include "logging/session/session_reader.hpp"
 
 namespace septet::logging {
@@ -33,8 +34,6 @@ constexpr std::array parts = {Part{"setup", "its files, seeds or parameters were
                               Part{"states", "its saved states were", &SessionDigest::states},
                               Part{"commands", "what an operator changed was", &SessionDigest::commands},
                               Part{"samples", "its samples were", &SessionDigest::samples}};
-
-std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
 Expected<Json> read_row(const std::string& row, const std::string& where) {
   Json json = Json::parse(row, nullptr, false);
@@ -99,7 +98,7 @@ void SessionDigest::add(const Sample& s) {
 
 std::string to_json(const SessionDigest& digest) {
   Json json = Json::object();
-  for (const Part& part : parts) json[part.key] = hex((digest.*part.hash).value());
+  for (const Part& part : parts) json[part.key] = hash_digits((digest.*part.hash).value());
   return document::text_of(json);
 }
 
@@ -108,7 +107,7 @@ Expected<std::optional<std::string>> altered_part(const SessionDigest& found, co
   const auto json = read_row(row, where);
   if (!json) return tl::unexpected(json.error());
   for (const Part& part : parts)
-    if (json->at(part.key).get<std::string>() != hex((found.*part.hash).value()))
+    if (json->at(part.key).get<std::string>() != hash_digits((found.*part.hash).value()))
       return std::optional<std::string>(part.words);
   return std::optional<std::string>();
 }
@@ -123,7 +122,7 @@ Expected<std::optional<bool>> is_scene_as_driven(const SessionReader& session) {
   if (!edits) return tl::unexpected(edits.error());
   SessionDigest found;
   for (const SceneEdit& edit : *edits) found.add(edit);
-  if (json->at("scene").get<std::string>() == hex(found.scene.value())) return std::optional(true);
+  if (json->at("scene").get<std::string>() == hash_digits(found.scene.value())) return std::optional(true);
   return failure("the session's scene is not the one that was driven in", where,
                  "it was altered or damaged: use an unaltered copy");
 }
