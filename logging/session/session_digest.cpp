@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/document/json.hpp"

@@ -16,6 +16,7 @@
 #include "engine/raytrace/displayed.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 #include "tests/images/motorway_view.hpp"
 #include "tests/images/place_codes.hpp"
 

@@ -23,6 +23,7 @@
 #include "engine/roadside/street.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "tests/engine/raytrace/whole_picture.hpp"
 #include "tests/images/lab.hpp"
 #include "tests/shipped_files.hpp"
 

@@ -235,30 +235,72 @@ struct Covered {
   }
 };
 
-std::vector<Covered> covered_lanes(const roadside::LaneLevels& lanes, Strip& strip) {
+/// A quad of the strip and the box around it.
+struct Quad {
+  std::array<Vec3*, 4> corners;
+  std::size_t row, column;
+  Vec3 low{1e300}, high{-1e300};
+
+  Quad(Strip& strip, std::size_t i, std::size_t k)
+      : corners{&strip.rows[i - 1][k], &strip.rows[i][k], &strip.rows[i][k + 1], &strip.rows[i - 1][k + 1]},
+        row(i),
+        column(k) {
+    for (const Vec3* corner : corners) {
+      low = glm::min(low, *corner);
+      high = glm::max(high, *corner);
+    }
+  }
+  std::array<Vec3*, 3> without(std::size_t corner) const {
+    return {corners[(corner + 1) % 4], corners[(corner + 2) % 4], corners[(corner + 3) % 4]};
+  }
+};
+
+/// Adds the place of a lane where one of the quad's triangles lies over it.
+void add_covered(const Quad& quad, const Vec2& p, double most_m, std::vector<Covered>& covered) {
   constexpr double noticed_m = 0.01;
+  if (most_m + noticed_m >= quad.high.z || p.x < quad.low.x || p.y < quad.low.y || p.x > quad.high.x ||
+      p.y > quad.high.y)
+    return;
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    const std::array<Vec3*, 3> corners = quad.without(left_out);
+    const Vec3 shares = shares_in(Vec2(*corners[0]), Vec2(*corners[1]), Vec2(*corners[2]), p);
+    const Covered at{corners, shares, most_m, quad.row, quad.column};
+    if (shares != Vec3(0.0) && at.excess_m() > noticed_m) covered.push_back(at);
+  }
+}
+
+/// Lanes below a quad that is so narrow that it may lie between their places: they are asked for at points of its own.
+void add_below_sliver(const WorldContext& world, const RoadTile& tile, double s, const Quad& quad,
+                      std::vector<Covered>& covered) {
+  const road::RoadNetwork& network = world.roads.network();
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    const std::array<Vec3*, 3> corners = quad.without(left_out);
+    const Vec2 middle((*corners[0] + *corners[1] + *corners[2]) / 3.0);
+    for (const road::Location& location : road::roads_holding(network, middle)) {
+      const bool own = location.position.road == tile.road && std::abs(location.position.s_m - s) < over_itself_m;
+      const double most_m = road::evaluate(network, location.position).position_m.z;
+      if (!own && most_m + road::least_rise_m > quad.high.z) add_covered(quad, middle, most_m, covered);
+    }
+  }
+}
+
+/// Lanes of other roads that the strip lies over.
+std::vector<Covered> covered_lanes(const WorldContext& world, const RoadTile& tile, Strip& strip) {
+  using roadside::LaneLevels;
+  const LaneLevels& lanes = world.terrain.lanes();
   std::vector<Covered> covered;
   for (std::size_t i = 1; i < strip.rows.size(); ++i)
     for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
-      std::vector<Vec3>&last = strip.rows[i - 1], &here = strip.rows[i];
-      const std::array<Vec3*, 4> quad{&last[k], &here[k], &here[k + 1], &last[k + 1]};
-      Vec3 low(1e300), high(-1e300);
-      for (const Vec3* corner : quad) {
-        low = glm::min(low, *corner);
-        high = glm::max(high, *corner);
-      }
-      lanes.for_each(Vec2(low), Vec2(high), [&](const roadside::LaneLevels::Place& place) {
-        if (place.most_m + noticed_m >= high.z || place.p.x < low.x || place.p.y < low.y || place.p.x > high.x ||
-            place.p.y > high.y)
-          return;
-        for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-          const std::array<Vec3*, 3> corners{quad[(left_out + 1) % 4], quad[(left_out + 2) % 4],
-                                             quad[(left_out + 3) % 4]};
-          const Vec3 shares = shares_in(Vec2(*corners[0]), Vec2(*corners[1]), Vec2(*corners[2]), place.p);
-          const Covered at{corners, shares, place.most_m, i, k};
-          if (shares != Vec3(0.0) && at.excess_m() > noticed_m) covered.push_back(at);
-        }
+      const Quad quad(strip, i, k);
+      bool between_places = false;
+      const Vec2 beside_m(LaneLevels::across_step_m);
+      lanes.for_each(Vec2(quad.low) - beside_m, Vec2(quad.high) + beside_m, [&](const LaneLevels::Place& place) {
+        between_places = between_places || place.most_m < quad.high.z;
+        add_covered(quad, place.p, place.most_m, covered);
       });
+      const Vec2 along = Vec2(*quad.corners[1] - *quad.corners[0]), across = Vec2(*quad.corners[3] - *quad.corners[0]);
+      const bool narrow = std::min(glm::length(along), glm::length(across)) < LaneLevels::across_step_m;
+      if (between_places && narrow && strip.among_roads) add_below_sliver(world, tile, strip.along[i], quad, covered);
     }
   return covered;
 }
@@ -284,7 +326,7 @@ void draw_strip(const WorldContext& world, const RoadTile& tile, double side, St
                 bool near) {
   const std::vector<double>& along = strip.along;
   const std::span<const Column> columns = strip.columns;
-  const std::vector<Covered> covered = near ? covered_lanes(world.terrain.lanes(), strip) : std::vector<Covered>{};
+  const std::vector<Covered> covered = near ? covered_lanes(world, tile, strip) : std::vector<Covered>{};
   const auto left_out = lower_below_lanes(covered);
   std::uint32_t first = 0;
   const bool driven = is_driven_along(world.roads.road(tile.road), tile, side) &&
@@ -367,7 +409,7 @@ void draw_sides(MeshBuilder& builder, const WorldContext& world, const RoadTile&
   for (const double side : {1.0, -1.0}) {
     Strip strip = strip_of(world, tile, side, along(among_roads), columns, among_roads);
     // It reaches another road all the same.
-    if (near && !mouth && !among_roads && !covered_lanes(world.terrain.lanes(), strip).empty())
+    if (near && !mouth && !among_roads && !covered_lanes(world, tile, strip).empty())
       strip = strip_of(world, tile, side, along(true), columns, true);
     draw_strip(world, tile, side, strip, builder, near);
     draw_retaining_wall(world, tile, side, strip, builder, near);
