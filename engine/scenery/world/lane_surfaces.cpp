@@ -1,6 +1,7 @@
 #include "engine/scenery/world/lane_surfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <glm/common.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
+#include "engine/road/decks.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/town.hpp"
@@ -137,17 +139,27 @@ class TileSurfaces {
     }
   }
 
-  /// Within a junction lanes that others drive over are none: only what is left of lawn and pavement is drawn.
-  bool is_driven_over(const glm::vec3& middle) const {
-    for (const road::Location& location :
-         road::roads_holding(world_.roads.network(), Vec2(tile_.world_from_tile * Vec3(middle)))) {
-      if (location.position.road == tile_.road) continue;
-      const road::Road& other = world_.roads.road(location.position.road);
-      const road::LaneType type = road::lane_type(world_.roads.network(), location.position.road,
-                                                  location.lanes.lane_any_type, location.position.s_m);
-      if (other.junction == road_.junction && road::is_drivable(type)) return true;
-    }
-    return false;
+  /// Lanes of other roads that are driven take the place of lawn and of a junction's pavement, that of lawn those that are
+  /// walked too. Lanes on another level take nothing.
+  bool is_taken(const glm::vec3& place, Ground ground) const {
+    const road::RoadNetwork& network = world_.roads.network();
+    const Vec3 place_m = tile_.world_from_tile * Vec3(place);
+    return std::ranges::any_of(road::roads_holding(network, Vec2(place_m)), [&](const road::Location& location) {
+      const road::RoadPosition& at = location.position;
+      if (at.road == tile_.road) return false;
+      const road::LaneType type = road::lane_type(network, at.road, location.lanes.lane_any_type, at.s_m);
+      const bool walked = type == road::LaneType::sidewalk || type == road::LaneType::biking;
+      return (road::is_drivable(type) || (walked && ground == Ground::verge)) &&
+             std::abs(road::evaluate(network, at).position_m.z - place_m.z) < road::least_rise_m;
+    });
+  }
+  /// In the middle, or near a corner.
+  bool is_taken(const std::array<glm::vec3, 4>& quad, Ground ground) const {
+    constexpr float near_corner = 0.25f;
+    const glm::vec3 middle = 0.25f * (quad[0] + quad[1] + quad[2] + quad[3]);
+    return is_taken(middle, ground) || std::ranges::any_of(quad, [&](const glm::vec3& corner) {
+             return is_taken(glm::mix(corner, middle, near_corner), ground);
+           });
   }
 
   glm::vec2 world_uv(const glm::vec3& local, double texture_m) const {
@@ -156,7 +168,8 @@ class TileSurfaces {
 
   void draw(const Strip& strip, Ground ground, int lane) {
     builder_.material = index_of(ground);
-    const bool may_be_covered = road_.junction != road::no_index && !road::is_drivable(section_.lane(lane).type);
+    const bool may_be_taken =
+        ground == Ground::verge || (road_.junction != road::no_index && !road::is_drivable(section_.lane(lane).type));
     const double world_m = world_texture_m(ground);
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
       const double width0 = strip.left.t_m[i] - strip.right.t_m[i],
@@ -164,7 +177,7 @@ class TileSurfaces {
       if ((width0 < 1e-3 && width1 < 1e-3) || rows_[i + 1] - rows_[i] < 1e-3) continue;
       const glm::vec3 &a = strip.left.points[i], &b = strip.right.points[i], &c = strip.right.points[i + 1],
                       &d = strip.left.points[i + 1];
-      if (may_be_covered && is_driven_over(0.25f * (a + b + c + d))) continue;
+      if (may_be_taken && is_taken(std::array{a, b, c, d}, ground)) continue;
       const bool worn = std::max(width0, width1) > 3.0;  // The texture shows where wheels of a lane run.
       const auto u0 = static_cast<float>(worn ? 1.0 : width0 / lane_texture_width_m),
                  u1 = static_cast<float>(worn ? 1.0 : width1 / lane_texture_width_m);
@@ -200,7 +213,7 @@ class TileSurfaces {
       if ((width0 < 1e-3 && width1 < 1e-3) || rows_[i + 1] - rows_[i] < 1e-3) continue;
       const glm::vec3 middle =
           0.25f * (strip.left.points[i] + strip.right.points[i] + strip.left.points[i + 1] + strip.right.points[i + 1]);
-      if (road_.junction != road::no_index && is_driven_over(middle)) continue;
+      if (road_.junction != road::no_index && is_taken(middle, ground)) continue;
       geometry::CornerUvs uvs{};
       if (texture_m > 0.0) {
         const auto v0 = static_cast<float>((rows_[i] - tile_.s0_m) / texture_m),

@@ -269,9 +269,9 @@ void add_covered(const Quad& quad, const Vec2& p, double most_m, std::vector<Cov
   }
 }
 
-/// Lanes below a quad that is so narrow that it may lie between their places: they are asked for at points of its own.
-void add_below_sliver(const WorldContext& world, const RoadTile& tile, double s, const Quad& quad,
-                      std::vector<Covered>& covered) {
+/// Lanes below a quad that may be so narrow that it lies between their places: they are asked for at points of its own.
+void add_between_places(const WorldContext& world, const RoadTile& tile, double s, const Quad& quad,
+                        std::vector<Covered>& covered) {
   const road::RoadNetwork& network = world.roads.network();
   for (std::size_t left_out = 0; left_out < 4; ++left_out) {
     const std::array<Vec3*, 3> corners = quad.without(left_out);
@@ -292,15 +292,13 @@ std::vector<Covered> covered_lanes(const WorldContext& world, const RoadTile& ti
   for (std::size_t i = 1; i < strip.rows.size(); ++i)
     for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
       const Quad quad(strip, i, k);
-      bool between_places = false;
+      bool is_near_lower = false;
       const Vec2 beside_m(LaneLevels::across_step_m);
       lanes.for_each(Vec2(quad.low) - beside_m, Vec2(quad.high) + beside_m, [&](const LaneLevels::Place& place) {
-        between_places = between_places || place.most_m < quad.high.z;
+        is_near_lower = is_near_lower || place.most_m < quad.high.z;
         add_covered(quad, place.p, place.most_m, covered);
       });
-      const Vec2 along = Vec2(*quad.corners[1] - *quad.corners[0]), across = Vec2(*quad.corners[3] - *quad.corners[0]);
-      const bool narrow = std::min(glm::length(along), glm::length(across)) < LaneLevels::across_step_m;
-      if (between_places && narrow && strip.among_roads) add_below_sliver(world, tile, strip.along[i], quad, covered);
+      if (is_near_lower && strip.among_roads) add_between_places(world, tile, strip.along[i], quad, covered);
     }
   return covered;
 }
