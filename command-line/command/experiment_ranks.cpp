@@ -41,7 +41,6 @@ constexpr std::size_t most_jobs = 1024;
 
 Bytes message(Word word) { return {static_cast<std::byte>(word)}; }
 
-/// While it comes, a drive lies beside the place where it will be whole.
 fs::path coming(const fs::path& folder) { return folder.string() + ".coming"; }
 
 /// True for a file name below a folder, and for nothing outside it.
@@ -57,14 +56,18 @@ tl::unexpected<Error> full(const fs::path& place) {
 
 }  // namespace
 
+void clear_half_drive(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(coming(folder), ignored);
+}
+
 ExperimentRanks::~ExperimentRanks() {
   for (int rank = 1; rank < machines_.count(); ++rank) {
     Bytes end = message(Word::end);
     ByteWriter(end).put(static_cast<std::uint8_t>(machines_.has_losses()));
     machines_.send(rank, std::move(end));
   }
-  std::error_code ignored;
-  for (const auto& [number, drive] : drives_) fs::remove_all(coming(drive.folder), ignored);
+  for (const auto& [number, drive] : drives_) clear_half_drive(drive.folder);
 }
 
 bool ExperimentRanks::has_room(int rank) const {
@@ -88,8 +91,6 @@ std::optional<std::uint64_t> ExperimentRanks::deal(const std::vector<std::string
   writer.put_varint(arguments.size());
   for (const auto& argument : arguments) writer.put_string(argument);
   machines_.send(free->first, std::move(bytes));
-  std::error_code ignored;
-  fs::remove_all(coming(folder), ignored);  // Remains of a stopped run.
   drives_[number] = {free->first, folder};
   return number;
 }
@@ -100,8 +101,7 @@ void ExperimentRanks::lose(int rank, const std::string& why, std::vector<Ended>&
   messages_.push_back(fmt::format("septet: program {} {}; what it was driving is driven anew", rank, why));
   std::erase_if(drives_, [&](const auto& drive) {
     if (drive.second.rank != rank) return false;
-    std::error_code ignored;
-    fs::remove_all(coming(drive.second.folder), ignored);
+    clear_half_drive(drive.second.folder);
     ended.push_back({drive.first, {}, true});
     return true;
   });

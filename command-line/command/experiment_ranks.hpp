@@ -22,6 +22,10 @@
 
 namespace septet::server {
 
+/// While a drive comes from another program it lies beside `folder`, where it will be whole. Removes what a stopped run has
+/// left there.
+void clear_half_drive(const std::filesystem::path& folder);
+
 /// The first program's view of the others. One thread.
 class ExperimentRanks {
  public:

@@ -131,6 +131,7 @@ Expected<bool> ExperimentRun::start_next() {
   if (!is_free && !(others_ && others_->has_room())) return false;
   auto next = next_drive(study_, index, stands_[index]);
   if (!next) return tl::unexpected(next.error());
+  clear_half_drive(next->folder);
   RunningDrive drive{.subject = index, .folder = next->folder, .log = next->log, .process = {}, .elsewhere = 0};
   if (is_free) {
     next->arguments.insert(next->arguments.begin(), {"drive", "--no-screens"});

@@ -49,6 +49,11 @@ struct SmallExperiment {
       count += entry.path().filename() == "summary.json";
     return count;
   }
+  fs::path a_drive(const std::string& out) const {
+    for (const auto& entry : fs::recursive_directory_iterator(folder / out))
+      if (entry.path().filename() == "summary.json") return entry.path().parent_path();
+    return {};
+  }
   /// A drive from another machine is whole, or absent.
   bool has_half_drives(const std::string& out) const {
     for (const auto& entry : fs::recursive_directory_iterator(folder / out))
@@ -94,6 +99,18 @@ TEST_CASE("a program of mpirun that is killed costs what it was driving and the 
     CHECK(experiment.results(out) == expected);
     CHECK_FALSE(experiment.has_half_drives(out));
   }
+}
+
+TEST_CASE(
+    "of a drive that was coming from another program when all was killed nothing is left, wherever it is driven next") {
+  const SmallExperiment experiment;
+  REQUIRE(experiment.make("killed").code == 0);
+  const auto expected = experiment.results("killed");
+  const fs::path whole = experiment.a_drive("killed");
+  fs::rename(whole, whole.string() + ".coming");
+  REQUIRE(experiment.make("killed").code == 0);
+  CHECK(experiment.results("killed") == expected);
+  CHECK_FALSE(experiment.has_half_drives("killed"));
 }
 
 TEST_CASE("without mpirun an experiment for several programs says what is missing") {
