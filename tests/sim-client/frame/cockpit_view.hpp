@@ -65,25 +65,30 @@ struct SeatPicture {
   }
 };
 
-/// SEPTET_PICTURES: a folder for keeping it for people, under `name`.
-inline SeatPicture seat_picture(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen,
-                                const std::string& name) {
-  auto views = screen_views(rig, screen);
-  REQUIRE(views.has_value());
+/// Draws on the CPU. SEPTET_PICTURES: a folder for keeping the picture for people, under `name`.
+inline image::Image drawn_picture(const rig::Screen& screen, instant::FrameInput input, const std::string& name) {
   auto renderer = render::Renderer::create({.width = screen.width_px,
                                             .height = screen.height_px,
                                             .device = render::DevicePreference::software,
                                             .validation = true});
   REQUIRE(renderer.has_value());
   REQUIRE(renderer->upload(vehicles_scene()).has_value());
-  const Viewpoint viewpoint = driver_viewpoint(shown);
-  REQUIRE(renderer->draw(client_frame(shown, *views, viewpoint, vehicles_scene())).has_value());
+  REQUIRE(renderer->draw(std::move(input)).has_value());
   auto picture = renderer->read_back();
   REQUIRE(picture.has_value());
   CHECK(renderer->statistics().validation_messages == 0);
   if (const char* folder = std::getenv("SEPTET_PICTURES"))
     CHECK(image::write_png(std::string(folder) + "/" + name + ".png", *picture).has_value());
-  return {std::move(*picture), *views, viewpoint.world_from_views};
+  return std::move(*picture);
+}
+
+inline SeatPicture seat_picture(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen,
+                                const std::string& name) {
+  auto views = screen_views(rig, screen);
+  REQUIRE(views.has_value());
+  const Viewpoint viewpoint = driver_viewpoint(shown);
+  return {drawn_picture(screen, client_frame(shown, *views, viewpoint, vehicles_scene()), name), *views,
+          viewpoint.world_from_views};
 }
 
 }  // namespace septet::frame

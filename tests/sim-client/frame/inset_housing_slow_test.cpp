@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 
 #include "engine/image/image.hpp"
-#include "engine/image/png.hpp"
-#include "engine/render/renderer.hpp"
 #include "sim-client/frame/client_frame.hpp"
 #include "sim-client/frame/viewpoint.hpp"
 #include "tests/sim-client/frame/cockpit_view.hpp"
@@ -20,20 +18,9 @@ namespace {
 
 image::Image drawn(const rig::Screen& screen, const ScreenViews& views, const Snapshot& shown, bool housed,
                    const std::string& name) {
-  auto renderer = render::Renderer::create({.width = screen.width_px,
-                                            .height = screen.height_px,
-                                            .device = render::DevicePreference::software,
-                                            .validation = true});
-  REQUIRE(renderer.has_value());
-  REQUIRE(renderer->upload(vehicles_scene()).has_value());
   instant::FrameInput input = client_frame(shown, views, driver_viewpoint(shown), vehicles_scene());
   for (instant::FrameView& view : input.views) view.housed = view.housed && housed;
-  REQUIRE(renderer->draw(std::move(input)).has_value());
-  CHECK(renderer->statistics().validation_messages == 0);
-  const image::Image picture = *renderer->read_back();
-  if (const char* folder = std::getenv("SEPTET_PICTURES"))
-    CHECK(image::write_png(std::string(folder) + "/" + name + ".png", picture).has_value());
-  return picture;
+  return drawn_picture(screen, std::move(input), name);
 }
 
 int brightest(const image::Color& color) { return std::max({color.red, color.green, color.blue}); }
