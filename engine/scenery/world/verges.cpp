@@ -3,12 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
@@ -17,6 +15,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/town.hpp"
+#include "engine/scenery/world/covered_lanes.hpp"
 #include "engine/scenery/world/far_road.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
@@ -79,8 +78,8 @@ Vec3 column_point(const WorldContext& world, const RoadTile& tile, double s, dou
   return {p, z};
 }
 
-/// A lane so much higher is carried over the strip; a place of the tile's own road so far along is another turn of it.
-constexpr double overhead_m = road::least_rise_m, over_itself_m = 40.0;
+/// A lane so much higher is carried over the strip.
+constexpr double overhead_m = road::least_rise_m;
 
 /// Reach of a strip outwards of a road's edge.
 struct Free {
@@ -213,118 +212,10 @@ Strip strip_of(const WorldContext& world, const RoadTile& tile, double side, std
   return strip;
 }
 
-/// Shares of a triangle's corners at p, seen from above; all 0 outside of it.
-Vec3 shares_in(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p) {
-  const Vec2 u = b - a, v = c - a, w = p - a;
-  const double area = u.x * v.y - u.y * v.x;
-  if (std::abs(area) < 1e-9) return Vec3(0.0);
-  const double s = (w.x * v.y - w.y * v.x) / area, t = (u.x * w.y - u.y * w.x) / area;
-  if (s < 0.0 || t < 0.0 || s + t > 1.0) return Vec3(0.0);
-  return {1.0 - s - t, s, t};
-}
-
-/// A place of a lane below one of the four triangles that a quad of the strip may be drawn as.
-struct Covered {
-  std::array<Vec3*, 3> corners;
-  Vec3 shares;
-  double most_m;
-  std::size_t row, column;
-
-  double excess_m() const {
-    return shares.x * corners[0]->z + shares.y * corners[1]->z + shares.z * corners[2]->z - most_m;
-  }
-};
-
-/// A quad of the strip and the box around it.
-struct Quad {
-  std::array<Vec3*, 4> corners;
-  std::size_t row, column;
-  Vec3 low{1e300}, high{-1e300};
-
-  Quad(Strip& strip, std::size_t i, std::size_t k)
-      : corners{&strip.rows[i - 1][k], &strip.rows[i][k], &strip.rows[i][k + 1], &strip.rows[i - 1][k + 1]},
-        row(i),
-        column(k) {
-    for (const Vec3* corner : corners) {
-      low = glm::min(low, *corner);
-      high = glm::max(high, *corner);
-    }
-  }
-  std::array<Vec3*, 3> without(std::size_t corner) const {
-    return {corners[(corner + 1) % 4], corners[(corner + 2) % 4], corners[(corner + 3) % 4]};
-  }
-};
-
-/// Adds the place of a lane where one of the quad's triangles lies over it.
-void add_covered(const Quad& quad, const Vec2& p, double most_m, std::vector<Covered>& covered) {
-  constexpr double noticed_m = 0.01;
-  if (most_m + noticed_m >= quad.high.z || p.x < quad.low.x || p.y < quad.low.y || p.x > quad.high.x ||
-      p.y > quad.high.y)
-    return;
-  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-    const std::array<Vec3*, 3> corners = quad.without(left_out);
-    const Vec3 shares = shares_in(Vec2(*corners[0]), Vec2(*corners[1]), Vec2(*corners[2]), p);
-    const Covered at{corners, shares, most_m, quad.row, quad.column};
-    if (shares != Vec3(0.0) && at.excess_m() > noticed_m) covered.push_back(at);
-  }
-}
-
-/// Lanes below a quad that may be so narrow that it lies between their places: they are asked for at points of its own.
-void add_between_places(const WorldContext& world, const RoadTile& tile, double s, const Quad& quad,
-                        std::vector<Covered>& covered) {
-  const road::RoadNetwork& network = world.roads.network();
-  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-    const std::array<Vec3*, 3> corners = quad.without(left_out);
-    const Vec2 middle((*corners[0] + *corners[1] + *corners[2]) / 3.0);
-    for (const road::Location& location : road::roads_holding(network, middle)) {
-      const bool own = location.position.road == tile.road && std::abs(location.position.s_m - s) < over_itself_m;
-      const double most_m = road::evaluate(network, location.position).position_m.z;
-      if (!own && most_m + road::least_rise_m > quad.high.z) add_covered(quad, middle, most_m, covered);
-    }
-  }
-}
-
-/// Lanes of other roads that the strip lies over.
-std::vector<Covered> covered_lanes(const WorldContext& world, const RoadTile& tile, Strip& strip) {
-  using roadside::LaneLevels;
-  const LaneLevels& lanes = world.terrain.lanes();
-  std::vector<Covered> covered;
-  for (std::size_t i = 1; i < strip.rows.size(); ++i)
-    for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
-      const Quad quad(strip, i, k);
-      bool is_near_lower = false;
-      const Vec2 beside_m(LaneLevels::across_step_m);
-      lanes.for_each(Vec2(quad.low) - beside_m, Vec2(quad.high) + beside_m, [&](const LaneLevels::Place& place) {
-        is_near_lower = is_near_lower || place.most_m < quad.high.z;
-        add_covered(quad, place.p, place.most_m, covered);
-      });
-      if (is_near_lower && strip.among_roads) add_between_places(world, tile, strip.along[i], quad, covered);
-    }
-  return covered;
-}
-
-/// Lowers the strip's points until it lies over no lane. Returns the quads, by row and column, of which that could not be reached.
-std::set<std::pair<std::size_t, std::size_t>> lower_below_lanes(const std::vector<Covered>& covered) {
-  constexpr int most_rounds = 24;
-  constexpr double clear_m = 0.03;
-  for (int round = 0; round < most_rounds; ++round)
-    for (const Covered& at : covered) {
-      const double excess = at.excess_m() + clear_m;
-      if (excess <= 0.0) continue;
-      const double squares = glm::dot(at.shares, at.shares);
-      for (int k = 0; k < 3; ++k) at.corners[static_cast<std::size_t>(k)]->z -= excess * at.shares[k] / squares;
-    }
-  std::set<std::pair<std::size_t, std::size_t>> left_out;
-  for (const Covered& at : covered)
-    if (at.excess_m() > 0.0) left_out.emplace(at.row, at.column);
-  return left_out;
-}
-
 void draw_strip(const WorldContext& world, const RoadTile& tile, double side, Strip& strip, MeshBuilder& builder,
-                bool near) {
+                bool near, const std::vector<Covered>& covered) {
   const std::vector<double>& along = strip.along;
   const std::span<const Column> columns = strip.columns;
-  const std::vector<Covered> covered = near ? covered_lanes(world, tile, strip) : std::vector<Covered>{};
   const auto left_out = lower_below_lanes(covered);
   std::uint32_t first = 0;
   const bool driven = is_driven_along(world.roads.road(tile.road), tile, side) &&
@@ -406,10 +297,15 @@ void draw_sides(MeshBuilder& builder, const WorldContext& world, const RoadTile&
   };
   for (const double side : {1.0, -1.0}) {
     Strip strip = strip_of(world, tile, side, along(among_roads), columns, among_roads);
-    // It reaches another road all the same.
-    if (near && !mouth && !among_roads && !covered_lanes(world, tile, strip).empty())
+    const auto covered_by = [&] {
+      return near ? covered_lanes(world, tile, strip.along, strip.rows, strip.among_roads) : std::vector<Covered>{};
+    };
+    std::vector<Covered> covered = covered_by();
+    if (!covered.empty() && !mouth && !among_roads) {  // It reaches another road all the same.
       strip = strip_of(world, tile, side, along(true), columns, true);
-    draw_strip(world, tile, side, strip, builder, near);
+      covered = covered_by();
+    }
+    draw_strip(world, tile, side, strip, builder, near, covered);
     draw_retaining_wall(world, tile, side, strip, builder, near);
   }
 }
