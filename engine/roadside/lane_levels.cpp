@@ -16,10 +16,6 @@ constexpr double between_m = 1.42, slack_m = 0.3;
 constexpr double inside_m = 0.1;         ///< Of a lane's edge the first place lies.
 constexpr double tunnel_clear_m = 60.0;  ///< Before a mouth the hill begins.
 
-bool is_lane(road::LaneType type) {
-  return road::is_drivable(type) || type == road::LaneType::sidewalk || type == road::LaneType::biking;
-}
-
 /// The places across one station.
 void add_row(const RoadShape& roads, road::RoadIndex index, double s_m, std::vector<LaneLevels::Place>& places) {
   const road::Road& road = roads.road(index);
@@ -33,7 +29,9 @@ void add_row(const RoadShape& roads, road::RoadIndex index, double s_m, std::vec
   }
   const road::LaneSection& section = road::section_at(road, s_m);
   for (int lane = -section.right_count; lane <= section.left_count; ++lane) {
-    if (lane == 0 || !is_lane(section.lane(lane).type)) continue;
+    if (lane == 0) continue;
+    const road::LaneType type = section.lane(lane).type;
+    if (!road::is_drivable(type) && !is_walked(type)) continue;
     const road::LaneBorders borders = road::lane_borders(road, section, lane, s_m);
     const double width = borders.width_m();
     if (width < 2.0 * inside_m) continue;
@@ -47,6 +45,8 @@ void add_row(const RoadShape& roads, road::RoadIndex index, double s_m, std::vec
 }
 
 }  // namespace
+
+bool is_walked(road::LaneType type) { return type == road::LaneType::sidewalk || type == road::LaneType::biking; }
 
 LaneLevels::LaneLevels(const RoadShape& roads) {
   for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index) {

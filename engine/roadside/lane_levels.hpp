@@ -17,6 +17,9 @@
 
 namespace septet::roadside {
 
+/// True of lanes for people on foot or on bicycles.
+bool is_walked(road::LaneType type);
+
 class LaneLevels {
  public:
   static constexpr double along_step_m = 1.0, across_step_m = 2.0;

@@ -12,6 +12,7 @@
 #include "engine/road/decks.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/roadside/lane_levels.hpp"
 #include "engine/roadside/town.hpp"
 
 namespace septet::scenery {
@@ -148,8 +149,7 @@ class TileSurfaces {
       const road::RoadPosition& at = location.position;
       if (at.road == tile_.road) return false;
       const road::LaneType type = road::lane_type(network, at.road, location.lanes.lane_any_type, at.s_m);
-      const bool walked = type == road::LaneType::sidewalk || type == road::LaneType::biking;
-      return (road::is_drivable(type) || (walked && ground == Ground::verge)) &&
+      return (road::is_drivable(type) || (ground == Ground::verge && roadside::is_walked(type))) &&
              std::abs(road::evaluate(network, at).position_m.z - place_m.z) < road::least_rise_m;
     });
   }

@@ -1,8 +1,10 @@
 #include "engine/scenery/world/road_world.hpp"
+#include "engine/roadside/lane_levels.hpp"
 
 #include <algorithm>
 #include <optional>
 
+#include "engine/roadside/lane_levels.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
@@ -14,9 +16,8 @@ namespace {
 bool has_towns(const road::RoadNetwork& network) {
   return std::ranges::any_of(network.roads, [](const road::Road& road) {
     return road.junction != road::no_index || std::ranges::any_of(road.sections, [](const road::LaneSection& section) {
-             return std::ranges::any_of(section.lanes, [](const road::Lane& lane) {
-               return lane.type == road::LaneType::sidewalk || lane.type == road::LaneType::biking;
-             });
+             return std::ranges::any_of(section.lanes,
+                                        [](const road::Lane& lane) { return roadside::is_walked(lane.type); });
            });
   });
 }

@@ -15,6 +15,7 @@
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_position.hpp"
+#include "engine/roadside/lane_levels.hpp"
 #include "tests/engine/scenery/world/drawn_world.hpp"
 
 namespace septet::scenery {
@@ -41,7 +42,7 @@ inline std::vector<LanePlace> lane_places(const road::RoadNetwork& network) {
       for (int lane = -section.right_count; lane <= section.left_count; ++lane) {
         if (lane == 0) continue;
         const road::LaneType type = section.lane(lane).type;
-        if (!road::is_drivable(type) && type != road::LaneType::sidewalk && type != road::LaneType::biking) continue;
+        if (!road::is_drivable(type) && !roadside::is_walked(type)) continue;
         const road::LaneBorders borders = road::lane_borders(road, section, lane, s);
         if (borders.width_m() < 4 * inside_m) continue;
         const double low = std::min(borders.inner_t_m, borders.outer_t_m), high = low + borders.width_m();
