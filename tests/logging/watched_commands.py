@@ -25,6 +25,20 @@ python_reader = pathlib.Path(__file__).resolve().parents[2] / "logging" / "pytho
 libc = ctypes.CDLL(None, use_errno=True)
 
 
+def written_bytes(path):
+    """Contents of a file without its holes: (offset, bytes) of each extent."""
+    extents = []
+    with open(path, "rb") as file:
+        end = 0
+        while True:
+            try:
+                begin = os.lseek(file.fileno(), end, os.SEEK_DATA)
+            except OSError:  # Nothing but a hole from here on.
+                return extents
+            end = os.lseek(file.fileno(), begin, os.SEEK_HOLE)
+            extents.append((begin, os.pread(file.fileno(), end - begin, begin)))
+
+
 class Watch:
     def __init__(self, folders):
         self.folders = folders
@@ -34,7 +48,7 @@ class Watch:
         self.before = self.listing()
 
     def listing(self):
-        return {str(path): (path.lstat().st_ino, path.lstat().st_size, path.lstat().st_mtime_ns, path.lstat().st_mode, path.read_bytes())
+        return {str(path): (path.lstat().st_ino, path.lstat().st_size, path.lstat().st_mtime_ns, path.lstat().st_mode, written_bytes(path))
                 for folder in self.folders for path in folder.iterdir() if path.is_file()}
 
     def changes(self):
