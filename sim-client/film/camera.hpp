@@ -23,7 +23,7 @@ Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& 
 frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapshot& world,
                               const frame::Viewpoint& before);
 
-/// The view in that frame, for a picture of this size.
+/// View in that frame, for a picture of this size.
 frame::ScreenViews views_at(const Shot& shot, const Pivot& pivot, const Look& look, std::uint32_t width_px,
                             std::uint32_t height_px);
 

@@ -41,7 +41,7 @@ struct FilmOptions {
   bool resume = false;  ///< Continues the same film in that folder: finished pictures stay (film_folder.hpp).
   double frames_per_second = 25.0;
   std::uint32_t width_px = 1280, height_px = 720;
-  /// Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
+  /// Draws on the processor even if there is a graphics card: the same pixels as an off-screen screen's.
   bool software = false;
   FilmRenderer renderer = FilmRenderer::raster;
   std::uint32_t samples = 64;  ///< Ray tracer: samples per pixel; the maximum if there is an `error`.

@@ -28,7 +28,7 @@ Expected<Snapshot> world_at(const logging::SessionReader& session, double instan
   });
 }
 
-/// Place of the driver's eyes: from the session's rig.
+/// Eye point of the driver, vehicle frame, from the session's rig.
 Vec3 driver_eye_m(const logging::SessionInfo& info) {
   for (const auto& source : info.files)
     if (source.role == "rig")
@@ -82,7 +82,7 @@ class LastSeen {
     return LastSeen(shot, pivot, std::move(*cursor), viewpoint_at(shot, pivot, *world, {}));
   }
 
-  /// At an instant not before the previous call's.
+  /// Viewpoint at an instant not before the previous call's.
   Expected<frame::Viewpoint> at(double instant_s) {
     while (!ended_ && (!next_ || next_->simulated_time_s <= instant_s)) {
       if (next_) viewpoint_ = viewpoint_at(*shot_, pivot_, *next_, viewpoint_);

@@ -10,7 +10,7 @@ namespace septet::film {
 /// Reads forward as instants ascend. One thread; must not outlive its reader.
 class SessionInstants {
  public:
-  /// For instants from `from_s` on.
+  /// Starts reading, for instants from `from_s` on.
   static Expected<SessionInstants> start(const logging::SessionReader& session, double from_s);
 
   /// The world at an instant, between its two ticks; not before the previous call's instant. `history()` then holds the

@@ -16,7 +16,7 @@ class DentDrawing {
  public:
   /// Updates from the keyframe of the instant, if it can be read.
   void show(const Snapshot& instant, const scene::ResolvedScene& scene);
-  /// For the participants that the frame has.
+  /// Adds the dented meshes to the participants of the frame.
   void add_to(instant::FrameInput& frame) const;
 
  private:

@@ -17,7 +17,7 @@ struct EffectMoment {
   const EffectKeyframe* after = nullptr;    ///< Null: no newer one has come.
 };
 
-/// The effects that exist at a simulated time, ascending id.
+/// Effects that exist at a simulated time, ascending id.
 std::vector<EffectMoment> effects_at(const TickHistory& history, double simulated_time_s, double tick_s);
 
 }  // namespace septet::frame

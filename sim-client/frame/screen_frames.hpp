@@ -20,7 +20,8 @@ class ScreenFrames {
   void show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene) {
     effects_.show(instant, history, tick_s, scene);
   }
-  /// For a selected screen. Effects are those of the last `show`. `message`: across the middle, instead of instruments.
+  /// Frame of the selected screen. Effects are those of the last `show`. `message`: across the middle, instead of
+  /// instruments.
   instant::FrameInput frame(const Snapshot& shown, const scene::ResolvedScene& scene,
                             std::optional<std::string> message = std::nullopt);
 

@@ -8,8 +8,8 @@
 
 namespace septet::frame {
 
-/// A surface lies up to a cell beside the cells that hold its soot, so each cell takes the maximum of its
-/// neighbourhood.
+/// Field of a keyframe. A surface lies up to a cell beside the cells that hold its soot, so each cell takes the maximum
+/// of its neighbourhood.
 instant::SootField soot_field(const smoke::SootKeyframe& keyframe);
 
 class SootDrawing {

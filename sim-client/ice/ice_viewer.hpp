@@ -25,8 +25,8 @@ struct IceOptions {
   std::uint32_t surroundings_px = 256;
   bool surroundings_kept = false;  ///< The first picture's surroundings serve for all.
   double share_of_picture = 0.2;   ///< Approximate share that the object covers; more: the camera is nearer.
-  double turn_deg = 0.0;           ///< In the first picture.
-  bool window = false;             ///< Instead of pictures.
+  double turn_deg = 0.0;           ///< Turn in the first picture.
+  bool window = false;             ///< Shows a window instead of pictures.
   bool software = false;
   std::filesystem::path out = "ice";
   std::filesystem::path reference;  ///< Folder for a path tracer's input to draw the same; empty: not written.
@@ -35,7 +35,7 @@ struct IceOptions {
 /// An object by its name or from its file. Faults that do not prevent drawing go to `say`.
 Expected<ice::Surface> read_surface(const std::string& object, const std::function<void(const std::string&)>& say);
 
-/// The object, turned about the vertical by `turn_rad`.
+/// Object turned about the vertical by `turn_rad`.
 ice::IceBody body_of(const ice::Surface& surface, const IceOptions& options, double turn_rad);
 /// Place of the second object; it does not turn.
 inline constexpr glm::vec3 second_place_m{1.15f, 0.22f, -0.1f};

@@ -10,7 +10,7 @@ namespace septet::screen {
 class FrameTimes {
  public:
   void add(double ms);
-  /// `fraction` 0.5 is the median; returns 0 without frames.
+  /// Percentile of the durations; `fraction` 0.5 is the median; 0 without frames.
   double percentile_ms(double fraction) const;
   std::uint64_t count() const { return count_; }
 

@@ -10,8 +10,8 @@
 
 namespace septet::film {
 
-/// For a program that has session and frames. Error: the session cannot be read, or the master is gone: silent for a
-/// minute, or `master_process` has ended where that can be seen.
+/// Traces for the master, in a program that has session and frames. Error: the session cannot be read, or the master is
+/// gone: silent for a minute, or `master_process` has ended where that can be seen.
 Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads,
                                 const program::ProcessMark& master_process);
 
