@@ -13,7 +13,8 @@
 namespace septet::instant {
 
 struct Adaptation {
-  float exposure = 1.0f;  ///< From radiance, in the unit of atmosphere.hpp, times light_up, to the tone curve's input.
+  /// Factor from radiance, in the unit of atmosphere.hpp, times light_up, to the tone curve's input.
+  float exposure = 1.0f;
   /// Factor by which all light in the open is shown brighter, 1 by day; headlights and street lamps, too.
   float light_up = 1.0f;
   /// 0 day to 1 night: visibility of stars, lighting of windows. Falls with light, as do all of these.

@@ -12,7 +12,7 @@ namespace septet::instant {
 struct Exposure {
   float ev100 = 14.0f;
 
-  /// From radiance, in the unit of atmosphere.hpp, to the tone curve's input (engine/light/tone_curve.hpp).
+  /// Factor from radiance, in the unit of atmosphere.hpp, to the tone curve's input (engine/light/tone_curve.hpp).
   float scale() const { return luminance_unit_cdpm2 / (1.2f * std::exp2(ev100)); }
 };
 

@@ -99,7 +99,7 @@ struct FrameInput {
   double simulated_time_s = 0.0;  ///< Moves clouds and flashes beacons.
   Environment environment;
   std::vector<FrameView> views;
-  std::vector<MirrorGlass> mirrors;  ///< Seen in the first view; their pictures lie beside each other.
+  std::vector<MirrorGlass> mirrors;  ///< Mirrors in the first view; their pictures lie beside each other.
   std::vector<DrawnParticipant> participants;
   std::vector<DynamicMesh> meshes;
   /// Transparent bodies; the shadow is cast by a mesh of the same shape that is not `seen`.

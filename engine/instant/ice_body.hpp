@@ -21,8 +21,7 @@ enum class Mode : std::uint8_t {
 /// b).
 enum class Shown : std::uint8_t { all, front_depth, back_depth };
 
-/// A layer on glass: a surface without thickness, seen from both sides, through which the background is seen
-/// (glass.hpp).
+/// Layer on glass: a surface without thickness, seen from both sides, through which the background is seen (glass.hpp).
 enum class OnGlass : std::uint8_t { nothing, frost, cracks };
 
 /// Sign of the back face's normal in equation 1 (engine/light/ice_optics.hpp): as the paper prints it, or as a lens

@@ -50,7 +50,7 @@ struct Instant {
   float extinction_per_m = 0.0f;
   float share_of_sky = 1.0f;         ///< Share of the sky at the first view's eye: no rain falls under a roof.
   std::optional<RoadPlane> road;     ///< Plane near the first view's eye in which a wet road mirrors.
-  std::vector<FrameView> views;      ///< At least one.
+  std::vector<FrameView> views;      ///< One or more.
   std::vector<MirrorGlass> mirrors;  ///< Mirrors in the first view.
   std::vector<PlacedMesh> parts;     ///< Parts of participants, ordered by mesh.
   std::vector<std::shared_ptr<const ReshapedParts>> reshaped;  ///< Owners of the meshes that replace those of `parts`.
@@ -60,11 +60,11 @@ struct Instant {
   std::uint32_t ice_surroundings_px = 64;
   bool ice_surroundings_kept = false;
   std::vector<LampGlow> lamps;  ///< Lit lamps in view, for the glow around them.
-  /// As strong as they appear relative to the light around them: by day unchanged, at night and under roofs stronger by
-  /// the ratio of a camera's exposure to the one there. Headlights whose pool is invisible are left out.
+  /// Headlights as strong as they appear relative to the light around them: by day unchanged, at night and under roofs
+  /// stronger by the ratio of a camera's exposure to the one there. Headlights whose pool is invisible are left out.
   std::vector<Headlight> headlights;
-  /// As strong as they appear relative to the light around them. Beacons whose light is invisible at three metres are
-  /// left out.
+  /// Beacons as strong as they appear relative to the light around them. Those whose light is invisible at three metres
+  /// are left out.
   std::vector<BeaconLight> beacons;
   std::vector<GroundContact> contacts;  ///< Contacts of participants, for renderers that do not find them by rays.
   std::vector<SmokePuff> smoke;         ///< Puffs of fires, and of the spray behind wheels.

@@ -37,7 +37,7 @@ inline float gone_from_m(float visible_to_m) { return visible_to_m + fade_half_b
 inline LevelFade fade_at(float range_m, float visible_from_m, float visible_to_m) {
   // Share of the nearer level at a border at `border_m`.
   const auto nearer = [&](float border_m) {
-    if (!(range_m < gone_from_m(border_m))) return 0.0f;  // Also for NaN.
+    if (!(range_m < gone_from_m(border_m))) return 0.0f;  // Returns 0 for NaN, too.
     const float at = 0.5f * (range_m - border_m) / fade_half_band_m(border_m) + 0.5f;
     return 1.0f - std::round(std::clamp(at, 0.0f, 1.0f) * fade_steps) / fade_steps;
   };

@@ -13,7 +13,7 @@ namespace septet::instant {
 /// Lamp that is lit now.
 struct LampGlow {
   Vec3 position_m{0.0};    ///< World.
-  bool beam = false;       ///< A headlamp, far brighter ahead than to its sides.
+  bool beam = false;       ///< Headlamp, far brighter ahead than to its sides.
   glm::vec3 facing{0.0f};  ///< Direction, unit, world axes; zero: all around.
   glm::vec3 color{1.0f};   ///< Emission of its material, radiance.
   float radius_m = 0.3f;

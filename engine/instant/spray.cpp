@@ -12,14 +12,14 @@ namespace septet::instant {
 namespace {
 
 struct Wake {
-  float depth;     ///< At `full_mps` in standing water.
+  float depth;     ///< Optical depth at `full_mps` in standing water.
   double thins_s;  ///< Time after which a puff has lost 1 − 1/e of its droplets.
   double height_m, radius_m, growth_mps;
   double interval_s;
 };
 constexpr Wake car_wake{0.29f, 0.5, 0.45, 0.4, 0.45, 0.12}, lorry_wake{1.2f, 1.2, 1.1, 0.8, 0.4, 0.2};
 constexpr double onset_mps = 8.0, full_mps = 25.0, follows_s = 0.5, follows_share = 0.35;
-constexpr double life = 3.0;  ///< In multiples of thins_s.
+constexpr double life = 3.0;  ///< Life of a puff in multiples of thins_s.
 constexpr double most_mps = 70.0;
 
 const Wake& wake_of(const DrawnParticipant& vehicle) { return vehicle.heavy ? lorry_wake : car_wake; }

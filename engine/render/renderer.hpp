@@ -34,7 +34,7 @@ enum class Antialiasing : std::uint8_t {
   /// Four samples a pixel on a graphics card, smoothing on a software device, where samples cost as much again.
   automatic,
   none,
-  smoothing,     ///< From the finished picture alone.
+  smoothing,     ///< Smoothing from the finished picture alone.
   multisampled,  ///< Four samples a pixel.
   temporal,      ///< Static surfaces also from earlier frames (passes/temporal_pass.hpp); the rest as by smoothing.
 };

@@ -45,7 +45,7 @@ class FilmFolder {
   explicit FilmFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   std::filesystem::path path_;
-  int lock_ = -1;  ///< The open folder.
+  int lock_ = -1;  ///< File descriptor of the open folder.
 };
 
 }  // namespace septet::film

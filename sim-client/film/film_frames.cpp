@@ -50,7 +50,7 @@ Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, 
   return pivots;
 }
 
-/// The script of the options, or one for the whole session.
+/// Script of the options, or one for the whole session.
 Expected<Script> choose_script(const FilmOptions& options, const logging::SessionReader& session,
                                std::pair<double, double> span_s) {
   if (!options.shots.empty()) {
@@ -125,11 +125,11 @@ Look between(const Look& from, const Look& to, double share) {
 struct FilmFrames::State {
   logging::SessionReader session;
   FilmPlan plan;
-  std::vector<Pivot> pivots;  ///< By shot.
+  std::vector<Pivot> pivots;  ///< Indexed by shot.
   scene::ResolvedScene scene;
   std::uint32_t width_px, height_px;
   double frames_per_second;
-  // The previous frame's reading, reused from here on.
+  // Previous frame's reading, reused from here on.
   std::optional<FilmFrame> last{};
   double last_instant_s = 0.0;
   std::optional<SessionInstants> instants{};

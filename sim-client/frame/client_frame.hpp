@@ -36,7 +36,7 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
                                  const scene::ResolvedScene& scene);
 
-/// A line across the middle of the picture, for a message that the driver must read ("server lost").
+/// Line across the middle of the picture, for a message that the driver must read ("server lost").
 instant::OverlayText banner(std::string text, const rig::Screen& screen);
 
 }  // namespace septet::frame

@@ -25,7 +25,7 @@ class DentDrawing {
     std::map<std::uint32_t, std::shared_ptr<const instant::ReshapedParts>> by_prototype;
   };
   std::map<ParticipantId, Made> made_;  ///< Cache: rebuilt when they change.
-  Bytes data_;                          ///< The keyframe's bytes that they were read from.
+  Bytes data_;                          ///< Bytes of the keyframe that they were read from.
   std::uint64_t scene_revision_ = 0;
 };
 

@@ -37,7 +37,7 @@ class GlassDrawing {
 
   std::map<ParticipantId, Made> made_;  ///< Cache: rebuilt when they change.
   std::vector<ice::Pane> panes_;
-  Bytes data_;  ///< The keyframe's bytes that they were read from.
+  Bytes data_;  ///< Bytes of the keyframe that they were read from.
   std::uint64_t scene_revision_ = 0;
 };
 

@@ -34,7 +34,7 @@ double height_for_letters_px(const rig::Screen& screen) {
   return std::min<double>(screen.height_px, 0.75 * screen.width_px);
 }
 
-/// A text's lines, wrapped between words to the screen's width; empty for an empty text.
+/// Lines of a text, wrapped between words to the screen's width; empty for an empty text.
 std::vector<std::string> lines_of(const std::string& text, const rig::Screen& screen, double first_px, double next_px) {
   constexpr double letter = 0.45;  // Mean width of a letter over the height of its line.
   std::vector<std::string> lines;
@@ -53,7 +53,7 @@ std::vector<std::string> lines_of(const std::string& text, const rig::Screen& sc
   return lines;
 }
 
-/// The lit warning lamps, in words; empty if none is lit.
+/// Lit warning lamps, in words; empty if none is lit.
 std::string warning_text(const CarWarnings& warnings) {
   std::string text;
   const auto add = [&](bool is_lit, const char* words) {

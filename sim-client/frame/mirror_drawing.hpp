@@ -1,5 +1,5 @@
 #pragma once
-/// The mirrors of a car whose inside is drawn, in their places: glass, frame around it, and its stem or arm.
+/// Mirrors of a car whose inside is drawn, in their places: glass, frame around it, and its stem or arm.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace septet::frame {
 
-/// A mirror of the rig that a screen sees.
+/// Mirror of the rig that a screen sees.
 struct SeenMirror {
   rig::Mirror mirror;
   instant::MirrorGlass glass;

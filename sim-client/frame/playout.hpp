@@ -23,7 +23,7 @@ std::optional<double> playout_time_s(const TickHistory& history, std::int64_t nu
 
 struct PlayedOut {
   Snapshot snapshot;     ///< Interpolated.
-  Tick tick = 0;         ///< The tick at or before the shown time: the same on all screens.
+  Tick tick = 0;         ///< Tick at or before the shown time: the same on all screens.
   bool on_tick = false;  ///< False: the requested time has not arrived, and an older instant is shown.
 };
 

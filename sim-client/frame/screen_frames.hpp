@@ -29,7 +29,7 @@ class ScreenFrames {
   const rig::Rig* rig_ = nullptr;
   const rig::Screen* screen_ = nullptr;
   ScreenViews views_;
-  Head head_;  ///< The head that the views were computed for.
+  Head head_;  ///< Head that the views were computed for.
   EffectsDrawing effects_;
 };
 

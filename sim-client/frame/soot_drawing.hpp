@@ -14,7 +14,7 @@ instant::SootField soot_field(const smoke::SootKeyframe& keyframe);
 
 class SootDrawing {
  public:
-  /// The soot of a snapshot; an empty field if there is none.
+  /// Soot of a snapshot; an empty field if there is none.
   const instant::SootField& draw(std::span<const EffectKeyframe> effects);
   /// Last field drawn.
   const instant::SootField& field() const { return field_; }

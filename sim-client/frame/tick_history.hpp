@@ -22,7 +22,7 @@ struct HistoryTick {
 
 class TickHistory {
  public:
-  static constexpr std::size_t kept = 96;  ///< At least what net::BaselineOptions remembers.
+  static constexpr std::size_t kept = 96;  ///< Number of ticks kept, at least that of net::BaselineOptions.
 
   enum class Outcome : std::uint8_t { stored, lost_baseline, refused };
   /// Adds one tick's payload as received on the tick lane; `error()` holds the reason of a refusal.

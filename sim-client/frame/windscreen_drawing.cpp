@@ -48,7 +48,7 @@ Glass glass() {
   return result;
 }
 
-/// A mesh on the glass of one car, along the world's axes.
+/// Mesh on the glass of one car, along the world's axes.
 class GlassPen {
  public:
   GlassPen(const Participant& car, std::uint32_t prototype)

@@ -13,10 +13,10 @@
 namespace septet::ice_viewer {
 
 struct IceOptions {
-  std::string object = "cube";  ///< A name of ice::object, or an OBJ file.
+  std::string object = "cube";  ///< Name of ice::object, or an OBJ file.
   Surroundings surroundings = Surroundings::outdoors;
   ice::Look look;
-  std::uint32_t cracks = 2, air_planes = 19;  ///< The paper's numbers.
+  std::uint32_t cracks = 2, air_planes = 19;  ///< Numbers of the paper.
   bool pair = false;                          ///< A second one stands behind it.
   bool mark_cracks = false;                   ///< Marks in red, as in figure 5.
   std::uint64_t seed = 1;
@@ -32,7 +32,7 @@ struct IceOptions {
   std::filesystem::path reference;  ///< Folder for a path tracer's input to draw the same; empty: not written.
 };
 
-/// An object by its name or from its file. Faults that do not prevent drawing go to `say`.
+/// Object by its name or from its file. Faults that do not prevent drawing go to `say`.
 Expected<ice::Surface> read_surface(const std::string& object, const std::function<void(const std::string&)>& say);
 
 /// Object turned about the vertical by `turn_rad`.

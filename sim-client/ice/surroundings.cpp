@@ -18,7 +18,7 @@ namespace {
 constexpr float room_half_m = 400.0f;
 constexpr std::uint32_t wall_px = 512;
 
-/// A wall of the room as seen from its middle: forward, to the right, up.
+/// Wall of the room as seen from its middle: forward, to the right, up.
 struct Wall {
   glm::vec3 forward, right, up;
 };

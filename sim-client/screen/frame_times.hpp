@@ -6,7 +6,7 @@
 
 namespace septet::screen {
 
-/// A histogram with logarithmic bins of 2 %, from 10 µs up: percentiles are right within 1 %.
+/// Histogram with logarithmic bins of 2 %, from 10 µs up: percentiles are right within 1 %.
 class FrameTimes {
  public:
   void add(double ms);

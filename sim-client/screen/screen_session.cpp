@@ -89,7 +89,7 @@ class Session {
   std::uint32_t welcomes_ = 0;
   rig::Rig rig_;
   rig::Screen* screen_ = nullptr;
-  rig::Screen screen_of_rig_;  ///< As in the rig, whatever shape its window has.
+  rig::Screen screen_of_rig_;  ///< Screen as in the rig, whatever shape its window has.
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_, large_pictures_{large_picture};
@@ -103,7 +103,7 @@ class Session {
   frame::ScreenFrames screen_frames_;
   double lost_drawn_s_ = 0.0;
   static constexpr std::chrono::milliseconds keys_every{8};
-  static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
+  static constexpr double keys_shown_for_s = 30.0;  ///< Duration from the start, until the first key is pressed.
   std::optional<bool> keys_shown_;                  ///< Chosen by the driver's keys; empty: no key was pressed yet.
   bool was_touched_ = false;
   float last_submit_ms_ = 0.0f;
@@ -128,7 +128,7 @@ Expected<void> Session::take_welcome() {
   screen_of_rig_ = *screen_;
   // A restarted server usually brings the same rig: its content is new, the picture's place is not.
   if (display_ && !is_other_screen) return {};
-  // It takes a tenth of a second, in which the scene arrives.
+  // Opening the display takes a tenth of a second, in which the scene arrives.
   std::jthread receiving([this](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       link_.pump(program::monotonic_s());

@@ -1,5 +1,5 @@
 #pragma once
-/// The sound of a session, block by block: its ticks through the synthesis and OpenAL's loopback device, as the driver
+/// Sound of a session, block by block: its ticks through the synthesis and OpenAL's loopback device, as the driver
 /// heard them.
 ///
 /// The same session gives the same samples. Clock and output are the caller's; one thread.

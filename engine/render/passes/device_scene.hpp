@@ -48,7 +48,7 @@ struct DeviceScene {
   StaticGeometry still;                        ///< Meshes placed once; their vertices are on the device.
   std::vector<vulkan::Buffer> still_vertices;  ///< One buffer a block.
   std::uint64_t still_hash = 0;
-  SceneSummary summary;  ///< For descriptions of instants in this scene.
+  SceneSummary summary;  ///< Summary for descriptions of instants in this scene.
 };
 
 /// Uploads meshes, images and materials with a new revision. No frame that uses the scene may be in flight. Parts,

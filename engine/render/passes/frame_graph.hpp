@@ -28,8 +28,8 @@ class FrameGraph {
 
  private:
   RenderGraph graph_;
-  std::vector<vulkan::ImageBarrier> images_;  ///< By resource.
-  std::vector<Access*> accesses_;             ///< By resource; null for the window.
+  std::vector<vulkan::ImageBarrier> images_;  ///< Indexed by resource.
+  std::vector<Access*> accesses_;             ///< Indexed by resource; null for the window.
 };
 
 }  // namespace septet::render

@@ -49,10 +49,10 @@ struct IceTargets {
 
 struct IcePass {
   IceTargets targets;
-  std::map<std::uint32_t, VkPipeline> fronts, insides;  ///< By variant.
-  std::array<VkPipeline, 6> layers{};                   ///< By variant.
+  std::map<std::uint32_t, VkPipeline> fronts, insides;  ///< Indexed by variant.
+  std::array<VkPipeline, 6> layers{};                   ///< Indexed by variant.
   VkPipeline cracks = VK_NULL_HANDLE;
-  std::array<VkPipeline, 2> glass{};  ///< For frost, and for cracks on glass.
+  std::array<VkPipeline, 2> glass{};  ///< Pipelines for frost, and for cracks on glass.
 };
 
 /// Vertices of a frame's ice on the device.

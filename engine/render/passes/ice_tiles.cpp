@@ -22,7 +22,7 @@ constexpr float rim_px = 2.0f;
 constexpr float widest_slope = 3.7f;
 constexpr float nearest_m = 0.05f;
 
-/// A body as its frustum sees it.
+/// Body as its frustum sees it.
 struct Seen {
   std::uint32_t body = 0, view = 0;
   glm::vec3 origin{0.0f}, right{0.0f}, up{0.0f}, forward{0.0f};

@@ -21,7 +21,7 @@ namespace septet::render {
 struct LightClusters {
   static constexpr std::uint32_t side = 24;  ///< Squares along x and along y; the eye is in the middle.
   static constexpr float square_m = 20.0f;
-  static constexpr std::size_t most_lights = 64;     ///< The nearest.
+  static constexpr std::size_t most_lights = 64;     ///< Nearest lights.
   static constexpr float least_irradiance = 3e-6f;   ///< Lower bound: weaker light on a square is left out (0.024 lx).
   static constexpr std::uint32_t words_a_light = 8;  ///< Place relative to the eye, intensity, direction, main beam.
 

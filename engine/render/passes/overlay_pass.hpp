@@ -39,7 +39,7 @@ void destroy_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulka
 bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts, bool any_below);
 /// Copies the pixels to the atlas image, which is a transfer destination.
 void upload_atlas(OverlayPass& pass, PassContext& context);
-/// Draws into `target`, over what it holds: first `below`, such as mirrors' housings, then the texts.
+/// Draws into `target`, over its contents: first `below`, such as mirrors' housings, then the texts.
 void draw_overlay(const OverlayPass& pass, PassContext& context, std::span<const light::QuadConstants> below,
                   const std::vector<OverlayText>& texts, VkImageView target, std::uint32_t width, std::uint32_t height);
 

@@ -11,7 +11,7 @@
 namespace septet::render {
 
 struct SkyPass {
-  std::array<VkPipeline, 4> pipelines{};  ///< By clouds and stars; created at first use.
+  std::array<VkPipeline, 4> pipelines{};  ///< Indexed by clouds and stars; created at first use.
 };
 
 void destroy_sky_pass(SkyPass& pass, const vulkan::Device& device);

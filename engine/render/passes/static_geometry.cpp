@@ -118,7 +118,7 @@ StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vec
     std::uint32_t first_vertex;
   };
   std::vector<Filling> fillings;        // One a piece.
-  std::vector<std::uint32_t> vertices;  // By block.
+  std::vector<std::uint32_t> vertices;  // Indexed by block.
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size() || !chosen[instance.mesh]) continue;
     const SurfaceMesh& mesh = scene.meshes[instance.mesh];

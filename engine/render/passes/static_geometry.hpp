@@ -53,7 +53,7 @@ struct StaticGeometry {
   std::vector<std::uint32_t> indices;
 };
 
-/// For each mesh, true if the scene places it once and no prototype uses it.
+/// True, by mesh, if the scene places it once and no prototype uses it.
 std::vector<bool> placed_once(const scene::ResolvedScene& scene);
 
 /// Geometry of the instances whose meshes are `chosen`, in blocks of 2 km. Parts that point outside their mesh are left

@@ -11,7 +11,7 @@ namespace septet::render {
 enum class SurfaceKind : std::uint8_t { opaque, cut, blended, stripe };
 
 struct SurfacePass {
-  std::map<std::uint32_t, VkPipeline> pipelines;  ///< By variant; created at first use.
+  std::map<std::uint32_t, VkPipeline> pipelines;  ///< Indexed by variant; created at first use.
 };
 
 void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device);
@@ -20,7 +20,7 @@ void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device);
 struct SurfaceLight {
   bool wet = false;                                 ///< Wettable materials reflect.
   bool headlights = false, standing_lamps = false;  ///< Light from headlights, from standing lamps.
-  bool unshaded = false;                            ///< No shadow of the sun or moon can be seen.
+  bool unshaded = false;                            ///< True if no shadow of the sun or moon is visible.
   bool snowy = false;
   bool sooty = false;           ///< FrameInput::soot is bound.
   bool main_beams = false;      ///< Main beam of some headlights is on.

@@ -10,10 +10,10 @@ layout(constant_id = 0) const uint quality = 0;
 layout(constant_id = 1) const uint two_sided = 0;
 layout(constant_id = 2) const uint filled = 0;  // Cracks or air are inside.
 layout(constant_id = 3) const uint frosted = 0;
-layout(constant_id = 4) const uint beyond = 0;  // What of ice lies behind is looked through, too.
-layout(constant_id = 5) const uint shown = 0;   // Instead of ice: 1 the depth of front faces, 2 of back faces.
+layout(constant_id = 4) const uint beyond = 0;  // Other ice behind is seen through it, too.
+layout(constant_id = 5) const uint shown = 0;   // Instead of ice: 1 depth of front faces, 2 of back faces.
 
-layout(constant_id = 6) const uint thin = 0;    // Other ice behind is seen through it, too.
+layout(constant_id = 6) const uint thin = 0;    // The background is seen at its place, unrefracted.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -32,7 +32,8 @@ bool is_inside(vec3 place, out ivec2 texel) {
   return front > 0.0 && depth >= front - slack && depth <= texelFetch(ice_beyond_back, texel, 0).w + slack;
 }
 
-// Diagnosis instead of ice: 1 the depth of front faces, 2 of back faces.
+// Takes a face if it is nearer than the held one, and light along `way` passes it outwards (`outwards` 1) or inwards
+// (−1).
 void consider(vec4 face, float depth, vec3 way, float outwards, inout float nearest, inout vec3 n) {
   float apart = abs(depth - face.w);
   if (face.w > 0.0 && dot(face.xyz, way) * outwards > 0.0 && apart < nearest) {
@@ -41,7 +42,7 @@ void consider(vec4 face, float depth, vec3 way, float outwards, inout float near
   }
 }
 
-// The background is seen at its place, unrefracted.
+// Normal of the face that light meets here; of length 0 if there is none.
 vec3 face_normal(ivec2 texel, float depth, vec3 way, float outwards) {
   texel = clamp(texel, ivec2(ice.rectangle.xy), ivec2(ice.rectangle.zw) - 1);
   float nearest = 1e30;

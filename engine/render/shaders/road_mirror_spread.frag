@@ -12,7 +12,7 @@ void main() {
   float texel = 1.0 / float(textureSize(source, 0).y), deviation = spread.z;
   vec2 at = gl_FragCoord.xy / spread.xy;
   int side = clamp(int(ceil(1.25 * deviation)), 1, 16);
-  float step = 2.2 / float(side), weights = 0.0;  // In deviations.
+  float step = 2.2 / float(side), weights = 0.0;  // Step in deviations.
   vec4 sum = vec4(0.0);
   for (int i = -side; i <= side; ++i) {
     float off = float(i) * step, weight = exp2(-0.7213475 * off * off);

@@ -30,7 +30,7 @@ enum Binding : std::uint32_t {
   binding_lamps = 12,           ///< Light of standing lamps (passes/lamp_field.hpp).
   binding_road_mirror = 13,     ///< Mirror image in a wet road (passes/road_mirror_pass.hpp).
   binding_ripples = 14,         ///< Slopes of the water on the road.
-  binding_shadow_depths = 15,   ///< The shadow map, not compared.
+  binding_shadow_depths = 15,   ///< Shadow map, not compared.
   binding_light_clusters = 16,  ///< Storage: lists of headlights by place (passes/light_clusters.hpp).
   binding_history = 17,         ///< Frame before (passes/temporal_pass.hpp).
   binding_depth = 18,           ///< Depth of this frame.

@@ -20,7 +20,7 @@ namespace septet::film {
 enum class FilmState : std::uint8_t { waiting, begun, made, failed, cancelled };
 
 struct QueuedFilm {
-  std::uint64_t number = 0;            ///< From 1; its name in the folder.
+  std::uint64_t number = 0;            ///< Counted from 1; its name in the folder.
   std::vector<std::string> arguments;  ///< Arguments of septet-film.
   std::filesystem::path said_in;       ///< Base of their relative paths.
   std::filesystem::path out;

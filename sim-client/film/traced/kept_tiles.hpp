@@ -1,5 +1,5 @@
 #pragma once
-/// The tiles of an unfinished frame, in a file beside the pictures: tiles finished by a killed program are not traced
+/// Tiles of an unfinished frame, in a file beside the pictures: tiles finished by a killed program are not traced
 /// again.
 ///
 /// Each tile has its place in the file and a hash; a place never written, or half written, counts as empty. One thread.

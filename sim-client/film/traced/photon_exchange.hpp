@@ -37,7 +37,7 @@ std::optional<PhotonQuestion> read_photon_question(ByteReader& reader);
 struct PhotonRun {
   std::uint64_t frame = 0;
   std::uint32_t first = 0, end = 0;
-  bool alone = false;  ///< No other worker wants them.
+  bool alone = false;  ///< True if no other worker wants them.
 };
 Bytes shoot_message(const PhotonRun& run);
 std::optional<PhotonRun> read_photon_run(ByteReader& reader);
@@ -64,7 +64,7 @@ class PhotonExchange {
 
  private:
   struct Frame {
-    std::vector<Bytes> messages;          ///< By bucket, as received; empty: not there.
+    std::vector<Bytes> messages;          ///< Indexed by bucket, as received; empty: not there.
     std::vector<std::uint32_t> dealings;  ///< Number of times that each was dealt.
     std::set<int> wanted_by;
   };

@@ -87,7 +87,7 @@ std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
 }
 
 struct StartEnd {
-  std::optional<int> status;  ///< Of the film's first program; empty: it was lost.
+  std::optional<int> status;  ///< Status of the film's first program; empty: it was lost.
   program::ChildExit of_mpirun;
   bool hosts_changed = false;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// A film by several programs that mpirun starts, restarted if it ends before the film is whole.
+/// Film by several programs that mpirun starts, restarted if it ends before the film is whole.
 ///
 /// Open MPI is told to go on when a program dies (--enable-recovery): a dead worker costs the tiles that it was
 /// tracing. If the master or mpirun itself dies, all are started again with --resume, which costs the tiles of all
