@@ -12,8 +12,8 @@ layout(location = 0) out vec4 result;
 const float reach = 1.6;
 
 void main() {
-  // Share of the sky hidden from the ground. Beside a long wall of height h, a level surface at distance d loses ½(1 −
-  // d/√(d² + h²)) of it, weighted by the cosine; below a body, at d from its edge, ½(1 − d/√(d² + c²)) of it remains
+  // Share of the sky hidden from the ground. A level surface at distance d from a long wall of height h loses the share
+  // ½(1 − d/√(d² + h²)) of it, weighted by the cosine. Below a body, d from its edge, ½(1 − d/√(d² + c²)) is left,
   // through the gap c.
   const float round_m = 0.4;
   vec2 q = abs(at) - size.xy + round_m;

@@ -24,7 +24,7 @@ layout(location = 6) flat out float out_snowed;
 layout(location = 7) flat out vec2 out_shown;
 
 // Moves a stripe's edge (see passes/stripes.hpp) outwards until the stripe reaches beyond the area that it covers by
-// half a pixel, so that every covered pixel has a sample. Returns the share by which it is drawn nearer to the eye,
+// 0.75 pixels, so that every covered pixel has a sample. Returns the share by which it is drawn nearer to the eye,
 // since it may sink into a road that is less flat.
 float widen_stripe() {
   vec3 outwards = turned(normal);

@@ -25,7 +25,7 @@ void main() {
   vec2 ahead = lamp.position_size.xy / distance_m, aside = vec2(-ahead.y, ahead.x);
   float along = mix(0.05 * distance_m, 0.98 * distance_m, at.y);
   // Spread of the light by the water's tilt: to the sides, the lamp's height times the tilt; along the way to the lamp,
-  // more by the ratio of the whole way to the lamp's part of it.
+  // the distance from the mirroring point to the lamp times the tilt.
   float lamp_height = lamp.position_size.z - road, lens = 0.5 * lamp.position_size.w * lamp.position_size.w;
   float turns = 0.12 * lamp_height, ways = turns * distance_m / (lamp_height - near_road);
   // Width of at least 0.6 pixels: a narrower streak would break into dashes.
