@@ -18,7 +18,7 @@ double gain_of(double lux) {
   return at_dusk * std::pow(by_night / at_dusk, share);
 }
 
-/// 0 at `from` and above, 1 at `to` and below.
+/// Smooth step: 0 at `from` and above, 1 at `to` and below.
 double step_down(double from, double to, double lux) {
   const double t = std::clamp(std::log(from / std::max(lux, to)) / std::log(from / to), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);

@@ -16,16 +16,16 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double ground_radius_m = 6.360e6, top_radius_m = 6.460e6;
 constexpr double rayleigh_scale_m = 8000.0, haze_scale_m = 1200.0;
 constexpr double haze_anisotropy = 0.76;
-constexpr double solar_constant = 128.0e3 / luminance_unit_cdpm2;  // Above the air, in units of irradiance.
+// Irradiance above the air, in the unit of irradiance.
+constexpr double solar_constant = 128.0e3 / luminance_unit_cdpm2;
 const Vec3 rayleigh_per_m{5.802e-6, 13.558e-6, 33.1e-6};
 const Vec3 ozone_per_m{0.650e-6, 1.881e-6, 0.085e-6};
 const Vec3 ground_albedo{0.11, 0.12, 0.08};
-const Vec3 snow_albedo{0.75, 0.76,
-                       0.78};  // Lying snow between bare tracks and what stands on it; fresh alone 0.8 to 0.9.
+const Vec3 snow_albedo{0.75, 0.76, 0.78};  // Snow between bare tracks and objects; fresh snow alone has 0.8 to 0.9.
 const Vec3 night_sky{1.0e-5, 1.64e-5, 3.27e-5};  // Some 0.13 cd/m², as over a lit country.
-/// At night clouds send back the light of towns: brighter than a clear sky (Kyba et al. 2011).
+/// At night clouds return the light of towns: brighter than a clear sky (Kyba et al. 2011).
 const Vec3 towns_on_clouds{4.18e-5, 3.82e-5, 3.64e-5};
-const Vec3 moonlight{0.73e-4, 0.91e-4, 1.27e-4};  // Some 0.7 lx: that of a full moon over lying snow.
+const Vec3 moonlight{0.73e-4, 0.91e-4, 1.27e-4};  // Some 0.7 lx, that of a full moon over snow.
 
 double luminance(const Vec3& color) { return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722)); }
 
@@ -34,7 +34,7 @@ double step_between(double from, double to, double x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// The air above one place: how much it scatters and takes away, and what is left of sunlight at a height.
+/// Air above one place: its scattering and extinction, and the transmittance of sunlight to a height.
 class Air {
  public:
   explicit Air(double haze_per_m) : haze_per_m_(haze_per_m) {
@@ -51,7 +51,7 @@ class Air {
     return rayleigh_per_m * rayleigh_density(height_m) + Vec3(haze_per_m_ * 1.11 * haze_density(height_m)) +
            ozone_per_m * ozone;
   }
-  /// Of sunlight that arrives at `height_m` from the zenith cosine; 0 where the Earth hides the sun.
+  /// Transmittance of sunlight to `height_m` from the zenith cosine; 0 if the Earth hides the sun.
   Vec3 transmittance(double height_m, double cosine) const {
     const double h = std::sqrt(std::clamp(height_m / max_height_m, 0.0, 1.0)) * (heights - 1);
     const double z = std::clamp((cosine + 0.3) / 1.3, 0.0, 1.0) * (zeniths - 1);
@@ -129,8 +129,9 @@ Vec3 table_direction(std::uint32_t column, std::uint32_t row, const Vec3& sun) {
   return {level * std::cos(azimuth), level * std::sin(azimuth), z};
 }
 
-/// How strong the sun is beside a usual one, 1, for so much light that arrives of it, across its beam. A usual one gives 80,000 lx from high up and less from
-/// further down, through more air: who tells a low sun's true light means that one, and who leaves 80,000 lx there means it, too.
+/// Strength of the sun relative to a usual one, 1, for an illuminance across its beam. A usual sun gives 80,000 lx from
+/// high up and less from further down, through more air: both the true illuminance of a low sun and a default of 80,000
+/// lx at any height mean the usual sun.
 double share_of_sun(const Air& air, double sine, double illuminance_lux) {
   constexpr double usual_lux = 80000.0, usual_sine = 0.68;
   const double of_high = illuminance_lux / usual_lux;
@@ -161,16 +162,16 @@ SkyLight sky_light(const Environment& environment) {
   const double overcast = step_between(0.55, 1.0, environment.cloud_cover);
   light.overcast = static_cast<float>(overcast);
   light.fall_per_m = static_cast<float>(fall_extinction_per_m(environment));
-  // Haze near the ground, where visibility is measured, is thicker than the column above it tells: a share of it counts.
+  // Haze near the ground, where visibility is measured, is thicker than in the column above it: a share of it counts.
   const Air air(std::clamp(0.15 * 3.912 / visibility_m, 4.0e-6, 6.0e-5));
   const double sun_scale = share_of_sun(air, sun.z, environment.sun_illuminance_lux);
 
   const Vec3 direct = solar_constant * sun_scale * air.transmittance(2.0, sun.z) * (1.0 - 0.97 * overcast);
-  // Fog lies some 150 m deep: it takes the sun's beam and gives its light back evenly.
+  // Fog is some 150 m deep: it attenuates the sun's beam and scatters its light evenly.
   const double fog_depth = 150.0 * std::max(0.0, 3.912 / visibility_m - 2.0e-4) / std::max(0.15, sun.z);
   const Vec3 sunlight = direct * std::exp(-fog_depth);
 
-  // Clear sky in the table's directions, then what clouds and fog make of it.
+  // Clear sky in the table's directions; clouds and fog follow.
   SkyTable& table = light.table;
   table.radiance.resize(SkyTable::columns * SkyTable::rows);
   std::vector<Vec3> clear(table.radiance.size());
@@ -188,7 +189,7 @@ SkyLight sky_light(const Environment& environment) {
       weight += direction.z * solid_angle;
     }
   const Vec3 clear_sky_irradiance = sky * (pi / weight);
-  // A closed cover lets through about a quarter of the light, without its colour (Kasten and Czeplak 1980).
+  // A closed cover transmits about a quarter of the light, without its colour (Kasten and Czeplak 1980).
   const Vec3 clear_total =
       clear_sky_irradiance + solar_constant * sun_scale * air.transmittance(2.0, sun.z) * std::max(0.0, sun.z);
   const Vec3 grey = Vec3(luminance(clear_total)) * Vec3(0.97, 1.0, 1.04);
@@ -220,7 +221,7 @@ SkyLight sky_light(const Environment& environment) {
   if (luminance(sunlight) > 0.001) {
     light.light_direction = glm::vec3(sun);
   } else {
-    // A moon stands opposite the sun, 40° up.
+    // The moon stands opposite the sun, 40° up.
     const double moon_azimuth = azimuth + pi;
     light.light_direction =
         glm::vec3(std::cos(0.7) * std::sin(moon_azimuth), std::cos(0.7) * std::cos(moon_azimuth), std::sin(0.7));
@@ -236,7 +237,7 @@ SkyLight sky_light(const Environment& environment) {
   light.ground_irradiance = glm::vec3(pi * ground) * adapted.light_up;
   light.irradiance = instant::sky_irradiance(table, light.sky_irradiance, glm::vec3(ground) * adapted.light_up);
   light.light_irradiance = glm::vec3(beam) * adapted.light_up;
-  // Under a closed cover it stays a little duller still.
+  // Under a closed cover the exposure stays a little lower.
   light.exposure = static_cast<float>(1.0 - 0.22 * overcast) * adapted.exposure;
   return light;
 }

@@ -1,13 +1,13 @@
 #pragma once
-/// The light of the sky: what the sun, the air and the clouds give at one instant, computed on the CPU.
+/// Light of the sky: radiance and irradiance from sun, air and clouds at one instant, computed on the CPU.
 ///
 /// Single scattering of sunlight by air molecules (Rayleigh), haze (Mie) and absorption by ozone through a spherical
-/// atmosphere, integrated numerically for a table of directions; light that is scattered again is added as an even glow.
-/// Constants: Bruneton and Neyret, "Precomputed Atmospheric Scattering" (2008) and Hillaire, "A Scalable and Production
-/// Ready Sky" (2020), table 1; the haze follows the visibility by Koschmieder's relation β = 3.912 / V. Cornette and
-/// Shanks' phase function stands for the haze.
+/// atmosphere, integrated numerically for a table of directions; light that is scattered again is added as an even
+/// glow. Constants: Bruneton and Neyret, "Precomputed Atmospheric Scattering" (2008) and Hillaire, "A Scalable and
+/// Production Ready Sky" (2020), table 1; the haze follows the visibility by Koschmieder's relation β = 3.912 / V.
+/// Cornette and Shanks' phase function stands for the haze.
 ///
-/// What it comes to by day is said as it is; from dusk on as so many times brighter as adaptation.hpp says.
+/// Light is stated as it is by day, and from dusk on as so many times brighter as adaptation.hpp says.
 ///
 /// One unit of radiance is 8000 cd/m², about a clear noon's sky near the horizon; one unit of irradiance is 8000 lx.
 
@@ -21,8 +21,8 @@
 
 namespace septet::instant {
 
-/// The unit of radiance in cd/m²; of irradiance in lx, and of intensity in cd, too. A colour's radiance in cd/m² is this times
-/// its luminance, 0.2126 r + 0.7152 g + 0.0722 b.
+/// Unit of radiance in cd/m²; of irradiance in lx, and of intensity in cd, too. A colour's radiance in cd/m² is this
+/// times its luminance, 0.2126 r + 0.7152 g + 0.0722 b.
 inline constexpr float luminance_unit_cdpm2 = 8000.0f;
 
 /// Sky radiance by direction. Column: √((1 − cos Δ)/2) of the azimuth Δ from the sun; row: ½ + ½·√z (z ≥ 0) or
@@ -33,25 +33,27 @@ struct SkyTable {
 };
 
 struct SkyLight {
-  glm::vec3 light_direction{0.0f, 0.0f, 1.0f};  ///< To the sun, or at night to the moon; world frame.
-  glm::vec3 light_irradiance{0.0f};             ///< On a surface that faces it, clouds included.
+  glm::vec3 light_direction{0.0f, 0.0f, 1.0f};  ///< Direction to the sun, or at night to the moon; world frame.
+  glm::vec3 light_irradiance{0.0f};             ///< Irradiance of a surface that faces it, clouds included.
   glm::vec3 sun_direction{0.0f, 0.0f, 1.0f};
-  glm::vec3 sky_irradiance{0.0f};     ///< On a level surface that looks up.
-  glm::vec3 ground_irradiance{0.0f};  ///< On one that looks down.
-  SkyIrradiance irradiance{};         ///< On one that looks anywhere.
-  float fog_per_m = 0.0f;             ///< Extinction.
-  float fall_per_m = 0.0f;            ///< Extinction by rain or snow, where they fall.
+  glm::vec3 sky_irradiance{0.0f};     ///< Irradiance of a level surface that faces up.
+  glm::vec3 ground_irradiance{0.0f};  ///< Irradiance of a level surface that faces down.
+  SkyIrradiance irradiance{};         ///< Irradiance of a surface of any direction.
+  float fog_per_m = 0.0f;             ///< Extinction by haze and fog.
+  float fall_per_m = 0.0f;            ///< Extinction by rain or snow, in places where they fall.
   float overcast = 0.0f;              ///< 0 broken clouds to 1 a closed cover.
-  /// Of `adaptation`: as so many times brighter all of this is said, and lamps are to be. At least 1.
+  /// Light-up of `adaptation`: the factor by which all of this is stated brighter, and by which lamps are to be. At
+  /// least 1.
   float light_up = 1.0f;
   float night = 0.0f;         ///< 0 day to 1 night.
-  float street_lamps = 0.0f;  ///< How far they are lit, 0 to 1.
-  float exposure = 1.0f;      ///< Scene radiance to the tone curve's input, in the open.
+  float street_lamps = 0.0f;  ///< Share to which street lamps are lit, 0 to 1.
+  float exposure = 1.0f;      ///< Factor from scene radiance to the tone curve's input, in the open.
   SkyTable table;
 };
 
-/// Extinction of light by what falls, 1/m, for a rate R in mm of water an hour. Rain: 0.312 R^0.67 per km (Weber et al. 2015, who sum over
-/// Marshall and Palmer's drops). Snow, from what optical links lose in it (ITU-R P.1814): wet 3.79 R^0.72, below -1 degrees Celsius dry 5.50 R^1.38 dB per km.
+/// Extinction of light by precipitation, 1/m, for a rate R in mm of water an hour. Rain: 0.312 R^0.67 per km (Weber et
+/// al. 2015, who sum over Marshall and Palmer's drops). Snow, by the attenuation of optical links (ITU-R P.1814): wet
+/// 3.79 R^0.72, below -1 degrees Celsius dry 5.50 R^1.38 dB per km.
 double fall_extinction_per_m(const Environment& environment);
 
 SkyLight sky_light(const Environment& environment);

@@ -11,7 +11,7 @@
 namespace septet::instant {
 namespace {
 
-/// A number in [0, 1) for a lattice point: an integer hash.
+/// Number in [0, 1) for a lattice point: an integer hash.
 float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   std::uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u ^ octave * 0xc2b2ae3du;
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -36,7 +36,7 @@ void add_octave(std::vector<float>& sum, std::uint32_t period, std::uint32_t oct
     columns[x] = {left, (left + 1) % period, ease(at - static_cast<float>(left))};
   }
   for (std::uint32_t y = 0; y < cloud_noise_side; ++y) {
-    const Column& row = columns[y];  // The tile is square: rows lie as columns do.
+    const Column& row = columns[y];  // The tile is square: rows have the form of columns.
     const float *top = &corners[row.left * period], *bottom = &corners[row.right * period];
     for (std::uint32_t x = 0; x < cloud_noise_side; ++x) {
       const Column& column = columns[x];

@@ -1,5 +1,5 @@
 #pragma once
-/// The noise that clouds are made of (engine/light/clouds.hpp), and how they drift: with the wind, twice as fast as it blows below.
+/// Noise of the clouds (engine/light/clouds.hpp), and their drift: with the wind, at twice its speed near the ground.
 
 #include <cstdint>
 #include <span>
@@ -19,18 +19,18 @@ inline constexpr std::uint32_t cloud_noise_side = 512;
 /// Six octaves of value noise as ranks of 8 bits, row after row. Takes milliseconds: made once and kept.
 std::vector<std::uint8_t> cloud_noise();
 
-/// How far the clouds have been blown at an instant, m along x and y, within a tile.
+/// Drift of the clouds at an instant, m along x and y, within a tile.
 glm::vec2 cloud_drift_m(const Environment& environment, double simulated_time_s);
 
-/// The rank of a place, in tiles, between the four texels around it: 0 to 1.
+/// Rank at a place, in tiles, interpolated between the four texels around it: 0 to 1.
 float cloud_rank(std::span<const std::uint8_t> noise, const glm::vec2& at);
 
 struct CloudSeen {
   glm::vec3 radiance{0.0f};
-  float cover = 0.0f;  ///< Share of what lies behind that it hides.
+  float cover = 0.0f;  ///< Share of the background that it hides.
 };
 
-/// The cloud in a unit direction.
+/// Cloud in a unit direction.
 CloudSeen cloud_seen(std::span<const std::uint8_t> noise, const SkyLight& sky, double cloud_cover,
                      const glm::vec2& drift_m, const glm::vec3& direction);
 

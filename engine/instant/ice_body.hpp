@@ -21,11 +21,11 @@ enum class Mode : std::uint8_t {
 /// b).
 enum class Shown : std::uint8_t { all, front_depth, back_depth };
 
-/// A layer on glass: a surface without thickness, seen from both sides, through which the background is seen
-/// (glass.hpp).
+/// Layer on glass: a surface without thickness, seen from both sides, through which the background is seen (glass.hpp).
 enum class OnGlass : std::uint8_t { nothing, frost, cracks };
 
-/// How the back face's normal enters equation 1 (engine/light/ice_optics.hpp): as the paper prints it, or as a lens bends light.
+/// Sign of the back face's normal in equation 1 (engine/light/ice_optics.hpp): as the paper prints it, or as a lens
+/// bends light.
 enum class BackSign : std::int8_t { as_printed = -1, as_a_lens = 1 };
 
 struct Look {
@@ -50,7 +50,7 @@ struct Look {
 
 struct IceBody {
   Vec3 origin_m{0.0};               ///< World.
-  std::vector<IceVertex> vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
+  std::vector<IceVertex> vertices;  ///< Relative to the origin along the world's axes; three a triangle, ccw in front.
   std::vector<IceVertex> inside;    ///< Cracks and planes of air, seen from both sides, reaching beyond the surface.
   Look look;
 };

@@ -13,7 +13,8 @@
 namespace septet::instant {
 namespace {
 
-/// The eye adapts to a lit, roofed place ahead of and around the car, in the same way on every screen: by day up, by night down.
+/// Scale of the exposure: the eye adapts to a lit, roofed place ahead of and around the car, in the same way on every
+/// screen: by day up, by night down.
 float adapted_scale(const SceneSummary& scene, const SkyLight& light, const RigidTransform& world_from_car) {
   constexpr float roofed_scale = 2.6f;
   const float roofed =
@@ -21,8 +22,9 @@ float adapted_scale(const SceneSummary& scene, const SkyLight& light, const Rigi
   return light.exposure * std::pow(roofed_scale / light.exposure, roofed);
 }
 
-/// Headlights among the light of their place. Nights and tunnels are shown as if all of the light in them but the lamps' were so many times brighter,
-/// so that a display need not show starlight: headlights keep pace. What adds less than a fiftieth to the road ten metres ahead is left out.
+/// Headlights relative to the light of their place. Nights and tunnels are shown as if all light in them except the
+/// lamps' were so many times brighter, so that a display need not show starlight: headlights are scaled likewise.
+/// Headlights that add less than a fiftieth to the light of the road ten metres ahead are left out.
 std::vector<Headlight> seen_headlights(std::vector<Headlight> all, const SceneSummary& scene, const SkyLight& light) {
   constexpr float under_roof = 15.0f, tunnel_lamps = 0.45f;
   constexpr float on_road_at_ten_metres = 0.37f * 0.35f / 100.0f;
@@ -37,7 +39,7 @@ std::vector<Headlight> seen_headlights(std::vector<Headlight> all, const SceneSu
   return all;
 }
 
-/// Beacons that can be seen to light something.
+/// Beacons whose light on other surfaces is visible.
 std::vector<BeaconLight> seen_beacons(std::vector<BeaconLight> all, const SceneSummary& scene, const SkyLight& light) {
   constexpr float near_by_m2 = 9.0f, tunnel_lamps = 0.45f;
   std::erase_if(all, [&](const BeaconLight& beacon) {
@@ -48,7 +50,7 @@ std::vector<BeaconLight> seen_beacons(std::vector<BeaconLight> all, const SceneS
   return all;
 }
 
-/// Where participants stand. What has no height or hangs in the air hides nothing.
+/// Contacts of participants with the ground. Flat or floating bodies hide no sky.
 std::vector<GroundContact> contacts_of(const std::vector<DrawnParticipant>& participants, const SceneSummary& scene) {
   std::vector<GroundContact> contacts;
   for (const DrawnParticipant& participant : participants) {
@@ -69,7 +71,7 @@ std::vector<GroundContact> contacts_of(const std::vector<DrawnParticipant>& part
   return contacts;
 }
 
-/// The material of a prototype's first part that has one.
+/// Material of a prototype's first part that has one.
 std::uint32_t material_of(const SceneSummary& scene, std::uint32_t prototype) {
   if (prototype >= scene.prototypes.size()) return no_material;
   for (const scene::Instance& part : scene.prototypes[prototype].parts)

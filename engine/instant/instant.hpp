@@ -1,20 +1,22 @@
 #pragma once
-/// One description of an instant, as every renderer draws it: what stands where, what shines, the light, the views.
+/// Description of an instant, as every renderer draws it: placed meshes, lamps, light, views.
 ///
-/// `describe` makes it from a frame's input (what a snapshot shows: sim-client/frame) and the scene; from there on it is const.
-/// Together with the scene's meshes, materials, images and placed instances (scene::ResolvedScene) it is all that a picture
-/// depends on: no renderer asks a snapshot, a clock or a file. The rasteriser (engine/render) draws it, and so does the ray
-/// tracer (engine/raytrace).
+/// `describe` makes it from a frame's input (content of a snapshot: sim-client/frame) and the scene; from there on it
+/// is const. Together with the scene's meshes, materials, images and placed instances (scene::ResolvedScene) it
+/// determines a picture completely: no renderer reads a snapshot, a clock or a file. The rasteriser (engine/render)
+/// draws it, and so does the ray tracer (engine/raytrace).
 ///
-/// World frame: metres, double; x east, y north, z up. Colours: linear Rec. 709. Radiance in units of 8000 cd/m², irradiance in
-/// units of 8000 lx, lamps' intensity in units of 8000 cd (luminance_unit_cdpm2 in atmosphere.hpp), so that half floats
-/// hold all from starlight to the sun's disc. Radiance · exposure.scale() is what the tone curve takes.
+/// World frame: metres, double; x east, y north, z up. Colours: linear Rec. 709. Radiance in units of 8000 cd/m²,
+/// irradiance in units of 8000 lx, lamps' intensity in units of 8000 cd (luminance_unit_cdpm2 in atmosphere.hpp), so
+/// that half floats hold everything from starlight to the sun's disc. Radiance · exposure.scale() is the input of the
+/// tone curve.
 ///
-/// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`, `ice`; the
-/// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
-/// surfaces; water on wet roads (wet_road.hpp); what falls (environment.rain_mm_per_h) before an eye in the open; headlights by their beam; air
-/// that takes `extinction_per_m` of light and is as bright as the sky behind it, below the horizon as the sky just above it, and under a roof as
-/// the lamps there light it (light::roofed_haze).
+/// A renderer draws: the scene's instances while the eye's distance is in their range; `parts`, `loose`, `ice`; the sky
+/// (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
+/// surfaces; water on wet roads (wet_road.hpp); precipitation (environment.rain_mm_per_h) before an eye in the open;
+/// headlights by their beam; air that attenuates light by `extinction_per_m` and has the radiance of the sky behind it,
+/// below the horizon that of the sky just above it, and under a roof that given by the lamps there
+/// (light::roofed_haze).
 
 #include <memory>
 #include <numbers>
@@ -30,7 +32,7 @@
 
 namespace septet::instant {
 
-/// Triangles of this instant alone, with what their prototype and their place say.
+/// Triangles of this instant alone, with the material of their prototype and the sky at their place.
 struct LooseMesh {
   DynamicMesh mesh;
   std::uint32_t material = 0;  ///< Indexes ResolvedScene::materials.
@@ -42,33 +44,36 @@ struct Instant {
   Environment environment;                ///< Weather: wetness, snow, rain, cloud cover, wind.
   std::shared_ptr<const SkyLight> light;  ///< Sun, moon and sky; never null. Instants of one weather share it.
   Exposure exposure;
-  /// Of their emission with which materials are seen: an eye that has adapted to the dark glares less than it says.
+  /// Factor on the emission of materials as seen: an eye adapted to the dark is dazzled less than it states.
   float emission_share = 1.0f;
-  float extinction_per_m = 0.0f;     ///< Of the air: fog and, where the first view's eye sees the sky, what falls.
-  float share_of_sky = 1.0f;         ///< Where the first view's eye is: no rain falls under a roof.
-  std::optional<RoadPlane> road;     ///< Near the first view's eye: what a wet road mirrors in.
-  std::vector<FrameView> views;      ///< At least one.
-  std::vector<MirrorGlass> mirrors;  ///< Seen in the first view.
-  std::vector<PlacedMesh> parts;     ///< Of participants, ordered by mesh.
-  std::vector<std::shared_ptr<const ReshapedParts>> reshaped;  ///< What `parts` have in their meshes' stead.
+  /// Extinction of the air: fog and, if the first view's eye sees the sky, precipitation.
+  float extinction_per_m = 0.0f;
+  float share_of_sky = 1.0f;         ///< Share of the sky at the first view's eye: no rain falls under a roof.
+  std::optional<RoadPlane> road;     ///< Plane near the first view's eye in which a wet road mirrors.
+  std::vector<FrameView> views;      ///< One or more.
+  std::vector<MirrorGlass> mirrors;  ///< Mirrors in the first view.
+  std::vector<PlacedMesh> parts;     ///< Parts of participants, ordered by mesh.
+  std::vector<std::shared_ptr<const ReshapedParts>> reshaped;  ///< Owners of the meshes that replace those of `parts`.
   std::vector<LooseMesh> loose;
-  std::vector<ice::IceBody> ice;    ///< None without vertices.
-  std::vector<ice::IceBody> glass;  ///< Likewise.
+  std::vector<ice::IceBody> ice;    ///< Bodies with vertices.
+  std::vector<ice::IceBody> glass;  ///< Bodies with vertices.
   std::uint32_t ice_surroundings_px = 64;
   bool ice_surroundings_kept = false;
-  std::vector<LampGlow> lamps;  ///< That shine and are seen, for the glow around them.
-  /// As strong as they look beside the light around them: by day as they are, at night and under roofs as many times stronger as the
-  /// exposure there is less than a camera's. None whose pool cannot be seen.
+  std::vector<LampGlow> lamps;  ///< Lit lamps in view, for the glow around them.
+  /// Headlights as strong as they appear relative to the light around them: by day unchanged, at night and under roofs
+  /// stronger by the ratio of a camera's exposure to the one there. Headlights whose pool is invisible are left out.
   std::vector<Headlight> headlights;
-  /// As strong as they look beside the light around them. None whose light cannot be seen at three metres.
+  /// Beacons as strong as they appear relative to the light around them. Those whose light is invisible at three metres
+  /// are left out.
   std::vector<BeaconLight> beacons;
-  std::vector<GroundContact> contacts;  ///< Of participants, for renderers that do not find out by rays.
-  std::vector<SmokePuff> smoke;         ///< Of fires, and the spray behind wheels.
+  std::vector<GroundContact> contacts;  ///< Contacts of participants, for renderers that do not find them by rays.
+  std::vector<SmokePuff> smoke;         ///< Puffs of fires, and of the spray behind wheels.
   SootField soot;
-  std::vector<OverlayText> overlay;  ///< Over the finished picture.
+  std::vector<OverlayText> overlay;  ///< Text over the finished picture.
 };
 
-/// `light`: that of the input's environment, if it is at hand (sky_light takes milliseconds). The input has a view (checked).
+/// Describes an instant. `light`: that of the input's environment, if it is at hand (sky_light takes milliseconds). The
+/// input has a view (checked).
 Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<const SkyLight> light = nullptr);
 
 }  // namespace septet::instant

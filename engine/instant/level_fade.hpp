@@ -1,17 +1,17 @@
 #pragma once
-/// How one level of detail gives way to the next: not in one frame, but pixel by pixel over a band of distances around where
-/// their ranges meet.
+/// Transition from one level of detail to the next: not in one frame, but pixel by pixel over a band of distances
+/// around the border of their ranges.
 ///
-/// Every pixel (of the ray tracer, every ray) has a threshold in [0, 1), and a level is drawn where that lies within its fade.
-/// Levels whose ranges meet divide the thresholds between them: each pixel shows just one of them, and the shares depend on the
-/// eye's distance alone, so that all screens show the same.
+/// Every pixel (of the ray tracer, every ray) has a threshold in [0, 1), and a level is drawn if that lies within its
+/// fade. Levels with a common border divide the thresholds between them: each pixel shows just one of them, and the
+/// shares depend on the eye's distance alone, so that all screens show the same.
 
 #include <algorithm>
 #include <cmath>
 
 namespace septet::instant {
 
-/// A level is drawn where from ≤ threshold < to.
+/// Range of thresholds: a level is drawn where from ≤ threshold < to.
 struct LevelFade {
   float from = 0.0f, to = 1.0f;
 
@@ -22,21 +22,22 @@ struct LevelFade {
   bool operator==(const LevelFade&) const = default;
 };
 
-/// Half the width of the band, as a share of the distance in its middle and at most in metres; a tree at 100 m changes between 88 and 112 m.
-/// Further off no more metres are needed, for they pass no faster, and whatever fades is drawn twice.
+/// Half the width of the band, as a share of the distance in its middle and at most in metres; a tree at 100 m changes
+/// between 88 and 112 m. At greater distances no more metres are needed, since they pass no faster, and fading meshes
+/// are drawn twice.
 inline constexpr float fade_half_band = 0.12f, most_fade_half_band_m = 12.0f;
 inline float fade_half_band_m(float border_m) { return std::min(fade_half_band * border_m, most_fade_half_band_m); }
-/// In so many steps, so that what stands together fades together and takes one draw.
+/// Number of steps of a fade, so that neighbours fade together and take one draw.
 inline constexpr float fade_steps = 64.0f;
 
-/// From where on a level that is visible until `visible_to_m` is not seen at all.
+/// Distance from which a level visible until `visible_to_m` is not drawn at all.
 inline float gone_from_m(float visible_to_m) { return visible_to_m + fade_half_band_m(visible_to_m); }
 
-/// Of a level that is visible while the eye's distance is in [visible_from_m, visible_to_m).
+/// Fade of a level that is visible while the eye's distance is in [visible_from_m, visible_to_m).
 inline LevelFade fade_at(float range_m, float visible_from_m, float visible_to_m) {
-  // The nearer level's share, where the levels meet at `border_m`.
+  // Share of the nearer level at a border at `border_m`.
   const auto nearer = [&](float border_m) {
-    if (!(range_m < gone_from_m(border_m))) return 0.0f;  // Nor where one of them is no number.
+    if (!(range_m < gone_from_m(border_m))) return 0.0f;  // Returns 0 for NaN, too.
     const float at = 0.5f * (range_m - border_m) / fade_half_band_m(border_m) + 0.5f;
     return 1.0f - std::round(std::clamp(at, 0.0f, 1.0f) * fade_steps) / fade_steps;
   };

@@ -15,15 +15,15 @@ namespace septet::instant {
 namespace {
 
 constexpr int rings = 8, sides = 64;
-/// So far along its ray lies what is looked up in the picture.
+/// Distance along a ray of the point that is looked up in the picture.
 constexpr double sight_m = 9.0;
-/// Of the frame before the glass's rim, which would be seen in it as a line.
+/// Near-plane margin beyond the glass, which cuts off the frame before its rim; it would appear in the glass as a line.
 constexpr double lip_m = 0.02;
 
 struct GlassPoint {
   Vec3 position_m, ray;
-  Vec2 slopes{0.0};  ///< Of what is seen there, in the picture's view.
-  Vec2 pixel{0.0};   ///< Where it is seen.
+  Vec2 slopes{0.0};  ///< Slopes of the reflected point in the picture's view.
+  Vec2 pixel{0.0};   ///< Place of the glass's point in the view.
 };
 
 struct Box {
@@ -36,7 +36,7 @@ struct Box {
   bool within(const Vec2& size) const { return low.x >= 0.0 && low.y >= 0.0 && high.x <= size.x && high.y <= size.y; }
 };
 
-/// The point nearest to all rays run backwards.
+/// Point nearest to all rays run backwards.
 Vec3 meeting_point(const std::vector<GlassPoint>& points) {
   glm::dmat3 sum(0.0);
   Vec3 right(0.0);
@@ -51,7 +51,7 @@ Vec3 meeting_point(const std::vector<GlassPoint>& points) {
 }  // namespace
 
 glm::dvec2 glass_outline(const glm::dvec2& half_m, double angle_rad, double share) {
-  constexpr double power = 2.0 / 5.0;  // Of a superellipse of degree 5.
+  constexpr double power = 2.0 / 5.0;  // Superellipse of degree 5.
   const auto along = [&](double x) { return std::copysign(std::pow(std::abs(x), power), x); };
   return share * half_m * glm::dvec2(along(std::cos(angle_rad)), along(std::sin(angle_rad)));
 }
@@ -80,7 +80,7 @@ std::optional<MirrorGlass> mirror_glass(const ScreenCorners& glass, double radiu
       const Vec3 incident = glm::normalize(point.position_m - eye_m);
       point.ray = glm::reflect(incident, normal);
       const glm::dvec4 clip = through.clip_from_eye_relative * glm::dvec4(point.position_m - eye_m, 1.0);
-      // The glass's rim turns away from an eye beside it, and a view ends before its eye.
+      // The rim of a convex glass may turn away from an eye beside it, and a view has a near plane.
       if (glm::dot(incident, normal) > -0.02 || glm::dot(point.ray, facing->back) < 0.05 || clip.w < through.near_m)
         return std::nullopt;
       point.pixel = (0.5 + 0.5 * Vec2(clip.x, clip.y) / clip.w) * size_px;
@@ -89,7 +89,7 @@ std::optional<MirrorGlass> mirror_glass(const ScreenCorners& glass, double radiu
     }
   if (!seen.meets(size_px)) return std::nullopt;
 
-  // From behind the glass its left side is the right one.
+  // Seen from behind the glass, its left side is the right one.
   const Vec3 image_m = meeting_point(points), right = -facing->right, up = facing->up, ahead = facing->back;
   double near_m = 1e30;
   for (GlassPoint& point : points) {
@@ -99,7 +99,7 @@ std::optional<MirrorGlass> mirror_glass(const ScreenCorners& glass, double radiu
     near_m = std::min(near_m, glm::dot(point.position_m - image_m, ahead));
   }
 
-  // What lies on the view: a glass may go on on the next screen.
+  // Triangles within the view: a glass may continue on the next screen.
   std::vector<std::array<std::size_t, 3>> triangles;
   Box pixels, slopes;
   const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
@@ -127,7 +127,7 @@ std::optional<MirrorGlass> mirror_glass(const ScreenCorners& glass, double radiu
   constexpr double least_px = 8.0, most_px = 2048.0;
   const Vec2 extent_px = glm::clamp(glm::ceil(pixels.high - pixels.low), Vec2(least_px), Vec2(most_px));
   result.picture.viewport = {0, 0, static_cast<std::uint32_t>(extent_px.x), static_cast<std::uint32_t>(extent_px.y)};
-  // A pixel more at each edge, so that nothing of its neighbours shines in.
+  // One pixel more at each edge keeps out the light of neighbouring pictures.
   const Vec2 rim = (slopes.high - slopes.low) / (extent_px - 2.0);
   slopes.low -= rim;
   slopes.high += rim;

@@ -39,7 +39,7 @@ float glow_radius_m(PartRole role) {
   }
 }
 
-/// Which way a lamp shines, vehicle frame.
+/// Direction in which a lamp shines, vehicle frame.
 Vec3 facing(PartRole role, double x_m) {
   switch (role) {
     case PartRole::lamp_head:
@@ -59,7 +59,7 @@ Vec3 facing(PartRole role, double x_m) {
   }
 }
 
-/// The mean over `taken_in_s` around the instant.
+/// Mean of the flashes over `taken_in_s` around the instant.
 float strobe(double simulated_time_s, bool second_half) {
   constexpr double period_s = 0.5, pulse_s = 0.06, next_pulse_s = 0.12;
   const double phase_s = std::fmod(simulated_time_s + (second_half ? 0.25 : 0.0), period_s);
@@ -70,7 +70,7 @@ float strobe(double simulated_time_s, bool second_half) {
   return static_cast<float>(std::clamp(lit_s / taken_in_s, 0.0, 1.0));
 }
 
-/// Of vehicle state; beacons aside.
+/// State of a lamp of the vehicle; beacons aside.
 bool is_on(PartRole role, Lamps lamps) {
   const bool beams = lamps.has(Lamp::low_beam) || lamps.has(Lamp::high_beam);
   switch (role) {
@@ -96,7 +96,7 @@ bool is_on(PartRole role, Lamps lamps) {
   }
 }
 
-/// Hanging from `joint`, swung forward by `angle`.
+/// Pose of a limb that hangs from `joint`, swung forward by `angle_rad`.
 RigidTransform swung(const RigidTransform& joint, double angle_rad) {
   RigidTransform result = joint;
   result.orientation = glm::angleAxis(-angle_rad, Vec3(0, 1, 0)) * result.orientation;
@@ -111,7 +111,7 @@ RigidTransform limb(const RigidTransform& joint, const LegAngles& leg, bool shin
   return swung(knee, -leg.knee_rad);
 }
 
-/// Where a limb, or a cyclist's crank, stands now.
+/// Pose of a limb, or of a cyclist's crank, now.
 RigidTransform limb_of(const scene::Instance& part, const DrawnParticipant& participant) {
   const RigidTransform& at = part.world_from_object;
   const double phase = participant.wheel_spin_rad, other = phase + std::numbers::pi;
@@ -138,22 +138,22 @@ RigidTransform limb_of(const scene::Instance& part, const DrawnParticipant& part
   }
 }
 
-/// On the level, the mean all round, of a box that shines all over: a side is seen from half of all places, by 2/π of
-/// its area in the mean.
+/// Horizontal intensity of a box that shines on all sides, averaged around it: a side is visible from half of all
+/// directions, with 2/π of its area in the mean.
 glm::vec3 shone_around(const scene::Instance& part, const MeshSummary& mesh) {
   const glm::vec3 size = glm::abs((mesh.bounds.max_m - mesh.bounds.min_m) * part.scale);
   return mesh.emission * (2.0f / std::numbers::pi_v<float> * size.z * (size.x + size.y));
 }
 
-/// Ahead of a vehicle on the level.
+/// Heading of a vehicle on the level.
 glm::vec2 level_ahead(const RigidTransform& world_from_vehicle) {
   const glm::vec2 ahead(world_from_vehicle.orientation * Vec3(1, 0, 0));
   const float length = glm::length(ahead);
   return length > 1e-3f ? ahead / length : glm::vec2(1.0f, 0.0f);
 }
 
-/// Beams of the lamps on the left and of those on the right of a vehicle, which move together between these distances from the eye: from further away no
-/// one sees that they are two, and a picture has few beams to spend.
+/// Adds the beams of a vehicle's left and right lamps. They merge between these distances from the eye: from further
+/// away the two are not told apart, and a picture has few beams to spend.
 void add_headlights(std::vector<Headlight>& headlights, const RigidTransform& world_from_vehicle,
                     std::span<const Vec3> lamps_m, double distance_m, float main_beam) {
   constexpr double two_until_m = 19.0, one_from_m = 28.0, before_glass_m = 0.15, least_apart_m = 0.2;
@@ -192,7 +192,7 @@ RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnPartici
   } else if (part.role >= PartRole::leg_left && part.role <= PartRole::crank) {
     return limb_of(part, participant);
   } else if (part.role == PartRole::steering_wheel) {
-    // Its axis points forward and away from the driver: a turn to the left is against the clock for him.
+    // Its axis points forward and away from the driver: a turn to the left is counter-clockwise to him.
     result.orientation = result.orientation * glm::angleAxis(-participant.steering_wheel_rad, Vec3(1, 0, 0));
   }
   return result;
@@ -202,7 +202,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
                                       std::span<const scene::Prototype> prototypes, std::span<const MeshSummary> meshes,
                                       double simulated_time_s, const Vec3& eye_m,
                                       const std::function<float(const RigidTransform&)>& share_of_sky) {
-  // Further than any part of a vehicle is from its origin, and mirrors' eyes from the driver's.
+  // Distance beyond that of any part from its vehicle's origin, and of the mirrors' eye points from the driver's.
   constexpr double margin_m = 12.0;
   PlacedParticipants result;
   for (const DrawnParticipant& participant : participants) {
@@ -222,7 +222,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       const float lit = shining(part.role, participant.lamps, simulated_time_s, middle_m.y);
       placed.seen = whole;
       placed.share_of_sky = sky;
-      placed.snowed_on = false;  // What drives has blown it off.
+      placed.snowed_on = false;  // The airstream of the drive has blown snow off.
       placed.number = participant.number;
       if (const auto index = static_cast<std::size_t>(&part - parts.data());
           participant.reshaped && index < participant.reshaped->size())

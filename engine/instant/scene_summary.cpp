@@ -20,11 +20,11 @@ MeshSummary summary_of(const scene::SurfaceMesh& mesh, const std::vector<scene::
   return summary;
 }
 
-/// Lamps on roofs and what is seen from afar alone are left out.
+/// Bounds of a body. Moving parts, lamps on roofs and parts seen only from afar are left out.
 BodyBounds body_of(const scene::Prototype& prototype, const std::vector<MeshSummary>& meshes) {
   BodyBounds body{glm::vec3(1e9f), glm::vec3(-1e9f)};
   for (const scene::Instance& part : prototype.parts) {
-    if (!part.casts_shadow) continue;  // Such as what is inside of another.
+    if (!part.casts_shadow) continue;  // Part inside of another, for example.
     if (part.mesh >= meshes.size() || part.role != scene::PartRole::fixed || part.visible_from_m > 0.0f) continue;
     const MeshBounds& bounds = meshes[part.mesh].bounds;
     for (int corner = 0; corner < 8; ++corner) {
@@ -80,7 +80,7 @@ float share_of_sky(const SceneSummary& scene, const Vec3& position_m) {
 float share_of_sky(const SceneSummary& scene, const Vec3& from_m, const Vec3& to_m) {
   double roofed = 0.0;
   for (const Roof& roof : scene.roofs) {
-    // The part of the way that lies within the box, between its three pairs of faces.
+    // Part of the way that lies within the box, between its three pairs of faces.
     const Vec3 from = roof.object_from_world * from_m, way = roof.object_from_world * to_m - from;
     double enters = 0.0, leaves = 1.0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What the description of an instant needs to know of a scene, worked out once a revision: the prototypes of participants, a
-/// few figures of each mesh, and where the sky is not seen.
+/// Summary of a scene for the description of instants, computed once a revision: the prototypes of participants, a few
+/// figures of each mesh, and the roofs that hide the sky.
 
 #include <cstdint>
 #include <limits>
@@ -15,14 +15,15 @@ inline constexpr std::uint32_t no_material = std::numeric_limits<std::uint32_t>:
 
 struct MeshSummary {
   MeshBounds bounds;
-  glm::vec3 emission{0.0f};                    ///< Of its brightest material.
-  std::uint32_t first_material = no_material;  ///< Of its first part with triangles.
+  glm::vec3 emission{0.0f};                    ///< Emission of its brightest material.
+  std::uint32_t first_material = no_material;  ///< Material of its first part with triangles.
 };
 
-/// What of a prototype hides the sky from the ground: the bounds of its parts but wheels, in the vehicle's frame. None has min_m.x > max_m.x.
+/// Body of a prototype that hides the sky from the ground: the bounds of its fixed parts, in the vehicle's frame.
+/// Empty: min_m.x > max_m.x.
 using BodyBounds = MeshBounds;
 
-/// A box in which the sky is not seen, such as a stretch of tunnel: the bounds of an instance with such a material.
+/// Box in which the sky is hidden, such as a stretch of tunnel: the bounds of an instance with such a material.
 struct Roof {
   RigidTransform object_from_world;
   glm::vec3 min_m{0.0f}, max_m{0.0f};
@@ -37,14 +38,14 @@ struct SceneSummary {
   std::vector<StandingLamp> lamps;
 };
 
-/// Instances and materials that point outside the scene are left out.
+/// Summarises a scene. Instances and materials that point outside the scene are left out.
 SceneSummary summarise(const scene::ResolvedScene& scene);
 
 /// Share of the sky at a place of the world: less than 1 under a roof.
 float share_of_sky(const SceneSummary& scene, const Vec3& position_m);
-/// Its mean along a way: what drives under a roof goes dark by and by.
+/// Mean share of the sky along a way: a vehicle that drives under a roof darkens gradually.
 float share_of_sky(const SceneSummary& scene, const Vec3& from_m, const Vec3& to_m);
-/// Of a vehicle, over so much more than its length as daylight reaches into a tunnel's mouth.
+/// Share of the sky of a vehicle, over its length and the depth to which daylight reaches into a tunnel's mouth.
 float share_of_sky(const SceneSummary& scene, const RigidTransform& world_from_vehicle);
 
 }  // namespace septet::instant

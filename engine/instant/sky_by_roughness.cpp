@@ -14,7 +14,7 @@ namespace {
 
 constexpr float half_turn_rad = std::numbers::pi_v<float>;
 
-/// A direction of the light about the mirrored one, which is z, and what it counts.
+/// Direction of light relative to the mirrored one, which is z, and its weight.
 struct Lobe {
   glm::vec3 direction{0.0f, 0.0f, 1.0f};
   float weight = 1.0f;
@@ -37,7 +37,7 @@ std::vector<Lobe> lobe_of(float roughness) {
   return lobe;
 }
 
-/// Heights of the rows of a table with so many rows, and the azimuths of its columns from the sun's.
+/// Direction of a table's cell, with x towards the sun.
 glm::vec3 direction_of(float column, float row, float columns, float rows) {
   const float s = 2.0f * (row + 0.5f) / rows - 1.0f, z = s * std::abs(s), level = std::sqrt(1.0f - z * z);
   const float u = (column + 0.5f) / columns, cosine = 1.0f - 2.0f * u * u;
@@ -49,7 +49,7 @@ glm::vec3 direction_of(float column, float row, float columns, float rows) {
 std::array<SkyTable, light::roughness_steps> sky_by_roughness(const SkyLight& light) {
   constexpr std::uint32_t columns = SkyTable::columns, rows = SkyTable::rows, coarser = 2;
   const glm::vec3 ground = light.ground_irradiance / half_turn_rad;
-  // The sky's own azimuths, the sun's being x.
+  // Frame of the table: x points to the sun's azimuth.
   SkyLight from_sun = light;
   from_sun.sun_direction = {1.0f, 0.0f, 0.0f};
   const auto seen = [&](const glm::vec3& direction) {
@@ -61,7 +61,7 @@ std::array<SkyTable, light::roughness_steps> sky_by_roughness(const SkyLight& li
   std::fill_n(tables[0].radiance.begin(), std::size_t{rows / 2} * columns, ground);
   for (std::uint32_t step = 1; step < light::roughness_steps; ++step) {
     const std::vector<Lobe> lobe = lobe_of(light::roughness_step * static_cast<float>(step));
-    // Of every other direction: what is rough has no detail.
+    // Every other direction suffices: rough reflections have no detail.
     constexpr std::uint32_t few_columns = columns / coarser, few_rows = rows / coarser;
     std::vector<glm::vec3> few(std::size_t{few_columns} * few_rows);
     for (std::uint32_t row = 0; row < few_rows; ++row)

@@ -1,10 +1,11 @@
 #pragma once
-/// What surfaces of several roughnesses mirror of the sky: its table, seen through microfacets.
+/// Sky as reflected by surfaces of several roughnesses: its table, seen through microfacets.
 ///
-/// The prefiltered table of Karis, "Real Shading in Unreal Engine 4" (2013): the GGX distribution of facets for a look straight down at the surface, the
-/// light weighed with its cosine. Of a mirrored direction a renderer reads one radiance and multiplies it by what the layer reflects. Below the horizon
-/// lies the ground, as for irradiance (sky_irradiance.hpp), and not the haze that the sky's table has there: things stand on it and hide that.
-/// Made once for a SkyLight, the same bit for bit each time.
+/// Prefiltered table of Karis, "Real Shading in Unreal Engine 4" (2013): the GGX distribution of facets for a look
+/// straight down at the surface, the light weighed with its cosine. A renderer reads one radiance in the mirrored
+/// direction and multiplies it by the layer's reflectance. Below the horizon lies the ground, as for irradiance
+/// (sky_irradiance.hpp), and not the haze of the sky's table, since objects on the ground hide that. Made once for a
+/// SkyLight, the same bit for bit each time.
 
 #include <array>
 
@@ -13,7 +14,7 @@
 
 namespace septet::instant {
 
-/// One a step of roughness; in each the table's directions, row by row as in SkyTable.
+/// Tables by step of roughness; in each the directions, row by row as in SkyTable.
 std::array<SkyTable, light::roughness_steps> sky_by_roughness(const SkyLight& light);
 
 }  // namespace septet::instant

@@ -12,7 +12,7 @@
 namespace septet::instant {
 namespace {
 
-/// The functions beside the terms.
+/// Functions of the terms.
 std::array<double, 7> functions(double x, double y, double z) {
   const double z2 = z * z;
   return {1.0, z, x, 3.0 * z2 - 1.0, x * z, x * x - y * y, 35.0 * z2 * z2 - 30.0 * z2 + 3.0};
@@ -40,7 +40,7 @@ SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irrad
           Vec3(is_sky ? table.radiance[row * SkyTable::columns + column] : ground_radiance) * solid_angle;
       for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += light * shape[i];
     }
-  // The harmonics' norms squared, times π, 2π/3, π/4 and −π/24, the cosine's own numbers.
+  // Squared norms of the harmonics, times π, 2π/3, π/4 and −π/24, the coefficients of the cosine.
   constexpr std::array<double, 7> weights{1.0 / 4.0,   1.0 / 2.0,   1.0 / 2.0,    5.0 / 64.0,
                                           15.0 / 16.0, 15.0 / 64.0, -3.0 / 2048.0};
   SkyIrradiance irradiance;

@@ -12,19 +12,19 @@ namespace septet::instant {
 namespace {
 
 struct Wake {
-  float depth;     ///< At `full_mps` in standing water.
-  double thins_s;  ///< After which a puff has lost 1 − 1/e of its droplets.
+  float depth;     ///< Optical depth at `full_mps` in standing water.
+  double thins_s;  ///< Time after which a puff has lost 1 − 1/e of its droplets.
   double height_m, radius_m, growth_mps;
   double interval_s;
 };
 constexpr Wake car_wake{0.29f, 0.5, 0.45, 0.4, 0.45, 0.12}, lorry_wake{1.2f, 1.2, 1.1, 0.8, 0.4, 0.2};
 constexpr double onset_mps = 8.0, full_mps = 25.0, follows_s = 0.5, follows_share = 0.35;
-constexpr double life = 3.0;  ///< In times that it takes to thin.
+constexpr double life = 3.0;  ///< Life of a puff in multiples of thins_s.
 constexpr double most_mps = 70.0;
 
 const Wake& wake_of(const DrawnParticipant& vehicle) { return vehicle.heavy ? lorry_wake : car_wake; }
 
-/// A number in [−1, 1) for a puff.
+/// Number in [−1, 1) for a puff.
 double scatter(std::uint32_t participant, std::uint32_t puff, std::uint32_t what) {
   std::uint32_t h = participant * 0x9e3779b1u ^ puff * 0x85ebca77u ^ what * 0xc2b2ae3du;
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -52,7 +52,8 @@ void add_spray(const DrawnParticipant& vehicle, const Environment& environment, 
   const Vec3 from_m = place * Vec3(vehicle.tail_x_m, 0.0, 0.0);
   const Vec3 wind = environment.wind_speed_mps *
                     Vec3(std::cos(environment.wind_direction_rad), std::sin(environment.wind_direction_rad), 0.0);
-  // Thinning e^−a adds up over the puffs to thins_s / interval_s of one, less what the end of the old ones takes off.
+  // Sum of the thinning e^−a over the puffs, as a share of thins_s / interval_s: less than one by the cut-off of the
+  // old puffs.
   constexpr double whole = 0.935;
   const auto share = static_cast<float>(wake.interval_s / (whole * wake.thins_s));
   const double newest = std::floor(simulated_time_s / wake.interval_s);
@@ -61,13 +62,13 @@ void add_spray(const DrawnParticipant& vehicle, const Environment& environment, 
     const double age_s = simulated_time_s - (newest - n) * wake.interval_s;
     const auto puff = static_cast<std::uint32_t>(static_cast<std::int64_t>(newest) - n);
     const double thinned = age_s / wake.thins_s;
-    // Old puffs end without a jump.
+    // Old puffs fade out without a jump.
     const double left = std::exp(-thinned) * std::clamp((life - thinned) * 2.0, 0.0, 1.0) *
                         std::min(1.0, age_s / (0.5 * wake.interval_s) + 0.5);
     const double radius_m = wake.radius_m + wake.growth_mps * age_s;
     const double followed_s = follows_share * follows_s * (1.0 - std::exp(-age_s / follows_s));
     SmokePuff drop;
-    // Back along the way that it drove, which turns with it.
+    // Direction back along the vehicle's path, which turns with its yaw rate.
     const Quat turned_back = glm::angleAxis(-0.5 * vehicle.yaw_rate_radps * age_s, Vec3(0.0, 0.0, 1.0));
     drop.position_m = from_m - turned_back * vehicle.velocity_mps * (age_s - followed_s) +
                       wind * (age_s * age_s / (age_s + follows_s)) +

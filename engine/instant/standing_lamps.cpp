@@ -13,7 +13,7 @@
 namespace septet::instant {
 namespace {
 
-/// Adds a triangle to the lamp before, where they share a place: two make a lens.
+/// Adds a triangle to the lamp before if they share a place, since two triangles make a lens.
 void add_triangle(std::vector<StandingLamp>& lamps, const Vec3& middle_m, float height_m, const glm::vec3& intensity,
                   bool roofed) {
   constexpr double together_m = 1.5;
@@ -27,7 +27,7 @@ void add_triangle(std::vector<StandingLamp>& lamps, const Vec3& middle_m, float 
   lamps.push_back({middle_m, std::clamp(height_m, 2.5f, 14.0f), intensity, roofed});
 }
 
-/// An upright triangle under a roof, from above.
+/// Upright triangle under a roof, from above.
 struct WallPiece {
   Vec2 from_m, to_m, normal;
 };
@@ -42,7 +42,7 @@ void add_wall(std::vector<WallPiece>& walls, const std::array<Vec3, 3>& at, cons
   walls.push_back({Vec2(at[longest]), Vec2(at[(longest + 1) % 3]), glm::normalize(normal)});
 }
 
-/// The nearest wall beside each roofed lamp, and the nearest on the other side.
+/// Finds the nearest wall beside each roofed lamp, and the nearest on the other side.
 void find_walls(std::vector<StandingLamp>& lamps, const std::vector<WallPiece>& pieces) {
   constexpr double furthest_m = 30.0, cell_m = 64.0;
   using Cell = std::pair<double, double>;
@@ -56,7 +56,7 @@ void find_walls(std::vector<StandingLamp>& lamps, const std::vector<WallPiece>& 
       const Vec2 along = piece.to_m - piece.from_m;
       const double share = glm::dot(at - piece.from_m, along) / glm::dot(along, along);
       const double distance_m = glm::dot(piece.from_m - at, piece.normal);
-      // Beside the lamp, with a little to spare for curves.
+      // Beside the lamp, with a margin for curves.
       if (share < -0.1 || share > 1.1 || std::abs(distance_m) > furthest_m) continue;
       const LampWall wall{glm::vec2(distance_m < 0.0 ? -piece.normal : piece.normal),
                           static_cast<float>(std::abs(distance_m))};

@@ -1,5 +1,5 @@
 #pragma once
-/// A view into the world: which part of a target it fills, and along which ray each of its pixels looks.
+/// View into the world: its rectangle of a target, and the rays of its pixels.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 
 namespace septet::instant {
 
-/// A rectangle of the target, pixels, from the upper left.
+/// Rectangle of the target, pixels, from the upper left.
 struct PixelRectangle {
   std::int32_t x = 0, y = 0;
   std::uint32_t width = 0, height = 0;
@@ -20,10 +20,10 @@ struct PixelRectangle {
 struct FrameView {
   OffAxisView projection;
   RigidTransform world_from_car;
-  Vec3 velocity_mps{0.0};  ///< Of the eye, world frame: rain falls past it.
+  Vec3 velocity_mps{0.0};  ///< Velocity of the eye, world frame: rain falls past it.
   PixelRectangle viewport;
-  bool mirrored = false;  ///< Left and right are exchanged, as a mirror does.
-  bool housed = false;    ///< A mirror's picture over another view, around which its housing is drawn.
+  bool mirrored = false;  ///< Left and right are exchanged, as by a mirror.
+  bool housed = false;    ///< Mirror picture over another view, with its housing drawn around.
 };
 
 /// Eye of a view, world.

@@ -22,7 +22,7 @@ bool has_wheels(const scene::Prototype& prototype) {
   });
 }
 
-/// Through the places where the wheels stand, whatever the springs do.
+/// Plane through the wheels' points of contact, whatever their springs' travel.
 RoadPlane below(const DrawnParticipant& vehicle) {
   const auto& lift = vehicle.wheel_lift_m;
   const double front = 0.5 * (lift[0] + lift[1]), rear = 0.5 * (lift[2] + lift[3]);
@@ -32,7 +32,7 @@ RoadPlane below(const DrawnParticipant& vehicle) {
   return {place * Vec3(0.0, 0.0, rear), glm::vec3(place.orientation * glm::normalize(up))};
 }
 
-/// A number in [0, 1) for a ring and what is asked of it.
+/// Number in [0, 1) for a ring; `what` selects one of its properties.
 double chance(std::uint32_t ring, std::uint32_t life, std::uint32_t what) {
   std::uint32_t h = ring * 0x9e3779b1u ^ life * 0x85ebca77u ^ what * 0xc2b2ae3du;
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -57,7 +57,7 @@ std::optional<RoadPlane> road_below(std::span<const DrawnParticipant> participan
   }
   if (!nearest) return std::nullopt;
   const RoadPlane plane = below(*nearest);
-  // What lies on its side says nothing of the road.
+  // Vehicles on their side do not give the road's plane.
   if (!(plane.normal.z > 0.9f) || !(glm::dot(glm::vec3(eye_m - plane.point_m), plane.normal) > 0.2f))
     return std::nullopt;
   return plane;

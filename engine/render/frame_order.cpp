@@ -17,7 +17,7 @@
 namespace septet::render {
 namespace {
 
-/// A frame while its passes are added. What they record refers to it until the graph has been recorded.
+/// Frame while its passes are added. Their recording functions refer to it until the graph has been recorded.
 struct Frame {
   RendererState& state;
   PassContext& context;
@@ -25,10 +25,11 @@ struct Frame {
   const PreparedFrame prepared;
   const std::vector<light::QuadConstants> housings;
   FrameGraph graph;
-  std::vector<ResourceUse> view_reads;  ///< What a view reads, of what has been added so far.
+  std::vector<ResourceUse> view_reads;  ///< Reads of a view, for the passes added so far.
 };
 
-/// Whether the field of lamps is another one than the last frame's. The first one is always written, so that it can be bound.
+/// Renews the field of lamps; true if it differs from the last frame's. The first one is always written, so that it can
+/// be bound.
 bool renew_lamps(RendererState& state, const Vec3& eye_m) {
   LampField& lamps = state.lamps;
   const Vec2 corner_m = lamp_field_corner(eye_m);
@@ -52,7 +53,7 @@ std::optional<std::uint32_t> next_window_image(RendererState& state, const vulka
   return acquire(state.swapchain, state.device, slot.image_acquired);
 }
 
-/// Images that not every frame needs, once one does.
+/// Creates images that only some frames need, at their first use.
 void prepare_rare_targets(RendererState& state, PassContext& context, const Instant& instant,
                           const PreparedFrame& prepared) {
   const std::uint32_t width = state.targets.width, height = state.targets.height;
@@ -72,7 +73,7 @@ void prepare_rare_targets(RendererState& state, PassContext& context, const Inst
   }
 }
 
-/// Sky, standing lamps and shadows: what every view is lit by.
+/// Adds sky, standing lamps and shadows: the light of every view.
 void add_light(Frame& frame, bool new_sky, bool new_lamps) {
   RendererState& state = frame.state;
   const ResourceId table = frame.graph.add_image("sky table", state.sky_table, state.sky_table_access),
@@ -149,7 +150,7 @@ void add_ice(Frame& frame) {
   for (const ResourceUse& use : ice_reads(ice, frame.prepared)) frame.view_reads.push_back(use);
 }
 
-/// From the radiance of the views to the picture without its text.
+/// Adds the passes from the radiance of the views to the picture without its text.
 void add_picture(Frame& frame, ResourceId radiance, ResourceId picture) {
   FrameTargets& targets = frame.state.targets;
   const bool smoothed = targets.smoothed();

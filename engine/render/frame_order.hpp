@@ -1,5 +1,5 @@
 #pragma once
-/// The order of a frame: what each pass reads and writes, from the tables of light to the window.
+/// Order of a frame: reads and writes of each pass, from the tables of light to the window.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace septet::render {
 
-/// Draws and submits one frame and, with a window, presents it. `passing`: texts over all, which the picture that is read has not. Throws
-/// vulkan::Failure.
+/// Draws and submits one frame and, with a window, presents it. `passing`: texts drawn last, on the window only;
+/// read-back omits them. Throws vulkan::Failure.
 void draw_frame(RendererState& state, const Instant& instant, const std::vector<OverlayText>& passing = {});
 
 }  // namespace septet::render

@@ -17,7 +17,7 @@
 namespace septet::render {
 namespace {
 
-/// Of a road on which snow may lie, but for the wheels' tracks (shaders/surface.frag).
+/// Wetness that reflects, on a road that may be covered with snow except in the wheels' tracks (shaders/surface.frag).
 float mirroring_wetness(const Environment& environment) {
   constexpr double snowed_share = 0.72;
   return static_cast<float>(environment.road_wetness * (1.0 - snowed_share * environment.snow_cover));
@@ -31,7 +31,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
   const ViewVolume volume = view_volume(view);
-  // What would cover less than a pixel is left out.
+  // Meshes that would cover less than a pixel are left out.
   const OffAxisView& projection = view.projection;
   const double pixel_slope = (projection.top_slope - projection.bottom_slope) / std::max(1u, view.viewport.height);
   const auto least = static_cast<float>(0.5 * pixel_slope);
@@ -72,31 +72,32 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   return prepared;
 }
 
-/// Of a picture of a quarter of a turn, beside the screen of a thousand pixels that levels of detail are made for.
+/// Levels of detail for a picture of a quarter of a turn, relative to the screen of a thousand pixels that they are
+/// made for.
 DetailOf surroundings_detail(std::uint32_t side_px) {
   const float times = std::max(1.0f, 512.0f / static_cast<float>(std::max(1u, side_px)));
   return {{0.0f, times}, {10.0f * times, times}};
 }
 
-/// Of what is seen in a mirror, whose pixels are wider the more it bulges.
+/// Levels of detail for a mirror view, whose pixels are the wider the more the mirror bulges.
 DetailOf mirror_detail(const FrameView& picture) {
-  constexpr double usual_slope = 0.0015;  // Of a pixel of that screen.
+  constexpr double usual_slope = 0.0015;  // Slope of a pixel of that screen.
   const OffAxisView& projection = picture.projection;
   const double slope = (projection.right_slope - projection.left_slope) / std::max(1u, picture.viewport.width);
   const auto times = static_cast<float>(std::clamp(1.3 * slope / usual_slope, 1.0, 6.0));
   return {{0.0f, times}, {10.0f * times, times}};
 }
 
-/// Vehicles cast the shadow of the form that they show at this distance: a texel of the far cascade is no finer. Near by it is the form that
-/// is seen, or the two would shade each other wherever they part.
+/// Least distance of a vehicle's level of detail, by cascade: a texel of the far cascade is no finer than the level at
+/// this distance. In the near cascade the visible level casts, or the two would shade each other wherever they differ.
 constexpr std::array<float, cascade_count> caster_ranges_m{0.0f, 200.0f};
 
-/// What casts a shadow into a cascade that some view may see.
+/// Draws of the casters of shadows into a cascade that some view may see.
 SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const Instant& instant,
                              const ShadowCascades& shadows, std::size_t index, const DynamicSurfaces& dynamic) {
   const Cascade& cascade = shadows.cascades[index];
   const float least_radius_m = 1.5f * cascade.texel_m;
-  // A shadow falls away from the light, no further than a high thing's at a low sun.
+  // A shadow falls away from the light, at most as far as that of a high object at a low sun.
   const glm::vec3 reach = instant.light->light_direction * -120.0f;
   std::vector<std::pair<ViewVolume, glm::vec3>> volumes;
   const auto add_volume = [&](const FrameView& view) {
@@ -106,7 +107,8 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
   for (const MirrorGlass& mirror : instant.mirrors) add_volume(mirror.picture);
   const auto casts = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
     if (!mesh.casts_shadow || mesh.radius_m < least_radius_m || !covers(cascade, centre_m, mesh.radius_m)) return false;
-    // Seen along the light, a shadow lies where its caster does: what a finer cascade holds wholly is drawn there alone.
+    // Seen along the light, a shadow lies at its caster's place: casters wholly inside a finer cascade are drawn there
+    // alone.
     if (index > 0 && holds(shadows.cascades[index - 1], centre_m, mesh.radius_m)) return false;
     return std::any_of(volumes.begin(), volumes.end(), [&](const auto& view) {
       const glm::vec3 from = centre_m + view.second, to = from + reach;

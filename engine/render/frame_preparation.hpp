@@ -1,5 +1,5 @@
 #pragma once
-/// What a frame draws, decided on the CPU before anything is recorded: views, and what throws shadows into them.
+/// Content of a frame, decided on the CPU before anything is recorded: views, and the casters of shadows into them.
 
 #include <array>
 #include <optional>
@@ -19,7 +19,7 @@ struct PreparedView {
   const FrameView* view = nullptr;
   SurfaceDraws draws;
   FrameData uniforms;
-  FrameData light_clusters;  ///< Where headlights are clustered and there are any.
+  FrameData light_clusters;  ///< Empty without clustered headlights, or without headlights.
   FrameData glows;
   std::uint32_t glow_count = 0;
   FrameData contacts;
@@ -31,25 +31,26 @@ struct PreparedView {
   FrameData smoke;
   std::uint32_t puff_count = 0;
   bool lit_by_headlights = false, lit_by_lamps = false;
-  bool mirrored_by_road = false;  ///< The road mirror holds this view.
+  bool mirrored_by_road = false;  ///< True for the view that the road mirror holds.
 };
 
 struct PreparedFrame {
   std::vector<PreparedView> views;
-  std::vector<PreparedView> mirror_views;  ///< What is seen in Instant::mirrors.
-  PreparedGlass mirrors;                   ///< In the first view.
+  std::vector<PreparedView> mirror_views;  ///< Views in Instant::mirrors.
+  PreparedGlass mirrors;                   ///< Glass of the mirrors in the first view.
   ShadowCascades shadows;
-  std::optional<PreparedRoadMirror> road_mirror;  ///< Of the first view.
+  std::optional<PreparedRoadMirror> road_mirror;  ///< Road mirror of the first view.
   std::array<SurfaceDraws, cascade_count> casters;
   IceTiles ice;
   IceUpload ice_upload;
   std::vector<FrameData> glass;   ///< Vertices of Instant::glass.
-  std::vector<FrameView> around;  ///< The surroundings of the ice, six views each; nothing where none is seen.
+  std::vector<FrameView> around;  ///< Surroundings of the ice, six views each; empty when no view sees ice.
   std::vector<PreparedView> around_views;
   std::uint32_t surroundings() const { return static_cast<std::uint32_t>(around.size() / 6); }
 };
 
-/// For a target of this size; `lamps` are those around the first view's eye. `offset_px`: as view_uniforms has it.
+/// Prepares a frame for a target of this size; `lamps`: those around the first view's eye; `offset_px`: see
+/// view_uniforms.
 PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant,
                             const LampField& lamps, std::uint32_t width, std::uint32_t height,
                             const glm::vec2& offset_px);

@@ -1,5 +1,5 @@
 #pragma once
-/// The passes of a frame that ice needs before the views: surroundings, then the layers (passes/ice_pass.hpp).
+/// Passes of a frame that ice needs before the views: surroundings, then the layers (passes/ice_pass.hpp).
 
 #include <array>
 #include <functional>
@@ -14,18 +14,18 @@ namespace septet::render {
 /// Resources of the frame's graph, by IceImage.
 using IceResources = std::array<ResourceId, ice_image_count>;
 
-/// What the frame knows and ice does not.
+/// Parts of the frame that ice needs from outside.
 struct IceFrame {
-  std::vector<ResourceUse> view_reads;  ///< What a view reads but for ice.
-  ViewBindings bindings;                ///< Of any view.
+  std::vector<ResourceUse> view_reads;  ///< Reads of a view, those of ice excepted.
+  ViewBindings bindings;                ///< Bindings of any view.
   std::function<void(std::uint32_t around)> draw_surroundings;
 };
 
-/// Adds the passes; what they record refers to all but `frame`, until the graph has been executed.
+/// Adds the passes. Their recording functions refer to all arguments except `frame`, until the graph has been executed.
 IceResources add_ice_passes(FrameGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
                             const Instant& instant, const IceFrame& frame);
 
-/// What a view that has ice reads of it.
+/// Ice resources that a view with ice reads.
 std::vector<ResourceUse> ice_reads(const IceResources& resources, const PreparedFrame& prepared);
 
 }  // namespace septet::render

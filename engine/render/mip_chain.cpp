@@ -30,7 +30,7 @@ struct Transfer {
 };
 
 const Transfer& transfer_of(bool srgb) {
-  static const Transfer of_srgb(true), of_linear(false);  // Constants that take thousands of powers.
+  static const Transfer of_srgb(true), of_linear(false);  // Constants that take thousands of powers to compute.
   return srgb ? of_srgb : of_linear;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Mip levels of an image: box-filtered in linear light, colours weighted by alpha.
 ///
-/// Where alpha cuts holes (leaves, fences), each level's alpha is scaled until as much of it passes the cut as in the full
-/// image, so that trees do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
+/// For images with holes cut by alpha (leaves, fences), each level's alpha is scaled until as much of it passes the cut
+/// as in the full image, so that trees do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ double linear_of_code(std::size_t code, bool srgb);
 std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                                 bool srgb);
 
-/// Does any pixel fall below the cut at ½?
+/// True if any pixel falls below the cut at ½.
 bool has_holes(std::span<const std::uint8_t> rgba);
 
 }  // namespace septet::render

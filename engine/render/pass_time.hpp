@@ -1,12 +1,12 @@
 #pragma once
-/// What a pass of a frame took by the device's clock.
+/// Time of one pass of a frame by the device's clock.
 
 #include <string_view>
 
 namespace septet::render {
 
 struct PassTime {
-  std::string_view name;  ///< A literal.
+  std::string_view name;  ///< String literal.
   double time_ms = 0.0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What a Renderer keeps from frame to frame: the device, its images and pipelines, and how the last frame left them.
+/// State that a Renderer keeps from frame to frame: the device, its images and pipelines, and their accesses in the
+/// last frame.
 
 #include <cstdint>
 #include <memory>
@@ -41,8 +42,8 @@ struct RendererState {
   FrameTargets targets;
   vulkan::Swapchain swapchain;  ///< Only with a window.
   vulkan::DeviceImage sky_table, noise, lamp_image;
-  LampField lamps;                              ///< What the image holds; its texels while they are new.
-  std::optional<std::uint64_t> lamps_revision;  ///< Of the scene whose lamps they are.
+  LampField lamps;                              ///< Content of the image; its texels only until uploaded.
+  std::optional<std::uint64_t> lamps_revision;  ///< Revision of the scene of these lamps.
   DeviceScene scene;
   SurfacePass surface_pass;
   ShadowPass shadow_pass;
@@ -60,12 +61,12 @@ struct RendererState {
   SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
   std::optional<Environment> lit_environment;
-  std::shared_ptr<const SkyLight> light;  ///< Of that environment, for whoever brings none.
+  std::shared_ptr<const SkyLight> light;  ///< Light of that environment, for frames that bring none.
   Access sky_table_access = Access::none, lamps_access = Access::none, atlas_access = Access::none;
   bool smoothed = false;
   bool drawn = false;
-  Exposure exposure;                            ///< Of the last frame.
-  std::shared_ptr<const SkyLight> table_light;  ///< Whose sky the table holds.
+  Exposure exposure;                            ///< Exposure of the last frame.
+  std::shared_ptr<const SkyLight> table_light;  ///< Light whose sky the table holds.
   RenderStatistics statistics;
 
   RendererState() = default;
@@ -74,9 +75,9 @@ struct RendererState {
   ~RendererState();
 };
 
-/// Makes all of it. Throws vulkan::Failure; what was made until then goes with the state.
+/// Creates the whole state. Throws vulkan::Failure; parts created until then are destroyed with the state.
 void create_state(RendererState& state, const RendererOptions& wanted);
-/// Gives what depends on the picture's size another one. Throws vulkan::Failure.
+/// Resizes everything that depends on the picture's size. Throws vulkan::Failure.
 void resize_targets(RendererState& state, std::uint32_t width, std::uint32_t height);
 
 }  // namespace septet::render

@@ -89,7 +89,7 @@ void draw_views(RendererState& state, PassContext& context, const PreparedFrame&
           if (frame.ice.list.empty() && instant.glass.empty()) return;
           if (!frame.ice.list.empty()) draw_ice(state.ice_pass, context, frame.ice, i, instant.ice, frame.ice_upload);
           draw_glass(state.ice_pass, context, instant.glass, frame.glass, eye_m, false);
-          // Ice has no instances and its own constants; what follows has both.
+          // Ice binds no instances and pushes its own constants; the passes after it need both.
           bind_instances(context, prepared.draws.records);
         },
         i == 0 ? frame.mirrors : PreparedGlass{});

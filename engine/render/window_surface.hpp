@@ -1,5 +1,5 @@
 #pragma once
-/// Joins a window to Vulkan; apart from window.cpp so that windows know no Vulkan.
+/// Joins a window to Vulkan; a file apart from window.cpp, so that windows know no Vulkan.
 
 #include "engine/render/vulkan/device.hpp"
 
@@ -7,7 +7,7 @@ namespace septet::render {
 
 class Window;
 
-/// What the device needs to present into the window.
+/// Device options for presenting into the window.
 void add_window(vulkan::DeviceOptions& options, const Window& window);
 
 }  // namespace septet::render

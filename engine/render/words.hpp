@@ -1,5 +1,5 @@
 #pragma once
-/// The rasteriser speaks the words of the description that it draws: engine/instant.
+/// Names of the description that the rasteriser draws (engine/instant).
 
 namespace septet::instant {}
 

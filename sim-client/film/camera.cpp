@@ -9,13 +9,13 @@
 namespace septet::film {
 namespace {
 
-constexpr double least_height_m = 0.3;  ///< Of a camera above the ground below its participant.
+constexpr double least_height_m = 0.3;  ///< Least height of a camera above the ground below its participant.
 
 bool is_outside(const Shot& shot) { return shot.distance_m > 0.0; }
 
 const VehicleModel& model_of(const Participant& participant) { return vehicle_models()[participant.model]; }
 
-/// The participant among those that `is_meant` that is nearest to the driver's car, which is not meant.
+/// Participant with `is_meant` that is nearest to the driver's car, the car itself excepted.
 template <class Meant>
 const Participant* nearest(const Snapshot& world, const Meant& is_meant) {
   const Participant* driver = find_participant(world, world.driver_car.participant);
@@ -37,7 +37,7 @@ const Participant* find_meant(const std::string& name, const Snapshot& world) {
   return nearest(world, [&](const Participant& other) { return model_of(other).name == name; });
 }
 
-/// "1 volvo-s80, 2 ambulance, …", a few of them.
+/// List of a few participants: "1 volvo-s80, 2 ambulance, …".
 std::string list_of(const Snapshot& world) {
   std::string list;
   for (std::size_t n = 0; n < world.participants.size() && n < 12; ++n)
@@ -75,7 +75,7 @@ frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapsh
   frame::Viewpoint viewpoint{participant->world_from_vehicle, participant->id};
   if (is_outside(shot)) viewpoint.inside.reset();
   if (!is_outside(shot) && shot.bearings == Bearings::vehicle) return viewpoint;
-  // A level frame below the same pivot.
+  // Level frame below the same pivot.
   const double heading =
       shot.bearings == Bearings::vehicle ? heading_rad(participant->world_from_vehicle.orientation) : 0.0;
   const Quat level = orientation_from_angles(heading, 0.0, 0.0);

@@ -9,7 +9,7 @@ namespace septet::film {
 /// Anchor of the camera for the whole shot.
 struct Pivot {
   std::optional<ParticipantId> participant;  ///< Empty: a fixed place.
-  Vec3 in_views_m{0.0};  ///< In the viewpoint's frame, whose origin is the participant or the place.
+  Vec3 in_views_m{0.0};  ///< Anchor in the viewpoint's frame, whose origin is the participant or the place.
 };
 
 /// Resolves the participant that a shot names, in the world at the shot's beginning, and the camera's anchor on them:
@@ -23,7 +23,7 @@ Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& 
 frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapshot& world,
                               const frame::Viewpoint& before);
 
-/// The view in that frame, for a picture of this size.
+/// View in that frame, for a picture of this size.
 frame::ScreenViews views_at(const Shot& shot, const Pivot& pivot, const Look& look, std::uint32_t width_px,
                             std::uint32_t height_px);
 

@@ -23,8 +23,8 @@ struct Look {
   Vec3 direction() const { return {heading[0] * pitch[0], heading[1] * pitch[0], pitch[1]}; }
 };
 
-/// One entry per frame: the first looks as the shot begins, and a turn over the whole shot arrives at the last. Error:
-/// a shot shorter than a frame, a turn shorter than one frame or over half a circle, and |sigma| > 1.
+/// Looks of a shot, one per frame: the first is that of its beginning, and a turn over the whole shot ends with the
+/// last. Error: a shot shorter than a frame, a turn shorter than one frame or over half a circle, and |sigma| > 1.
 Expected<std::vector<Look>> camera_path(const Shot& shot, double frames_per_second);
 
 }  // namespace septet::film

@@ -26,7 +26,7 @@ Expected<render::Renderer> make_rasteriser(const FilmOptions& options, const sce
   return renderer;
 }
 
-/// Those that are not there yet, until all are or `go_on` says no.
+/// Draws the frames that are missing, until all are there or `go_on` returns false.
 Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render::Renderer& rasteriser,
                          const FilmFolder& folder, FilmMade& made, const std::function<bool(const FilmMade&)>& go_on) {
   frame::PictureWriter pictures;
@@ -47,7 +47,7 @@ Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render:
   return pictures.finish();
 }
 
-/// For each shot the stretch of the session's sound that its frames show.
+/// Makes the film's sound: for each shot, the stretch of the session's sound that belongs to its frames.
 Expected<bool> make_sound(const FilmOptions& options, const FilmPlan& plan, const fs::path& file,
                           const std::function<bool()>& go_on) {
   std::vector<sound::Cut> cuts;

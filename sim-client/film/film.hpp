@@ -37,11 +37,11 @@ struct FilmOptions {
   /// Folder for the pictures: created, or empty already; or a film file (film_file.hpp), whose pictures lie in a folder
   /// beside it until it is encoded.
   std::filesystem::path out;
-  bool sound = true;    ///< For a film as one file: add the driver's sound (soundtrack/cut_track.hpp).
+  bool sound = true;    ///< Adds the driver's sound to a film as one file (soundtrack/cut_track.hpp).
   bool resume = false;  ///< Continues the same film in that folder: finished pictures stay (film_folder.hpp).
   double frames_per_second = 25.0;
   std::uint32_t width_px = 1280, height_px = 720;
-  /// Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
+  /// Draws on the processor even if there is a graphics card: the same pixels as an off-screen screen's.
   bool software = false;
   FilmRenderer renderer = FilmRenderer::raster;
   std::uint32_t samples = 64;  ///< Ray tracer: samples per pixel; the maximum if there is an `error`.
@@ -66,13 +66,13 @@ struct FilmOptions {
 
 /// One frame of a film.
 struct FilmFrame {
-  std::uint64_t number = 0;  ///< From 1, through all shots.
+  std::uint64_t number = 0;  ///< Counted from 1, through all shots.
   std::size_t shot = 0;
   std::size_t number_in_shot = 0;
   double instant_s = 0.0;
 };
 
-/// A script with the camera path of each shot and all frames, in order.
+/// Script with the camera path of each shot and all frames, in order.
 struct FilmPlan {
   Script script;
   std::vector<std::vector<Look>> paths;  ///< Indexed by shot.

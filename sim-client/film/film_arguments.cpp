@@ -117,7 +117,7 @@ void add_film_options(CLI::App& app, FilmArguments& arguments) {
   app.add_option("--hosts", arguments.ranks.hosts,
                  "File with the machines that trace, one a line; changed meanwhile, the film goes on with those")
       ->default_str("this machine");
-  app.add_flag("--one-of-ranks", arguments.one_of_ranks)->group("");  // Said by film_by_ranks alone.
+  app.add_flag("--one-of-ranks", arguments.one_of_ranks)->group("");  // Set by film_by_ranks alone.
 }
 
 Expected<void> settle(const CLI::App& app, FilmArguments& arguments) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The command line of `septet-film`, as options and back: a film that waits in a queue is kept as its words.
+/// Command line of `septet-film`, as options and back: a film that waits in a queue is kept as its words.
 
 #include <string>
 
@@ -19,7 +19,7 @@ struct FilmArguments {
   RanksOptions ranks;
   bool by_ranks = false;      ///< Programs are to be started: `ranks` holds their number.
   bool one_of_ranks = false;  ///< Set by film_by_ranks alone.
-  double within_s = 0.0;      ///< Time for as many samples as fit into it; 0: as many as `samples`.
+  double within_s = 0.0;      ///< Time limit that the number of samples is chosen for; 0: `samples` as given.
   std::string renderer = "raster", exr = "none", filter = "quadratic", schedule = "ours";
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A film as one file, encoded from its pictures by ffmpeg: a separate program, needed only for this.
+/// Film as one file, encoded from its pictures by ffmpeg: a separate program, needed only for this.
 
 #include <filesystem>
 #include <functional>

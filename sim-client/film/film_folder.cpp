@@ -36,7 +36,7 @@ std::string hash_of(std::string_view text) {
   return fmt::format("{:016x}", hash.value());
 }
 
-/// The session and, for a film without a script, the stretch of it that is shown.
+/// Session and, for a film without a script, the stretch of it that is shown.
 Expected<std::string> shots_of(const FilmOptions& options) {
   if (!options.shots.empty()) return read_regular_file(options.shots, longest_record_bytes).map(hash_of);
   const auto text = [](const std::optional<double>& time_s) { return time_s ? fmt::format("{} s", *time_s) : "end"; };

@@ -1,5 +1,5 @@
 #pragma once
-/// The folder that a film's pictures are drawn into, by one program at a time, and the record of its film.
+/// Folder that a film's pictures are drawn into, by one program at a time, and the record of its film.
 ///
 /// film.json holds everything that all pictures depend on; a program that resumes a film must have the same record. A
 /// picture gets its name, NNNNNN.png, only once it is whole (frame/picture_writer.hpp); an unreadable one, as after a
@@ -45,7 +45,7 @@ class FilmFolder {
   explicit FilmFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   std::filesystem::path path_;
-  int lock_ = -1;  ///< The open folder.
+  int lock_ = -1;  ///< File descriptor of the open folder.
 };
 
 }  // namespace septet::film

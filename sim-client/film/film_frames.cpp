@@ -28,7 +28,7 @@ Expected<Snapshot> world_at(const logging::SessionReader& session, double instan
   });
 }
 
-/// Place of the driver's eyes: from the session's rig.
+/// Eye point of the driver, vehicle frame, from the session's rig.
 Vec3 driver_eye_m(const logging::SessionInfo& info) {
   for (const auto& source : info.files)
     if (source.role == "rig")
@@ -50,7 +50,7 @@ Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, 
   return pivots;
 }
 
-/// The script of the options, or one for the whole session.
+/// Script of the options, or one for the whole session.
 Expected<Script> choose_script(const FilmOptions& options, const logging::SessionReader& session,
                                std::pair<double, double> span_s) {
   if (!options.shots.empty()) {
@@ -82,7 +82,7 @@ class LastSeen {
     return LastSeen(shot, pivot, std::move(*cursor), viewpoint_at(shot, pivot, *world, {}));
   }
 
-  /// At an instant not before the previous call's.
+  /// Viewpoint at an instant not before the previous call's.
   Expected<frame::Viewpoint> at(double instant_s) {
     while (!ended_ && (!next_ || next_->simulated_time_s <= instant_s)) {
       if (next_) viewpoint_ = viewpoint_at(*shot_, pivot_, *next_, viewpoint_);
@@ -125,11 +125,11 @@ Look between(const Look& from, const Look& to, double share) {
 struct FilmFrames::State {
   logging::SessionReader session;
   FilmPlan plan;
-  std::vector<Pivot> pivots;  ///< By shot.
+  std::vector<Pivot> pivots;  ///< Indexed by shot.
   scene::ResolvedScene scene;
   std::uint32_t width_px, height_px;
   double frames_per_second;
-  // The previous frame's reading, reused from here on.
+  // Previous frame's reading, reused from here on.
   std::optional<FilmFrame> last{};
   double last_instant_s = 0.0;
   std::optional<SessionInstants> instants{};

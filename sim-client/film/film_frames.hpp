@@ -24,16 +24,16 @@ class FilmFrames {
   const scene::ResolvedScene& scene() const;
   const logging::SessionInfo& session() const;
 
-  /// `frame` is one of the plan's. Error: the session cannot be read there.
+  /// Input of a frame of the plan. Error: the session cannot be read there.
   Expected<instant::FrameInput> input_of(const FilmFrame& frame);
-  /// The same at the instant at which the shot's shutter closes; empty if the shutter is open for no time.
+  /// Input at the instant at which the shot's shutter closes; empty if the shutter is open for no time.
   Expected<std::optional<instant::FrameInput>> input_as_shutter_closes(const FilmFrame& frame);
-  /// The same at the next frame's instant, or where its shot ends before.
+  /// Input at the next frame's instant, or at the end of its shot if that comes first.
   Expected<instant::FrameInput> input_of_next(const FilmFrame& frame);
 
  private:
   struct State;
-  /// The same, this share of a frame's time later.
+  /// Input at this share of a frame's time later.
   Expected<instant::FrameInput> input_after(const FilmFrame& frame, double share);
   Expected<instant::FrameInput> input_at(const FilmFrame& frame, double instant_s, const Look& look);
   explicit FilmFrames(std::unique_ptr<State> state);

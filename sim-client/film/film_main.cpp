@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
       "Add a film, by the options of septet film, to those that are made one after another, and go on with them");
   add_folder(queue_command);
   queue_command->prefix_command();
-  queue_command->add_flag("--make", of_queue.make)->group("");  // Said by start_making_films alone.
+  queue_command->add_flag("--make", of_queue.make)->group("");  // Set by start_making_films alone.
   CLI::App* const status_command = app.add_subcommand("status", "Tell how far the films of the queue are");
   add_folder(status_command);
   CLI::App* const cancel_command =

@@ -90,7 +90,7 @@ Expected<int> film_here(const FilmOptions& options, Machines* others) {
   return 0;
 }
 
-/// Those of `words` that are not of these options, each of which has a value, after it or after "=".
+/// Returns `words` without these options, each of which has a value, after it or after "=".
 std::vector<std::string> without(const std::vector<std::string>& words,
                                  std::initializer_list<std::string_view> options) {
   std::vector<std::string> rest;

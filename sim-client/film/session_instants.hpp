@@ -1,5 +1,5 @@
 #pragma once
-/// The world of a session at any instant, also between ticks: the counterpart of a screen's tick lane.
+/// World of a session at any instant, also between ticks: the counterpart of a screen's tick lane.
 
 #include "logging/session/session_reader.hpp"
 #include "sim-client/frame/playout.hpp"
@@ -10,10 +10,10 @@ namespace septet::film {
 /// Reads forward as instants ascend. One thread; must not outlive its reader.
 class SessionInstants {
  public:
-  /// For instants from `from_s` on.
+  /// Starts reading, for instants from `from_s` on.
   static Expected<SessionInstants> start(const logging::SessionReader& session, double from_s);
 
-  /// The world at an instant, between its two ticks; not before the previous call's instant. `history()` then holds the
+  /// World at an instant, between its two ticks; not before the previous call's instant. `history()` then holds the
   /// ticks around it, independently of earlier calls.
   Expected<Snapshot> at(double instant_s);
   const frame::TickHistory& history() const { return history_; }

@@ -20,7 +20,7 @@ struct Trial {
   double took_s = 0.0;
 };
 
-/// One frame and some frames with one sample, the same some with more.
+/// Times of the model, from three trials: one frame and some frames with one sample, and the same frames with more.
 FilmTimes times_of(const Trial& one, const Trial& some, const Trial& more) {
   const auto frames = static_cast<double>(some.frames);
   FilmTimes times;
@@ -52,8 +52,7 @@ Expected<TimeChoice> choose_samples(std::size_t frames, double limit_s, std::uin
   if (!some) return tl::unexpected(some.error());
   Trial more = *some;
   while (more.samples < most && (more.samples == 1 || more.took_s - some->took_s < enough_tried * limit_s)) {
-    // At first four times as many; then as many as are foretold to be enough, so that the clock's own noise does not
-    // count.
+    // First four times as many; then the number predicted to be enough, so that the clock's own noise does not count.
     const double per_sample_s = times_of(*one, *some, more).sample_s * static_cast<double>(some->frames);
     const double wanted = more.samples == 1 ? 4.0
                           : per_sample_s > 0.0

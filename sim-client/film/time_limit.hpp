@@ -21,13 +21,13 @@ struct FilmTimes {
   }
 };
 
-/// Draws every n-th frame with this many samples, to be thrown away; returns the time, s.
+/// Draws every n-th frame with this many samples, and discards the pictures; returns the time, s.
 using TryFrames = std::function<Expected<double>(std::size_t every, std::uint32_t samples)>;
 
 struct TimeChoice {
   std::uint32_t samples = 1;
-  double foretold_s = 0.0;  ///< For the film, without the trials.
-  double tried_s = 0.0;     ///< By the trials.
+  double foretold_s = 0.0;  ///< Predicted time of the film, without the trials.
+  double tried_s = 0.0;     ///< Time of the trials.
 };
 
 /// Largest number of samples, up to `most`, for which `frames` frames and the trials take no longer than `limit_s`.

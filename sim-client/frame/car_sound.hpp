@@ -9,10 +9,10 @@
 
 namespace septet::frame {
 
-/// `ear_m`: vehicle frame.
+/// Inputs of the car; `ear_m`: vehicle frame.
 audio::CarSound car_sound(const vehicle::VehicleParameters& vehicle, const Vec3& ear_m);
 
-/// The tunnels: boxes of the scene without sky.
+/// Boxes of the tunnels: the parts of the scene without sky.
 std::vector<audio::EchoBox> echo_boxes(const instant::SceneSummary& scene);
 
 }  // namespace septet::frame

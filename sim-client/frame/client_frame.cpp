@@ -24,7 +24,7 @@
 namespace septet::frame {
 namespace {
 
-/// At least one pixel of the screen, however small its window is.
+/// Viewport of at least one pixel of the screen, however small its window is.
 instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
   const auto span = [](double from, double length, std::uint32_t size) {
     const auto begin = std::clamp<std::int64_t>(std::lround(from * size), 0, std::int64_t{size} - 1);
@@ -36,7 +36,7 @@ instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& scree
   return {.x = across.first, .y = down.first, .width = across.second, .height = down.second};
 }
 
-/// The panel of the instruments from its front, in the middle of the screen, from so far that needles do not shift
+/// View of the panel of instruments from its front, in the middle of the screen, from so far that needles do not shift
 /// against their faces.
 ScreenViews panel_views(const rig::Screen& screen) {
   namespace panel = instrument_panel;
@@ -171,14 +171,14 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     drawn.paint = body_color(participant.paint);
     if (participant.id == viewpoint.inside) {
       for (auto& view : frame.views) view.velocity_mps = participant.velocity_mps;
-      // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
+      // A real car is around the driver, or its inside is drawn: of the model only the shadow and the light remain.
       drawn.shown = instant::Shown::shadow_and_light;
       if (const auto inside = prototype_of(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
           inside && views.show_interior) {
         auto interior = drawn;
         interior.prototype = *inside;
         interior.shown = instant::Shown::whole;
-        interior.raises_spray = false;  // The car around it does.
+        interior.raises_spray = false;  // The car around it raises the spray.
         if (participant.id == shown.driver_car.participant)
           interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
         frame.participants.push_back(interior);
@@ -186,7 +186,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         add_instruments(frame, readings_of(shown, participant), participant, scene);
         add_windscreen(frame, shown, participant, scene);
         add_mirrors(frame, views.mirrors, scene);
-        // The cabin's frame throws the shadow of what is above the belt.
+        // The cabin's shell casts the shadow of the parts above the belt line.
         if (const auto shell = prototype_of(scene, fmt::format("shell/{}", vehicle_models()[participant.model].name)))
           drawn.prototype = *shell;
       }

@@ -18,25 +18,25 @@
 
 namespace septet::frame {
 
-/// A screen's views, with projections from the eyes' place; or a camera's views.
+/// Views of a screen, with projections from the eyes' place; or a camera's views.
 struct ScreenViews {
   std::vector<instant::FrameView> views;
-  std::vector<SeenMirror> mirrors;  ///< At their places, where the car's inside is drawn.
+  std::vector<SeenMirror> mirrors;  ///< Mirrors at their places, if the car's inside is drawn.
   bool show_interior = false;
   /// The only view is of the instruments' panel, which fills it as far as its shape allows.
   bool only_instruments = false;
 };
 
-/// The screen is a window for eyes at `head`; if the head frame is turned, the window turns with it. Mirrors stay at
-/// the car's places; an inset shows one while this screen does not see it at its place, above the dials if it would
+/// Views of a screen, a window for eyes at `head`; if the head frame is turned, the window turns with it. Mirrors stay
+/// at the car's places; an inset shows one while this screen does not see it at its place, above the dials if it would
 /// cover them. Error: a screen that the eyes do not see from its front.
 Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen, const Head& head = {});
 
-/// `shown` as seen from a viewpoint, in whose frame the views are given.
+/// Frame of `shown` from a viewpoint, in whose frame the views are given.
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
                                  const scene::ResolvedScene& scene);
 
-/// A line across the middle of the picture, for a message that the driver must read ("server lost").
+/// Line across the middle of the picture, for a message that the driver must read ("server lost").
 instant::OverlayText banner(std::string text, const rig::Screen& screen);
 
 }  // namespace septet::frame

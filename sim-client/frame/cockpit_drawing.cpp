@@ -32,7 +32,7 @@ class PanelPen {
     const glm::vec2 from = (cell + glm::vec2(inset, 0.0f)) / cells, to = (cell + glm::vec2(1.0f - inset, 1.0f)) / cells;
     quad({low, {high.x, low.y}, high, {low.x, high.y}}, {glm::vec2(from.x, to.y), to, glm::vec2(to.x, from.y), from});
   }
-  /// Plain, of the colour in the middle of a sign's picture.
+  /// Draws a plain quad, in the colour in the middle of a sign's picture.
   void plain(Sign sign, const std::array<glm::dvec2, 4>& corners) {
     const glm::vec2 at = face::uv_of_middle(sign);
     quad(corners, {at, at, at, at});
@@ -84,7 +84,7 @@ Readings readings_of(const Snapshot& shown, const Participant& car) {
     readings.has_gear = true;
     readings.stalled = is_stalled(shown.driver_car);
   } else {
-    constexpr double idle_radps = 85.0, radps_per_mps = 6.5;  // A long gear's.
+    constexpr double idle_radps = 85.0, radps_per_mps = 6.5;  // Engine speed in a long gear.
     readings.speed_mps = glm::dot(car.velocity_mps, car.world_from_vehicle.orientation * Vec3(1, 0, 0));
     readings.engine_radps = std::max(idle_radps, radps_per_mps * std::abs(readings.speed_mps));
   }

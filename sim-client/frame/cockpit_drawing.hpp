@@ -22,7 +22,7 @@ struct Readings {
   Lamps lamps;
 };
 
-/// An idling engine turns at 70 rad/s, one on its starter motor at 20.
+/// True for a stalled engine: an idling one turns at 70 rad/s, one on its starter motor at 20.
 bool is_stalled(const DriverCar& car);
 
 Readings readings_of(const Snapshot& shown, const Participant& car);
@@ -31,15 +31,17 @@ Readings readings_of(const Snapshot& shown, const Participant& car);
 /// (engine/world/instrument_panel.hpp).
 std::vector<scene::SurfaceVertex> lit_on_panel(const Readings& readings);
 
-/// Adds to a frame in which the inside of `car` is drawn. Prototypes that the scene does not have (yet) are left out.
+/// Adds the instruments to a frame in which the inside of `car` is drawn. Prototypes that the scene does not have (yet)
+/// are left out.
 void add_instruments(instant::FrameInput& frame, const Readings& readings, const Participant& car,
                      const scene::ResolvedScene& scene);
 
-/// Angle of the hands for a hand wheel's angle. They follow it as far as they reach and, as it goes on, return to their
-/// starting place, so that no sleeve covers dials and road. A continuous function of the angle; 0 for NaN.
+/// Angle of the hands for an angle of the steering wheel. They follow it as far as they reach and, as it goes on,
+/// return to their starting place, so that no sleeve covers dials and road. A continuous function of the angle; 0 for
+/// NaN.
 inline constexpr double hands_reach_rad = 1.0, hands_back_in_rad = 0.45;
 double hands_rad(double steering_wheel_rad);
-/// With hands at an angle of hands_rad.
+/// Adds the hands, at an angle of hands_rad.
 void add_hands(instant::FrameInput& frame, double steering_wheel_rad, const Participant& car,
                const scene::ResolvedScene& scene);
 

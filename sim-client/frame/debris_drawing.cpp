@@ -24,15 +24,15 @@ bool same_triangles(const debris::Keyframe& a, const debris::Keyframe& b) {
   return std::equal(a.triangles.begin(), a.triangles.begin() + static_cast<std::ptrdiff_t>(both), b.triangles.begin());
 }
 
-/// Vertices of both are interpolated; a vertex of only one stands still.
+/// Places of the vertices of both; a vertex of only one stands still.
 std::vector<Vec3> places_of(const debris::Keyframe& keyframe, const debris::Keyframe& other) {
   std::vector<Vec3> places = keyframe.vertices_m;
   for (std::size_t i = places.size(); i < other.vertices_m.size(); ++i) places.push_back(other.vertices_m[i]);
   return places;
 }
 
-/// Relative to a corner of each face at its own instant: a normal needs the edges alone, and so loses no digits far
-/// out.
+/// Faces relative to one of their corners at its own instant: a normal needs the edges alone, and so loses no digits
+/// far out.
 std::vector<MovingFace> faces_of(std::span<const Vec3> from, std::span<const Vec3> to,
                                  std::span<const std::array<std::uint16_t, 3>> triangles) {
   std::vector<MovingFace> faces(triangles.size());
@@ -86,7 +86,7 @@ std::optional<glm::dmat3> turn_from_rest(std::span<const Vec3> rest_m, std::span
   return axes_of(places[0], places[b], places[c]) * glm::transpose(axes_of(rest_m[0], rest_m[b], rest_m[c]));
 }
 
-/// Faces that have parted in part: they move with the body however it bends.
+/// Adds cracks, as faces that have partly separated: they move with the body however it bends.
 void add_cracks(std::span<const debris::Keyframe::Crack> cracks, std::span<const Vec3> rest_m,
                 std::span<const Vec3> places, std::vector<ice::IceVertex>& inside) {
   for (const debris::Keyframe::Crack& crack : cracks) {
@@ -143,7 +143,7 @@ instant::DynamicMesh DebrisWay::at(double share) const {
     std::array<glm::vec3, 3> corners;
     for (std::size_t c = 0; c < 3; ++c) corners[c] = glm::vec3(places[triangles_[n][c]] - mesh.origin_m);
     glm::vec3 normal(normals.x[n], normals.y[n], normals.z[n]);
-    if (normal == glm::vec3(0.0f)) normal.z = 1.0f;  // Without area it is invisible, but its light must be finite.
+    if (normal == glm::vec3(0.0f)) normal.z = 1.0f;  // A face without area is invisible, but its light must be finite.
     for (const glm::vec3& corner : corners) mesh.vertices.push_back({corner, normal, {}});
     if (both_sides_)
       for (const glm::vec3& corner : {corners[0], corners[2], corners[1]})

@@ -19,13 +19,13 @@
 
 namespace septet::frame {
 
-/// A keyframe with its tick.
+/// Keyframe with its tick.
 struct TimedDebris {
   const debris::Keyframe* keyframe = nullptr;  ///< Null: no keyframe.
   Tick tick = 0;
 };
 
-/// The keyframes around an instant, and the fraction between them: 0 at `from`, 1 at `to`, more if it is extrapolated.
+/// Keyframes around an instant, and the fraction between them: 0 at `from`, 1 at `to`, more if it is extrapolated.
 struct DebrisInstant {
   TimedDebris from, to;
   double share = 0.0;
@@ -44,8 +44,8 @@ class DebrisWay {
   instant::DynamicMesh at(double share) const;
   debris::Part part() const { return part_; }
   debris::Material material() const { return material_; }
-  /// The same triangles as transparent ice, with the cracks of their crack field; empty for other materials. `mesh` is
-  /// the result of `at`; `film`: ice_looks.hpp.
+  /// Same triangles as transparent ice, with the cracks of their crack field; empty for other materials. `mesh` is the
+  /// result of `at`; `film`: ice_looks.hpp.
   std::optional<ice::IceBody> ice_of(const instant::DynamicMesh& mesh, float film) const;
 
  private:
@@ -53,7 +53,7 @@ class DebrisWay {
   debris::Material material_;
   bool both_sides_;
   std::vector<Vec3> rest_m_;            ///< Per vertex; only for ice.
-  std::vector<ice::IceVertex> inside_;  ///< In the frame at rest.
+  std::vector<ice::IceVertex> inside_;  ///< Vertices in the frame at rest.
   std::vector<debris::Keyframe::Crack> cracks_;
   std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and its step to the next.
   std::vector<std::array<std::uint16_t, 3>> triangles_;

@@ -52,7 +52,7 @@ void DentDrawing::show(const Snapshot& instant, const scene::ResolvedScene& scen
   for (const debris::DentedVehicle& told : vehicles.value_or(std::vector<debris::DentedVehicle>())) {
     const Participant* vehicle = find_participant(instant, told.vehicle);
     if (!vehicle || vehicle->model >= vehicle_models().size()) {
-      data_.clear();  // It may come: to be looked at again.
+      data_.clear();  // The vehicle may come later: the keyframe is read again then.
       continue;
     }
     Bytes bytes = debris::encode_dents(std::span(&told, 1));

@@ -16,7 +16,7 @@ class DentDrawing {
  public:
   /// Updates from the keyframe of the instant, if it can be read.
   void show(const Snapshot& instant, const scene::ResolvedScene& scene);
-  /// For the participants that the frame has.
+  /// Adds the dented meshes to the participants of the frame.
   void add_to(instant::FrameInput& frame) const;
 
  private:
@@ -25,7 +25,7 @@ class DentDrawing {
     std::map<std::uint32_t, std::shared_ptr<const instant::ReshapedParts>> by_prototype;
   };
   std::map<ParticipantId, Made> made_;  ///< Cache: rebuilt when they change.
-  Bytes data_;                          ///< The keyframe's bytes that they were read from.
+  Bytes data_;                          ///< Bytes of the keyframe that they were read from.
   std::uint64_t scene_revision_ = 0;
 };
 

@@ -19,7 +19,7 @@ using scene::SurfaceVertex;
 
 constexpr std::size_t most_vertices = 120'000;
 
-/// From the mesh's frame into the vehicle's, and back.
+/// Transforms from the mesh's frame into the vehicle's, and back.
 struct Frame {
   const RigidTransform& vehicle_from_object;
   RigidTransform object_from_vehicle;
@@ -29,7 +29,7 @@ struct Frame {
   glm::vec3 in_object(const Vec3& p) const { return glm::vec3((object_from_vehicle * p) / scale); }
 };
 
-/// Middle of an edge that is to be divided: a function of its ends alone.
+/// True if an edge is to be divided: a function of its ends alone.
 bool is_divided(const Frame& frame, std::span<const debris::Dent> dents, const SurfaceVertex& a,
                 const SurfaceVertex& b) {
   const Vec3 from = frame.in_vehicle(a.position_m), to = frame.in_vehicle(b.position_m);
@@ -48,7 +48,7 @@ SurfaceVertex between(const SurfaceVertex& a, const SurfaceVertex& b) {
   return {0.5f * (a.position_m + b.position_m), length > 1e-6f ? normal / length : a.normal, 0.5f * (a.uv + b.uv)};
 }
 
-/// A large triangle of which a dent reaches the middle alone is divided too.
+/// True if a dent may lie within a triangle: a large one is divided even if a dent reaches its middle alone.
 bool holds_a_dent(const Frame& frame, std::span<const debris::Dent> dents,
                   const std::array<SurfaceVertex, 3>& corners) {
   const Vec3 a = frame.in_vehicle(corners[0].position_m), b = frame.in_vehicle(corners[1].position_m),
@@ -117,7 +117,7 @@ class Division {
       put(m[0], m[1], m[2]);
       return true;
     }
-    // Rotated so that the first edge is divided, and with two of them the second one too.
+    // Corners rotated so that the first edge is divided, and of two divided edges the second one, too.
     std::size_t k = 0;
     while (m[k] == none || (count == 2 && m[(k + 1) % 3] == none)) ++k;
     const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], ab = m[k], bc = m[(k + 1) % 3];

@@ -12,12 +12,12 @@ namespace septet::frame {
 
 /// One effect at an instant. The pointers lead into the history.
 struct EffectMoment {
-  const EffectKeyframe* earlier = nullptr;  ///< The one before `before`; null if it is not kept.
+  const EffectKeyframe* earlier = nullptr;  ///< Keyframe before `before`; null if it is not kept.
   const EffectKeyframe* before = nullptr;   ///< Null: the effect begins after the instant.
   const EffectKeyframe* after = nullptr;    ///< Null: no newer one has come.
 };
 
-/// The effects that exist at a simulated time, ascending id.
+/// Effects that exist at a simulated time, ascending id.
 std::vector<EffectMoment> effects_at(const TickHistory& history, double simulated_time_s, double tick_s);
 
 }  // namespace septet::frame

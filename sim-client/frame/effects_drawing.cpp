@@ -20,7 +20,7 @@ void EffectsDrawing::add_to(instant::FrameInput& frame) const {
   dents_.add_to(frame);
   ice_.add_to(frame);
   glass_.add_to(frame);
-  frame.ice_surroundings_px = 32;  // Uneven ice under a crust shows no more of them.
+  frame.ice_surroundings_px = 32;  // Uneven ice under a crust shows no finer surroundings.
   frame.smoke = puffs_;
   frame.soot = soot_.field();
 }

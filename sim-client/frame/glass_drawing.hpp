@@ -12,14 +12,14 @@
 
 namespace septet::frame {
 
-/// The windscreen of a vehicle, from its prototype: dark, smooth triangles that face forward. Empty if it has none.
+/// Windscreen of a vehicle, from its prototype: dark, smooth triangles that face forward. Empty if it has none.
 ice::PaneShape windscreen_of(const scene::ResolvedScene& scene, const scene::Prototype& prototype);
 
 class GlassDrawing {
  public:
   /// Updates from the keyframe of the instant, if it can be read.
   void show(const Snapshot& instant, const scene::ResolvedScene& scene);
-  /// For the participants that the frame has.
+  /// Adds frost and cracks to the participants of the frame.
   void add_to(instant::FrameInput& frame) const;
 
  private:
@@ -30,14 +30,14 @@ class GlassDrawing {
   struct Made {
     ice::Pane pane;
     RigidTransform world_from_vehicle;
-    std::map<std::uint32_t, Surfaces> by_prototype;  ///< From its inside and from its outside.
+    std::map<std::uint32_t, Surfaces> by_prototype;  ///< Prototypes of its inside and of its outside.
     bool shown = false;
   };
   void make(Made& made, const Participant& vehicle, const scene::ResolvedScene& scene) const;
 
   std::map<ParticipantId, Made> made_;  ///< Cache: rebuilt when they change.
   std::vector<ice::Pane> panes_;
-  Bytes data_;  ///< The keyframe's bytes that they were read from.
+  Bytes data_;  ///< Bytes of the keyframe that they were read from.
   std::uint64_t scene_revision_ = 0;
 };
 

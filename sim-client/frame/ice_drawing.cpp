@@ -12,12 +12,12 @@
 namespace septet::frame {
 namespace {
 
-/// An icicle is a pixel wide at about the first.
+/// Ranges of drawing; an icicle is a pixel wide at about the first.
 constexpr double row_reach_m = 60.0, sheet_reach_m = 120.0;
-/// Over the road's surface, which is drawn with chords of some metres.
+/// Height of a sheet over the road's surface, which is drawn with chords of some metres.
 constexpr double over_road_m = 0.008;
 
-/// From the frame at rest into the world, relative to the body's origin.
+/// Rotates vertices from the frame at rest into the world, relative to the body's origin.
 void place(std::vector<ice::IceVertex>& vertices, const glm::dmat3& turn) {
   const glm::mat3 turned(turn);
   for (ice::IceVertex& vertex : vertices) {

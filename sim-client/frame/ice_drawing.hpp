@@ -11,13 +11,13 @@
 
 namespace septet::frame {
 
-/// A slab of ice on its vehicle, at its present thickness: like the piece of debris that it will become, with the same
+/// Slab of ice on its vehicle, at its present thickness: like the piece of debris that it will become, with the same
 /// cracks in the same places.
 ice::IceBody slab_body(const ice::LyingSlab& slab, double thawed_kh, const RigidTransform& world_from_vehicle,
                        float film);
 /// All icicles of a row in one body; without vertices if no icicle is left.
 ice::IceBody row_body(const ice::IcicleRow& row, double thawed_kh, float film);
-/// A sheet in bodies of some metres each.
+/// Sheet in bodies of some metres each.
 std::vector<ice::IceBody> sheet_bodies(const ice::Sheet& sheet, double thawed_kh, float film);
 
 class IceDrawing {

@@ -49,7 +49,7 @@ std::vector<ice::IceVertex> cracks_between(std::span<const Vec3> rest_m, float c
   if (rest_m.empty()) return inside;
   Vec3 low(INFINITY), high(-INFINITY);
   for (const Vec3& place : rest_m) low = glm::min(low, place), high = glm::max(high, place);
-  // Every third one holds air: such ice is milky with it.
+  // About a third of the cracks hold air, which makes such ice milky.
   const auto cracks = ice::cracks_in({glm::vec3(low), glm::vec3(high)}, cell_m);
   for (const bool airy : {false, true})
     for (const ice::Crack& crack : cracks)

@@ -8,12 +8,12 @@
 
 namespace septet::frame {
 
-/// `film`: amount of water on it, 0 to 1: it smooths the surface and removes the crust. Pressed and refrozen snow:
-/// uneven, with a crust.
+/// Look of pressed and refrozen snow: uneven, with a crust. `film`: amount of water on it, 0 to 1: it smooths the
+/// surface and removes the crust.
 ice::Look slab_look(float film);
-/// Water that froze as it ran: clear, in rings.
+/// Look of water that froze as it ran: clear, in rings.
 ice::Look icicle_look(float film);
-/// Frozen rain on a road: level, clear, with rime here and there.
+/// Look of frozen rain on a road: level, clear, with rime here and there.
 ice::Look sheet_look(float film);
 
 /// Cracks and air of the field within the bounding places at rest; `cell_m` is their approximate spacing.

@@ -29,14 +29,14 @@ instant::OverlayText line(std::string text, double x_px, double y_px, double hei
           .color = color};
 }
 
-/// Letters are a share of it: of the screen's height, and of less where that stands upright, so that lines fit into it.
+/// Height that letters are a share of: the screen's, or less on an upright screen, so that lines fit into it.
 double height_for_letters_px(const rig::Screen& screen) {
   return std::min<double>(screen.height_px, 0.75 * screen.width_px);
 }
 
-/// A text's lines, wrapped between words to the screen's width; empty for an empty text.
+/// Lines of a text, wrapped between words to the screen's width; empty for an empty text.
 std::vector<std::string> lines_of(const std::string& text, const rig::Screen& screen, double first_px, double next_px) {
-  constexpr double letter = 0.45;  // Its width over a line's height, in the mean.
+  constexpr double letter = 0.45;  // Mean width of a letter over the height of its line.
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -53,7 +53,7 @@ std::vector<std::string> lines_of(const std::string& text, const rig::Screen& sc
   return lines;
 }
 
-/// The lit warning lamps, in words; empty if none is lit.
+/// Lit warning lamps, in words; empty if none is lit.
 std::string warning_text(const CarWarnings& warnings) {
   std::string text;
   const auto add = [&](bool is_lit, const char* words) {
@@ -158,7 +158,7 @@ std::vector<instant::OverlayText> key_table(const std::string& headline, const r
   const double letters_px = height_for_letters_px(screen), next_px = std::max(8.0, letters_px / 32.0);
   const std::vector<std::string> above = lines_of(headline, screen, 1.5 * next_px, next_px);
   const double rows = static_cast<double>(car_io::driving_keys().size() + above.size()) + (above.empty() ? 0.0 : 0.5);
-  constexpr double box_px = 4.0;  // A box is that much higher than its line.
+  constexpr double box_px = 4.0;  // Difference between a box's height and its line's.
   const double fits_px = 0.72 * screen.height_px / rows - box_px;
   const double row_px = std::clamp(std::floor(std::min(letters_px / 32.0, fits_px)), 8.0, 30.0),
                step_px = row_px + box_px;

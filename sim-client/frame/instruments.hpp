@@ -14,21 +14,21 @@
 namespace septet::frame {
 
 /// Speed and gear below the driver's look ahead and indicators at both sides, unless the screen shows a cockpit with
-/// dials of its own; a stalled engine underneath. Nothing on a screen whose rig does not ask for it.
+/// dials of its own; a stalled engine underneath. Empty on a screen whose rig does not ask for it.
 std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
 /// Standing of a game, high on the screen ahead: level, points, time; a leader who gets away; the outcome. Empty if the
 /// scenario is not a game.
 std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
-/// A notice to the driver, in the middle of the screen: its first line large, the others below it, wrapped where too
+/// Notice to the driver, in the middle of the screen: its first line large, the others below it, wrapped where too
 /// long.
 std::vector<instant::OverlayText> notice(const std::string& text, const rig::Screen& screen);
 
-/// The table of keys in the middle of the screen, under such a notice ("Press any key to start"; empty: no notice).
+/// Table of keys in the middle of the screen, under such a notice ("Press any key to start"; empty: no notice).
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
 
-/// A modest line near the lower left corner of the screen: below mirrors and dials.
+/// Modest line near the lower left corner of the screen: below mirrors and dials.
 instant::OverlayText low_line(std::string text, const rig::Screen& screen);
 
 }  // namespace septet::frame

@@ -36,7 +36,8 @@ GlassFrame frame_of(const rig::Window& glass) {
   return frame;
 }
 
-/// A section of the housing: the glass's outline, wider by `wider_m` or narrower by a share, so far towards the eye.
+/// Section of the housing: the glass's outline, widened by `wider_m` or narrowed by a share, at a distance towards the
+/// eye.
 struct Section {
   double wider_m, share, forward_m;
 };
@@ -47,11 +48,11 @@ class HousingPen {
     const Vec3 normal = glm::cross(corners[2] - corners[0], corners[3] - corners[1]);
     const double length = glm::length(normal);
     if (!(length > 1e-12)) return;
-    const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::hub);  // A dull black.
+    const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::hub);  // Dull black.
     for (const std::size_t i : {0, 1, 2, 0, 2, 3})
       vertices_.push_back({glm::vec3(corners[i]), glm::vec3(normal / length), uv});
   }
-  /// A bar of four sides.
+  /// Draws a bar of four sides.
   void bar(const Vec3& from, const Vec3& to, double half_m) {
     const Vec3 along = glm::normalize(to - from);
     const Vec3 aside =
@@ -113,7 +114,7 @@ std::vector<scene::SurfaceVertex> mirror_housing(const rig::Mirror& mirror) {
           {at(sections[i], side), at(sections[i + 1], side), at(sections[i + 1], side + 1), at(sections[i], side + 1)});
   const Vec3 behind = -0.7 * deep_m * glass.back;
   if (inside) {
-    // To its foot on the windscreen's glass, above it.
+    // Stem to its foot on the windscreen's glass, above the mirror.
     const Vec3 &foot = windscreen::foot_left_m, &head = windscreen::head_left_m;
     const double z_m = glass.middle_m.z + glass.half_m.y + 0.045;
     const double x_m = foot.x + (head.x - foot.x) * (z_m - foot.z) / (head.z - foot.z);

@@ -1,5 +1,5 @@
 #pragma once
-/// The mirrors of a car whose inside is drawn, in their places: glass, frame around it, and its stem or arm.
+/// Mirrors of a car whose inside is drawn, in their places: glass, frame around it, and its stem or arm.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace septet::frame {
 
-/// A mirror of the rig that a screen sees.
+/// Mirror of the rig that a screen sees.
 struct SeenMirror {
   rig::Mirror mirror;
   instant::MirrorGlass glass;
@@ -24,8 +24,8 @@ std::vector<SeenMirror> seen_mirrors(const rig::Rig& rig, const rig::Screen& scr
 /// the windscreen, one outside stands on the door beside it.
 std::vector<scene::SurfaceVertex> mirror_housing(const rig::Mirror& mirror);
 
-/// Adds to a frame in which the inside of the car is drawn, for eyes that move as the first view's do. Without the
-/// scene's signs there is no housing.
+/// Adds the mirrors to a frame in which the inside of the car is drawn, for eyes that move as the first view's do.
+/// Without the scene's signs there is no housing.
 void add_mirrors(instant::FrameInput& frame, const std::vector<SeenMirror>& mirrors, const scene::ResolvedScene& scene);
 
 }  // namespace septet::frame

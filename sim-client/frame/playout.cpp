@@ -21,9 +21,9 @@ PlayedOut show(const TickHistory& history, double simulated_time_s, double tick_
   SEPTET_CHECK(!history.empty(), "no tick to show at {} s", simulated_time_s);
   const auto [before, after] = history.around(simulated_time_s);
   PlayedOut shown;
-  if (!before) {  // Older than all that is kept: a screen that has just joined.
+  if (!before) {  // The instant is older than all kept ticks: the screen has just joined.
     shown.snapshot = after->snapshot;
-  } else if (!after) {  // No newer one: the last tick is held.
+  } else if (!after) {  // No newer tick is there: the last one is held.
     shown.snapshot = before->snapshot;
     shown.on_tick = simulated_time_s - before->snapshot.simulated_time_s < 1e-6;
   } else {

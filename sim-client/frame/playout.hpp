@@ -1,5 +1,5 @@
 #pragma once
-/// The instant of the world that a screen shows at a given instant of the server's clock.
+/// Instant of the world that a screen shows at a given instant of the server's clock.
 ///
 /// The server gives the offset to subtract from its clock, so that all screens, whatever their network, show the same
 /// time at the same instant. Frames are numbered by the server's clock (60 a second): frame n shows the instant n/60 on
@@ -23,11 +23,11 @@ std::optional<double> playout_time_s(const TickHistory& history, std::int64_t nu
 
 struct PlayedOut {
   Snapshot snapshot;     ///< Interpolated.
-  Tick tick = 0;         ///< The tick at or before the shown time: the same on all screens.
+  Tick tick = 0;         ///< Tick at or before the shown time: the same on all screens.
   bool on_tick = false;  ///< False: the requested time has not arrived, and an older instant is shown.
 };
 
-/// The world at a simulated time, as far as the history allows: between two ticks, or the newest one held.
+/// World at a simulated time, as far as the history allows: between two ticks, or the newest one held.
 PlayedOut show(const TickHistory& history, double simulated_time_s, double tick_s);
 
 }  // namespace septet::frame

@@ -20,7 +20,8 @@ class ScreenFrames {
   void show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene) {
     effects_.show(instant, history, tick_s, scene);
   }
-  /// For a selected screen. Effects are those of the last `show`. `message`: across the middle, instead of instruments.
+  /// Frame of the selected screen. Effects are those of the last `show`. `message`: across the middle, instead of
+  /// instruments.
   instant::FrameInput frame(const Snapshot& shown, const scene::ResolvedScene& scene,
                             std::optional<std::string> message = std::nullopt);
 
@@ -28,7 +29,7 @@ class ScreenFrames {
   const rig::Rig* rig_ = nullptr;
   const rig::Screen* screen_ = nullptr;
   ScreenViews views_;
-  Head head_;  ///< The head that the views were computed for.
+  Head head_;  ///< Head that the views were computed for.
   EffectsDrawing effects_;
 };
 

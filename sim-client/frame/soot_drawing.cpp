@@ -7,7 +7,7 @@
 namespace septet::frame {
 namespace {
 
-/// A full layer transmits a fiftieth of what lies below (e^−3.9), half of one a seventh.
+/// A full layer transmits a fiftieth of the light from below (e^−3.9), half of one a seventh.
 constexpr float full_layer_depth = 3.9f;
 
 std::uint8_t cover_of(std::uint8_t level) {
@@ -18,7 +18,7 @@ std::uint8_t cover_of(std::uint8_t level) {
 
 instant::SootField soot_field(const smoke::SootKeyframe& keyframe) {
   instant::SootField field;
-  // A cell more on each side for surfaces beside it, and one without soot for a soft edge.
+  // One more cell on each side for surfaces beside it, and one without soot for a soft edge.
   constexpr int border = 2;
   field.nx = keyframe.nx + 2 * border, field.ny = keyframe.ny + 2 * border, field.nz = keyframe.nz + 2 * border;
   field.cell_m = keyframe.cell_m;

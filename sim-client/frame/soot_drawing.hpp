@@ -8,13 +8,13 @@
 
 namespace septet::frame {
 
-/// A surface lies up to a cell beside the cells that hold its soot, so each cell takes the maximum of its
-/// neighbourhood.
+/// Field of a keyframe. A surface lies up to a cell beside the cells that hold its soot, so each cell takes the maximum
+/// of its neighbourhood.
 instant::SootField soot_field(const smoke::SootKeyframe& keyframe);
 
 class SootDrawing {
  public:
-  /// The soot of a snapshot; an empty field if there is none.
+  /// Soot of a snapshot; an empty field if there is none.
   const instant::SootField& draw(std::span<const EffectKeyframe> effects);
   /// Last field drawn.
   const instant::SootField& field() const { return field_; }

@@ -22,13 +22,13 @@ struct HistoryTick {
 
 class TickHistory {
  public:
-  static constexpr std::size_t kept = 96;  ///< At least what net::BaselineOptions remembers.
+  static constexpr std::size_t kept = 96;  ///< Number of ticks kept, at least that of net::BaselineOptions.
 
   enum class Outcome : std::uint8_t { stored, lost_baseline, refused };
-  /// One tick's payload as received on the tick lane; `error()` holds the reason of a refusal.
+  /// Adds one tick's payload as received on the tick lane; `error()` holds the reason of a refusal.
   Outcome add(std::span<const std::byte> payload);
   const Error& error() const { return error_; }
-  /// One tick that is decoded already, as a session's is.
+  /// Adds one tick that is decoded already, as a session's is.
   void add(HistoryTick entry);
   /// Drops ticks older than the last one at or before this simulated time.
   void forget_before(double simulated_time_s);
@@ -40,8 +40,7 @@ class TickHistory {
   const HistoryTick* find(Tick tick) const;
   const std::deque<HistoryTick>& ticks() const { return ticks_; }  ///< Ascending.
 
-  /// The two ticks around a simulated time: the last one at or before it and the first one after it (either may be
-  /// null).
+  /// Ticks around a simulated time: the last one at or before it and the first one after it (either may be null).
   struct Neighbours {
     const HistoryTick* before = nullptr;
     const HistoryTick* after = nullptr;

@@ -8,11 +8,11 @@
 namespace septet::frame {
 
 struct Viewpoint {
-  RigidTransform world_from_views;      ///< The frame of the views' eyes and axes: a vehicle's, or that of any place.
+  RigidTransform world_from_views;      ///< Frame of the views' eyes and axes: a vehicle's, or that of any place.
   std::optional<ParticipantId> inside;  ///< Vehicle of the eyes: its inside, shadow and light are drawn.
 };
 
-/// The driver's, in the frame of his car; the first participant's if the snapshot has no driver.
+/// Viewpoint of the driver, in the frame of his car; of the first participant if the snapshot has no driver.
 Viewpoint driver_viewpoint(const Snapshot& shown);
 
 /// Eye point of the driver of such a vehicle, vehicle frame. The seats are on the left.

@@ -29,7 +29,7 @@ Stroke stroke_in(double rain_mm_per_h) {
   return rain_mm_per_h < 8.0 ? Stroke{4.0 / 3.0, 4.0 / 3.0} : Stroke{1.0, 1.0};
 }
 
-/// The glass in the vehicle's frame.
+/// Glass in the vehicle's frame.
 struct Glass {
   Vec3 foot_m, right, up, normal;
   double height_m, foot_half_m, head_half_m;
@@ -48,7 +48,7 @@ Glass glass() {
   return result;
 }
 
-/// A mesh on the glass of one car, along the world's axes.
+/// Mesh on the glass of one car, along the world's axes.
 class GlassPen {
  public:
   GlassPen(const Participant& car, std::uint32_t prototype)
@@ -71,7 +71,7 @@ class GlassPen {
 };
 
 void add_bar(GlassPen& pen, const glm::dvec2& a, const glm::dvec2& b, double half_m, double lift_m) {
-  const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::hub);  // A dull black.
+  const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::hub);  // Dull black.
   const glm::dvec2 along = glm::normalize(b - a), beside = half_m * glm::dvec2(-along.y, along.x);
   const std::array<glm::dvec2, 4> corners{a - beside, b - beside, b + beside, a + beside};
   for (const std::size_t i : {0, 1, 2, 0, 2, 3}) pen.corner(corners[i], lift_m, {0.0, 0.0}, uv);
@@ -120,7 +120,7 @@ std::vector<GlassDrop> drops_on_glass(const Environment& environment, double tim
   const double rain = environment.rain_mm_per_h;
   if (!(rain > 0.0) || environment.temperature_k < freezing_rain_k) return drops;
   constexpr int places = 900;
-  // One falls at each place at a fixed interval; places that no wiper clears are always wet.
+  // A drop falls at each place at a fixed interval; places that no wiper clears are always wet.
   const double every_s = std::clamp(14.0 / rain, 1.2, 30.0);
   const Glass on = glass();
   Random random(7);
@@ -144,7 +144,7 @@ void add_windscreen(instant::FrameInput& frame, const Snapshot& shown, const Par
   if (!water || !black) return;
   const Environment& environment = shown.environment;
   const double share = wiper_share(environment.rain_mm_per_h, shown.simulated_time_s);
-  // Those that rest lie below the cowl's line, where dashboard and bonnet hide them from every eye.
+  // Wipers at rest lie below the cowl's line, where dashboard and bonnet hide them from every eye.
   if (share > 0.0) {
     GlassPen blades(car, *black);
     for (const Wiper& wiper : wipers) {

@@ -12,7 +12,7 @@ namespace {
 constexpr float frost = 0.8f, wet = 1.0f, bump = 0.12f;
 constexpr std::uint32_t cracks = 2, air_planes = 19, most_cracks = 100000;
 
-/// Something that is on or off.
+/// Part of the drawing that is on or off.
 struct Switch {
   Key key;
   const char* name;

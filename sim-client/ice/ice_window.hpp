@@ -1,12 +1,12 @@
 #pragma once
-/// An object of ice in a window, turning, until Escape.
+/// Object of ice in a window, turning, until Escape.
 
 #include "engine/core/expected.hpp"
 #include "sim-client/ice/ice_viewer.hpp"
 
 namespace septet::ice_viewer {
 
-/// Returns the exit status.
+/// Shows the object and returns the exit status.
 Expected<int> show_in_window(const ice::Surface& surface, IceOptions options);
 
 }  // namespace septet::ice_viewer

@@ -36,7 +36,7 @@ std::string object_text(const ice::Surface& surface, bool pair) {
   return text;
 }
 
-/// Rows from below, as the format wants them.
+/// Rows from the bottom, as the format requires.
 std::string panorama_bytes() {
   constexpr int width = 2048, height = 1024;
   std::vector<float> texels;

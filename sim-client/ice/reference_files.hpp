@@ -7,14 +7,15 @@
 
 namespace septet::ice_viewer {
 
-/// The camera's place: it looks at the origin.
+/// Place of the camera: it looks at the origin.
 struct Seat {
   Vec3 eye_m{0.0};
   double pitch_rad = 0.0, horizontal_rad = 0.0, vertical_rad = 0.0;
 };
 Seat seat_of(const IceOptions& options);
 
-/// object.obj, panorama.pfm (2048 × 1024; columns by azimuth from −y over +x, rows from the zenith) and camera.json.
+/// Writes object.obj, panorama.pfm (2048 × 1024; columns by azimuth from −y over +x, rows from the zenith) and
+/// camera.json.
 Expected<void> write_reference_files(const ice::Surface& surface, const IceOptions& options);
 
 }  // namespace septet::ice_viewer

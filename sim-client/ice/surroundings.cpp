@@ -18,7 +18,7 @@ namespace {
 constexpr float room_half_m = 400.0f;
 constexpr std::uint32_t wall_px = 512;
 
-/// A wall of the room as seen from its middle: forward, to the right, up.
+/// Wall of the room as seen from its middle: forward, to the right, up.
 struct Wall {
   glm::vec3 forward, right, up;
 };
@@ -60,7 +60,7 @@ void add_quad(scene::SurfaceMesh& mesh, const std::array<glm::vec3, 4>& corners,
   for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
 }
 
-/// One material a part; each part has the same number of indices.
+/// Adds a mesh with one material a part; each part has the same number of indices.
 void add_mesh(scene::ResolvedScene& scene, scene::SurfaceMesh mesh, std::vector<scene::SurfaceMaterial> materials) {
   mesh.revision = 1;
   const auto count = static_cast<std::uint32_t>(mesh.indices.size() / materials.size());
@@ -81,7 +81,7 @@ void add_mesh(scene::ResolvedScene& scene, scene::SurfaceMesh mesh, std::vector<
 }
 
 void add_room(scene::ResolvedScene& scene) {
-  // One mesh, so that its contents stand under a roof.
+  // One mesh, so that the bodies in it stand under a roof.
   scene::SurfaceMesh mesh;
   std::vector<scene::SurfaceMaterial> materials;
   for (const Wall& wall : walls) {

@@ -8,11 +8,11 @@
 namespace septet::ice_viewer {
 
 enum class Surroundings : std::uint8_t {
-  room,      ///< The panorama alone: the same from every place, as in the references.
+  room,      ///< Panorama alone: the same from every place, as in the references.
   outdoors,  ///< Sun, sky, a field and coloured columns.
 };
 
-/// The panorama's colour in a direction (unit; z is up), linear Rec. 709, each from 0 to 1: a chequered floor, coloured
+/// Panorama's colour in a direction (unit; z is up), linear Rec. 709, each from 0 to 1: a chequered floor, coloured
 /// columns and bright windows.
 glm::vec3 panorama(const glm::vec3& direction);
 

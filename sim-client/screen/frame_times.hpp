@@ -6,11 +6,11 @@
 
 namespace septet::screen {
 
-/// A histogram with logarithmic bins of 2 %, from 10 µs up: percentiles are right within 1 %.
+/// Histogram with logarithmic bins of 2 %, from 10 µs up: percentiles are right within 1 %.
 class FrameTimes {
  public:
   void add(double ms);
-  /// `fraction` 0.5 is the median; returns 0 without frames.
+  /// Percentile of the durations; `fraction` 0.5 is the median; 0 without frames.
   double percentile_ms(double fraction) const;
   std::uint64_t count() const { return count_; }
 

@@ -16,9 +16,9 @@ class PauseRequest {
     wanted_ = !link.notice().paused;
     told_welcome_.reset();
   }
-  /// It has been requested, and may not be in effect yet.
+  /// True if a pause has been requested; it may not be in effect yet.
   bool is_pausing() const { return wanted_.value_or(false); }
-  /// To be called after each pump of the link.
+  /// Sends the request until it is confirmed; call it after each pump of the link.
   void tell(ScreenLink& link) {
     if (!wanted_) return;
     if (told_welcome_ && link.notice().paused == *wanted_) return wanted_.reset();
@@ -29,7 +29,7 @@ class PauseRequest {
 
  private:
   std::optional<bool> wanted_;
-  std::optional<std::uint32_t> told_welcome_;  ///< The connection on which the server has received it.
+  std::optional<std::uint32_t> told_welcome_;  ///< Connection on which the server has received it.
 };
 
 }  // namespace septet::screen

@@ -6,12 +6,12 @@ namespace septet::screen {
 namespace {
 constexpr double span_s = 2.0;
 constexpr std::size_t least_pictures = 3;
-constexpr double enough_per_s = 25.0;  ///< Below it a driver steers by the past.
+constexpr double enough_per_s = 25.0;  ///< Least rate at which a driver steers by the present and not by the past.
 }  // namespace
 
 void PictureRate::add(double now_s) {
   shown_s_.push_back(now_s);
-  // The oldest kept one begins the span.
+  // The oldest kept picture begins the span.
   while (shown_s_.size() > least_pictures && shown_s_[1] <= now_s - span_s) shown_s_.pop_front();
 }
 

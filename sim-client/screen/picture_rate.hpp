@@ -9,16 +9,16 @@ namespace septet::screen {
 
 class PictureRate {
  public:
-  /// A picture was shown at this instant of the caller's clock.
+  /// Counts a picture shown at this instant of the caller's clock.
   void add(double now_s);
-  /// Over the last two seconds and at least three pictures; empty before that.
+  /// Rate over the last two seconds and at least three pictures; empty before that.
   std::optional<double> per_second() const;
 
  private:
   std::deque<double> shown_s_;  ///< Ascending.
 };
 
-/// One line; empty if the rate is sufficient.
+/// Advice in one line; empty if the rate is sufficient.
 std::optional<std::string> slowness(const PictureRate& rate, bool drawn_in_software);
 
 }  // namespace septet::screen

@@ -35,7 +35,8 @@ class Display {
   virtual std::optional<Size> window_size() const = 0;
   /// Handles the window system's events: often enough that keys are read while a picture is drawn in another thread.
   virtual void attend() = 0;
-  /// The same; the person's request to leave or pause, by its cause: a key once per press.
+  /// Request of the person to leave or pause, by its cause: a key once per press. `poll_leaving` handles the window
+  /// system's events, too.
   enum class Leaving : std::uint8_t { no, closed, escape, restart, enter };
   virtual Leaving poll_leaving() = 0;
   /// Driver input from keyboard or gamepad, for a rig whose car is one; empty before they are touched, and for an
@@ -49,7 +50,7 @@ class Display {
   virtual bool paces_itself() const = 0;
 };
 
-/// A display in a window or over a whole monitor (window_display.cpp); needs a window system.
+/// Opens a display in a window or over a whole monitor (window_display.cpp); needs a window system.
 Expected<std::unique_ptr<Display>> open_window(const DisplayOptions& options, render::RendererOptions renderer_options);
 
 }  // namespace septet::screen

@@ -51,7 +51,7 @@ void ScreenLink::pump(double now_s) {
   tell_of_forgeries(now_s);
 }
 
-/// Forged packets: a sender on the network imitates the server, or floods the tick lane.
+/// Reports forged packets: a sender on the network imitates the server, or floods the tick lane.
 void ScreenLink::tell_of_forgeries(double now_s) {
   constexpr double every_s = 10.0;
   if (now_s - told_s_ < every_s) return;
@@ -88,7 +88,7 @@ void ScreenLink::on_control(std::span<const std::byte> bytes, double now_s) {
     welcome_ = std::move(*welcome);
     ++welcomes_;
   } else if (auto* refusal = std::get_if<Refusal>(&*message)) {
-    // The server may be started again with another rig or list: it is asked again, though not all the time.
+    // The server may be started again with another rig or list: the request is repeated, though not all the time.
     if (std::exchange(refused_, refusal->reason) != refusal->reason)
       messages_.push_back(
           fmt::format("refused by the server: {}; it is asked again by itself", printable(refusal->reason)));

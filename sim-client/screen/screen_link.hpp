@@ -1,6 +1,5 @@
 #pragma once
-/// A screen's side of both lanes: connects, subscribes, receives ticks and scene, acknowledges, and reconnects by
-/// itself.
+/// Screen's side of both lanes: connects, subscribes, receives ticks and scene, acknowledges, and reconnects by itself.
 ///
 /// Reaches sockets only through DatagramSocket, and time only as an argument, so that tests run several of them on a
 /// bad network and simulated clocks. One thread.
@@ -63,7 +62,7 @@ class ScreenLink {
   /// Changes whenever `scene()` is a different store.
   std::uint64_t scene_generation() const { return scene_.generation(); }
   bool scene_arrived() const { return scene_arrived_; }
-  /// The server's clock now, once a ping has come back.
+  /// Time of the server's clock now; empty until a ping has come back.
   std::optional<double> server_time_s(double now_s) const;
 
   void send(const control::ControlMessage& message, net::Reliability reliability);
@@ -78,7 +77,7 @@ class ScreenLink {
 
  private:
   static constexpr double gone_after_s = 1.0;    ///< A living server returns four pings in this time.
-  static constexpr double longest_step_s = 0.1;  ///< From one pump to the next, as far as it counts as listening.
+  static constexpr double longest_step_s = 0.1;  ///< Longest time between two pumps that counts as listening.
   static constexpr double refused_for_s = 5.0;
   void on_connected();
   void on_control(std::span<const std::byte> bytes, double now_s);
@@ -101,13 +100,13 @@ class ScreenLink {
   control::Notice notice_;
   double looked_at_until_s_ = -1e9;
   std::optional<double> pumped_s_;
-  double unheard_s_ = 0.0;  ///< Time for which this end has listened and heard nothing.
+  double unheard_s_ = 0.0;  ///< Time for which this end has listened without hearing the server.
   bool scene_arrived_ = false;
-  bool is_welcome_ = false;  ///< On this connection.
+  bool is_welcome_ = false;  ///< True once welcomed on this connection.
   std::uint64_t refused_ticks_ = 0;
   net::ConnectionReport connection_;
   std::vector<std::string> messages_;
-  std::string refused_;  ///< The server's last refusal of this screen.
+  std::string refused_;  ///< Server's last refusal of this screen.
   std::uint64_t told_forged_ = 0;
   double told_s_ = 0.0;
 };

@@ -66,10 +66,10 @@ class Session {
   /// drive.
   Expected<void> beside_lane(const std::function<Expected<void>()>& work);
   void send_controls();
-  /// The server was restarted during the renderer's work: its result is to be discarded.
+  /// True if the server was restarted during the renderer's work, whose result is then discarded.
   bool has_begun_anew() const { return link_.welcomes() != welcomes_ || link_.history().empty(); }
   void count_frame();
-  /// The effects that `snapshot`'s instant shows, by the keyframes around it.
+  /// Takes the effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
   /// Sends the picture shown, if an operator watches closely and the next one is due.
@@ -89,11 +89,11 @@ class Session {
   std::uint32_t welcomes_ = 0;
   rig::Rig rig_;
   rig::Screen* screen_ = nullptr;
-  rig::Screen screen_of_rig_;  ///< As in the rig, whatever shape its window has.
+  rig::Screen screen_of_rig_;  ///< Screen as in the rig, whatever shape its window has.
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_, large_pictures_{large_picture};
-  std::optional<double> looked_s_;  ///< When the newest large picture was taken.
+  std::optional<double> looked_s_;  ///< Due time of the newest large picture.
   FrameTimes frame_times_, submit_times_;
   std::optional<double> last_picture_s_;
   PictureRate picture_rate_;
@@ -103,7 +103,7 @@ class Session {
   frame::ScreenFrames screen_frames_;
   double lost_drawn_s_ = 0.0;
   static constexpr std::chrono::milliseconds keys_every{8};
-  static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
+  static constexpr double keys_shown_for_s = 30.0;  ///< Duration from the start, until the first key is pressed.
   std::optional<bool> keys_shown_;                  ///< Chosen by the driver's keys; empty: no key was pressed yet.
   bool was_touched_ = false;
   float last_submit_ms_ = 0.0f;
@@ -126,9 +126,9 @@ Expected<void> Session::take_welcome() {
   const bool is_other_screen =
       screen_of_rig_.width_px != screen_->width_px || screen_of_rig_.height_px != screen_->height_px;
   screen_of_rig_ = *screen_;
-  // A server that was started again brings the same rig as a rule: its content is new, the picture's place is not.
+  // A restarted server usually brings the same rig: its content is new, the picture's place is not.
   if (display_ && !is_other_screen) return {};
-  // It takes a tenth of a second, in which the scene arrives.
+  // Opening the display takes a tenth of a second, in which the scene arrives.
   std::jthread receiving([this](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       link_.pump(program::monotonic_s());
@@ -147,7 +147,7 @@ Expected<void> Session::take_welcome() {
 
 Expected<void> Session::bring_scene_up() {
   if (std::exchange(scene_generation_, link_.scene_generation()) != link_.scene_generation()) resolver_.forget();
-  // The first picture is whole or not drawn; in real time a later change is spread over frames.
+  // The first picture is drawn whole or not at all; in real time a later change is spread over frames.
   const bool spread = !link_.welcome()->lockstep && uploaded_revision_ != 0;
   resolver_.update(link_.scene(), spread ? 64 : ~std::size_t{0});
   const auto& scene = resolver_.scene();
@@ -197,7 +197,7 @@ void Session::send_controls() {
     link_.send(control::Controls{*controls}, net::Reliability::unreliable);
 }
 
-/// Called after each picture. The parent program is notified of the first.
+/// Counts a picture; called after each. The parent program is notified of the first.
 void Session::count_frame() {
   const double now_s = program::monotonic_s();
   if (last_picture_s_) frame_times_.add(1e3 * (now_s - *last_picture_s_));
@@ -250,7 +250,7 @@ Expected<void> Session::show_closely(Tick tick, double now_s) {
     return {};
   }
   if (looked_s_ && now_s - *looked_s_ < control::look_every_s) return {};
-  // From one due time to the next, so that five a second are five.
+  // Counted from one due time to the next, so that five pictures a second stay five.
   looked_s_ =
       looked_s_ && now_s - *looked_s_ < 2.0 * control::look_every_s ? *looked_s_ + control::look_every_s : now_s;
   const auto picture = display_->renderer().read_back();

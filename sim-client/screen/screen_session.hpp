@@ -12,7 +12,7 @@
 namespace septet::screen {
 
 struct ScreenOptions {
-  std::string name;  ///< In the rig.
+  std::string name;  ///< Name in the rig.
   net::Address server;
   std::filesystem::path keys;            ///< Folder with NAME.key and server.public.
   std::filesystem::path pictures;        ///< Folder for pictures of whole ticks (TICK.png); empty: not kept.

@@ -23,8 +23,8 @@ struct PictureLimits {
 };
 inline constexpr PictureLimits large_picture{960, 720, control::most_picture_bytes};
 
-/// The picture within the limits, aspect ratio kept: each pixel the mean of up to 4 × 4 pixels. A smaller one is
-/// returned unchanged.
+/// Picture within the limits, aspect ratio kept: each pixel the mean of up to 4 × 4 pixels. A smaller one is returned
+/// unchanged.
 image::Image thumbnail_of(const image::Image& picture, const PictureLimits& limits = {});
 
 class ThumbnailMaker {
@@ -37,7 +37,7 @@ class ThumbnailMaker {
     Tick tick = 0;
     std::string picture;  ///< JPEG file.
   };
-  /// The newest finished picture, once.
+  /// Newest finished picture, once.
   std::optional<Made> finished();
 
  private:

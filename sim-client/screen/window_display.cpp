@@ -50,7 +50,7 @@ class WindowDisplay final : public Display {
   Leaving poll_leaving() override {
     attend();
     if (window_->should_close()) return Leaving::closed;
-    // Both are asked: a window forgets a short press only when it is asked for it.
+    // Both keys are queried: a window forgets a short press only when it is queried.
     const bool escape = window_->is_down(Key::escape), restart = window_->is_down(Key::r),
                enter = window_->is_down(Key::enter);
     const bool is_escape = !std::exchange(escape_was_down_, escape) && escape;
@@ -68,8 +68,8 @@ class WindowDisplay final : public Display {
     const auto keys = car_io::key_states([&](Key key) { return window_->is_down(key); });
     if (keys != car_io::KeyStates{}) used_s_ = now_s;
     const DriverInput input = car_io::advance(keyboard_, keys, speed_mps, dt_s);
-    // Of a rig's windows the one with the keyboard drives; the others are silent, once their held keys have been let
-    // go.
+    // Among a rig's windows, the one with the keyboard drives; the others are silent, once their held keys have been
+    // let go.
     return now_s - used_s_ < let_go_after_s ? std::optional(input) : std::nullopt;
   }
   bool is_touched() const override { return touched_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// The shape of a window, which a person chooses, and the screen of the rig that it shows.
+/// Shape of a window, which a person chooses, and the screen of the rig that it shows.
 ///
 /// Pure functions. A screen that takes its window's shape is drawn in the window's own pixels: the vertical angle is
 /// kept, and its corners move apart or together about their middle.

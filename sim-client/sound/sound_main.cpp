@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
   return program::run("septet", app, argc, argv, [&] {
     options.stage.speakers = speakers == "5.1" ? audio::Speakers::surround_51 : audio::Speakers::stereo;
-    // A file, or the session whose folder will hold it: its folder is meant.
+    // The output is a file, or the session whose folder will hold it; writing is limited to that folder.
     program::write_only_below(
         {std::filesystem::absolute(options.out.empty() ? options.session : options.out).parent_path()});
     return sound::run_sound(options);

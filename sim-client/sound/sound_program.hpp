@@ -1,5 +1,5 @@
 #pragma once
-/// The command line of `septet-sound`, carried out: the sound of a recorded session as a file.
+/// Execution of the command line of `septet-sound`: the sound of a recorded session as a file.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +18,7 @@ struct SoundOptions {
   std::uint64_t seed = 1;  ///< Seed of the noises.
 };
 
-/// Makes the file and prints its place. Exit status; 1 if a person stopped it.
+/// Makes the file and prints its place. Returns the exit status; 1 if a person stopped it.
 Expected<int> run_sound(SoundOptions options);
 
 }  // namespace septet::sound

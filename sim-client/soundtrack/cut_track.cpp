@@ -18,10 +18,10 @@ constexpr double unheard_s = 0.25, fade_samples = 0.003 * audio::sample_rate_hz;
 
 using Frame = std::array<float, channels>;
 
-/// Reads blocks at a speed of its own, in straight lines between samples.
+/// Reads blocks at a speed of its own, with linear interpolation between samples.
 class Tape {
  public:
-  /// `at_s`: where the first frame out lies; `count` of them are wanted.
+  /// `at_s`: time of the first output frame; `count`: number of output frames.
   Tape(double at_s, double speed, std::uint64_t count) : at_s_(at_s), speed_(speed), count_(count) {}
 
   bool is_full() const { return made_ >= count_; }
@@ -32,7 +32,7 @@ class Tape {
     if (!start_s_) start_s_ = tick_s;
     for (std::size_t i = 0; i + channels <= samples.size() && !is_full(); i += channels, ++read_) {
       const Frame now{samples[i], samples[i + 1]};
-      // Between the frame before and this one.
+      // Interpolation between the frame before and this one.
       for (; !is_full(); ++made_) {
         const double wanted = (at_s_ - *start_s_) * audio::sample_rate_hz + static_cast<double>(made_) * speed_;
         const double share = wanted - (static_cast<double>(read_) - 1.0);
@@ -42,7 +42,7 @@ class Tape {
       before_ = now;
     }
   }
-  /// Silence where the session has ended before the film's last frame.
+  /// Fills with silence if the session has ended before the film's last frame.
   void fill(std::vector<float>& out) {
     for (; !is_full(); ++made_) out.insert(out.end(), channels, 0.0f);
   }

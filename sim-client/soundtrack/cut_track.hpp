@@ -1,5 +1,5 @@
 #pragma once
-/// The sound of a film: a session's sound with the film's cuts and speeds.
+/// Sound of a film: a session's sound with the film's cuts and speeds.
 ///
 /// Each cut starts with a quarter of a second that is not heard, and its edges fade over 3 ms. A shot in slow motion
 /// sounds like a slow tape: deeper, and each event with its picture. The sound is the driver's, wherever the camera is.
@@ -13,7 +13,7 @@
 
 namespace septet::sound {
 
-/// A stretch of the session, played at `speed` for this many frames of the film.
+/// Stretch of the session, played at `speed` for this many frames of the film.
 struct Cut {
   double from_s = 0.0, speed = 1.0;
   std::uint64_t frames = 0;

@@ -12,10 +12,10 @@ namespace septet::sound {
 /// Sound of the session's vehicle and rig; missing values are those of a Volvo S80.
 audio::CarSound car_sound_of(const logging::SessionInfo& info);
 
-/// The session's road; empty if it has none that can be read.
+/// Road of the session; empty if it has none that can be read.
 road::RoadNetwork roads_of(const logging::SessionInfo& info);
 
-/// The tunnels: boxes of the scene without sky.
+/// Boxes of the tunnels: the parts of the scene without sky.
 Expected<std::vector<audio::EchoBox>> echo_boxes_of(const logging::SessionReader& session);
 
 }  // namespace septet::sound

@@ -14,7 +14,7 @@ namespace septet::sound {
 namespace {
 
 constexpr double time_slack_s = 1e-6;
-constexpr Tick longest_gap = 10 * 120;  // Filled, so that later sound keeps its time.
+constexpr Tick longest_gap = 10 * 120;  // Longest gap that is filled, so that later sound keeps its time.
 
 }  // namespace
 

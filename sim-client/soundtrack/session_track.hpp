@@ -1,5 +1,5 @@
 #pragma once
-/// The sound of a session, block by block: its ticks through the synthesis and OpenAL's loopback device, as the driver
+/// Sound of a session, block by block: its ticks through the synthesis and OpenAL's loopback device, as the driver
 /// heard them.
 ///
 /// The same session gives the same samples. Clock and output are the caller's; one thread.
@@ -23,7 +23,7 @@ struct SessionSound {
   std::vector<audio::EchoBox> boxes;
   road::RoadNetwork roads;
 };
-/// Error: its ticks lack the data for sound, or its scene cannot be read.
+/// Sound of a session. Error: its ticks lack the data for sound, or its scene cannot be read.
 Expected<SessionSound> sound_of(const logging::SessionReader& session);
 
 struct TrackOptions {
@@ -40,7 +40,8 @@ struct TrackMade {
 /// One block, interleaved, of the tick at this simulated time; return false to stop.
 using TakeBlock = std::function<Expected<bool>(std::span<const float> samples, double tick_s)>;
 
-/// One block per tick from `from_s` to before `to_s`. A tick missing from the log repeats the sound of the one before.
+/// Renders one block per tick from `from_s` to before `to_s`. A tick missing from the log repeats the sound of the one
+/// before.
 Expected<TrackMade> render_track(const logging::SessionReader& session, const SessionSound& sound,
                                  const TrackOptions& options, const TakeBlock& take);
 

@@ -25,7 +25,7 @@ class Header {
   std::string bytes_;
 };
 
-/// WAVE_FORMAT_EXTENSIBLE, which says which loudspeaker each channel is for.
+/// Header in WAVE_FORMAT_EXTENSIBLE, which assigns each channel to a loudspeaker.
 std::string header(std::size_t channels, std::uint64_t data_bytes) {
   Header h;
   h.word("RIFF");

@@ -1,8 +1,9 @@
 #pragma once
-/// A sound file: WAV, 16 bits, 48 kHz, two or six channels (front left and right, centre, low frequencies, back left
-/// and right).
+/// Sound file: WAV, 16 bits, 48 kHz, two or six channels (front left and right, centre, low frequencies, back left and
+/// right).
 ///
-/// Written beside its place as NAME.part and renamed when it is whole; an aborted write leaves no file. One thread.
+/// It is written beside its place as NAME.part and renamed when it is whole; an aborted write leaves no file. One
+/// thread.
 
 #include <cstdint>
 #include <cstdio>
@@ -19,13 +20,13 @@ std::uint64_t most_frames(std::size_t channels);
 
 class WavFile {
  public:
-  /// Error: the file exists already, or its folder cannot be written.
+  /// Creates the file. Error: it exists already, or its folder cannot be written.
   static Expected<WavFile> create(const std::filesystem::path& path, std::size_t channels);
   WavFile(WavFile&&) noexcept = default;
   WavFile& operator=(WavFile&&) = delete;
   ~WavFile();
 
-  /// Interleaved samples; ±1 is full scale.
+  /// Writes interleaved samples; ±1 is full scale.
   Expected<void> write(std::span<const float> samples);
   Expected<void> finish();
 

@@ -30,7 +30,7 @@ void RenderGraph::keep(ResourceId resource, Access access) { resources_[resource
 std::vector<bool> RenderGraph::needed_passes() const {
   std::vector<bool> wanted(resources_.size()), needed(passes_.size());
   for (std::size_t i = 0; i < resources_.size(); ++i) wanted[i] = resources_[i].kept != Access::none;
-  // Backwards: a pass is needed when it writes what a later needed pass reads.
+  // Backwards: a pass is needed if it writes a resource that a later needed pass reads.
   for (std::size_t i = passes_.size(); i-- > 0;) {
     const PassUses& uses = passes_[i].uses;
     needed[i] = std::any_of(uses.writes.begin(), uses.writes.end(),

@@ -1,9 +1,10 @@
 #pragma once
-/// The frame as a list of passes that say what they read and write; the barriers between them follow.
+/// Frame graph: a list of passes with the resources that each reads and writes, from which the barriers between them
+/// follow.
 ///
-/// A pass is added with its uses of named resources and a function that records it. `compile` drops passes whose results
-/// nobody needs and finds, for each kept pass, the barriers before it; `execute` runs both in order. The graph knows no
-/// Vulkan type, so that what it decides is tested without a device.
+/// A pass is added with its uses of named resources and a function that records it. `compile` drops passes whose
+/// results are not used and finds, for each kept pass, the barriers before it; `execute` runs both in order. The graph
+/// knows no Vulkan type, so that its decisions are tested without a device.
 
 #include <cstdint>
 #include <functional>
@@ -13,7 +14,7 @@
 
 namespace septet::render {
 
-/// How a resource is accessed; it decides the pipeline stage, the memory access and the image layout.
+/// Kind of access to a resource; it decides the pipeline stage, the memory access and the image layout.
 enum class Access : std::uint8_t {
   none,  ///< Not used yet: its contents are undefined.
   color_attachment,
@@ -36,13 +37,14 @@ struct ResourceUse {
   Access access = Access::none;
 };
 
-/// A pass that draws over what is there names the resource under both reads and writes, with the same access.
+/// Uses of one pass. A pass that draws over existing contents names the resource under both reads and writes, with the
+/// same access.
 struct PassUses {
   std::vector<ResourceUse> reads, writes;
 };
 
-/// Work before the barrier that accessed the resource as `before` ends, its writes seen, before work that accesses it as
-/// `after` begins. `discard`: the old contents are not needed.
+/// Ordering between two accesses of a resource: work that accessed it as `before` ends, and its writes are visible,
+/// ahead of work that accesses it as `after`. `discard`: the old contents are not needed.
 struct Barrier {
   ResourceId resource = 0;
   Access before = Access::none, after = Access::none;
@@ -50,7 +52,7 @@ struct Barrier {
   bool operator==(const Barrier&) const = default;
 };
 
-/// What compile found: kept passes in order, each with the barriers before it, then those at the end.
+/// Result of `compile`: kept passes in order, each with the barriers before it, then the barriers at the end.
 struct Schedule {
   struct Step {
     std::uint32_t pass = 0;
@@ -62,17 +64,17 @@ struct Schedule {
 
 class RenderGraph {
  public:
-  /// `held`: how the resource was last accessed before this frame.
+  /// Adds a resource. `held`: its last access before this frame.
   ResourceId add_resource(std::string name, Access held = Access::none);
   void add_pass(std::string name, PassUses uses, std::function<void()> record);
-  /// The frame's result: keeps the passes that make this resource, and leaves it ready for `access`.
+  /// Marks a result of the frame: keeps the passes that make this resource, and leaves it ready for `access`.
   void keep(ResourceId resource, Access access);
 
-  /// Checks that no pass reads what nobody has written.
+  /// Returns the schedule. Checks that each resource that a pass reads was written before.
   Schedule compile() const;
   /// Records barriers and passes in order.
   void execute(const std::function<void(std::span<const Barrier>)>& record_barriers) const;
-  /// How each resource is left once the schedule has run.
+  /// Last access of each resource after the schedule has run.
   std::vector<Access> left(const Schedule& schedule) const;
 
  private:

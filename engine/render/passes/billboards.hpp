@@ -1,6 +1,7 @@
 #pragma once
-/// Squares that face the viewer, blended over the picture: glows of lamps, puffs of smoke. They have no vertices of their own
-/// and write no depth; what differs is their shaders, how they blend, and the records that the vertex shader reads.
+/// Squares that face the viewer, blended over the picture: glows of lamps, puffs of smoke. They have no vertices of
+/// their own and write no depth; they differ in their shaders, their blending, and the records that the vertex shader
+/// reads.
 
 #include "engine/render/passes/pass_context.hpp"
 

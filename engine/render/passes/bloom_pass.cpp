@@ -13,15 +13,17 @@
 namespace septet::render {
 namespace {
 
-/// What a level keeps of the larger one below it is the rest of this; skirts twice as wide have .6 of the light each time.
+/// Share of a level that comes from the smaller level; the rest is its own, so that skirts twice as wide have 0.6 of
+/// the light each time.
 constexpr float share_of_wider = 0.6f;
-/// Of its light that a pixel gives away: a healthy eye scatters some hundredths (Vos, "On the cause of disability glare", 1984).
+/// Share of its light that a pixel gives away: a healthy eye scatters some hundredths (Vos, "On the cause of disability
+/// glare", 1984).
 constexpr float share_of_radiance = 0.03f;
 
 constexpr std::array<const char*, bloom_levels> level_names{"bloom, 1/2", "bloom, 1/4", "bloom, 1/8", "bloom, 1/16",
                                                             "bloom, 1/32"};
 
-/// One texel of the source and one of the target, in texture coordinates.
+/// Size of a texel of the source and of one of the target, in texture coordinates.
 glm::vec4 texels(const vulkan::DeviceImage& source, const vulkan::DeviceImage& target) {
   return 1.0f / glm::vec4(source.description.width, source.description.height, target.description.width,
                           target.description.height);

@@ -13,7 +13,7 @@ namespace septet::render {
 
 void create_contact_pass(ContactPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                          const TargetFormats& formats, const Refinements& refinements) {
-  TargetFormats unmarked = formats;  // It lies on what stands still, as other shadows do.
+  TargetFormats unmarked = formats;  // No marks: the contact shadow lies on static surfaces, as other shadows do.
   unmarked.marks = false;
   pass.pipeline = create_billboard_pipeline(device, layout, unmarked, shaders::contact_vert(), shaders::contact_frag(),
                                             vulkan::Blend::over, refinements);
@@ -31,7 +31,8 @@ std::vector<ContactRecord> contact_records(std::span<const GroundContact> contac
     const glm::vec3 relative(contact.world_from_body.position_m - eye_m);
     const float reach_m = glm::length(glm::vec2(contact.half_length_m, contact.half_width_m)) + 2.3f * contact.height_m;
     const float distance_m = glm::length(relative);
-    // Of the ground behind it nothing is seen, and before it it is as high as the eye looks down on it.
+    // The ground behind the body is hidden, and the height of the ground before it depends on the eye's angle of
+    // depression.
     const float seen_px =
         contact.half_width_m * std::abs(relative.z) / std::max(1e-3f, distance_m * distance_m * pixel_rad);
     if (seen_px < 0.3f || !intersects(volume, relative, reach_m)) continue;

@@ -1,7 +1,9 @@
 #pragma once
-/// Draws what bodies on the ground hide of the sky: under a closed cover, in a tunnel and at night no shadow ties a vehicle to its road.
+/// Contact shadows: share of the sky that bodies hide from the ground under and around them. Under a closed cover, in a
+/// tunnel and at night no shadow of the sun ties a vehicle to its road.
 ///
-/// One rectangle a body, over the ground alone, in closed form (shaders/contact.frag); a ray tracer finds the same by its rays.
+/// One rectangle a body, over the ground alone, in closed form (shaders/contact.frag); a ray tracer finds the same by
+/// its rays.
 
 #include <span>
 #include <vector>
@@ -24,7 +26,7 @@ void create_contact_pass(ContactPass& pass, const vulkan::Device& device, const 
                          const TargetFormats& formats, const Refinements& refinements);
 void destroy_contact_pass(ContactPass& pass, const vulkan::Device& device);
 
-/// Those that a view may see as more than a pixel (`pixel_rad` wide), the nearest `most_contacts`.
+/// Greatest number of contacts in a view: the nearest of those that cover at least 0.3 of a pixel (`pixel_rad` wide).
 inline constexpr std::size_t most_contacts = 48;
 std::vector<ContactRecord> contact_records(std::span<const GroundContact> contacts, const Vec3& eye_m,
                                            const ViewVolume& volume, float pixel_rad);

@@ -18,7 +18,7 @@ using scene::SurfaceMaterial;
 using scene::SurfaceMesh;
 using vulkan::Buffer;
 
-/// A buffer on the device for these bytes, one after another.
+/// Buffer on the device with these bytes, one span after another.
 Buffer create_filled_buffer(vulkan::Upload& upload, VkBufferUsageFlags usage,
                             std::initializer_list<std::span<const std::byte>> contents) {
   std::uint64_t size = 0;
@@ -97,7 +97,7 @@ void place_instances(DeviceScene& scene, const ResolvedScene& source, const std:
                    [](const PlacedMesh& a, const PlacedMesh& b) { return a.mesh < b.mesh; });
 }
 
-/// Changes with everything that static geometry is made of.
+/// Hash of everything that static geometry is made of.
 std::uint64_t hash_of_still(const ResolvedScene& source, const std::vector<bool>& still) {
   StateHash hash;
   for (const scene::Instance& instance : source.instances) {
@@ -132,8 +132,8 @@ void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::ve
   scene.still_hash = hash;
 }
 
-/// From 8-bit codes to the square root of linear light: a square in the shader decodes it, where decoding sRGB texels costs
-/// a software rasteriser more than all other shading.
+/// Table from 8-bit codes to the square root of linear light: the shader decodes it by a square, whereas decoding sRGB
+/// texels costs a software rasteriser more than all other shading.
 std::array<std::uint8_t, 256> square_root_code(bool srgb) {
   std::array<std::uint8_t, 256> code;
   for (std::size_t i = 0; i < code.size(); ++i)

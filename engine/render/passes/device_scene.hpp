@@ -1,5 +1,5 @@
 #pragma once
-/// The device's copy of a ResolvedScene: meshes, images with mip levels, materials as shader constants, placed instances.
+/// Device copy of a ResolvedScene: meshes, images with mip levels, materials as shader constants, placed instances.
 
 #include <optional>
 #include <vector>
@@ -20,9 +20,9 @@ using light::MaterialConstants;
 
 struct DeviceMaterial {
   MaterialConstants constants{};
-  std::int32_t image = -1;  ///< −1: none.
+  std::int32_t image = -1;  ///< Index of its texture; −1: no texture.
   bool cut = false, blended = false, glossy = false, coated = false, wettable = false, stripe = false,
-       two_sided = false;  ///< Opaque, and seen from both sides.
+       two_sided = false;  ///< two_sided: opaque, and drawn from both sides.
 };
 
 struct DeviceMesh {
@@ -44,15 +44,15 @@ struct DeviceScene {
   std::vector<DeviceMesh> meshes;
   std::vector<DeviceTexture> textures;
   std::vector<DeviceMaterial> materials;
-  std::vector<PlacedMesh> placed;              ///< What stands in several places, ordered by mesh.
-  StaticGeometry still;                        ///< What stands in one; its vertices are on the device.
-  std::vector<vulkan::Buffer> still_vertices;  ///< One a block.
+  std::vector<PlacedMesh> placed;              ///< Meshes placed more than once, ordered by mesh.
+  StaticGeometry still;                        ///< Meshes placed once; their vertices are on the device.
+  std::vector<vulkan::Buffer> still_vertices;  ///< One buffer a block.
   std::uint64_t still_hash = 0;
-  SceneSummary summary;  ///< For descriptions of instants in this scene.
+  SceneSummary summary;  ///< Summary for descriptions of instants in this scene.
 };
 
-/// Uploads what is new. No frame that uses the scene may be in flight. Parts, instances and images that point outside their
-/// arrays are left out.
+/// Uploads meshes, images and materials with a new revision. No frame that uses the scene may be in flight. Parts,
+/// instances and images that point outside their arrays are left out.
 void upload_scene(DeviceScene& scene, const scene::ResolvedScene& source, const vulkan::Device& device,
                   vulkan::MemoryPool& memory);
 void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory);
@@ -61,7 +61,7 @@ void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory);
 std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                                      bool srgb);
 
-/// A new sampled image that the upload fills with these levels.
+/// Creates a sampled image; the upload fills it with these levels.
 vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels);
 
 }  // namespace septet::render

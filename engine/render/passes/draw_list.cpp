@@ -49,7 +49,7 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
     std::vector<InstanceRecord> records;
     float nearest_m = 1e30f;
   };
-  std::array<Run, 2> runs;  // Of one mesh: those that are shown whole, and those that fade.
+  std::array<Run, 2> runs;  // Records of one mesh: those shown whole, and those that fade.
   std::uint32_t run_mesh = 0;
   const scene::SurfaceMesh* run_reshaped = nullptr;
   const auto close = [&] {
@@ -82,7 +82,7 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
 }
 
 void sort_by_distance(DrawList& list) {
-  // Within a batch too: trees in front hide those behind before they are shaded.
+  // Sorting within a batch, too: trees in front hide those behind before they are shaded.
   const auto square = [](const InstanceRecord& record) {
     return record.row0.w * record.row0.w + record.row1.w * record.row1.w + record.row2.w * record.row2.w;
   };

@@ -11,14 +11,14 @@
 namespace septet::render {
 
 struct DynamicSurface {
-  PlacedMesh placed;  ///< For culling; its mesh index means nothing.
+  PlacedMesh placed;  ///< Placement for culling; its mesh index has no meaning.
   std::uint64_t vertices_at = 0;
   VkBuffer vertices = VK_NULL_HANDLE;
   std::uint32_t vertex_count = 0;
   std::uint32_t material = 0;
 };
 
-/// What stands in for a part's mesh (PlacedMesh::reshaped).
+/// Mesh that stands in for a part's mesh (PlacedMesh::reshaped).
 struct ReshapedSurface {
   FrameData vertices, indices;
   std::vector<scene::MeshPart> parts;
@@ -30,10 +30,10 @@ struct DynamicSurfaces {
   std::map<const scene::SurfaceMesh*, ReshapedSurface> reshaped;
 };
 
-/// Of the instant's loose meshes, and of those that stand in for its participants' parts.
+/// Uploads the instant's loose meshes, and those that stand in for its participants' parts.
 DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, const Instant& instant);
 
-/// Adds what is wanted to a view's or cascade's draws, and its records to theirs.
+/// Adds the surfaces that `keep` accepts to a view's or cascade's draws, and their records to `records`.
 void append_dynamic(const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of,
                     std::vector<SurfaceDraw>& list, std::vector<InstanceRecord>& records);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The graph of one frame together with the images that its resources are (graph/render_graph.hpp knows no image).
+/// Graph of one frame together with the images of its resources (graph/render_graph.hpp knows no image).
 
 #include <functional>
 #include <string>
@@ -13,22 +13,23 @@ namespace septet::render {
 
 class FrameGraph {
  public:
-  /// `access`: how the last frame left the image; once this one is recorded, how it does. Both outlive `record`.
+  /// Adds an image. `access`: its last access in the frame before; recording sets it to the last access of this frame.
+  /// Image and `access` outlive `record`.
   ResourceId add_image(std::string name, const vulkan::DeviceImage& image, Access& access);
-  /// The window's image, whose contents are not kept from frame to frame.
+  /// Adds the window's image, whose contents are not kept from frame to frame.
   ResourceId add_window(VkImage image);
   void add_pass(std::string name, PassUses uses, std::function<void()> record) {
     graph_.add_pass(std::move(name), std::move(uses), std::move(record));
   }
   void keep(ResourceId resource, Access access) { graph_.keep(resource, access); }
 
-  /// Passes and the barriers between them.
+  /// Records passes and the barriers between them.
   void record(VkCommandBuffer commands);
 
  private:
   RenderGraph graph_;
-  std::vector<vulkan::ImageBarrier> images_;  ///< By resource.
-  std::vector<Access*> accesses_;             ///< Likewise; none for the window.
+  std::vector<vulkan::ImageBarrier> images_;  ///< Indexed by resource.
+  std::vector<Access*> accesses_;             ///< Indexed by resource; null for the window.
 };
 
 }  // namespace septet::render

@@ -116,7 +116,7 @@ void upload_texels(PassContext& context, const vulkan::DeviceImage& image, std::
 
 namespace {
 
-/// Waits, and copies an image of one sample a pixel, which is a transfer source; `before` is recorded first.
+/// Waits for the device, and copies an image of one sample a pixel, a transfer source; `before` is recorded first.
 void read_image(const vulkan::DeviceImage& image, const vulkan::Device& device, vulkan::MemoryPool& memory,
                 std::span<std::byte> texels, const std::function<void(VkCommandBuffer)>& before) {
   struct Owned {

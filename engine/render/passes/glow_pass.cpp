@@ -30,19 +30,19 @@ void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device) {
 namespace {
 
 constexpr float lens_radius_m = 0.09f;
-/// Nearer than this the lens itself is seen, and the glow around it gives the eye no more light than it gave from there.
+/// Distance below which the lens itself is visible, and the glow around it gives the eye no more light than from there.
 constexpr float lens_seen_m = 50.0f;
-/// The integral of what shaders/glow.frag makes of a glow of radius 1 and radiance 1 in its middle.
+/// Integral of the profile in shaders/glow.frag over a glow of radius 1 and radiance 1 in its middle.
 constexpr float glow_integral = 0.133f;
 
-/// How many times the dipped beam's light goes this way (unit, from the lamp) with the main beam beside it.
+/// Ratio of the light in this direction (unit, from the lamp) with the main beam on to that of the dipped beam alone.
 float main_beam_times(const LampGlow& glow, const glm::vec3& way) {
   if (!glow.beam || glow.main_beam <= 0.0f) return 1.0f;
   return std::max(1.0f, light::beam_share(glow.facing, way, glow.main_beam, 1.0f) /
                             std::max(light::dipped_share(glow.facing, way, 1.0f), 1e-6f));
 }
 
-/// The glow of a lamp, whatever lies between it and the eye; black where it faces away.
+/// Glow of a lamp, without obstacles between it and the eye; black if the lamp faces away.
 struct Shine {
   glm::vec3 radiance{0.0f};
   float radius_m = 0.0f;
@@ -54,19 +54,20 @@ Shine shine(const LampGlow& glow, const glm::vec3& toward_eye, float exposure, f
   const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
   const float cosine = around ? 1.0f : glm::dot(glow.facing, toward_eye);
   float turned = std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
-  // Off the beam's axis a headlamp has less to glare with.
+  // A headlamp glares less off the beam's axis.
   if (glow.beam) turned *= 0.4f + 0.6f * std::exp(-12.0f * (1.0f - cosine * cosine));
   const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
-  // By night the core is whiter than the halo: an eye (and a camera) saturates there.
+  // By night the core is whiter than the halo: eyes (and cameras) saturate there.
   const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f * dark);
-  // By day a lamp is hardly more than its lens, a tail lamp the least of all; a beacon is made to be seen.
+  // By day a lamp is hardly more than its lens, a tail lamp the least of all; beacons are made to be seen.
   const float by_day = glow.beam ? 0.7f : std::min(1.3f, std::sqrt(brightest / 3.5f));
   const float strength = around ? 3.2f + 0.4f * dark : glm::mix(by_day, glow.beam ? 4.0f : 3.0f, dark);
-  // To 80 times the dipped beam's light: nine times the radiance, 1.7 times as wide, for more would hide the car and the road beside it.
+  // Limit: 80 times the dipped beam's light, which gives nine times the radiance, 1.7 times as wide; more would hide
+  // the car and the road beside it.
   const float brighter = std::pow(std::min(main_beam_times(glow, toward_eye), 80.0f), 0.25f),
               wider = std::sqrt(brighter);
   const glm::vec3 brightness = hue * (turned * strength * brighter * std::min(1.0f, distance_m / lens_seen_m));
-  // As it looks: about the root of light, 1 white.
+  // Brightness as it appears: about the root of light, 1 is white.
   return {brightness * brightness / exposure,
           glow.radius_m * wider * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark)};
 }
@@ -94,7 +95,7 @@ std::vector<WetLampRecord> wet_lamp_records(std::span<const LampGlow> glows, con
   constexpr float pi = 3.14159265f;
   std::vector<WetLampRecord> records;
   if (wetness <= 0.0f) return records;
-  // The mirror image of what stands over the road holds the lens already, as sharply as film and puddles show it.
+  // The mirror image of objects over the road shows the lens already, as sharply as film and puddles do.
   const float sharp = !lenses_mirrored ? 0.0f : light::water_covers(wetness, light::puddle_share(wetness));
   for (const LampGlow& glow : glows) {
     const glm::vec3 relative(glow.position_m - eye_m);

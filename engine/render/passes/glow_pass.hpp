@@ -1,5 +1,5 @@
 #pragma once
-/// Draws the glow around lamps: squares that face the viewer, added to the picture.
+/// Glow around lamps: squares that face the viewer, added to the picture.
 
 #include <functional>
 #include <span>
@@ -22,15 +22,17 @@ void create_glow_pass(GlowPass& pass, const vulkan::Device& device, const vulkan
                       const TargetFormats& formats);
 void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device);
 
-/// Those of the lamps that face the eye; larger and brighter in the dark. Light scattered in the eye, as bright as it looks beside
-/// what the eye has adapted to (`exposure`). From 50 m on, where a lens is hardly seen itself, it falls with the square of
-/// the distance; nearer it stays as it is there.
-/// `share`: of each lamp's light that reaches the eye, through smoke.
+/// Glows of the lamps that face the eye; larger and brighter in the dark. The glow is light scattered in the eye, as
+/// bright as it appears relative to the adaptation (`exposure`). Beyond 50 m, where a lens is hardly visible itself,
+/// its illuminance at the eye falls with the square of the distance; nearer it stays as at 50 m.
+///
+/// `share`: fraction of each lamp's light that reaches the eye through smoke.
 std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure,
                                      const std::function<float(const Vec3& lamp_m)>& share);
 
-/// Lamps that a road of this wetness mirrors: of the light with which lens and glow are seen what water sends on, less what the mirror image
-/// of the road (road_mirror_pass.hpp) shows of the lens, if there is one; none on a dry one.
+/// Mirror images of lamps on a road of this wetness; empty on a dry road. Their light is the reflected light of lens
+/// and glow, less that of the lens where the road's mirror image (road_mirror_pass.hpp) already shows it
+/// (`lenses_mirrored`).
 std::vector<WetLampRecord> wet_lamp_records(std::span<const LampGlow> glows, const Vec3& eye_m, float wetness,
                                             float exposure, float emission_share, bool lenses_mirrored);
 

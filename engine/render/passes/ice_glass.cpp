@@ -11,7 +11,7 @@
 namespace septet::render {
 namespace {
 
-/// Blended over what the view holds, which is not refracted by a sheet this thin.
+/// Pipeline that blends over the view's contents; a sheet this thin does not refract them.
 VkPipeline glass_pipeline(IcePass& pass, PassContext& context, ice::OnGlass what) {
   VkPipeline& pipeline = pass.glass[what == ice::OnGlass::frost ? 0 : 1];
   if (pipeline) return pipeline;

@@ -35,7 +35,7 @@ void draw_vertices(PassContext& context, const FrameData& vertices, std::uint32_
   ++context.statistics.draws;
 }
 
-/// `peel` and `followed` as in shaders/ice_layer.frag.
+/// Pipeline of a layer; `peel` and `followed` as in shaders/ice_layer.frag.
 VkPipeline layer_pipeline(IcePass& pass, PassContext& context, std::uint32_t peel, bool followed) {
   VkPipeline& pipeline = pass.layers[2 * peel + std::uint32_t{followed}];
   if (pipeline) return pipeline;
@@ -50,7 +50,7 @@ VkPipeline layer_pipeline(IcePass& pass, PassContext& context, std::uint32_t pee
   return pipeline = create_pipeline(context.device, context.layout, description);
 }
 
-/// Nearer than the back face, over its normal; its depth, the fourth number, stays.
+/// Pipeline of cracks nearer than the back face, drawn over its normal; its depth, the fourth number, stays.
 VkPipeline crack_pipeline(IcePass& pass, PassContext& context) {
   if (pass.cracks) return pass.cracks;
   vulkan::PipelineDescription description;
@@ -64,7 +64,7 @@ VkPipeline crack_pipeline(IcePass& pass, PassContext& context) {
   return pass.cracks = create_pipeline(context.device, context.layout, description);
 }
 
-/// `kind` as in shaders/ice_inside.frag.
+/// Pipeline of the inside; `kind` as in shaders/ice_inside.frag.
 VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality, std::uint32_t kind) {
   VkPipeline& pipeline = pass.insides[std::uint32_t{quality} | kind << 1];
   if (pipeline) return pipeline;
@@ -129,7 +129,7 @@ void begin_layer(PassContext& context, const IceTargets& targets, IceImage layer
   vkCmdSetFrontFace(context.slot.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
-/// `coarser`: pixels of the other layers that a pixel of this one is wide.
+/// Begins a body's rectangle. `coarser`: width of a pixel of this layer in pixels of the other layers.
 void begin_tile(PassContext& context, const IceTile& tile, std::int32_t coarser = 1) {
   const auto& [x, y, width, height] = tile.rectangle;
   const std::int32_t left = x / coarser, top = y / coarser;
@@ -288,7 +288,7 @@ void draw_ice_layer(IcePass& pass, PassContext& context, IceImage layer, const I
   begin_layer(context, pass.targets, layer, tiles);
   push_view(context, bindings);
   if (layer != IceImage::front) push_layer(context, vulkan::binding_ice_front, pass.targets[IceImage::front].view);
-  // Of one shader's bindings each layer reads those that it needs; something must be bound to all.
+  // Each layer reads some of the shader's bindings; all of them must be bound.
   for (const std::uint32_t unused : {vulkan::binding_ice_back, vulkan::binding_ice_beyond})
     push_layer(context, unused, bindings.noise);
   switch (layer) {

@@ -1,12 +1,14 @@
 #pragma once
 /// Ice, after Seipel and Nivfors (2006): three passes into layers, whatever the number of cracks, then the front faces.
 ///
-/// 1. Front faces: normals and depth. 2. Back faces: normals and depth (figure 5 a, b); in quality mode cracks bend the normals.
-/// Where a body is looked through to what of ice lies behind it: the same two of what begins behind those back faces.
-/// 3. Cracks and air, clipped between the two (figure 5 d). 4. In the view, after the sky: front faces that put together what
-/// is seen through both faces, what is inside and what is mirrored. What lies around comes from cube maps that are drawn
-/// anew each frame, one from the middle of ice that lies together. Deviations: a rectangle a body (ice_tiles.hpp) instead of textures of 512²;
-/// world-space normals of the front face, too; all in linear light.
+/// 1. Front faces: normals and depth. 2. Back faces: normals and depth (figure 5 a, b); in quality mode cracks bend the
+/// normals. Two more layers, of the front and back faces beyond those back faces, for a body through which other ice is
+/// seen. 3. Cracks and air, clipped between the two (figure 5 d). 4. In the view, after the sky: front faces that
+/// combine the light through both faces, the inside and the reflection. Surroundings come from cube maps, one from the
+/// middle of each group of neighbouring bodies, drawn anew each frame unless Instant::ice_surroundings_kept.
+///
+/// Deviations: a rectangle a body (ice_tiles.hpp) instead of textures of 512²; world-space normals of the front face,
+/// too; all in linear light.
 
 #include <array>
 #include <cstddef>
@@ -21,7 +23,8 @@
 
 namespace septet::render {
 
-/// Images of the layers and the surroundings; made when ice is first seen, those of what is beyond when that is.
+/// Images of the layers and the surroundings; created when ice is first seen, the layers beyond when they are first
+/// needed.
 enum class IceImage : std::uint8_t {
   front,
   back,
@@ -31,7 +34,7 @@ enum class IceImage : std::uint8_t {
   depth,
   around,
   around_depth,
-  cube,  ///< Of the first surroundings; those of the others follow.
+  cube,  ///< Cube map of the first surroundings; those of the others follow.
 };
 inline constexpr std::size_t ice_image_count = std::size_t(IceImage::cube) + most_neighbourhoods;
 constexpr IceImage cube_of(std::uint32_t around) { return IceImage(std::uint32_t(IceImage::cube) + around); }
@@ -46,51 +49,52 @@ struct IceTargets {
 
 struct IcePass {
   IceTargets targets;
-  std::map<std::uint32_t, VkPipeline> fronts, insides;  ///< By variant.
-  std::array<VkPipeline, 6> layers{};                   ///< By variant.
+  std::map<std::uint32_t, VkPipeline> fronts, insides;  ///< Indexed by variant.
+  std::array<VkPipeline, 6> layers{};                   ///< Indexed by variant.
   VkPipeline cracks = VK_NULL_HANDLE;
-  std::array<VkPipeline, 2> glass{};  ///< Of frost and of cracks on it.
+  std::array<VkPipeline, 2> glass{};  ///< Pipelines for frost, and for cracks on glass.
 };
 
-/// What of a frame's ice is on the device.
+/// Vertices of a frame's ice on the device.
 struct IceUpload {
   struct Vertices {
     FrameData surface, inside;
     std::uint32_t surface_count = 0, inside_count = 0;
-    std::uint32_t first_air = 0;  ///< From where on there is nothing but air.
-    bool mixed = false;           ///< Air before that, too.
+    std::uint32_t first_air = 0;  ///< Index of the first of the trailing vertices that are air alone.
+    bool mixed = false;           ///< True if there is air before first_air, too.
   };
   std::vector<Vertices> bodies;  ///< One a body.
 };
 
 IceUpload upload_ice(PassContext& context, std::span<const ice::IceBody> bodies);
 
-/// Sizes of the layers, even, and of the surroundings; how many of these; whether there are layers of what is beyond.
+/// Sizes of the layers (even) and of the surroundings, number of surroundings, and presence of the layers beyond.
 struct IceTargetSizes {
   std::uint32_t width = 0, height = 0, surroundings_px = 0, surroundings = 1;
   bool beyond = false;
 };
-/// Makes the images, or makes them anew. No frame that uses them is in flight where they change.
+/// Creates the images, or recreates them for other sizes. No frame that uses them may be in flight then.
 void prepare_ice_targets(IcePass& pass, PassContext& context, const IceTargetSizes& sizes);
-/// Whether that would change nothing.
+/// True if prepare_ice_targets would change nothing.
 bool ice_targets_fit(const IcePass& pass, const IceTargetSizes& sizes);
 void destroy_ice_pass(IcePass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
 
-/// One of the passes, into `layer`, which is front, back, beyond, beyond_back or inside; `bindings` are those of any view: light is the same in all.
+/// Draws one of the layers, front, back, beyond, beyond_back or inside; `bindings`: those of any view, since light is
+/// the same in all.
 void draw_ice_layer(IcePass& pass, PassContext& context, IceImage layer, const IceTiles& tiles,
                     std::span<const ice::IceBody> bodies, const IceUpload& upload, const ViewBindings& bindings);
-/// Into the view that is being drawn, which has this index.
+/// Draws ice into the current view; `view`: its index.
 void draw_ice(IcePass& pass, PassContext& context, const IceTiles& tiles, std::uint32_t view,
               std::span<const ice::IceBody> bodies, const IceUpload& upload);
 
-/// Frost and cracks on panes, over what the view shows so far (ice_glass.cpp); `near`: those within arm's reach of the eye, which
-/// are drawn after all else, or the others.
+/// Draws frost and cracks on panes over the current view (ice_glass.cpp). `near`: panes within arm's reach of the eye,
+/// which are drawn last; else the others.
 void draw_glass(IcePass& pass, PassContext& context, std::span<const ice::IceBody> bodies,
                 std::span<const FrameData> vertices, const Vec3& eye_m, bool near);
-/// The vertices of each body, for this frame.
+/// Uploads the vertices of each body, for this frame.
 std::vector<FrameData> upload_glass(PassContext& context, std::span<const ice::IceBody> bodies);
 
-/// From the six pictures side by side to one of the cube maps.
+/// Copies the six pictures side by side into one of the cube maps.
 void copy_surroundings(const IcePass& pass, PassContext& context, IceImage cube);
 
 }  // namespace septet::render

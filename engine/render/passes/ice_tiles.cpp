@@ -16,13 +16,13 @@
 namespace septet::render {
 namespace {
 
-/// Rim of a rectangle, so that what is sampled between texels stays inside.
+/// Rim of a rectangle, which keeps samples between texels inside.
 constexpr float rim_px = 2.0f;
-/// Of a body that surrounds the eye, this much is covered: 150° across.
+/// Limit of the frustum for a body around the eye: 150° across.
 constexpr float widest_slope = 3.7f;
 constexpr float nearest_m = 0.05f;
 
-/// A body as its frustum sees it.
+/// Body as its frustum sees it.
 struct Seen {
   std::uint32_t body = 0, view = 0;
   glm::vec3 origin{0.0f}, right{0.0f}, up{0.0f}, forward{0.0f};
@@ -71,7 +71,7 @@ float waves_per_m(const ice::Look& look) {
   return 2.0f * std::numbers::pi_v<float> / std::max(look.bump_size_m, 1e-3f);
 }
 
-/// Of what water leaves of it: a film fills crystals wholly, waves by half.
+/// Bump that water leaves: a film fills crystals wholly, waves by half.
 float drawn_bump(const ice::Look& look) { return look.bump * (1.0f - 0.5f * std::clamp(look.wetness, 0.0f, 1.0f)); }
 
 float drawn_frost(const ice::Look& look) { return look.roughness * (1.0f - std::clamp(look.wetness, 0.0f, 1.0f)); }
@@ -110,7 +110,7 @@ IceTile tile_of(const Seen& seen, const ice::IceBody& body, std::uint32_t x, std
   return tile;
 }
 
-/// `further`: tiles of bodies that lie further away, the nearest last.
+/// Finds the bodies beyond a tile's body. `further`: tiles of bodies that lie further away, the nearest last.
 void find_beyond(IceTile& tile, std::span<const IceTile> further) {
   const glm::vec3 at(tile.constants.origin), forward(tile.constants.forward);
   const float extent_m = tile.constants.absorption.w, middle_m = tile.constants.forward.w;
@@ -195,7 +195,7 @@ IceTiles ice_tiles(std::span<const ice::IceBody> bodies, std::span<const FrameVi
 }
 
 IceNeighbourhoods ice_neighbourhoods(std::span<const ice::IceBody> bodies, const Vec3& eye_m) {
-  // One reaches as far as what it mirrors hardly changes: some metres, and more from afar.
+  // Radius of a group, over which the reflection hardly changes: some metres, and more from afar.
   constexpr double reach_m = 3.0, reach_per_m = 0.1;
   IceNeighbourhoods result;
   std::vector<std::pair<double, std::uint32_t>> by_size;
@@ -225,7 +225,7 @@ IceNeighbourhoods ice_neighbourhoods(std::span<const ice::IceBody> bodies, const
   for (const ice::IceBody& body : bodies) {
     const std::uint32_t of = nearest(body.origin_m);
     result.of_body.push_back(of);
-    // An eye at the height of a sheet would look into the road under it.
+    // Raised for thin sheets: an eye at the height of a sheet would look into the road under it.
     const Vec3 away = body.origin_m - eye_m + Vec3(0.0, 0.0, body.look.thin ? 0.3 : 0.0);
     const double square = std::max(1.0, glm::dot(away, away)), weight = 1.0 / (square * square);
     sums[of] += weight * away;

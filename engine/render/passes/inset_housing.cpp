@@ -14,8 +14,8 @@ namespace {
 
 using light::QuadConstants;
 
-/// Of the picture's lesser side: radius of its corners, and width of the frame, which covers what lies beyond them
-/// (at least √2 − 1 of the radius).
+/// Shares of the picture's lesser side: radius of its corners, and width of the frame, which covers the picture beyond
+/// the rounded corners (at least √2 − 1 of the radius).
 constexpr float corner_share = 0.17f, frame_share = 0.085f;
 
 /// Dull black in the light that falls into a cabin, as the display shows it.
@@ -25,7 +25,7 @@ glm::vec3 housing_code(const instant::Instant& instant) {
   return light::display_code(irradiance * (albedo / light::pi * instant.exposure.scale()));
 }
 
-/// Pixels to the record of a quad.
+/// Converts pixels to the records of quads.
 class HousingDrawing {
  public:
   HousingDrawing(std::uint32_t width, std::uint32_t height, const glm::vec3& code)
@@ -62,7 +62,7 @@ std::vector<QuadConstants> inset_housings(const instant::Instant& instant, std::
     const float lesser = std::min(high.x - low.x, high.y - low.y), frame = std::round(frame_share * lesser);
     if (frame < 1.0f) continue;
     const glm::vec2 outer_low = low - frame, outer_high = high + frame;
-    // A foot from where the frame's side is straight to an edge of the screen no further away than the mirror is high.
+    // Foot from the straight part of the frame's side to an edge of the screen no further away than the mirror is high.
     const glm::vec2 middle = 0.5f * (low + high), foot = 0.16f * (high - low);
     if (outer_low.y > 0.0f && low.y < lesser && middle.y < 0.5f * size.y)
       drawing.bar({middle.x - 0.5f * foot.x, 0.0f}, {middle.x + 0.5f * foot.x, low.y - 0.5f * frame});

@@ -1,6 +1,6 @@
 #pragma once
-/// The housing of a mirror whose picture lies over another view: a frame with rounded edges, and its foot on the edge of
-/// the screen that it is near. Drawn over the finished picture, with the text.
+/// Housing of a mirror whose picture lies over another view: a frame with rounded edges, and its foot on the nearest
+/// edge of the screen. It is drawn over the finished picture, with the text.
 
 #include <cstdint>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace septet::render {
 
-/// Of all views of the instant that are housed, for a target of that size in pixels; none of one too small to have an
-/// edge.
+/// Housings of all views of the instant that have one, for a target of that size in pixels; mirrors too small for a
+/// frame get no housing.
 std::vector<light::QuadConstants> inset_housings(const instant::Instant& instant, std::uint32_t width,
                                                  std::uint32_t height);
 

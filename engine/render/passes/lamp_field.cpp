@@ -12,7 +12,7 @@
 namespace septet::render {
 namespace {
 
-constexpr double reach = 4.5;  ///< Of a lamp, in its heights.
+constexpr double reach = 4.5;  ///< Reach of a lamp, in its heights.
 
 float luminance(const glm::vec3& color) { return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
@@ -31,14 +31,15 @@ void add_lamp(LampField& field, const StandingLamp& lamp) {
       const glm::vec2 way = (at - glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)) *
                             static_cast<float>(LampField::texel_m);
       const float level = glm::dot(way, way), window = 1.0f - level / (reach_m * reach_m);
-      // `way` points to the lamp. What lies at a wall is filtered from a texel behind it, too.
+      // `way` points to the lamp. Texels up to one behind a wall are lit, too, since a texel at the wall is filtered
+      // with them.
       constexpr auto behind_m = static_cast<float>(LampField::texel_m);
       if (window <= 0.0f || glm::dot(lamp.walls[0].way, way) < -lamp.walls[0].distance_m - behind_m ||
           glm::dot(lamp.walls[1].way, way) < -lamp.walls[1].distance_m - behind_m)
         continue;
       const float square = level + height * height, distance = std::sqrt(square);
       const float cosine = height / distance, spread = lamp.roofed ? cosine : street_lamp::spread(cosine);
-      // A street lamp's light is as planned where it counts, and ends where it does not.
+      // A street lamp's light is as planned over most of its reach, and falls to zero at its end.
       const float arriving =
           candela * spread / square * (lamp.roofed ? window : 1.0f - (1.0f - window) * (1.0f - window));
       glm::vec4& texel = field.texels[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];

@@ -19,7 +19,8 @@ struct NearLight {
   float intensity, main_beam;
 };
 
-/// The most that a lamp sends to any place of a square: it lies no nearer and no less aside of the beam than the circle around it.
+/// True if the most light that a lamp may send to any place of a square reaches the lower bound: the place is taken no
+/// nearer and no further off the beam's axis than the circle around the square allows.
 bool may_reach(const NearLight& light, const glm::vec2& middle_m) {
   constexpr float around_m = 0.7072f * LightClusters::square_m;
   const glm::vec2 way = middle_m - glm::vec2(light.place_m), ahead = glm::vec2(light.direction);
@@ -27,12 +28,12 @@ bool may_reach(const NearLight& light, const glm::vec2& middle_m) {
   if (distance_m < 1.5f * around_m) return true;
   const float nearest_m = distance_m - around_m;
   const float level = glm::length(ahead);
-  if (level < 0.5f) return true;  // It points up or down: such a car has turned over.
+  if (level < 0.5f) return true;  // The lamp points up or down: its car has turned over.
   const float angle = std::acos(std::clamp(glm::dot(way, ahead) / (distance_m * level), -1.0f, 1.0f)) -
                       std::asin(std::min(1.0f, around_m / distance_m));
   if (angle > 1.57f) return false;
-  // A beam's share falls aside of it as 1/(1 + 59·tan²) (engine/light/beam.hpp); a slope of the road tilts it a little. The main
-  // beam falls more steeply.
+  // A beam's share falls off its axis as 1/(1 + 59·tan²) (engine/light/beam.hpp); a slope of the road tilts it a
+  // little. The main beam falls more steeply.
   const float aside = std::tan(std::max(0.0f, angle - 0.05f));
   return light.intensity * (1.0f + light::main_beam_peak * light.main_beam) /
              ((1.0f + 59.0f * aside * aside) * (nearest_m * nearest_m + 1.0f)) >=

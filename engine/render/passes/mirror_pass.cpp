@@ -54,7 +54,7 @@ bool mirrors_fit(const MirrorPass& pass, std::span<const MirrorGlass> mirrors) {
 
 void prepare_mirror_targets(MirrorPass& pass, vulkan::MemoryPool& memory, const TargetFormats& formats,
                             std::span<const MirrorGlass> mirrors) {
-  // A head that moves makes them a little larger and smaller all the time.
+  // Room to spare: the pictures change a little in size with every movement of the head.
   const VkExtent2D needed = extent_of(mirrors);
   const auto with_room = [](std::uint32_t px, std::uint32_t held_px) {
     return std::max(held_px, (px + px / 8 + 63) / 64 * 64);

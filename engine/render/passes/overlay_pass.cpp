@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t atlas_width = 1024, atlas_height = 512;
 constexpr std::uint32_t padding = 2;
-constexpr double em_per_line = 0.78;  // Size of the letters to the height of the line's box.
+constexpr double em_per_line = 0.78;  // Ratio of the letters' size to the height of the line's box.
 
 using light::QuadConstants;
 
@@ -58,7 +58,7 @@ void clear(OverlayPass& pass) {
   pass.shelf_x = pass.shelf_y = pass.shelf_height = 0;
 }
 
-/// False where the atlas has no room left for it.
+/// Adds a line; false if the atlas has no room left for it.
 bool add_line(OverlayPass& pass, const OverlayText& text) {
   const double size_px = text.height_px * em_per_line;
   OverlayPass::Line line{.text = text.text, .height_px = text.height_px};
@@ -86,7 +86,7 @@ bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts, bool any_
   const auto is_new = [&](const OverlayText& text) { return !find_line(pass, text).has_value(); };
   if (std::ranges::none_of(texts, is_new)) {
     if (!any_below || !pass.pixels.rgba.empty()) return false;
-    clear(pass);  // It is bound, so it has been written once.
+    clear(pass);  // The atlas is bound, so it must have been written once.
     return true;
   }
   if (pass.lines.empty()) clear(pass);
@@ -94,10 +94,11 @@ bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts, bool any_
     return std::ranges::all_of(texts, [&](const OverlayText& text) { return !is_new(text) || add_line(pass, text); });
   };
   if (add_new()) return true;
-  // Full of texts that nobody shows any more.
+  // The atlas is full of texts that are no longer shown.
   clear(pass);
   if (add_new()) return true;
-  for (const OverlayText& text : texts)  // What finds no room even so is known, and empty.
+  // Texts that still find no room are noted as known, and empty.
+  for (const OverlayText& text : texts)
     if (is_new(text)) pass.lines.push_back({.text = text.text, .height_px = text.height_px});
   return true;
 }

@@ -64,7 +64,7 @@ FrameData store(PassContext& context, std::span<const std::byte> bytes) {
 
 void push_view(PassContext& context, const ViewBindings& bindings) {
   const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
-  // Without an image of its own a material still needs something bound: the noise.
+  // A null view is replaced by the noise, since every binding must be bound.
   const auto or_noise = [&](VkImageView view) { return view ? view : bindings.noise; };
   const VkDescriptorImageInfo images[10] = {
       {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},

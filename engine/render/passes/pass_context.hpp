@@ -1,5 +1,5 @@
 #pragma once
-/// What every pass needs to record itself, and the few calls that they share.
+/// Context that every pass needs to record itself, and the few calls that passes share.
 
 #include <cstdint>
 #include <span>
@@ -16,28 +16,31 @@ namespace septet::render {
 
 struct Samplers {
   VkSampler surface = VK_NULL_HANDLE;  ///< Repeats; trilinear, bilinear in the nearest level on a software device.
-  VkSampler road = VK_NULL_HANDLE;     ///< Repeats, trilinear and anisotropic: markings stay sharp at grazing angles.
-  bool anisotropic = false;            ///< False on a software device, where shaders do it at a tenth of the cost.
-  VkSampler table = VK_NULL_HANDLE;    ///< Clamps, bilinear.
-  VkSampler shadow = VK_NULL_HANDLE;   ///< Compares: 1 where nothing is nearer to the light.
-  VkSampler texel = VK_NULL_HANDLE;    ///< Clamps, one texel: of depths no device has to blend.
+  /// Repeats; trilinear and anisotropic on a graphics card: markings stay sharp at grazing angles.
+  VkSampler road = VK_NULL_HANDLE;
+  bool anisotropic = false;           ///< False on a software device, where shaders do it at a tenth of the cost.
+  VkSampler table = VK_NULL_HANDLE;   ///< Clamps, bilinear.
+  VkSampler shadow = VK_NULL_HANDLE;  ///< Compares: 1 where nothing is nearer to the light.
+  VkSampler texel = VK_NULL_HANDLE;   ///< Clamps, nearest texel: for depths, which a device need not filter.
 };
 
 void create_samplers(Samplers& samplers, const vulkan::Device& device);
 void destroy_samplers(Samplers& samplers, const vulkan::Device& device);
 
 struct TargetFormats {
-  /// Linear radiance in the units of instant/atmosphere.hpp, before exposure. Half floats reach from starlight to the sun's disc.
+  /// Linear radiance in the units of instant/atmosphere.hpp, before exposure. Half floats reach from starlight to the
+  /// sun's disc.
   VkFormat radiance = VK_FORMAT_R16G16B16A16_SFLOAT;
-  VkFormat picture =
-      VK_FORMAT_R8G8B8A8_UNORM;  ///< Holds sRGB codes: the tone curve encodes, at no cost (engine/light/tone_curve.hpp).
+  /// sRGB codes: the tone curve encodes, at no cost (engine/light/tone_curve.hpp).
+  VkFormat picture = VK_FORMAT_R8G8B8A8_UNORM;
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
-  bool marks =
-      false;  ///< The radiance's alpha tells what its pixel has of what does not stand still (passes/temporal_pass.hpp).
+  /// True if the radiance's alpha marks moving surfaces (passes/temporal_pass.hpp).
+  bool marks = false;
 };
 
-/// What a graphics card draws beyond the software device, and that one where it is asked to; nothing of it differs in what a driver acts on.
+/// Effects for graphics cards, which a software device draws only on request; nothing that a driver acts on depends on
+/// them.
 struct Refinements {
   bool soft_shadows = false;
   bool clustered_headlights = false;
@@ -54,7 +57,7 @@ struct PassContext {
   Refinements refinements;
 };
 
-/// What was recorded since the last mark was this pass (a literal): its time is told where frames are timed.
+/// Attributes the commands recorded since the last mark to this pass (a literal), for the statistics of timed frames.
 void mark_pass(PassContext& context, std::string_view name);
 
 /// Bytes that were copied into the frame's arena.
@@ -70,21 +73,21 @@ FrameData store(PassContext& context, std::span<const T> values) {
   return store(context, std::as_bytes(values));
 }
 
-/// What is bound for a whole view.
+/// Resources bound for a whole view.
 struct ViewBindings {
   FrameData uniforms;
   VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE,
               lamp_field = VK_NULL_HANDLE;
-  FrameData light_clusters;  ///< None: the uniforms take their place, unread.
-  /// None: the noise takes their place, unread.
+  FrameData light_clusters;  ///< Empty: the uniforms are bound in its place, unread.
+  /// Null: the noise is bound in their place, unread.
   VkImageView road_mirror = VK_NULL_HANDLE, road_mirror_spread = VK_NULL_HANDLE, road_mirror_depth = VK_NULL_HANDLE,
               ripples = VK_NULL_HANDLE;
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);
-/// What the shaders that follow read as binding_records.
+/// Binds the records that the following shaders read as binding_records.
 void push_records(PassContext& context, const FrameData& records);
-/// What is drawn many times: InstanceRecords for the pipelines that take them.
+/// Binds the InstanceRecords for the pipelines that take them.
 void bind_instances(PassContext& context, const FrameData& records);
 void push_image(PassContext& context, VkImageView view, VkSampler sampler,
                 std::uint32_t binding = vulkan::binding_image);

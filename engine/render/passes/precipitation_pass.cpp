@@ -18,7 +18,7 @@ namespace {
 constexpr double box_m = 12.0, shutter_s = 1.0 / 60.0, freezing_rain_k = 274.65;
 constexpr double most_streaks = 1500.0;
 
-/// The rain or snow does not fall through the roof of the car whose driver looks.
+/// True inside the driver's own car, where neither rain nor snow falls.
 bool in_car(const Vec3& car_m) { return car_m.x > -1.4 && car_m.x < 4.2 && std::abs(car_m.y) < 1.05 && car_m.z < 1.6; }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #pragma once
-/// Rain and snow that falls near the eye: each drop is the streak that it draws in a sixtieth of a second, relative to the eye.
+/// Rain and snow near the eye: each drop is drawn as its streak of a sixtieth of a second, relative to the eye.
 ///
-/// Drops stand in a box of 12 m that repeats; so the same drop is seen on all screens and from frame to frame. Sizes are spread evenly over 1 to 3 mm,
-/// speeds are Gunn and Kinzer's (Atlas's fit, 1973). A streak hides what its drop hides of it: D/(v·T), half a per cent at 25 m/s, drawn
-/// fortyfold (a flake tenfold), as one drop of some hundreds is drawn (Marshall and Palmer: 250 above 1 mm in a cubic metre at 10 mm/h, 0.9
-/// here); what lies further off is in the visibility. A drop gathers light from all around (Garg and Nayar 2006):
-/// it is as bright as sky and ground in the mean.
+/// Drops stand in a box of 12 m that repeats, so that the same drop is seen on all screens and from frame to frame.
+/// Sizes are spread evenly over 1 to 3 mm (flakes: 4 to 9 mm); speeds of drops are Gunn and Kinzer's (Atlas's fit,
+/// 1973). The opacity of a streak is the share D/(v·T) of the time that its drop covers a point, half a per cent at 25
+/// m/s, drawn fortyfold (a flake tenfold), since one drop stands for some hundreds (Marshall and Palmer: 250 above 1 mm
+/// in a cubic metre at 10 mm/h, 0.9 here). Precipitation farther away is part of the visibility. A drop gathers light
+/// from all around (Garg and Nayar 2006): its radiance is about the mean of sky and ground, with a share of the sun's
+/// light.
 
 #include <vector>
 
@@ -19,7 +21,7 @@ namespace septet::render {
 
 using light::StreakRecord;
 
-/// Those that a view may see; none where nothing falls. Below 274.65 K it falls as snow.
+/// Streaks that a view may see; empty without precipitation. Below 274.65 K it is snow.
 std::vector<StreakRecord> streak_records(const Instant& instant, const FrameView& view, const Vec3& eye_m);
 
 struct PrecipitationPass {

@@ -20,12 +20,12 @@
 namespace septet::render {
 namespace {
 
-/// Beyond this what stands still is no longer mirrored: the road is not that flat, and pixels are too small to tell.
+/// Ranges of mirrored objects: farther away the road is not flat enough, and pixels are too small to tell.
 constexpr float still_range_m = 120.0f, vehicle_range_m = 250.0f;
-/// Half the size and spread by the water, an image needs no more than what is drawn further off.
+/// Levels of detail: an image of half the size, spread by the water, needs only those of greater distances.
 constexpr DetailOf mirrored_detail{{0.0f, 3.0f}, {40.0f, 2.0f}};
 
-/// Deviation of the tilts of the film's facets along the way of the light, rad: of stones as rough as it is.
+/// Deviation of the tilts of the film's facets along the light's direction, rad, for stones of the film's roughness.
 constexpr float film_spread_rad = 0.7f * light::film_roughness * light::film_roughness;
 
 constexpr std::uint32_t half(std::uint32_t px) { return std::max(1u, (px + 1) / 2); }
@@ -95,7 +95,7 @@ PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& 
     const bool still = mesh.over_road_m <= 0.5f * PlacedMesh::unknown_road;
     const float distance_m = glm::length(centre_m);
     if (!mesh.seen || mesh.radius_m < least * distance_m) return false;
-    // What casts no shadow is ground.
+    // Static meshes without a shadow are ground.
     if (still && (!mesh.casts_shadow || distance_m - mesh.radius_m > still_range_m)) return false;
     if (distance_m - mesh.radius_m > vehicle_range_m) return false;
     const float plane = still ? road : glm::dot(up, centre_m - mesh.centre_m) - mesh.over_road_m;
@@ -125,7 +125,7 @@ void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceSc
                      formats,        context.slot,   context.statistics, context.refinements};
   begin_view_rendering(mirror, pass.image, pass.depth, 0.0f);
   set_viewport(mirror, halved(view.viewport));
-  // Upside down, front faces run the other way round.
+  // Front faces turn the other way round in an image upside down.
   vkCmdSetFrontFace(context.slot.commands, view.mirrored ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE);
   ViewBindings own = bindings;
   own.uniforms = prepared.uniforms;

@@ -1,11 +1,12 @@
 #pragma once
-/// What a wet road mirrors: vehicles and what stands beside the road, drawn upside down below it into a picture of half the size, and the
-/// rings of rain on its water.
+/// Mirror image in a wet road: vehicles and objects beside the road, drawn upside down below it into a picture of half
+/// the size, and the rings of rain on its water.
 ///
-/// Every vehicle is mirrored in the road that it stands on, what stands still in the plane of the road near the eye (Instant::road), no
-/// further than the road is about flat. The road's shader reads the picture where its pixels lie, shifted as its water is tilted
-/// (shaders/wet_road.glsl): puddles as it is, the film between them spread upwards and downwards as the stones below it are rough. Only a frame's
-/// first view has one: mirrors over it are small. Screens of a rig draw the same geometry, so that it meets at their edges.
+/// Each vehicle is mirrored in the road that it stands on, static objects in the plane of the road near the eye
+/// (Instant::road), only as far as the road is about flat. The road's shader reads the picture at its own pixels,
+/// shifted by the tilt of its water (shaders/wet_road.glsl): sharp in puddles, and on the film between them spread
+/// upwards and downwards by the roughness of the stones below it. Only a frame's first view has a mirror image: mirrors
+/// over it are small. Screens of a rig draw the same geometry, so that it meets at their edges.
 
 #include "engine/instant/instant.hpp"
 #include "engine/render/passes/lamp_field.hpp"
@@ -16,36 +17,36 @@ namespace septet::render {
 
 struct RoadMirrorPass {
   SurfacePass surfaces;                   ///< Pipelines for one sample a pixel.
-  VkPipeline spreading = VK_NULL_HANDLE;  ///< Made when first drawn.
+  VkPipeline spreading = VK_NULL_HANDLE;  ///< Created at first use.
   vulkan::DeviceImage image, depth, spread, ripples;
   Access image_access = Access::none, depth_access = Access::none, spread_access = Access::none,
          ripples_access = Access::none;
 };
 
-/// What it draws of a frame.
+/// Draws and uniforms of a frame's mirror image.
 struct PreparedRoadMirror {
   SurfaceDraws draws;
   FrameData uniforms, light_clusters;
   bool lit_by_headlights = false, lit_by_lamps = false;
 };
 
-/// Whether a frame has one.
+/// True if a frame has a mirror image in the road.
 bool road_mirrors(const Instant& instant);
-/// Whether its images are there for a target of this size.
+/// True if the images exist for a target of this size.
 bool road_mirror_fits(const RoadMirrorPass& pass, std::uint32_t width, std::uint32_t height);
-/// Makes them anew. No frame that uses them may be in flight.
+/// Creates the images anew. No frame that uses them may be in flight.
 void prepare_road_mirror_targets(RoadMirrorPass& pass, vulkan::MemoryPool& memory, const TargetFormats& formats,
                                  std::uint32_t width, std::uint32_t height);
 void destroy_road_mirror(RoadMirrorPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
 
-/// Of the first view.
+/// Prepares the mirror image of the first view.
 PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& scene, const Instant& instant,
                                        const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
                                        const LampField& lamps, std::uint32_t width, std::uint32_t height);
 void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceScene& scene,
                       const PreparedRoadMirror& prepared, const FrameView& view, const ViewBindings& bindings,
                       const FrameData& soot, const SurfaceLight& light);
-/// After it: the picture as the film of water shows it.
+/// Spreads the finished mirror image as the film of water shows it.
 void spread_road_mirror(RoadMirrorPass& pass, PassContext& context, const FrameView& view);
 void upload_ripples(const RoadMirrorPass& pass, PassContext& context, const Instant& instant);
 

@@ -7,9 +7,9 @@
 
 namespace septet::render::shaders {
 
-/// Of shaders/surface.frag.
+/// Specialization constant of shaders/surface.frag, as is two_sided_constant.
 inline constexpr std::size_t clustered_headlights_constant = 14;
-/// Of those that include shaders/sunlit.glsl.
+/// Specialization constant of shaders/sunlit.glsl, as is soft_shadows_constant.
 inline constexpr std::size_t unshaded_constant = 13;
 inline constexpr std::size_t two_sided_constant = 16;
 inline constexpr std::size_t soft_shadows_constant = 15;

@@ -1,8 +1,9 @@
 #pragma once
-/// Two orthographic views along the light around the eye: a fine one near it, a coarse one further out.
+/// Shadow cascades: two orthographic views along the light around the eye, a fine one near it, a coarse one further
+/// out.
 ///
-/// They depend on the eye and the light alone, not on where a screen looks, so that the shadows of neighbouring screens
-/// agree; and they move in whole texels over the world, so that still shadows do not crawl.
+/// They depend on the eye and the light alone, not on the direction of a screen, so that the shadows of neighbouring
+/// screens agree; and they move in whole texels over the world, so that static shadows do not crawl.
 
 #include <array>
 #include <cstdint>
@@ -21,11 +22,11 @@ inline constexpr std::uint32_t cascade_texels = 1024;
 
 struct Cascade {
   glm::vec3 right{0.0f}, up{0.0f}, to_light{0.0f};  ///< World axes of the light's view.
-  glm::vec2 middle_m{0.0f};                         ///< Along right and up, relative to the eye.
+  glm::vec2 middle_m{0.0f};                         ///< Centre along right and up, relative to the eye.
   float half_side_m = 1.0f;
   float half_depth_m = 1.0f;
   float texel_m = 1.0f;
-  glm::vec2 first_texel{0.0f};  ///< Number over the world of its corner's texel, modulo cascade_texels.
+  glm::vec2 first_texel{0.0f};  ///< Index over the world of its corner's texel, modulo cascade_texels.
 };
 
 struct ShadowCascades {
@@ -33,8 +34,9 @@ struct ShadowCascades {
   std::array<Cascade, cascade_count> cascades;
 };
 
-/// Whether its shadows can be seen; else nothing casts one and none is looked up (shaders/sunlit.glsl). A low sun behind clouds at dusk gives a
-/// wall that faces it 5 % of what the sky does and the road a quarter of a per cent; at noon it is 14 %.
+/// True if shadows of the light are visible; else no cascade is drawn or sampled (shaders/sunlit.glsl). A low sun
+/// behind clouds at dusk gives a wall that faces it 5 % of the sky's light, and the road a quarter of a per cent; at
+/// noon it is 14 %.
 inline bool casts_shadows(const instant::SkyLight& light) {
   return light.light_irradiance.g >= 0.06f * light.sky_irradiance.g;
 }
@@ -47,9 +49,9 @@ glm::mat4 clip_from_relative(const Cascade& cascade);
 glm::mat4 texture_from_relative(const Cascade& cascade, const glm::vec3& offset_m);
 /// Texture coordinates of the far cascade from those of the near one: xy·near + zw. Depth is the same in both.
 glm::vec4 far_from_near(const ShadowCascades& shadows);
-/// Whether a sphere lies wholly in the part of the cascade that is sampled, seen along the light.
+/// True if a sphere lies wholly in the part of the cascade that is sampled, seen along the light.
 bool holds(const Cascade& cascade, const glm::vec3& centre_m, float radius_m);
-/// Whether a sphere reaches into the cascade's square, seen along the light.
+/// True if a sphere reaches into the cascade's square, seen along the light.
 bool covers(const Cascade& cascade, const glm::vec3& centre_m, float radius_m);
 
 }  // namespace septet::render

@@ -25,7 +25,7 @@ void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vu
   description.vertex_input = vulkan::VertexInput::shadow;
   description.depth_format = format;
   description.clamp_depth = true;
-  // Away from the light, which is where depth is less.
+  // Bias away from the light, towards lesser depth.
   description.depth_bias = -2.0f;
   description.depth_bias_slope = -1.6f;
   for (std::uint32_t bits = 0; bits < pass.pipelines.size(); ++bits) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Draws what stands between the light and the ground into one cascade of the shadow map.
+/// Draws the casters between the light and the ground into one cascade of the shadow map.
 
 #include <array>
 
@@ -9,7 +9,7 @@
 namespace septet::render {
 
 struct ShadowPass {
-  std::array<VkPipeline, 4> pipelines{};  ///< Bits: with holes, fading.
+  std::array<VkPipeline, 4> pipelines{};  ///< Index bits: with holes, fading.
 };
 
 void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,

@@ -14,9 +14,9 @@
 namespace septet::render {
 namespace {
 
-/// A puff is drawn out to two standard deviations of its density.
+/// Radius of a drawn puff in standard deviations of its density.
 constexpr float drawn_deviations = 2.0f;
-/// Behind this optical depth nothing is seen: a 400th of the light is left.
+/// Optical depth that is taken as opaque: a 400th of the light is left.
 constexpr float opaque_depth = 6.0f;
 
 /// Side of the cells that puffs are merged in, by distance from the eye; powers of two, so that cells nest.
@@ -41,7 +41,8 @@ class Coverage {
     for (int row = top; row <= bottom; ++row)
       for (int column = left; column <= right; ++column) seen = seen || depth_[row * columns + column] < opaque_depth;
     if (!seen) return false;
-    // What lies wholly inside counts; a puff's edge is thin. Half of its middle's depth is its mean.
+    // Only tiles wholly inside count, since a puff's edge is thin. Factor: mean depth over the puff relative to that
+    // through its middle.
     for (int row = top + 1; row < bottom; ++row)
       for (int column = left + 1; column < right; ++column) depth_[row * columns + column] += 0.4f * depth;
     return true;
@@ -110,7 +111,7 @@ std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3
     sum.albedo = albedo / area;
     sum.glow = glow / area;
     sum.extinction_area_m2 = area;
-    // Parts of a cell lie apart by its side over √12 along each axis.
+    // Variance along each axis of parts spread over a cell: side²/12.
     const float side = static_cast<float>(keyed[begin].cell[0]), apart = end - begin > 1 ? side * side / 12.0f : 0.0f;
     sum.radius_m = std::sqrt(square / area + apart);
     sum.seed = puffs[keyed[begin].puff].seed;
@@ -150,7 +151,7 @@ std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const De
     if (intersects(volume, at, drawn_deviations * puff.radius_m)) placed.push_back({at, glm::length(at), &puff});
   }
   std::ranges::stable_sort(placed, {}, &Placed::distance_m);
-  // Front to back, so that what is behind enough smoke is known; then turned round.
+  // Front to back, so that puffs behind dense smoke are found; then reversed.
   const Quat car_from_world = glm::conjugate(view.world_from_car.orientation);
   const OffAxisView& projection = view.projection;
   Coverage coverage;

@@ -1,8 +1,8 @@
 #pragma once
-/// Draws smoke: soft balls that face the viewer, lit by sky and lamps, back to front over what stands behind them.
+/// Smoke: soft balls that face the viewer, lit by sky and lamps, drawn back to front over the surfaces behind them.
 ///
-/// Many puffs lie over each other in every pixel, so they are merged first, into cells that grow with the distance from the
-/// eye, and what lies behind enough smoke is left out. Cells are fixed in the world and all screens of a rig have one eye, so
+/// Many puffs overlap in every pixel, so they are merged first, into cells that grow with the distance from the eye,
+/// and puffs behind dense smoke are left out. Cells are fixed in the world and all screens of a rig have one eye, so
 /// that smoke meets at their edges. Optical depth adds up: alpha is 1 − exp(−depth) (Beer and Lambert).
 
 #include <span>
@@ -25,13 +25,13 @@ void create_smoke_pass(SmokePass& pass, const vulkan::Device& device, const vulk
                        const TargetFormats& formats);
 void destroy_smoke_pass(SmokePass& pass, const vulkan::Device& device);
 
-/// Puffs merged for an eye: see above. World frame.
+/// Puffs merged for an eye, as above. World frame.
 std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3& eye_m);
 
-/// Share of the light that the puffs let through from a point to the eye.
+/// Share of the light that the puffs transmit from a point to the eye.
 float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const Vec3& point_m);
 
-/// What a view draws of them, farthest first.
+/// Records of the puffs that a view draws, farthest first.
 std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const DeviceScene& scene, const SkyLight& light,
                                      const FrameView& view, const Vec3& eye_m);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Smooths the stairs of edges in a picture of one sample a pixel; where multisampling costs too much. It looks for edges as
-/// the eye sees them, so it works on the display's codes, after tone mapping.
+/// Smooths the stairs of edges in a picture of one sample a pixel, for devices on which multisampling costs too much.
+/// Edges are found as the eye sees them, so it works on the display's codes, after tone mapping.
 
 #include "engine/render/passes/pass_context.hpp"
 
@@ -14,7 +14,7 @@ void create_smoothing_pass(SmoothingPass& pass, const vulkan::Device& device, co
                            VkFormat format);
 void destroy_smoothing_pass(SmoothingPass& pass, const vulkan::Device& device);
 
-/// From `source`, which is sampled, into all of `target`; both have this size.
+/// Draws from `source`, which is sampled, into all of `target`; both have this size.
 void draw_smoothed(const SmoothingPass& pass, PassContext& context, VkImageView source, VkImageView target,
                    std::uint32_t width, std::uint32_t height);
 

@@ -20,7 +20,7 @@ using scene::SurfaceVertex;
 
 constexpr double block_side_m = 2000.0;
 
-/// The block of a place; the middle of its square is its origin.
+/// Block of a place; the middle of its square is its origin.
 std::uint32_t block_of(StaticGeometry& geometry, std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t>& known,
                        const Vec3& position_m) {
   const auto x = static_cast<std::int64_t>(std::floor(position_m.x / block_side_m));
@@ -39,7 +39,8 @@ bool holds(const SurfaceMesh& mesh, const scene::MeshPart& part) {
                      [&](std::uint32_t index) { return index < mesh.vertices.size(); });
 }
 
-/// Adds the instance's piece with its parts and indices, for vertices from `first_vertex` on; false if nothing of it is drawn.
+/// Adds the instance's piece with its parts and indices, for vertices from `first_vertex` on; false if no part of it is
+/// drawn.
 bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t first_vertex,
                const scene::Instance& instance, const SurfaceMesh& mesh) {
   StaticPiece piece;
@@ -60,7 +61,7 @@ bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t firs
   return true;
 }
 
-/// Writes an instance's vertices where they stand in its block.
+/// Writes an instance's vertices at their places in its block.
 void fill_vertices(StaticBlock& block, std::uint32_t first_vertex, const Vec3& position_m, const glm::mat3& turn,
                    const SurfaceMesh& mesh) {
   const glm::vec3 origin(position_m - block.origin_m);
@@ -117,7 +118,7 @@ StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vec
     std::uint32_t first_vertex;
   };
   std::vector<Filling> fillings;        // One a piece.
-  std::vector<std::uint32_t> vertices;  // By block.
+  std::vector<std::uint32_t> vertices;  // Indexed by block.
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size() || !chosen[instance.mesh]) continue;
     const SurfaceMesh& mesh = scene.meshes[instance.mesh];
@@ -167,7 +168,7 @@ Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
     return std::pair(a.square_m2, a.piece) < std::pair(b.square_m2, b.piece);
   });
 
-  // Lists of parts by block and group; draws in the order in which their first part is met.
+  // Lists of parts by block and group; draws in the order of their first parts.
   Gathered result;
   result.pieces = static_cast<std::uint32_t>(seen.size());
   std::map<std::tuple<std::uint32_t, std::uint32_t, float, float>, std::size_t> draw_of;

@@ -1,5 +1,5 @@
 #pragma once
-/// Stripes that are thinner than a pixel: what their vertices say so that shaders/surface.vert can draw them wide enough.
+/// Stripes thinner than a pixel: edge data in their vertices by which shaders/surface.vert draws them wide enough.
 
 #include <cstdint>
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace septet::render {
 
-/// Of the vertices that triangles of a stripe use (SurfaceMaterial::stripe), the normal becomes the way from the stripe's middle to that edge, and
-/// uv.y how much it climbs, per metre along it: to the left of the way from the edge of u = 0 to that of u = 1. Corners across from one another have
-/// one v. A vertex belongs to one stripe.
+/// Rewrites the vertices used by the triangles of a stripe (SurfaceMaterial::stripe): the normal becomes the vector
+/// from the stripe's middle to that edge, and uv.y its climb per metre along the stripe, to the left of the direction
+/// from the edge of u = 0 to that of u = 1. Opposite corners have the same v. A vertex belongs to one stripe.
 void find_stripe_edges(std::span<scene::SurfaceVertex> vertices, std::span<const std::uint32_t> triangles);
 
 }  // namespace septet::render

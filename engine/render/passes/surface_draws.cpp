@@ -10,7 +10,7 @@
 namespace septet::render {
 namespace {
 
-/// Where the triangles of a batch lie.
+/// Triangles of a batch: buffers and parts.
 struct Triangles {
   VkBuffer vertices, indices;
   std::uint64_t indices_at, vertices_at;
@@ -27,7 +27,7 @@ Triangles triangles_of(const Batch& batch, const DeviceScene& scene, const Dynam
   return {mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, 0, mesh.parts};
 }
 
-/// A batch's parts, neighbours of one group as one.
+/// Adds a batch's parts; adjacent parts of one group become one draw.
 void add_batch(std::vector<SurfaceDraw>& list, const Triangles& mesh, const Batch& batch, const GroupOf& group_of) {
   bool open = false;
   for (const scene::MeshPart& part : mesh.parts) {

@@ -7,11 +7,11 @@
 namespace septet::render {
 namespace {
 
-/// What the pipeline of a material is specialised for.
+/// Properties that the pipeline of a material is specialised for.
 struct Variant {
-  std::uint32_t textured;  ///< As in shaders/surface.frag.
-  std::uint32_t lamps;     ///< Likewise.
-  std::uint32_t glossy;    ///< Likewise.
+  std::uint32_t textured;  ///< See shaders/surface.frag.
+  std::uint32_t lamps;     ///< See shaders/surface.frag.
+  std::uint32_t glossy;    ///< See shaders/surface.frag.
   bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving, two_sided;
   SurfaceKind kind;
   std::uint32_t key() const {
@@ -39,10 +39,10 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.color_format = context.formats.radiance;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
-  // What one sees through is opaque in a puddle.
+  // In a puddle, transparent surfaces are drawn opaque.
   description.blend = variant.mirror ? vulkan::Blend::data : blended ? vulkan::Blend::over : vulkan::Blend::none;
   description.depth_write = variant.mirror || !blended;
-  // What still stripes and panes lie before keeps its marks.
+  // Static stripes and panes keep the marks of the surfaces behind them.
   description.marks = context.formats.marks && (variant.moving || !blended);
   description.alpha_to_coverage = cut && multisampled;
   description.constants = {variant.textured,

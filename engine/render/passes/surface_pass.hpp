@@ -1,5 +1,5 @@
 #pragma once
-/// Draws meshes with their materials: opaque ones, ones with holes, ones to see through, and thin stripes.
+/// Draws meshes with their materials: opaque, with holes, transparent, and thin stripes.
 
 #include <map>
 
@@ -11,23 +11,23 @@ namespace septet::render {
 enum class SurfaceKind : std::uint8_t { opaque, cut, blended, stripe };
 
 struct SurfacePass {
-  std::map<std::uint32_t, VkPipeline> pipelines;  ///< By variant; made when first drawn.
+  std::map<std::uint32_t, VkPipeline> pipelines;  ///< Indexed by variant; created at first use.
 };
 
 void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device);
 
-/// What of the weather and the light shaders are specialised for.
+/// Weather and light that shaders are specialised for.
 struct SurfaceLight {
-  bool wet = false;                                 ///< Wettable materials mirror.
-  bool headlights = false, standing_lamps = false;  ///< Light what they reach.
-  bool unshaded = false;                            ///< No shadow of the sun or moon can be seen.
+  bool wet = false;                                 ///< Wettable materials reflect.
+  bool headlights = false, standing_lamps = false;  ///< Light from headlights, from standing lamps.
+  bool unshaded = false;                            ///< True if no shadow of the sun or moon is visible.
   bool snowy = false;
   bool sooty = false;           ///< FrameInput::soot is bound.
-  bool main_beams = false;      ///< Some headlights have theirs on.
-  bool beacons = false;         ///< Light what is around them.
-  bool mirror_of_road = false;  ///< Drawn as what a wet road mirrors: with an alpha of its own.
+  bool main_beams = false;      ///< Main beam of some headlights is on.
+  bool beacons = false;         ///< Light from beacons.
+  bool mirror_of_road = false;  ///< Drawn for a wet road's mirror image, with an alpha of its own.
 
-  /// As in shaders/surface.frag.
+  /// Bits of `lamps` in shaders/surface.frag.
   std::uint32_t lamps() const {
     return std::uint32_t{headlights} | std::uint32_t{standing_lamps} << 1 |
            std::uint32_t{headlights && main_beams} << 2 | std::uint32_t{beacons} << 3;

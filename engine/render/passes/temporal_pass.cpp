@@ -31,7 +31,8 @@ float radical_inverse(std::uint32_t n, std::uint32_t base) {
   return value;
 }
 
-/// Through the places that both see: of a direction (depth 0) only the turn remains.
+/// Matrix between the clip spaces of both frames by way of world places; for a direction (depth 0) only the rotation
+/// remains.
 glm::mat4 before_from_now(const SeenView& before, const SeenView& now) {
   const glm::dmat4 eye_shift = glm::translate(glm::dmat4(1.0), glm::dvec3(now.eye_m - before.eye_m));
   const glm::dmat4 drawn = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 1.0, 1.0 / now.kept_depth));

@@ -1,13 +1,16 @@
 #pragma once
-/// Temporal anti-aliasing: each frame takes one sample of a pixel elsewhere, and what stands still keeps what the frames before have seen of it.
+/// Temporal anti-aliasing: each frame samples its pixels at another offset, and static surfaces keep the samples of the
+/// frames before.
 ///
-/// What a driver acts on is never of a frame before. The radiance's alpha marks what does not stand still: participants and what is loose, the cores of
-/// glows, thick smoke, rain, mirrors, ice. Where a pixel has any of that, or had it where it was seen in the frame before, the frame alone counts; such things
-/// are not shifted by the samples' offset. Elsewhere what was seen before is brought between the least and the most of the nine pixels around
-/// (Karis, "High Quality Temporal Supersampling", 2014), so that a shadow, a beam of light or what a wet road mirrors leaves no trail: nothing
-/// is shown that is not there within a pixel.
+/// Information that a driver acts on is never of an earlier frame. The radiance's alpha marks moving surfaces:
+/// participants and loose objects, the cores of glows, thick smoke, rain, mirrors, ice. A pixel with any of these, or
+/// with any at its place in the frame before, shows the current frame alone; such surfaces are not shifted by the
+/// samples' offset. In other pixels the earlier colour is clamped to the range of the nine pixels around (Karis, "High
+/// Quality Temporal Supersampling", 2014), so that a shadow, a beam of light or a reflection in a wet road leaves no
+/// trail: no colour is shown that is not there within a pixel.
 ///
-/// Where a pixel was seen before follows from its depth and both views. Nothing is taken over after a leap of time or place, or into another scene.
+/// The place of a pixel in the frame before follows from its depth and both views. No history is used after a leap of
+/// time or place, or in another scene.
 
 #include <array>
 #include <cstdint>
@@ -27,11 +30,11 @@ namespace septet::render {
 struct SeenView {
   glm::dmat4 clip_from_relative{1.0};
   Vec3 eye_m{0.0};          ///< World.
-  double kept_depth = 1.0;  ///< As view_uniforms.hpp has it.
+  double kept_depth = 1.0;  ///< See view_uniforms.hpp.
   PixelRectangle viewport;
 };
 
-/// What the frame before has left.
+/// Views, time and scene of an earlier frame.
 struct SeenFrame {
   std::vector<SeenView> views;
   double simulated_time_s = 0.0;
@@ -41,10 +44,10 @@ struct SeenFrame {
 struct TemporalPass {
   VkPipeline pipeline = VK_NULL_HANDLE;
   std::array<vulkan::DeviceImage, 2>
-      images;  ///< Of the frame before and of this one, by turns: radiance, and in alpha the marks.
+      images;  ///< Frame before and this one, by turns: radiance, with the marks in alpha.
   std::array<Access, 2> accesses{};
-  std::uint32_t frame = 0;          ///< Counts frames that follow each other.
-  std::optional<SeenFrame> before;  ///< None: nothing has been drawn since the images were made.
+  std::uint32_t frame = 0;          ///< Number of consecutive frames.
+  std::optional<SeenFrame> before;  ///< Empty: nothing has been drawn since the images were created.
 
   bool present() const { return pipeline != VK_NULL_HANDLE; }
 };
@@ -56,17 +59,18 @@ void create_temporal_targets(TemporalPass& pass, vulkan::MemoryPool& memory, con
 void destroy_temporal_targets(TemporalPass& pass, vulkan::MemoryPool& memory);
 void destroy_temporal_pass(TemporalPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
 
-/// Where the frame's samples lie, from the middles of their pixels: within half a pixel, evenly (Halton, 1960), eight places in turn.
+/// Sample position of a frame relative to the pixels' centres: within half a pixel, evenly (Halton, 1960), eight
+/// positions in turn.
 glm::vec2 sample_offset_px(std::uint32_t frame);
 
 SeenFrame seen_frame(const Instant& instant, std::uint64_t scene_revision);
-/// Whether what was seen then may be taken over into a frame that sees this.
+/// True if the history of `before` may be used in the frame `now`.
 bool leads_to(const SeenFrame& before, const SeenFrame& now);
-/// Forgets what was seen if it does not lead there. Where the samples of the frame that is to be drawn lie.
+/// Drops the history if it does not lead to `now`. Returns the sample offset of the frame to be drawn.
 glm::vec2 begin_frame(TemporalPass& pass, const SeenFrame& now);
 
-/// Brings the targets' radiance, which the views have been drawn into, together with the frame before, and keeps it for the next one. What is recorded refers to all
-/// of them.
+/// Adds the passes that blend the targets' radiance, with the views drawn into it, with the frame before, and keep the
+/// result for the next frame. Their recording refers to all arguments.
 void add_temporal_passes(FrameGraph& graph, TemporalPass& pass, PassContext& context, FrameTargets& targets,
                          ResourceId radiance, ResourceId depth, SeenFrame now, float exposure);
 

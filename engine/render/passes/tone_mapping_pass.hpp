@@ -1,6 +1,6 @@
 #pragma once
-/// Exposure and tone mapping: from the frame's linear radiance to the display's codes, once a pixel, after all that gives or
-/// takes light has been drawn.
+/// Exposure and tone mapping: from the frame's linear radiance to the display's codes, once a pixel, after all sources
+/// and absorbers of light have been drawn.
 
 #include "engine/render/passes/pass_context.hpp"
 
@@ -14,8 +14,8 @@ void create_tone_mapping_pass(ToneMappingPass& pass, const vulkan::Device& devic
                               const TargetFormats& formats);
 void destroy_tone_mapping_pass(ToneMappingPass& pass, const vulkan::Device& device);
 
-/// From `radiance`, with the samples of the formats, into all of `target`; both have this size. `exposure`: from radiance to
-/// the tone curve (engine/light/tone_curve.hpp).
+/// Draws from `radiance`, with the samples of the formats, into all of `target`; both have this size. `exposure`: from
+/// radiance to the tone curve (engine/light/tone_curve.hpp).
 void draw_tone_mapped(const ToneMappingPass& pass, PassContext& context, VkImageView radiance, VkImageView target,
                       std::uint32_t width, std::uint32_t height, float exposure);
 

@@ -45,7 +45,7 @@ void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const H
   uniforms.wind.z = static_cast<float>(nearest.size());
 }
 
-/// Rows from what is relative to the eye to the field's cells, where a cell's value stands at its middle.
+/// Sets the rows from points relative to the eye to the field's cells; a cell's value stands at its middle.
 void set_soot(ViewUniforms& uniforms, const Vec3& eye_m, const SootField& soot) {
   const RigidTransform field_from_world = inverse(soot.world_from_field);
   const Vec3 eye = (field_from_world * eye_m) / soot.cell_m - 0.5;
@@ -55,7 +55,7 @@ void set_soot(ViewUniforms& uniforms, const Vec3& eye_m, const SootField& soot) 
   uniforms.soot_size = glm::vec4(soot.nx, soot.ny, soot.nz, 0.0f);
 }
 
-/// What lies in a tile that repeats, so that floats hold it.
+/// Place within a repeating tile, so that floats hold it.
 glm::vec2 within_tile(const Vec3& place_m, double tile_m) {
   return {static_cast<float>(place_m.x - tile_m * std::floor(place_m.x / tile_m)),
           static_cast<float>(place_m.y - tile_m * std::floor(place_m.y / tile_m))};
@@ -113,7 +113,7 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
 
   uniforms.irradiance[0].w = lamps.roofed_height_m;
 
-  // A pixel's ray: the middle of the slopes, and half their spans along the screen's axes.
+  // Ray of a pixel: the middle of the slopes, and half their spans along the screen's axes.
   const auto world = [&](const Vec3& axis) { return glm::vec4(glm::vec3(world_from_car * axis), 0.0f); };
   const double across = 0.5 * (projection.right_slope - projection.left_slope) * (view.mirrored ? -1.0 : 1.0);
   const double down = 0.5 * (projection.top_slope - projection.bottom_slope);

@@ -1,5 +1,5 @@
 #pragma once
-/// What the shaders of one view know: light::ViewUniforms, and how it is filled.
+/// Uniforms of one view's shaders: light::ViewUniforms, and how it is filled.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -14,19 +14,20 @@ namespace septet::render {
 
 using light::most_headlights, light::most_beacons, light::ViewUniforms;
 
-/// Where the wet road's mirror image of a view lies in a picture.
+/// Place of the wet road's mirror image of a view.
 struct RoadMirror {
   bool present = false;
-  std::uint32_t width = 1, height = 1;  ///< Of the picture, pixels.
+  std::uint32_t width = 1, height = 1;  ///< Size of the picture, pixels.
 };
 
-/// From what is relative to the eye, along the world's axes.
+/// Matrix to clip space from points relative to the eye, along the world's axes.
 glm::dmat4 clip_from_relative(const FrameView& view);
-/// What stands still has this much of its (reversed) depth where its samples are shifted: half a pixel aside, a face that is seen at up to 76° would
-/// else come before what lies on it and is not shifted.
+/// Factor on the (reversed) depth of static surfaces whose samples are shifted: at half a pixel's shift, a face seen at
+/// up to 76° would otherwise come before unshifted surfaces that lie on it.
 double kept_depth(const FrameView& view);
 
-/// Of the headlights the nearest count. `offset_px`: of the samples of what stands still, from the middles of their pixels.
+/// Fills the uniforms; only the nearest headlights and beacons are included. `offset_px`: samples of static surfaces
+/// relative to the pixels' centres.
 ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
                            const LampField& lamps, const RoadMirror& mirror = {},
                            const glm::vec2& offset_px = glm::vec2(0.0f));

@@ -51,7 +51,7 @@ void draw(VkAttachmentLoadOp load, VkPipeline pipeline, PassContext& context, Vk
 
 void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
                        std::uint32_t width, std::uint32_t height, const glm::vec4& constants) {
-  // Cleared for the alpha, which drawing leaves alone.
+  // Clears for the alpha, which drawing leaves unchanged.
   draw(VK_ATTACHMENT_LOAD_OP_CLEAR, pipeline, context, source, target, width, height, constants);
 }
 

@@ -12,10 +12,10 @@ VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulk
                                         vulkan::Blend blend = vulkan::Blend::none,
                                         VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
 
-/// The target has this size; `constants` is what the fragment shader takes. What the target held is lost.
+/// Draws over a target of this size; `constants`: those of the fragment shader. The target's old contents are lost.
 void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
                        std::uint32_t width, std::uint32_t height, const glm::vec4& constants);
-/// The same, blended with what the target holds.
+/// Draws likewise, blended with the target's contents.
 void draw_over_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
                             std::uint32_t width, std::uint32_t height, const glm::vec4& constants);
 

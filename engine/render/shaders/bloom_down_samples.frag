@@ -1,6 +1,6 @@
 #version 460
 
-// bloom_down.frag from a picture of four samples a pixel: the mean of four pixels.
+// bloom_down.frag for a picture of four samples a pixel: the mean of four pixels.
 
 layout(set = 0, binding = 5) uniform sampler2DMS source;
 

@@ -1,6 +1,6 @@
 #version 460
 
-// A smaller picture, smoothed by a tent of three by three of its texels, over a share of a larger one.
+// Smaller picture, smoothed by a tent of three by three of its texels, blended over a share of a larger one.
 
 layout(set = 0, binding = 5) uniform sampler2D source;
 layout(push_constant) uniform Sizes { vec4 sizes; };  // xy: size of the target, z: the share.

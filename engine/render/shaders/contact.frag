@@ -12,8 +12,9 @@ layout(location = 0) out vec4 result;
 const float reach = 1.6;
 
 void main() {
-  // Of a long wall of height h, a level surface at distance d sees ½(1 − d/√(d² + h²)) instead of the sky, weighted by the cosine; of
-  // the sky a place below a body, d from its edge, sees ½(1 − d/√(d² + c²)) through the gap c.
+  // Share of the sky hidden from the ground. A level surface at distance d from a long wall of height h loses the share
+  // ½(1 − d/√(d² + h²)) of it, weighted by the cosine. Below a body, d from its edge, ½(1 − d/√(d² + c²)) is left,
+  // through the gap c.
   const float round_m = 0.4;
   vec2 q = abs(at) - size.xy + round_m;
   float away = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - round_m;
@@ -21,7 +22,7 @@ void main() {
   float hidden = 0.5 * (1.0 - away * inversesqrt(away * away + across * across));
   const float left = 0.5 * (1.0 - reach / sqrt(reach * reach + 1.0));
   hidden = max(0.0, hidden - left) / (1.0 - left);
-  // The sun's light is not the sky's: of what arrives here only that share is lost.
+  // Only the sky's light is hidden: the darkening is the sky's share of all light that arrives here.
   const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
   float sky = dot(view.sky_irradiance.rgb, luminance) * up.w + 0.45 * (1.0 - up.w), facing = dot(up.xyz, view.light_direction.xyz);
   float sun = dot(view.light_irradiance.rgb, luminance) * up.w * max(0.0, facing) * sunlit(relative, up.xyz, abs(facing));

@@ -15,8 +15,8 @@ void main() {
   vec2 at = corners[gl_VertexIndex];
   vec3 middle = glow.position_size.xyz;
   float distance_m = length(middle);
-  // Never smaller than a few pixels, so that a far lamp is seen, wherever between pixels it lies; dimmed as it is enlarged, for its light falls
-  // with the square of the distance. Pulled out of its own housing.
+  // Never smaller than a few pixels, so that a distant lamp is seen wherever between pixels it lies; dimmed as it is
+  // enlarged, since its light falls with the square of the distance. Moved towards the eye, out of its own housing.
   float radius = max(glow.position_size.w, distance_m * view.billboard_right.w * 3.2);
   middle *= 1.0 - min(0.5, (0.25 + 0.2 * radius) / distance_m);
   out_at = at;

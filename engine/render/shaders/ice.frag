@@ -4,16 +4,16 @@
 #include "ice.glsl"
 #include "ice_bump.glsl"
 
-// The front faces of ice: what is seen through them, what is inside, and what they mirror.
+// Front faces of ice: the light seen through them, the inside, and the reflection.
 
 layout(constant_id = 0) const uint quality = 0;
 layout(constant_id = 1) const uint two_sided = 0;
 layout(constant_id = 2) const uint filled = 0;  // Cracks or air are inside.
 layout(constant_id = 3) const uint frosted = 0;
-layout(constant_id = 4) const uint beyond = 0;  // What of ice lies behind is looked through, too.
-layout(constant_id = 5) const uint shown = 0;   // Instead of ice: 1 the depth of front faces, 2 of back faces.
+layout(constant_id = 4) const uint beyond = 0;  // Other ice behind is seen through it, too.
+layout(constant_id = 5) const uint shown = 0;   // Instead of ice: 1 depth of front faces, 2 of back faces.
 
-layout(constant_id = 6) const uint thin = 0;    // What lies behind is seen in its place.
+layout(constant_id = 6) const uint thin = 0;    // The background is seen at its place, unrefracted.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -32,7 +32,8 @@ bool is_inside(vec3 place, out ivec2 texel) {
   return front > 0.0 && depth >= front - slack && depth <= texelFetch(ice_beyond_back, texel, 0).w + slack;
 }
 
-// Takes a face if it is nearer than the one that is held, and light on this way goes through it outwards, or inwards.
+// Takes a face if it is nearer than the held one, and light along `way` passes it outwards (`outwards` 1) or inwards
+// (−1).
 void consider(vec4 face, float depth, vec3 way, float outwards, inout float nearest, inout vec3 n) {
   float apart = abs(depth - face.w);
   if (face.w > 0.0 && dot(face.xyz, way) * outwards > 0.0 && apart < nearest) {
@@ -41,7 +42,7 @@ void consider(vec4 face, float depth, vec3 way, float outwards, inout float near
   }
 }
 
-// The normal of the face that light meets here, of length 0 where there is none.
+// Normal of the face that light meets here; of length 0 if there is none.
 vec3 face_normal(ivec2 texel, float depth, vec3 way, float outwards) {
   texel = clamp(texel, ivec2(ice.rectangle.xy), ivec2(ice.rectangle.zw) - 1);
   float nearest = 1e30;
@@ -55,9 +56,9 @@ vec3 face_normal(ivec2 texel, float depth, vec3 way, float outwards) {
   return dot(n, n) > 0.0 ? normalize(n) : n;
 }
 
-// Light on its way through the body, from `way` within: marched through the layers (Oliveira and Brauwers, "Real-Time
-// Refraction Through Deformable Objects", 2007) to the face where it leaves, or is wholly reflected and goes on; having
-// left, it may meet ice again, of which a share is mirrored.
+// Light refracted along `way` into the body: marched through the layers (Oliveira and Brauwers, "Real-Time Refraction
+// Through Deformable Objects", 2007) to the face where it leaves, or is totally reflected and goes on; after leaving it
+// may meet ice again, which reflects a share.
 vec3 followed(vec3 way) {
   const int steps = 24, halvings = 6, most_faces = beyond != 0 ? 8 : 5;
   vec3 place = relative, light = vec3(0.0), share = vec3(1.0);
@@ -123,18 +124,18 @@ void main() {
     result = vec4(vec3(1.0 - clamp((depth - ice.forward.w) / ice.absorption.w, 0.0, 1.0)), 1.0);
     return;
   }
-  // The grain of what lies under a thin film makes it rough: at a glancing look the slopes are seen that turn to the eye.
+  // Roughness by the grain of the ground under a thin film: at a grazing angle the slopes that face the eye are seen.
   const float grain = 0.1;
   if (thin != 0) {
     n = normalize(n - grain * eye);
     cosine = abs(dot(eye, n));
   }
-  // A bump may turn away from the eye; it is seen all the same.
+  // Normal limited to face the eye, since a bump that turns away is still seen.
   vec3 facing = dot(eye, n) < -0.02 ? n : normalize(n - (dot(eye, n) + 0.02) * eye);
 
   vec3 seen = vec3(0.0);
-  // Of what lies behind. A film that lies on it keeps some of its light by total reflection, as water darkens asphalt (Lekner and
-  // Dorf, "Why some things are darker when wet", 1988).
+  // Share of the background that is hidden. A film keeps some of the background's light by total reflection, as water
+  // darkens asphalt (Lekner and Dorf, "Why some things are darker when wet", 1988).
   float hidden = thin != 0 ? 0.3 : 1.0;
   if (quality != 0 && two_sided != 0) {
     seen = followed(refracted(eye, facing, into_ice));
@@ -148,7 +149,7 @@ void main() {
     seen = seen * (1.0 - inside.a) + inside.rgb;
     hidden += (1.0 - hidden) * inside.a;
   }
-  // Equation 4, or Fresnel's.
+  // Equation 4 of the paper, or Fresnel's.
   float share = (quality != 0 || thin != 0 ? fresnel(cosine, into_ice) : paper_fresnel(cosine)) * ice.blend.w;
   vec3 radiance = mix(seen, around(mirrored_way(eye, facing)), share);
   hidden += (1.0 - hidden) * share;
@@ -157,7 +158,7 @@ void main() {
   radiance += sunlight * (pow(max(dot(n, h), 0.0), ice.beyond.w) * (ice.beyond.w * (1.5 / 220.0)) * ice.blend.w);
   if (frosted != 0) {
     vec3 light = sunlight * max(dot(n, view.light_direction.xyz), 0.0) / pi + 0.5 * (around(n) + around(vec3(0.0, 0.0, 1.0)));
-    // The noise holds ranks, as square roots: a crust that is thick here and thin there.
+    // The noise holds ranks, as square roots: the crust varies between thick and thin.
     float coarse = textureLod(noise, rest.xy * 0.7 + rest.z * 0.31, 0.0).r, fine = textureLod(noise, rest.yx * 5.3 - rest.z, 0.0).r;
     float crust = 0.7 * coarse * coarse + 0.3 * fine * fine;
     float covered = ice.blend.z * smoothstep(0.15, 0.85, crust);

@@ -1,5 +1,5 @@
-// A surface that is uneven in waves that keep to the ice at rest, after Mikkelsen, "Bump Mapping Unparametrized Surfaces on
-// the GPU" (2010); the waves' slopes are exact, so that neighbouring pixels agree.
+// Normal of a surface uneven by waves that are fixed to the ice at rest, after Mikkelsen, "Bump Mapping Unparametrized
+// Surfaces on the GPU" (2010); the waves' slopes are exact, so that neighbouring pixels agree.
 vec3 bumped(vec3 n, vec3 place, vec3 rest, float share) {
   vec3 across = dFdx(place), down = dFdy(place), rest_across = dFdx(rest), rest_down = dFdy(rest);
   if (ice.u.w == 0.0) return n;

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "ice.glsl"
 
-// Cracks over the back faces' normals: what is seen through them is bent. The paper tried this and found it too much in full.
+// Cracks over the back faces' normals, which bend the light seen through them. The paper tried this and found it too
+// much in full.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;

@@ -5,8 +5,8 @@
 #include "engine/light/crack.hpp"
 #include "engine/light/frost.hpp"
 
-// What lies on a pane of glass: frost, and cracks in it. Premultiplied radiance, and how much it hides. The sheet is so thin that nothing of
-// what is seen through it is displaced: it needs none of the layers of ice.frag.
+// Frost on a pane of glass, and cracks in it: premultiplied radiance, and share hidden. The sheet is so thin that the
+// view through it is not displaced: it needs none of the layers of ice.frag.
 
 layout(constant_id = 0) const uint cracked = 0;  // Cracks instead of frost.
 
@@ -15,7 +15,8 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest;
 layout(location = 0) out vec4 result;
 
-// How much of the frost's mass lies here, and its variance within the pixel over its mean: what is finer than the pixel fades to its mean.
+// Mass of the frost here, and its variance within the pixel over its mean: detail finer than the pixel fades to its
+// mean.
 vec2 feathers(vec2 place, float pixel_m) {
   float fine = 1.0 - smoothstep(0.0007, 0.0020, pixel_m), coarse = 1.0 - smoothstep(0.004, 0.015, pixel_m);
   float unseen = 0.28 * (1.0 - fine) + 0.1 * (1.0 - coarse);
@@ -24,7 +25,7 @@ vec2 feathers(vec2 place, float pixel_m) {
   return vec2(feather_mass(feather_at(place), grain, fine, coarse), max(unseen, 1e-3));
 }
 
-// Light that comes to a direction from the whole half space before it, over pi.
+// Irradiance from the whole hemisphere around a normal, over pi.
 vec3 light_from(vec3 n) { return irradiance_on(n) / pi; }
 
 vec4 frost(vec3 eye, vec3 n, vec3 place) {
@@ -39,7 +40,7 @@ vec4 frost(vec3 eye, vec3 n, vec3 place) {
   return vec4(light * hidden, hidden);
 }
 
-// Sky above, ground below, as a face of a crack mirrors them.
+// Reflection on a face of a crack: sky above, ground below.
 vec3 mirrored(vec3 way) {
   return mix(view.ground_irradiance.rgb / pi, sky_radiance(vec3(way.xy, max(way.z, 0.02))), smoothstep(-0.1, 0.1, way.z));
 }
@@ -47,17 +48,18 @@ vec3 mirrored(vec3 way) {
 vec4 crack(vec3 eye, vec3 n, vec3 place) {
   float share = ice.origin.w;
   vec3 sunlight = view.light_irradiance.rgb * share;
-  // It covers of a pixel what it covers.
+  // Coverage: the crack's share of the pixel.
   float off = abs(place.y) / crack_width, soft = max(fwidth(place.y) / crack_width, 1e-4);
   if (place.z > 0.5) {
-    // Each grain shows another piece of what lies around.
+    // Each grain shows another piece of the surroundings.
     vec2 grain = crushed_grain(place.xy);
     float hidden = crushed_hides(grain, place.z);
     vec3 light = (0.25 + 1.5 * grain.y * grain.y) * share * (light_from(n) + light_from(-n)) +
                  grain.y * sunlight * abs(dot(n, view.light_direction.xyz)) / pi;
     return vec4(light * hidden, hidden);
   }
-  // As the cracks of ice: a face that light of both sides is mirrored in, wholly where it is met at a flat angle; its unevenness turns it about.
+  // As the cracks of ice: a face that reflects light on both sides, totally at a grazing angle; its unevenness turns
+  // the normal.
   n = uneven_crack(n, place.x);
   n *= -sign(dot(n, eye) + 1e-6);
   vec3 h = normalize(view.light_direction.xyz - eye);

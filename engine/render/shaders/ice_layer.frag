@@ -5,7 +5,8 @@
 
 // 0: the nearest faces. 1: front faces behind the back face. 2: back faces behind those.
 layout(constant_id = 0) const uint peel = 0;
-// Light that is followed to these faces spreads over many of their waves between one pixel and the next: they count by half.
+// Light followed to these faces spreads over many of their waves between one pixel and the next: the waves count by
+// half.
 layout(constant_id = 1) const uint followed = 0;
 
 layout(location = 0) in vec3 relative;
@@ -19,7 +20,7 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (peel == 1) {
     float back = texelFetch(ice_back, at, 0).w;
-    // Where the body is not, what is beyond it is behind its far end.
+    // Outside the body, faces beyond it lie behind its far end.
     if (depth <= (back > 0.0 ? back : ice.beyond.z) * (1.0 + 1e-5)) discard;
   } else if (peel == 2) {
     float front = texelFetch(ice_beyond, at, 0).w;

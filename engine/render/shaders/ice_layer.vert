@@ -10,7 +10,7 @@ layout(location = 0) out vec3 out_relative;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_rest;
 
-// Into the body's own rectangle; depth is reversed.
+// Projects into the body's own rectangle; depth is reversed.
 void main() {
   out_relative = ice.origin.xyz + position;
   out_normal = normal;

@@ -1,4 +1,4 @@
-// What an instance does with its mesh.
+// Placement of a mesh by its instance.
 
 #include "engine/light/instance_record.hpp"
 

@@ -1,5 +1,6 @@
-// Light that arrives at the road from lamps under a roof, as it is at a place above it, whose lamps are nearer: by 1 over the fourth power of the
-// distance, for both cosines fall with it. How far to the side the lamps are is told by how far their light comes from there.
+// Light of lamps under a roof at a place above the road, from their light at the road: the lamps are nearer there, and
+// the light grows by the fourth power of the ratio of the distances, since both cosines fall with the distance. The
+// direction of the light gives the lamps' distance to the side.
 vec3 above_road(vec3 toward, float sum, vec3 relative) {
   float lamps_m = view.irradiance[0].w, near = clamp(2.0 - length(relative) * 0.015, 0.0, 1.0);
   float height_m = near * clamp(dot(view.road.xyz, relative) - view.road.w, 0.0, 0.7 * lamps_m);
@@ -8,9 +9,9 @@ vec3 above_road(vec3 toward, float sum, vec3 relative) {
   return toward * vec3(1.0, 1.0, below) * (below * nearer * nearer);
 }
 
-// What standing lamps throw on a surface. w: how far a roofed place is lit by them here, 0 to 1.
+// Light of standing lamps on a surface. w: share to which they light a roofed place here, 0 to 1.
 vec4 standing_lamps(vec3 relative, vec3 n, float share_of_sky) {
-  // A wall's light is that of the road before it: beyond stand other lamps.
+  // A wall takes the light of the road before it: other lamps stand beyond.
   vec2 at = (relative.xy + 1.5 * n.xy) * view.lamp_field.z + view.lamp_field.xy, edge = abs(at - 0.5);
   float fade = clamp((0.5 - max(edge.x, edge.y)) * 6.0, 0.0, 1.0);
   vec4 texel = textureLod(lamp_field, at, 0.0);

@@ -1,4 +1,4 @@
-// The material of one draw.
+// Material of one draw.
 
 #include "engine/light/microfacets.hpp"
 #include "engine/light/records.hpp"

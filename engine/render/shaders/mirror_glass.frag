@@ -1,6 +1,6 @@
 #version 460
 
-layout(set = 0, binding = 5) uniform sampler2D image;  // What is seen in all mirrors: radiance, before exposure.
+layout(set = 0, binding = 5) uniform sampler2D image;  // Views in all mirrors: radiance, before exposure.
 
 layout(location = 0) in vec2 at;
 layout(location = 1) flat in float reflectance;

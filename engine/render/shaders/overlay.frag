@@ -15,7 +15,7 @@ float from_outline(vec2 at, vec2 half_size, float radius) {
   return length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0) - radius;
 }
 
-// A frame as round as a bar, lit from above; `uv` in pixels from its middle.
+// Frame rounded like a bar, lit from above; `uv` in pixels from its middle.
 vec4 frame() {
   float width = quad.kind.y, radius = quad.kind.z;
   float outside = from_outline(uv, quad.uv.zw, radius), inside = from_outline(uv, quad.uv.zw - width, radius - width);

@@ -14,10 +14,10 @@ void main() {
   const vec2 corners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1), vec2(-1, 1));
   vec2 at = corners[gl_VertexIndex];
   vec3 place = streak.from_width.xyz + streak.along_opacity.xyz * at.y;
-  // Never thinner than a pixel, and as much fainter.
+  // Width of at least a pixel, with an opacity that falls in proportion.
   float pixel_m = view.billboard_right.w * length(streak.from_width.xyz), width = max(streak.from_width.w, pixel_m);
   vec3 side = normalize(cross(streak.along_opacity.xyz, place)) * (0.5 * width);
-  // As long as it is wide at least: a flake that stands still is a disc.
+  // Length of at least its width: a flake at rest is a disc.
   place += normalize(streak.along_opacity.xyz) * ((at.y - 0.5) * width);
   out_across = at.x;
   out_color = vec4(streak.radiance.rgb, streak.along_opacity.w * min(1.0, streak.from_width.w / pixel_m));

@@ -1,6 +1,7 @@
 #version 460
 
-// What a road's film of water shows: the mirror image, spread upwards and downwards, as at so low an angle facets that tilt aside turn light little.
+// Reflection in a road's film of water: the mirror image, spread upwards and downwards, since at so low an angle facets
+// tilted to the side hardly turn light.
 
 layout(set = 0, binding = 5) uniform sampler2D source;
 layout(push_constant) uniform Spread { vec4 spread; };  // xy: size of the target, z: deviation, texels of the source.
@@ -11,7 +12,7 @@ void main() {
   float texel = 1.0 / float(textureSize(source, 0).y), deviation = spread.z;
   vec2 at = gl_FragCoord.xy / spread.xy;
   int side = clamp(int(ceil(1.25 * deviation)), 1, 16);
-  float step = 2.2 / float(side), weights = 0.0;  // Deviations.
+  float step = 2.2 / float(side), weights = 0.0;  // Step in deviations.
   vec4 sum = vec4(0.0);
   for (int i = -side; i <= side; ++i) {
     float off = float(i) * step, weight = exp2(-0.7213475 * off * off);

@@ -1,4 +1,4 @@
-// The cascade that is drawn.
+// Cascade that is drawn.
 
 #include "engine/light/records.hpp"
 

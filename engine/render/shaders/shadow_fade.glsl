@@ -1,4 +1,4 @@
-// Which texels of the shadow map a level of detail casts into.
+// Texels of the shadow map that a level of detail casts into.
 
 #include "shadow_cascade.glsl"
 #include "fade.glsl"

@@ -9,7 +9,7 @@ layout(constant_id = 1) const uint starry = 0;
 layout(location = 0) in vec3 direction;
 layout(location = 0) out vec4 result;
 
-// The square undoes the images' code.
+// Density of clouds; the square undoes the images' code.
 float density_at(vec2 place) {
   float root = textureLod(noise, place, 0.0).r;
   return cloud_density(root * root, view.sun_level.w);
@@ -21,7 +21,7 @@ void main() {
   float toward_sun = dot(d, view.sun_direction.xyz);
   float clear = 1.0 - view.sun_level.z;
 
-  // The sun's disc, 0.53° across, with the eye's glare around it.
+  // Sun's disc, 0.53° across, with the eye's glare around it.
   float disc = smoothstep(0.999985, 0.999992, toward_sun);
   float glare = exp2((toward_sun - 1.0) * 3000.0) * 3.0 + exp2((toward_sun - 1.0) * 260.0) * 0.5;
   vec3 sun_color = view.light_irradiance.rgb * (1.0 - view.ground_irradiance.w);
@@ -35,8 +35,8 @@ void main() {
     radiance = mix(radiance, white, cover);
   }
   if (starry != 0) {
-    // At most one star in each cell of a fine grid over the sky, a point: as large as a pixel and no larger. Stars come out as the sun sinks from
-    // 6 to 15 degrees below the horizon, and thin cloud hides them.
+    // Stars: at most one in each cell of a fine grid over the sky, exactly a pixel large. Stars come out as the sun
+    // sinks from 6 to 15 degrees below the horizon, and thin cloud hides them.
     vec3 cell = floor(d * 300.0);
     float seed = fract(sin(dot(cell, vec3(12.9898, 78.233, 37.719))) * 43758.5453);
     vec3 from_middle = d * 300.0 - cell - 0.5;

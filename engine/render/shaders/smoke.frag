@@ -11,7 +11,7 @@ layout(location = 0) out vec4 result;
 void main() {
   float square = dot(at, at);
   if (square > 1.0) discard;
-  // A Gaussian out to two deviations, brought down to nothing there; billows from the noise.
+  // Gaussian out to two deviations, shifted to zero there; billows from the noise.
   float falloff = (exp2(-2.885 * square) - 0.1353) * 1.1565;
   float billows = 0.45 + 1.1 * textureLod(noise, at * 0.11 + shift_fog.xy, 0.0).r;
   float alpha = 1.0 - exp2(-1.4427 * radiance_depth.w * falloff * billows);

@@ -1,7 +1,7 @@
 #version 460
 
-// Smooths stairs along edges: Lottes, "FXAA" (NVIDIA white paper, 2009), the variant that blurs along the edge's direction
-// as four samples around the pixel show it.
+// Smooths stairs along edges: Lottes, "FXAA" (NVIDIA white paper, 2009), the variant that blurs along the edge's
+// direction, estimated from four samples around the pixel.
 
 layout(set = 0, binding = 5) uniform sampler2D image;
 layout(push_constant) uniform Target { vec4 pixel; } target;  // xy: size of a pixel in texture coordinates.
@@ -24,7 +24,8 @@ void main() {
   vec2 direction = normalize(along + vec2(1e-6, 0.0));
   float shorter = max(min(abs(direction.x), abs(direction.y)) * 8.0, 1e-3);
   vec2 far = clamp(direction / shorter, -2.0, 2.0);
-  // A software rasteriser runs both sides of a branch, but leaves a loop when no pixel of a group stays in it.
+  // Loop instead of a branch: a software rasteriser runs both sides of a branch, but leaves a loop when no pixel of a
+  // group stays in it.
   vec3 close = vec3(0.0), wide = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     if (!edge) break;

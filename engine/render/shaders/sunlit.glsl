@@ -1,24 +1,29 @@
-// Share of the sun's light that arrives at a place: one of two cascades, four texels compared and blended by the sampler; where light grazes the surface,
-// a shadow's edge would show each texel many times as long, so that sixteen are. `n`: away from the surface.
-layout(constant_id = 13) const uint unshaded = 0;  // Known to be covered, as below.
-layout(constant_id = 15) const uint soft_shadows = 0;  // Edges are as wide as the sun makes them: for graphics cards.
-layout(set = 0, binding = 15) uniform sampler2DArray shadow_depths;  // The same texels, not compared.
+// Share of the sun's light that arrives at a place: one of two cascades, four texels compared and blended by the
+// sampler, or sixteen where light grazes the surface, since a shadow's edge would show each texel many times as long.
+// `n`: away from the surface.
+//
+// `unshaded`: no shadow of the light is visible, as `covered` below, but known in advance.
+layout(constant_id = 13) const uint unshaded = 0;
+layout(constant_id = 15) const uint soft_shadows = 0;  // Edges as wide as the sun makes them: for graphics cards.
+layout(set = 0, binding = 15) uniform sampler2DArray shadow_depths;  // Shadow map, read without comparison.
 
-// The i-th of n points that lie evenly in a disc (Vogel, "A better way to construct the sunflower head", 1979).
+// Position i of n points that lie evenly in a disc (Vogel, "A better way to construct the sunflower head", 1979).
 vec2 in_disc(int i, int n) {
   float angle = 2.39996323 * float(i);
   return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
 }
 
-// Percentage-closer soft shadows (Fernando, 2005) of a disc as wide as the sun: how far above the place is what shades it decides how wide its edge is.
-// Deviation: what is too thin for the search is still compared as a narrow shadow is. `a`: the surface's normal in the near cascade's texture space.
+// Percentage-closer soft shadows (Fernando, 2005) of a disc as wide as the sun: the height of the caster above the
+// place gives the width of the shadow's edge. Deviation: casters too thin for the search are still compared, as narrow
+// shadows are. `a`: the surface's normal in the near cascade's texture space.
 float softly_lit(vec4 at, vec3 a, float texel_m) {
   const float sun_rad = 0.00465, farthest_m = 80.0;
   const int searched = 16, compared = 32;
   mat3 texture_from = mat3(view.shadow_from_relative);
   vec3 across = vec3(texture_from[0].x, texture_from[1].x, texture_from[2].x), along = vec3(texture_from[0].z, texture_from[1].z, texture_from[2].z);
   float texels = float(textureSize(shadow_map, 0).x), depth_per_m = length(along);
-  // The surface's own plane beside the place: its depth per texture coordinate, not steeper than 1 in 6 of the light's way.
+  // Plane of the surface around the place, as depth per texture coordinate, limited to 6 m along the light for 1 m
+  // across.
   float near_over_far = at.z > 0.5 ? view.far_from_near.x : 1.0;
   float steepest = 6.0 * depth_per_m / (length(across) * near_over_far);
   vec2 plane = clamp(-a.xy / (sign(a.z) * max(abs(a.z), 1e-6)) * dot(along, along) / (dot(across, across) * near_over_far), vec2(-steepest), vec2(steepest));
@@ -41,7 +46,7 @@ float softly_lit(vec4 at, vec3 a, float texel_m) {
 
 float sunlit(vec3 relative, vec3 n, float facing) {
   if (unshaded != 0) return 1.0;
-  // The receiver is moved off its surface by about two texels of the cascade that it lies in.
+  // The receiver is moved off its surface by up to two texels of its cascade.
   vec3 near = (view.shadow_from_relative * vec4(relative, 1.0)).xyz;
   vec2 near_edge = abs(near.xy - 0.5);
   bool is_near = max(near_edge.x, near_edge.y) < 0.48;
@@ -51,7 +56,7 @@ float sunlit(vec3 relative, vec3 n, float facing) {
   vec2 far_edge = abs(far - 0.5);
   float fade = is_near ? 1.0 : clamp((0.49 - max(far_edge.x, far_edge.y)) * 20.0, 0.0, 1.0);
   vec4 at = is_near ? vec4(near.xy, 0.0, near.z) : vec4(far, 1.0, near.z);
-  // A loop, not branches: a device of software leaves it early. Under a closed cover nothing is looked up.
+  // Loop instead of branches: a software device leaves it early. Under a closed cover no texel is compared.
   bool grazed = facing < 0.4;
   bool covered = view.offset.w == 0.0;
   if (soft_shadows != 0) return covered ? 1.0 : 1.0 - fade + fade * softly_lit(at, mat3(view.shadow_from_relative) * n, texel_m);

@@ -13,24 +13,29 @@
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
 
-// A software rasteriser runs both sides of a branch, so what is rare is specialised away.
-layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
+// Rare cases are specialised away: a software rasteriser runs both sides of a branch.
+//
+// `textured`: 1 one sample, 2 three along the longer side of the pixel's footprint.
+layout(constant_id = 0) const uint textured = 0;
 layout(constant_id = 1) const uint cut = 0;       // Alpha cuts holes, both sides are drawn: 1 by coverage, 2 by pixels.
-layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky: 1 by its own layer, 2 by a clear coat, 3 by both.
+// Reflects sun and sky: 1 by its own layer, 2 by a clear coat, 3 by both.
+layout(constant_id = 2) const uint glossy = 0;
 layout(constant_id = 3) const uint blended = 0;
-layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 standing lamps, 3 both; 5 and 7: some headlights' main beams, too; 8 more: beacons.
+// Bits: 1 headlights, 2 standing lamps, 4 the main beam of some headlights, 8 beacons.
+layout(constant_id = 4) const uint lamps = 0;
 layout(constant_id = 5) const uint snowy = 0;
 layout(constant_id = 6) const uint sooty = 0;
-layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels; drawn wider than it is where it is thin.
-layout(constant_id = 8) const uint road = 0;            // Gets wet; wheels run on it.
-layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn as what a wet road mirrors.
+// Covers a share of its pixels; drawn wider than it is if thinner than a pixel.
+layout(constant_id = 7) const uint stripe = 0;
+layout(constant_id = 8) const uint road = 0;            // Gets wet, and carries the tracks of wheels.
+layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn for a wet road's mirror image.
 layout(constant_id = 10) const uint fading = 0;         // Some pixels show another level of detail.
 
 layout(constant_id = 11) const uint retroreflective = 0;
 layout(constant_id = 16) const uint two_sided = 0;  // Opaque, and drawn from both sides.
-layout(constant_id = 12) const uint over_frames = 0;  // As in surface.vert.
+layout(constant_id = 12) const uint over_frames = 0;  // See surface.vert.
 
-const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of what surfaces mirror in tunnels.
+const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of the surroundings reflected in tunnels.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -49,7 +54,7 @@ float soot_in(ivec3 cell, ivec3 size) {
   return float((soot[at >> 2] >> ((at & 3) * 8)) & 255u) / 255.0;
 }
 
-// Share of a surface's light that the soot on it takes, between the eight cells around.
+// Share of a surface's light that its soot absorbs, interpolated between the eight cells around.
 float soot_cover() {
   vec4 place = vec4(relative, 1.0);
   vec3 at = vec3(dot(view.soot_x, place), dot(view.soot_y, place), dot(view.soot_z, place));
@@ -61,7 +66,7 @@ float soot_cover() {
   return sum;
 }
 
-// The road lies at a grazing angle, where a pixel's footprint is long: three samples along it, from a finer mip level.
+// Road at a grazing angle, with a long footprint of the pixel: three samples along it, from a finer mip level.
 vec4 along_footprint(vec2 at) {
   vec2 across = dFdx(at), down = dFdy(at);
   float a = dot(across, across), d = dot(down, down);
@@ -70,19 +75,20 @@ vec4 along_footprint(vec2 at) {
   return (texture(image, at - step, bias) + texture(image, at, bias) + texture(image, at + step, bias)) / 3.0;
 }
 
-// Share of a pixel's breadth that lies on a stripe, `at` metres from the middle of its `half_width`: what a box filter leaves.
+// Share of a pixel's width that a stripe covers (box filter), `at` metres from the middle of its `half_width`.
 float on_stripe(float at, float half_width) {
   float breadth = max(length(vec2(dFdx(at), dFdy(at))), 1e-5);
   vec2 ends = clamp(at + vec2(0.5, -0.5) * breadth, -half_width, half_width);
   return (ends.x - ends.y) / breadth;
 }
 
-layout(constant_id = 14) const uint clustered_headlights = 0;  // All that reach a place light it, not the nearest eight: for graphics cards.
+// Light from all headlights that reach a place, instead of the nearest ten: for graphics cards.
+layout(constant_id = 14) const uint clustered_headlights = 0;
 layout(set = 0, binding = 16, std430) readonly buffer Clusters { uint clusters[]; };  // See passes/light_clusters.hpp.
 
 vec4 of_cluster(uint at) { return uintBitsToFloat(uvec4(clusters[at], clusters[at + 1], clusters[at + 2], clusters[at + 3])); }
 
-// What a pair of headlights does, as below.
+// Irradiance from one Headlight, a lamp or a pair; w as below.
 vec4 headlight(vec4 position, vec4 direction, vec3 n) {
   vec3 to_surface = relative - position.xyz;
   float square = dot(to_surface, to_surface);
@@ -96,7 +102,8 @@ vec4 headlight(vec4 position, vec4 direction, vec3 n) {
   return light * vec4(lit, beam_returned(back));
 }
 
-// Irradiance from headlights, and in w what of the lamps beside the eye comes back to it from retroreflectors, per unit of retroreflection: as lx.
+// Irradiance from headlights; w: light that retroreflectors return to the eye from lamps beside it, per unit of
+// retroreflection, as lx.
 vec4 headlights(vec3 n) {
   vec4 sum = vec4(0.0);
   if (clustered_headlights != 0) {
@@ -122,31 +129,32 @@ vec3 beacons(vec3 n) {
   return sum;
 }
 
-// Microfacets' sun (GGX, with Kelemen's visibility 1/(4·vh²)), per unit of irradiance on them.
+// Sun's highlight on microfacets (GGX, with Kelemen's visibility 1/(4·vh²)), per unit of irradiance on them.
 vec3 shine(vec3 facet, vec3 to_eye, vec3 f0, float roughness) {
   vec3 h = normalize(view.light_direction.xyz + to_eye);
   float vh = max(dot(to_eye, h), 1e-3), density = ggx_density(max(dot(facet, h), 0.0), roughness * roughness);
   return min(schlick(f0, vh) * (density * 0.25 / (vh * vh)), vec3(40.0));
 }
 
-// Share of an even sky that a layer mirrors: a fit to GGX with Smith's masking and Schlick's Fresnel, within 0.03 for roughness up to 0.7.
+// Share of an even sky that a layer reflects: a fit to GGX with Smith's masking and Schlick's Fresnel, within 0.03 for
+// roughness up to 0.7.
 vec3 layer_reflectance(float cosine, vec3 f0, float roughness) {
   return f0 * (1.0 - 0.15 * roughness) + (1.0 - f0) * (fifth_power(1.0 - cosine) / (1.0 + 20.0 * roughness * roughness * roughness));
 }
 
 void main() {
   if (fading != 0 && !is_shown(shown, gl_FragCoord.xy)) discard;
-  // What stands still and lies lower than the road is not mirrored by it.
+  // Static surfaces below the road are not mirrored by it.
   if (mirror_of_road != 0 && snowed > 0.5 && dot(view.road.xyz, relative) < view.road.w) discard;
   vec4 base = color;
-  // What is written on signs and plates is sharper by a finer mip level, which so plain a picture can bear.
+  // Signs and plates take a finer mip level for sharper writing; their plain pictures do not flicker by it.
   if (textured == 1) base *= decoded(texture(image, uv, retroreflective != 0 ? -0.7 : 0.0));
   if (textured == 2) base *= decoded(along_footprint(uv));
   float alpha = base.a;
   if (stripe != 0) alpha *= on_stripe(uv.x, uv.y);
   if (cut == 2 && alpha < 0.5) discard;
   if (cut == 1) {
-    // Sharpened so that the edge is a pixel wide whatever the mip level; coverage of the samples takes it from here.
+    // Sharpened so that the edge is a pixel wide at any mip level; coverage of the samples follows from it.
     alpha = clamp((base.a - 0.5) / max(fwidth(base.a), 1e-3) + 0.5, 0.0, 1.0);
     if (alpha < 0.05) discard;
   }
@@ -187,11 +195,11 @@ void main() {
   vec3 sunlight = view.light_irradiance.rgb * lit;
   // Roads lie level, in the open.
   vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : irradiance_on(n) * (share_of_sky * material.more.x);
-  // The lamps of a roofed place: their light from all sides, and near the eye their pools in it.
+  // Light of the lamps of a roofed place: from all sides, and near the eye their pools as well.
   float between_pools = 1.0 - share_of_sky;
   if ((lamps & 2) != 0) {
     vec4 thrown = standing_lamps(relative, n, share_of_sky);
-    // Lamps below a ceiling leave it to what the road sends back.
+    // Ceilings above the lamps get only the light that the road returns.
     between_pools *= (1.0 - 0.7 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
     ambient += thrown.rgb * material.more.x;
   }
@@ -210,7 +218,7 @@ void main() {
   }
 
   if (glossy != 0 && road != 0) {
-    // The water's film.
+    // Film of water on the road.
     float r = water_roughness(under_water);
     vec3 facet = normalize(n - vec3(slope, 0.0));
     float cosine = clamp(dot(facet, to_eye), 0.0, 1.0);
@@ -222,7 +230,7 @@ void main() {
     radiance += fresnel * around * water_covers(wet, under_water);
     radiance += shine(facet, to_eye, vec3(water_reflectance), r) * sunlight * (max(facing, 0.0) * wet);
   } else if (glossy != 0) {
-    // What a layer mirrors does not reach the one below it, on its way in as on its way out.
+    // Light reflected by a layer does not reach the one below it, on its way in as on its way out.
     float cosine = clamp(dot(n, to_eye), 0.0, 1.0);
     vec3 mirrored = reflect(-to_eye, n), beam = sunlight * max(facing, 0.0), roof = under_roof * (1.0 - share_of_sky);
     share_of_sky *= material.more.x;

@@ -7,7 +7,8 @@
 layout(constant_id = 7) const uint stripe = 0;
 layout(constant_id = 9) const uint mirror_of_road = 0;
 layout(constant_id = 10) const uint fading = 0;
-layout(constant_id = 12) const uint over_frames = 0;  // passes/temporal_pass.hpp: 1 its pixels come of frames before, too, 2 of this one alone.
+// See passes/temporal_pass.hpp: 1 pixels with a history, 2 pixels of this frame alone.
+layout(constant_id = 12) const uint over_frames = 0;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
@@ -22,14 +23,16 @@ layout(location = 5) out vec3 out_fog;
 layout(location = 6) flat out float out_snowed;
 layout(location = 7) flat out vec2 out_shown;
 
-// A stripe's edge (see passes/stripes.hpp) moves outwards until the stripe reaches half a pixel beyond what it covers, so that none is without a
-// sample. Returns how much nearer it is drawn, for it may sink into a road that is not as flat as it.
+// Moves a stripe's edge (see passes/stripes.hpp) outwards until the stripe reaches beyond the area that it covers by
+// 0.75 pixels, so that every covered pixel has a sample. Returns the share by which it is drawn nearer to the eye,
+// since it may sink into a road that is less flat.
 float widen_stripe() {
   vec3 outwards = turned(normal);
   float half_width = length(outwards), side = 2.0 * uv.x - 1.0, distance_m = length(out_relative);
   outwards /= half_width;
   vec3 along = vec3(-outwards.y * side, outwards.x * side, uv.y);
-  // A metre outwards shifts the edge on the screen by its share across the plane through the eye and the stripe.
+  // Share of a displacement along `outwards` that lies across the plane through the eye and the stripe: it alone shifts
+  // the edge on the screen.
   float share = abs(dot(outwards, normalize(cross(out_relative, along))));
   float pixel_m = min(view.billboard_right.w * distance_m / max(share, 1e-4), 3.0);
   float more_m = 0.75 * pixel_m;
@@ -39,7 +42,7 @@ float widen_stripe() {
   return min(0.01, 0.03 * more_m / max(abs(out_relative.z), 0.3));
 }
 
-// Where water on the road shows this place: below the road under its vehicle, or else under the eye.
+// Place of the mirror image in the road's water: below the road under the vehicle, or else under the eye.
 vec3 below_road(vec3 place) {
   vec3 up = view.road.xyz;
   float road = light.w > -5000.0 ? dot(up, vec3(row0.w, row1.w, row2.w)) - light.w : view.road.w;
@@ -49,7 +52,7 @@ vec3 below_road(vec3 place) {
 void main() {
   out_relative = placed(position);
   out_normal = turned_normal(normal);
-  // Of several pictures in one image that of this participant.
+  // One of several pictures in an image, that of this participant.
   float picture = mod(light.z, material.light.z * material.light.w);
   out_uv = (uv + vec2(mod(picture, material.light.z), floor(picture / material.light.z))) / material.light.zw;
   out_snowed = material.base_color.a < 0.999 ? 0.0 : light.y;

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "engine/light/tone_curve.hpp"
 
-// With four samples a pixel each is mapped before they are averaged: a glint that covers one of them would whiten them all.
+// Tone mapping of each of a pixel's four samples before they are averaged: otherwise a glint that covers one of them
+// would whiten the pixel.
 
 layout(set = 0, binding = 5) uniform sampler2DMS radiance;
 layout(push_constant) uniform Exposure { vec4 exposure; };  // x: from radiance to the tone curve.

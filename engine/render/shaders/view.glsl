@@ -1,4 +1,4 @@
-// What every pass of a view sees, and the light of its sky.
+// Uniforms and images that every pass of a view reads, and the light of its sky.
 
 #include "engine/light/fresnel.hpp"
 #include "engine/light/lamplight.hpp"
@@ -22,7 +22,7 @@ vec2 sky_coordinates(vec3 direction) {
   return vec2(sqrt(max(0.0, 0.5 - 0.5 * cosine)), 0.5 + 0.5 * sign(direction.z) * sqrt(abs(direction.z)));
 }
 
-// Half a texel from a table's edges lies the middle of its outer texels: none is mixed with those of the next.
+// Half a texel of margin keeps the samples within one table: the middle of its outer texels lies there.
 vec3 sky_in_table(vec3 direction, float table) {
   vec2 at = sky_coordinates(direction);
   at.y = (clamp(at.y, 0.5 / 64.0, 63.5 / 64.0) + table) * (1.0 / sky_tables);
@@ -31,7 +31,7 @@ vec3 sky_in_table(vec3 direction, float table) {
 
 vec3 sky_radiance(vec3 direction) { return sky_in_table(direction, 0.0); }
 
-// Of sky and ground, what a surface of that roughness mirrors in that direction.
+// Sky and ground as reflected in that direction by a surface of that roughness.
 vec3 mirrored_sky(vec3 direction, float roughness) {
   return sky_in_table(direction, sky_table_of(roughness));
 }
@@ -42,10 +42,12 @@ vec3 irradiance_on(vec3 n) {
                               view.irradiance[4].rgb, view.irradiance[5].rgb, view.irradiance[6].rgb), view.sun_level.xy, n);
 }
 
-// What fog between the eye and a place in that direction scatters: as bright as the sky behind it, and below the horizon as the sky just above.
+// Radiance of fog between the eye and a place in that direction: that of the sky behind it, and below the horizon that
+// of the sky just above.
 vec3 fog_radiance(vec3 direction) { return sky_radiance(vec3(direction.xy, max(direction.z, 0.02))); }
 
-// Haze under a roof is lit by the lamps there. `share_of_sky`: of the place, beside the eye's own.
+// Radiance of fog; haze under a roof is lit by the lamps there. `share_of_sky`: of the place, in addition to the eye's
+// own.
 vec3 fog_radiance(vec3 direction, float share_of_sky) {
   return mix(fog_radiance(direction), roofed_haze, roofed_between(view.wind.w, share_of_sky));
 }

@@ -9,11 +9,12 @@ layout(location = 2) flat in vec4 heights;
 layout(location = 3) flat in vec4 before;
 layout(location = 0) out vec4 result;
 
-layout(set = 0, binding = 20) uniform sampler2D mirror_depth;  // Of what the road mirrors.
+layout(set = 0, binding = 20) uniform sampler2D mirror_depth;  // Depth of the road's mirror image.
 
-// Whether something stands higher than the way from this place to the lamp. What does is mirrored by the road between here and where a level road
-// mirrors the lamp: each of some places there tells one distance of what stands before the lamp, and a height that it has at least. The first lies a
-// little nearer: what stands there may stand on this place.
+// True if an object stands higher than the line from this place to the lamp. Its mirror image lies on the road between
+// here and the point where a level road mirrors the lamp: each of several places there gives the distance of one object
+// before the lamp, and a lower bound of its height. The first place lies a little nearer than this one, since an object
+// may stand right here.
 bool is_hidden() {
   const int places = 8;
   float lamp_m = heights.z - min(1.0, 0.5 * heights.z), mirrors_lamp_m = max(heights.z * heights.x / (heights.x + heights.y), at.y);
@@ -31,7 +32,8 @@ bool is_hidden() {
 
 void main() {
   float grazing = heights.x / at.y;
-  // A facet of the water sends the lamp to the eye if it is tilted by half of what the two angles to the road differ.
+  // A facet of the water reflects the lamp to the eye if it is tilted by half of the difference between the two angles
+  // to the road.
   float tilt = 0.5 * (grazing - heights.y / (heights.z - at.y)) / 0.06;
   float side = at.x * heights.z / (heights.w * at.y);
   float mirrored = schlick(vec3(water_reflectance), grazing).x;

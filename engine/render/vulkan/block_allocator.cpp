@@ -14,7 +14,7 @@ std::optional<std::uint64_t> BlockAllocator::allocate(std::uint64_t size, std::u
     const Gap gap = gaps_[i];
     const std::uint64_t begin = (gap.begin + alignment - 1) / alignment * alignment;
     if (begin + size > gap.end) continue;
-    // What the alignment skips stays a gap of its own.
+    // Bytes skipped for the alignment stay a gap of their own.
     std::vector<Gap> rest;
     if (begin > gap.begin) rest.push_back({gap.begin, begin});
     if (begin + size < gap.end) rest.push_back({begin + size, gap.end});

@@ -1,5 +1,5 @@
 #pragma once
-/// Which part of a block of memory is free: first fit over a sorted list of gaps, neighbours merged when freed.
+/// Free parts of a block of memory: first fit over a sorted list of gaps, neighbours merged when freed.
 ///
 /// Pure bookkeeping of offsets, so that it is tested without a device.
 
@@ -13,9 +13,9 @@ class BlockAllocator {
  public:
   explicit BlockAllocator(std::uint64_t size);
 
-  /// The offset of `size` bytes (more than zero), a multiple of `alignment`, or nothing where no gap is large enough.
+  /// Returns the offset of `size` bytes (more than zero), a multiple of `alignment`; empty if no gap is large enough.
   std::optional<std::uint64_t> allocate(std::uint64_t size, std::uint64_t alignment);
-  /// Gives back exactly what was allocated at `offset`.
+  /// Frees exactly the range allocated at `offset`.
   void free(std::uint64_t offset, std::uint64_t size);
 
   std::uint64_t size() const { return size_; }

@@ -134,7 +134,7 @@ void run_once(const Device& device, const std::function<void(VkCommandBuffer)>& 
 
 HostArena::Slice allocate(MemoryPool& pool, HostArena& arena, std::uint64_t size) {
   constexpr std::uint64_t chunk_bytes = std::uint64_t{1} << 20;
-  constexpr std::uint64_t alignment = 256;  // The largest that Vulkan lets a device ask of offsets.
+  constexpr std::uint64_t alignment = 256;  // Largest that Vulkan lets a device require of offsets.
   if (arena.chunk < arena.chunks.size() && arena.used + size > arena.chunks[arena.chunk].size) {
     ++arena.chunk;
     arena.used = 0;

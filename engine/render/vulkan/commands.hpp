@@ -12,10 +12,10 @@
 
 namespace septet::render::vulkan {
 
-/// A change of use of a whole image.
+/// Change of access to a whole image.
 struct ImageBarrier {
   const DeviceImage* image = nullptr;
-  VkImage swapchain_image = VK_NULL_HANDLE;  ///< Instead of `image`.
+  VkImage swapchain_image = VK_NULL_HANDLE;  ///< Used instead of `image`.
   Access before = Access::none, after = Access::none;
   bool discard = false;
 };
@@ -40,7 +40,7 @@ struct HostArena {
 HostArena::Slice allocate(MemoryPool& pool, HostArena& arena, std::uint64_t size);
 void destroy_arena(HostArena& arena, MemoryPool& pool);
 
-/// Copies to the device that are noted one by one and go in one submission, for each costs a wait.
+/// Copies to the device, noted one by one and sent in one submission, since each submission costs a wait.
 class Upload {
  public:
   Upload(const Device& device, MemoryPool& memory) : device_(device), memory_(memory) {}
@@ -53,7 +53,7 @@ class Upload {
   /// Memory that the host fills before `finish`, for a copy to read.
   HostArena::Slice stage(std::uint64_t size) { return allocate(memory_, staging_, size); }
   void add(std::function<void(VkCommandBuffer)> copy) { copies_.push_back(std::move(copy)); }
-  /// Submits what was added and waits for it. What is not finished never happens.
+  /// Submits the added copies and waits for them. Without it they are never made.
   void finish();
 
  private:
@@ -63,14 +63,14 @@ class Upload {
   std::vector<std::function<void(VkCommandBuffer)>> copies_;
 };
 
-/// What one frame in flight owns.
+/// Resources of one frame in flight.
 struct FrameSlot {
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkSemaphore image_acquired = VK_NULL_HANDLE;
-  std::uint64_t finished_value = 0;  ///< Of the timeline, once the device is done with the slot.
+  std::uint64_t finished_value = 0;  ///< Timeline value at which the device is done with the slot.
   HostArena arena;
-  PassMarks marks;  ///< Without a pool where frames are not timed.
+  PassMarks marks;  ///< Without a pool unless frames are timed.
 };
 
 inline constexpr std::size_t frames_in_flight = 2;
@@ -81,18 +81,18 @@ struct FrameRing {
   std::uint64_t submitted = 0;
 };
 
-/// `timed`: passes are marked.
+/// Creates the ring. `timed`: passes are marked.
 void create_frame_ring(FrameRing& ring, const Device& device, bool timed);
 void destroy_frame_ring(FrameRing& ring, const Device& device, MemoryPool& pool);
 /// Waits until the slot of the next frame is free and begins its commands.
 FrameSlot& begin_frame(FrameRing& ring, const Device& device);
-/// What else a submission waits for and signals; null: nothing.
+/// Further semaphores that a submission waits for and signals; null: not used.
 struct PresentSync {
   VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
 /// Ends the slot's commands and submits them.
 void submit(FrameRing& ring, FrameSlot& slot, const Device& device, const PresentSync& sync = {});
-/// Waits until every frame that was submitted is finished.
+/// Waits until every submitted frame is finished.
 void wait_for_frames(const FrameRing& ring, const Device& device);
 
 }  // namespace septet::render::vulkan

@@ -96,7 +96,7 @@ std::optional<std::uint32_t> graphics_queue(VkPhysicalDevice physical, VkSurface
   return std::nullopt;
 }
 
-/// Higher is better; 0 cannot be used.
+/// Rank of a device: higher is better; 0 is unusable.
 int rank(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, const Device& device,
          const DeviceOptions& options) {
   if (properties.apiVersion < VK_API_VERSION_1_3) return 0;

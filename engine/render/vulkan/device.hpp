@@ -1,5 +1,5 @@
 #pragma once
-/// The Vulkan instance, device and its one queue.
+/// Vulkan instance, device and its one queue.
 
 #include <atomic>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace septet::render::vulkan {
 
-/// What the validation layer has said. The layer may call from any thread.
+/// Messages of the validation layer, which may call from any thread.
 struct ValidationLog {
   std::atomic<std::uint32_t> messages{0};
   std::mutex mutex;
@@ -23,7 +23,7 @@ struct ValidationLog {
 struct DeviceOptions {
   bool software_only = false;
   bool validation = false;
-  std::vector<const char*> instance_extensions;            ///< Those that a window's surface needs.
+  std::vector<const char*> instance_extensions;            ///< Extensions that a window's surface needs.
   std::function<VkSurfaceKHR(VkInstance)> create_surface;  ///< Empty: off-screen.
 };
 

@@ -53,7 +53,7 @@ Allocation allocate(MemoryPool& pool, const VkMemoryRequirements& needs, MemoryU
   return {&block, *block.allocator.allocate(needs.size, needs.alignment), needs.size};
 }
 
-/// An empty block goes back to the device at once.
+/// Frees an allocation; an empty block goes back to the device at once.
 void release(MemoryPool& pool, Allocation& allocation) {
   if (!allocation.block) return;
   MemoryBlock* block = allocation.block;

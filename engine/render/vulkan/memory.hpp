@@ -2,7 +2,7 @@
 /// Buffers and images in blocks of device memory.
 ///
 /// Memory comes in blocks of 32 MiB for each memory type, buffers and images apart (so bufferImageGranularity never
-/// matters); what needs more than half a block gets one of its own. Host-coherent blocks stay mapped.
+/// matters); a request of more than half a block gets one of its own. Host-coherent blocks stay mapped.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct MemoryPool {
   std::vector<std::unique_ptr<MemoryBlock>> blocks;
 };
 
-/// A part of a block.
+/// Part of a block.
 struct Allocation {
   MemoryBlock* block = nullptr;
   std::uint64_t offset = 0, size = 0;
@@ -53,8 +53,8 @@ struct ImageDescription {
   VkImageUsageFlags usage = 0;
   std::uint32_t mip_levels = 1;
   std::uint32_t layers = 1;
-  bool array = false;  ///< The view is that of an array, even of one layer.
-  bool cube = false;   ///< The view is that of a cube, whose faces are the six layers.
+  bool array = false;  ///< View of an array, even of one layer.
+  bool cube = false;   ///< View of a cube, whose faces are the six layers.
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
 };
@@ -62,7 +62,7 @@ struct ImageDescription {
 struct DeviceImage {
   VkImage image = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
-  std::vector<VkImageView> layer_views;  ///< One a layer, where there are several.
+  std::vector<VkImageView> layer_views;  ///< One a layer, for images of several layers.
   Allocation allocation;
   ImageDescription description;
 };

@@ -1,8 +1,8 @@
 #pragma once
-/// What the device takes for each pass of a frame, by its own clock: a timestamp after each pass.
+/// Time of each pass of a frame by the device's clock: a timestamp after each pass.
 ///
-/// A frame's times are read when its slot is used again, so nothing waits for them. A software device draws what was recorded before each
-/// timestamp first: the frame takes a little longer, and the times are exact.
+/// A frame's times are read when its slot is used again, so nothing waits for them. A software device finishes all work
+/// recorded before each timestamp first: the frame takes a little longer, and the times are exact.
 
 #include <string_view>
 #include <vector>
@@ -12,19 +12,20 @@
 
 namespace septet::render::vulkan {
 
-/// Those of one frame in flight; without a pool there are none.
+/// Marks of one frame in flight; without a pool there are no timestamps.
 struct PassMarks {
   VkQueryPool pool = VK_NULL_HANDLE;
   std::vector<std::string_view> names;
 };
 
-/// On a device without timestamps there are none.
+/// Creates the pool, unless the device has no timestamps.
 void create_pass_marks(PassMarks& marks, const Device& device);
 void destroy_pass_marks(PassMarks& marks, const Device& device);
 
-/// Begins a frame, the last one of these marks being finished: returns what its passes took, in order, equal names summed.
+/// Begins a frame after the last one of these marks has finished: returns the times of its passes, in order, those of
+/// equal names summed.
 std::vector<PassTime> begin_pass_marks(PassMarks& marks, const Device& device, VkCommandBuffer commands);
-/// What was recorded since the last mark was this pass. More than 128 of a frame are dropped.
+/// Attributes the commands recorded since the last mark to this pass. Marks after the 128th of a frame are dropped.
 void mark_pass(PassMarks& marks, VkCommandBuffer commands, std::string_view name);
 
 }  // namespace septet::render::vulkan

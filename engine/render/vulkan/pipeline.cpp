@@ -110,7 +110,7 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
       {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, row1)},
       {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, row2)},
       {8, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(InstanceRecord, shown)},
-      // What shadows go without comes last.
+      // Inputs that shadows omit come last.
       {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, normal)},
       {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, tint)},
       {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, light)},

@@ -1,5 +1,5 @@
 #pragma once
-/// Graphics pipelines: one layout for all of them, dynamic rendering, and what differs as plain data.
+/// Graphics pipelines: one layout for all of them, dynamic rendering, and their differences as plain data.
 
 #include <array>
 #include <cstdint>
@@ -11,27 +11,31 @@ namespace septet::render::vulkan {
 
 /// Bindings of the one descriptor set, pushed while recording.
 enum Binding : std::uint32_t {
-  binding_view = 0,     ///< Uniforms of the view.
-  binding_records = 1,  ///< Storage: soot for surfaces, then puffs of smoke, then lamps that glow.
+  binding_view = 0,  ///< Uniforms of the view.
+  /// Storage: soot for surfaces, or the records of contacts, wet lamps, smoke, glows, streaks or mirror glass.
+  binding_records = 1,
   binding_sky = 2,
   binding_shadow = 3,
   binding_noise = 4,
-  binding_image = 5,  ///< The material's image, or the overlay's.
-  binding_ice_front =
-      6,                 ///< Ice (passes/ice_pass.hpp): normals and depth of its nearest front faces, of the back faces
-  binding_ice_back = 7,  ///< behind them, what is inside it,
+  binding_image = 5,  ///< Image of the draw: a material's, the overlay's, or the source of a whole-target pass.
+  /// Ice (passes/ice_pass.hpp): normals and depth of its nearest front faces, of the back faces behind them, its
+  /// inside, and the cube map of its surroundings.
+  binding_ice_front = 6,
+  binding_ice_back = 7,
   binding_ice_inside = 8,
-  binding_surroundings = 9,         ///< and the cube map of what lies around it.
-  binding_ice_beyond = 10,          ///< Of the nearest front faces behind those back faces, and of the back faces
-  binding_ice_beyond_back = 11,     ///< behind these.
-  binding_lamps = 12,               ///< What standing lamps throw (passes/lamp_field.hpp).
-  binding_road_mirror = 13,         ///< What a wet road mirrors (passes/road_mirror_pass.hpp),
-  binding_ripples = 14,             ///< and the slopes of the water on it.
-  binding_shadow_depths = 15,       ///< The shadow map, not compared.
-  binding_light_clusters = 16,      ///< Storage: which headlights light where (passes/light_clusters.hpp).
-  binding_history = 17,             ///< The picture before (passes/temporal_pass.hpp),
-  binding_depth = 18,               ///< and this one's depth.
-  binding_road_mirror_spread = 19,  ///< What a wet road mirrors, spread by its roughness, and its depth.
+  binding_surroundings = 9,
+  /// Normals and depth of the nearest front faces behind those back faces, and of the back faces behind these.
+  binding_ice_beyond = 10,
+  binding_ice_beyond_back = 11,
+  binding_lamps = 12,           ///< Light of standing lamps (passes/lamp_field.hpp).
+  binding_road_mirror = 13,     ///< Mirror image in a wet road (passes/road_mirror_pass.hpp).
+  binding_ripples = 14,         ///< Slopes of the water on the road.
+  binding_shadow_depths = 15,   ///< Shadow map, not compared.
+  binding_light_clusters = 16,  ///< Storage: lists of headlights by place (passes/light_clusters.hpp).
+  binding_history = 17,         ///< Frame before (passes/temporal_pass.hpp).
+  binding_depth = 18,           ///< Depth of this frame.
+  /// Mirror image in a wet road, spread by its roughness, and its depth.
+  binding_road_mirror_spread = 19,
   binding_road_mirror_depth = 20,
   binding_count = 21,
 };
@@ -46,10 +50,11 @@ struct PipelineLayout {
 void create_pipeline_layout(PipelineLayout& layout, const Device& device);
 void destroy_pipeline_layout(PipelineLayout& layout, const Device& device);
 
-/// `data`: no blending, and alpha is stored like the other three. `layer`: as `over`, onto a picture with an alpha of its own.
+/// Blending of colours. `data`: none, and alpha is stored like the other three. `layer`: as `over`, onto a picture with
+/// an alpha of its own.
 enum class Blend : std::uint8_t { none, over, add, data, layer };
-/// What the vertex shader takes. Buffer 0, scene::SurfaceVertex: position, texture coordinates and normal at locations 0, 1,
-/// 2. Buffer 1, once an instance: light::InstanceRecord, at the locations that it says. `shadow` goes without the normal and the
+/// Vertex-shader inputs. Buffer 0, scene::SurfaceVertex: position, texture coordinates and normal at locations 0, 1, 2.
+/// Buffer 1, once an instance: light::InstanceRecord, at the locations given there. `shadow` omits the normal and the
 /// last two vectors. `ice`: one buffer of ice::IceVertex, position, normal and place at rest at locations 0, 1, 2.
 enum class VertexInput : std::uint8_t { none, shadow, surface, ice };
 
@@ -62,13 +67,13 @@ struct PipelineDescription {
   bool depth_write = true;
   VkCompareOp depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;  ///< Depth is reversed.
   bool alpha_to_coverage = false;
-  bool marks = false;  ///< Alpha is stored, too: blended by itself, however the others are.
+  bool marks = false;  ///< Alpha is stored, too: blended by itself, whatever the blending of the colours.
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
   std::array<std::uint32_t, 17> constants{};  ///< Specialization constants 0 to 16 of both stages.
 };
 
-/// Viewport, scissor, cull mode and front face are dynamic.
+/// Creates a pipeline. Viewport, scissor, cull mode and front face are dynamic.
 VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, const PipelineDescription& description);
 
 }  // namespace septet::render::vulkan

@@ -7,7 +7,7 @@
 namespace septet::render::vulkan {
 namespace {
 
-/// A format that takes the picture's codes as they are, shown as sRGB.
+/// Format that takes the picture's codes unchanged, shown as sRGB.
 VkSurfaceFormatKHR choose_format(const Device& device) {
   std::uint32_t count = 0;
   require(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical, device.surface, &count, nullptr),
@@ -20,7 +20,7 @@ VkSurfaceFormatKHR choose_format(const Device& device) {
   throw Failure{{"the display takes no sRGB picture", "display", "use another display or driver"}};
 }
 
-/// Shows each picture at the next refresh, the newest where the display allows it.
+/// Mode that shows each picture at the next refresh, the newest if the display allows it.
 VkPresentModeKHR choose_mode(const Device& device) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical, device.surface, &count, nullptr);

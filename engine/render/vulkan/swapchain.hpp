@@ -1,5 +1,5 @@
 #pragma once
-/// The images of a window: acquired, filled by a scaled copy of the finished picture, presented.
+/// Images of a window: acquired, filled by a scaled copy of the finished picture, presented.
 
 #include <optional>
 #include <vector>
@@ -13,18 +13,20 @@ struct Swapchain {
   VkExtent2D extent{};
   std::vector<VkImage> images;
   std::vector<VkSemaphore> finished;  ///< One an image: drawn, ready to present.
-  bool stale = true;                  ///< The window has changed; make it anew.
+  bool stale = true;                  ///< True after the window has changed: renew the swapchain.
 };
 
-/// Makes the images anew for a window of this size; does nothing while the window has no area. Nothing may be in flight.
+/// Recreates the images for a window of this size; does nothing while the window has no area. No frame may be in
+/// flight.
 void renew_swapchain(Swapchain& swapchain, const Device& device, std::uint32_t width, std::uint32_t height);
 void destroy_swapchain(Swapchain& swapchain, const Device& device);
 
-/// Index of the next image, or nothing where there is none now (minimised, resized).
+/// Index of the next image; empty if there is none now (minimised, resized).
 std::optional<std::uint32_t> acquire(Swapchain& swapchain, const Device& device, VkSemaphore acquired);
 void present(Swapchain& swapchain, const Device& device, std::uint32_t index);
 
-/// Copies the picture into the window's image, scaled as far as its shape allows, with black bars beside it; a transfer source and a transfer destination.
+/// Copies the picture, a transfer source, into the window's image, a transfer destination, scaled as far as its shape
+/// allows, with black bars beside it.
 void record_copy(VkCommandBuffer commands, const DeviceImage& picture, const Swapchain& swapchain, std::uint32_t index);
 
 }  // namespace septet::render::vulkan

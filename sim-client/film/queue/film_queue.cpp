@@ -33,7 +33,7 @@ constexpr std::size_t longest_film_bytes = 1 << 20;
 constexpr std::uint64_t most_films = 999'999;
 constexpr std::array<std::string_view, 5> state_names{"waiting", "begun", "made", "failed", "cancelled"};
 
-/// The number in "000012.json"; empty for another name.
+/// Number in "000012.json"; empty for another name.
 std::optional<std::uint64_t> number_in(const fs::path& file) {
   const std::string stem = file.stem().string();
   std::uint64_t number = 0;
@@ -121,11 +121,11 @@ Expected<std::uint64_t> FilmQueue::add(const QueuedFilm& film) {
   std::set<std::uint64_t> taken;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error))
     if (const auto number = number_in(entry.path())) taken.insert(*number);
-  // Above all others, as long as there is such a number; then any free one.
+  // Next number above all others, while there is one; then any free one.
   if (!taken.empty()) next = *taken.rbegin() + 1;
   if (next > most_films)
     for (next = 1; taken.contains(next);) ++next;
-  // Whole before it has its name, and the name is exclusive: creating a link fails if it exists.
+  // The file is whole before it gets its name, and the name is exclusive: creating a link fails if it exists.
   std::string part = (path_ / "new-XXXXXX").string();
   if (const int own = ::mkstemp(part.data()); own >= 0)
     ::close(own);

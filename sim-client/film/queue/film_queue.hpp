@@ -20,7 +20,7 @@ namespace septet::film {
 enum class FilmState : std::uint8_t { waiting, begun, made, failed, cancelled };
 
 struct QueuedFilm {
-  std::uint64_t number = 0;            ///< From 1; its name in the folder.
+  std::uint64_t number = 0;            ///< Counted from 1; its name in the folder.
   std::vector<std::string> arguments;  ///< Arguments of septet-film.
   std::filesystem::path said_in;       ///< Base of their relative paths.
   std::filesystem::path out;
@@ -38,7 +38,7 @@ class FilmQueue {
   /// All films, by number. Files that are not films of a queue are skipped and counted.
   std::vector<QueuedFilm> films() const;
   std::size_t nonsense() const { return nonsense_; }
-  /// The film gets the next number, also beside concurrent callers.
+  /// Adds the film under the next number, also beside concurrent callers.
   Expected<std::uint64_t> add(const QueuedFilm& film);
   Expected<void> write(const QueuedFilm& film) const;
   Expected<void> ask_to_cancel(std::uint64_t number) const;
@@ -47,7 +47,7 @@ class FilmQueue {
   bool is_to_be_made(const QueuedFilm& film) const;
   std::filesystem::path log(std::uint64_t number) const;
 
-  /// Held by the program that makes films, until it ends. Empty: another holds it.
+  /// Lock held by the program that makes films, until it ends. Empty: another holds it.
   class Lock {
    public:
     explicit Lock(int file) : file_(file) {}

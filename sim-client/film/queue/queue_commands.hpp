@@ -11,7 +11,7 @@
 namespace septet::film {
 
 struct QueueArguments {
-  std::filesystem::path folder;        ///< The queue's; empty: the default one.
+  std::filesystem::path folder;        ///< Folder of the queue; empty: the default one.
   std::vector<std::string> film;       ///< Words of a film's command line; empty: only go on with those that wait.
   bool make = false;                   ///< Make the films in this program.
   std::vector<std::uint64_t> numbers;  ///< Films to cancel.

@@ -42,7 +42,7 @@ std::optional<FilmQueue::Lock> wait_for_lock(const FilmQueue& queue) {
   }
 }
 
-/// The last that a film's program has said of itself.
+/// Reason of a failure: the last error in the film program's output, or its exit.
 std::string why_failed(const fs::path& log, const program::ChildExit& exit) {
   std::ifstream stream(log, std::ios::binary);
   std::string word;
@@ -53,7 +53,7 @@ std::string why_failed(const fs::path& log, const program::ChildExit& exit) {
                           : fmt::format("its program has ended with status {}", exit.code);
 }
 
-/// False: a stop signal came amid it.
+/// Makes one film; false if a stop signal interrupted it.
 Expected<bool> make_one(const FilmQueue& queue, QueuedFilm film) {
   std::error_code ignored;
   const bool goes_on = film.state == FilmState::begun;
@@ -82,7 +82,7 @@ Expected<bool> make_one(const FilmQueue& queue, QueuedFilm film) {
     stopped = program::should_stop();
   }
   if (!exit) {
-    // It finishes its present piece of work: a tile, a picture.
+    // The film program finishes its present piece of work: a tile, a picture.
     child->send_signal(SIGTERM);
     const double until_s = program::monotonic_s() + 20.0;
     while (!(exit = child->poll()) && program::monotonic_s() < until_s) std::this_thread::sleep_for(50ms);
@@ -147,7 +147,7 @@ Expected<void> make_queued_films(const FilmQueue& queue) {
 }
 
 Expected<void> start_making_films(const FilmQueue& queue) {
-  // All that allocates happens before fork.
+  // All allocations happen before fork.
   std::string program = (program::own_folder() / "septet-film").string(), word = "queue", option = "--queue",
               make = "--make", folder = queue.path().string(), log = (queue.path() / "queue.log").string();
   char* argv[] = {program.data(), word.data(), option.data(), folder.data(), make.data(), nullptr};

@@ -1,5 +1,5 @@
 #pragma once
-/// The program that makes the films of a queue, one after another.
+/// Program that makes the films of a queue, one after another.
 
 #include "engine/core/expected.hpp"
 #include "sim-client/film/queue/film_queue.hpp"

@@ -109,7 +109,7 @@ Expected<void> FrameWriter::write(Job& job) {
   const instant::Exposure exposure{static_cast<float>(whole.facts.ev100)};
   note_quality(whole.picture, exposure);
   if (options_.denoise) whole.picture = raytrace::denoised(whole.picture, exposure);
-  // The picture last: where it is, its frame is whole.
+  // The picture comes last: its presence marks the frame as whole.
   if (options_.exr != ExrNumbers::none) {
     exr_facts_.frame = job.frame;
     const exr::Picture picture = exr_picture(whole.picture, whole.facts, exr_facts_, options_.exr, options_.layers);

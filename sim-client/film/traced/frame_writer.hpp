@@ -16,7 +16,7 @@ namespace septet::film {
 
 class FrameWriter {
  public:
-  /// All but `session` outlive it. The destructor writes the rest of the queue.
+  /// All arguments but `session` outlive it. The destructor writes the rest of the queue.
   FrameWriter(const FilmOptions& options, const FilmFolder& folder, const logging::SessionInfo& session,
               std::span<const instant::PixelRectangle> tiles);
 

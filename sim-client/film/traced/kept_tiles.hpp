@@ -1,5 +1,5 @@
 #pragma once
-/// The tiles of an unfinished frame, in a file beside the pictures: tiles finished by a killed program are not traced
+/// Tiles of an unfinished frame, in a file beside the pictures: tiles finished by a killed program are not traced
 /// again.
 ///
 /// Each tile has its place in the file and a hash; a place never written, or half written, counts as empty. One thread.
@@ -22,9 +22,9 @@ class KeptTiles {
   KeptTiles& operator=(KeptTiles&&) = delete;
   ~KeptTiles();
 
-  /// `encoded` as encode_tile makes it. Error: the disk is full.
+  /// Keeps a tile that encode_tile has encoded. Error: the disk is full.
   Expected<void> put(std::uint32_t tile, std::span<const std::byte> encoded);
-  /// Empty if the tile is not there.
+  /// Returns the tile; empty if it is not there.
   std::optional<TracedTile> read(std::uint32_t tile) const;
 
  private:

@@ -41,7 +41,7 @@ class Channels {
     for (const TracedPixel& pixel : traced_.pixels) values.push_back(value_of(pixel));
     picture_.channels.push_back({std::move(name), type, std::move(values)});
   }
-  /// Three numbers as LAYER.X, LAYER.Y, LAYER.Z, or as the letters say.
+  /// Adds three numbers as LAYER.X, LAYER.Y, LAYER.Z, or with other letters.
   template <class Value>
   void add_three(const std::string& layer, const char* letters, exr::ChannelType type, const Value& value_of) {
     for (int n = 0; n < 3; ++n)

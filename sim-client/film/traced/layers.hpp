@@ -17,7 +17,7 @@ namespace septet::film {
 
 /// Parses "depth,normal" or "all" into the set. Returns the fault, or an empty string.
 std::string read_layers(const std::string& text, std::set<Layer>& layers);
-/// Their names as read_layers takes them.
+/// Names of the layers, in the form of read_layers.
 std::string layers_text(const std::set<Layer>& layers);
 
 /// Facts of the session and the frame for the header, beside those that each tile carries (FrameFacts).

@@ -84,8 +84,8 @@ class Master {
     double heard_s = 0.0;
     bool is_prepared = false, is_lost = false, has_given_up = false;
     bool traces = false;        ///< After `is_prepared` and a request for work; then it is in the schedule.
-    bool is_ready = false;      ///< For a frame.
-    double asks_again_s = 0.0;  ///< There was no work for it.
+    bool is_ready = false;      ///< It has prepared a frame.
+    double asks_again_s = 0.0;  ///< Time of its next request, after there was no work for it.
   };
 
   Expected<void> obey(const Mail& mail);
@@ -133,7 +133,7 @@ class Master {
   FilmStatistics statistics_;
   std::ifstream session_;
   double now_s_ = 0.0;
-  double shown_ = 0.0;  ///< Tiles until the last preview.
+  double shown_ = 0.0;  ///< Number of tiles at the last preview.
   double came_ = 0.0;
 };
 
@@ -322,7 +322,7 @@ void Master::deal() {
     if (!each.traces || now_s_ < each.asks_again_s || !schedule_.is_free(each.in_schedule)) continue;
     const auto deal = schedule_.deal(each.in_schedule, now_s_);
     if (!deal) {
-      // Searching for a run to split takes a while: not again at each tile that arrives.
+      // Searching for a run to split takes a while: not repeated at each tile that arrives.
       each.asks_again_s = now_s_ + ask_again_after_s;
       continue;
     }

@@ -1,6 +1,6 @@
 #pragma once
-/// The master of a traced film: deals tiles to workers, one of them a thread of its own program, keeps results, and
-/// writes the pictures.
+/// Master of a traced film: deals tiles to workers, one of them a thread of its own program, keeps results, and writes
+/// the pictures.
 ///
 /// The master itself traces nothing: it sleeps until a message comes. The worker in its program uses the same
 /// processors, so no processor idles for the master.

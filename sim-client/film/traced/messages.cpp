@@ -137,7 +137,7 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   options.caustic_photons = reader.get<std::uint32_t>(), options.gather_photons = reader.get<std::uint32_t>();
   options.every = std::max(1u, reader.get<std::uint32_t>());
   options.from_s = get_optional(reader), options.to_s = get_optional(reader);
-  // The others are made from any tile; for this one a worker looks a frame ahead.
+  // The other layers are made from any tile; for this one a worker looks a frame ahead.
   if (reader.get<std::uint8_t>() != 0) options.layers.insert(Layer::motion);
   const bool has_script = reader.get<std::uint8_t>() != 0;
   std::string script = reader.get_string(longest_text);

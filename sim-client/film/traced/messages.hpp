@@ -40,9 +40,9 @@ enum class Word : std::uint8_t {
   end,             ///< Master: no more work; 1 if some was lost.
 };
 
-/// The tiles of a film's frames: squares of this many pixels, rows from the top.
+/// Side of the tiles of a film's frames, pixels; tiles lie in rows from the top.
 inline constexpr std::uint32_t tile_side_px = 16;
-/// Their rectangles; with sets of samples all of the first set, then all of the second, and so on.
+/// Rectangles of the tiles; with sets of samples all of the first set, then all of the second, and so on.
 std::vector<instant::PixelRectangle> tiles_of(const FilmOptions& options);
 
 /// Facts of a whole frame, beside its pixels.
@@ -58,10 +58,10 @@ struct TracedTile {
   std::vector<raytrace::TracedPixel> pixels;
 };
 
-/// Carries a hash, so that a half-written tile is detected. Tiles of equal pixel counts have equal sizes.
+/// Encodes a tile, with a hash by which a half-written one is detected. Tiles of equal pixel counts have equal sizes.
 Bytes encode_tile(const FrameFacts& facts, std::span<const raytrace::TracedPixel> pixels);
 std::size_t encoded_tile_size(std::size_t pixels);
-/// Empty unless the bytes are a whole tile of this many pixels.
+/// Decodes a tile; empty unless the bytes are a whole tile of this many pixels.
 std::optional<TracedTile> decode_tile(std::span<const std::byte> bytes, std::size_t pixels);
 
 Bytes message(Word word);
@@ -70,7 +70,7 @@ struct Hello {
   unsigned threads = 1;
   program::ProcessMark process;
 };
-/// Empty if it is another Septet.
+/// Reads a hello; empty if it is of another Septet.
 std::optional<Hello> read_hello(ByteReader& reader);
 
 /// Everything that a worker needs except the session's bytes.
@@ -83,7 +83,7 @@ struct FilmTold {
 Bytes film_message(const FilmTold& told);
 std::optional<FilmTold> read_film(ByteReader& reader);
 
-/// soon, run or shorter_run.
+/// Message of kind soon, run or shorter_run.
 Bytes run_message(Word word, const raytrace::TileRun& run);
 std::optional<raytrace::TileRun> read_run(ByteReader& reader);
 

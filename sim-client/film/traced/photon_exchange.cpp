@@ -19,7 +19,7 @@ static_assert(std::is_trivially_copyable_v<Photon> && sizeof(Photon) == 12 * siz
 constexpr std::uint32_t most_buckets = 1 << 20;
 constexpr std::size_t runs_at_once = 2;
 
-/// Empty if the bytes are not photons.
+/// Decodes photons; empty if the bytes are not photons.
 std::optional<std::vector<Photon>> decode_photons(std::span<const std::byte> bytes) {
   if (bytes.size() % sizeof(Photon) != 0) return std::nullopt;
   std::vector<Photon> photons(bytes.size() / sizeof(Photon));

@@ -37,7 +37,7 @@ std::optional<PhotonQuestion> read_photon_question(ByteReader& reader);
 struct PhotonRun {
   std::uint64_t frame = 0;
   std::uint32_t first = 0, end = 0;
-  bool alone = false;  ///< No other worker wants them.
+  bool alone = false;  ///< True if no other worker wants them.
 };
 Bytes shoot_message(const PhotonRun& run);
 std::optional<PhotonRun> read_photon_run(ByteReader& reader);
@@ -45,14 +45,14 @@ std::optional<PhotonRun> read_photon_run(ByteReader& reader);
 /// One bucket's photons.
 Bytes photons_message(std::uint64_t frame, std::uint32_t bucket, std::span<const raytrace::Photon> photons);
 
-/// The master's part of the exchange. One thread.
+/// Master's part of the exchange. One thread.
 class PhotonExchange {
  public:
   struct Post {
     int to = 0;
     Bytes bytes;
   };
-  /// `shared`: other workers trace this frame, too.
+  /// Handles a request for photons. `shared`: other workers trace this frame, too.
   std::vector<Post> ask(int worker, const PhotonQuestion& question, bool shared);
   /// Takes photons that a worker has shot (the rest of its message).
   std::vector<Post> take(int worker, ByteReader& reader);
@@ -64,7 +64,7 @@ class PhotonExchange {
 
  private:
   struct Frame {
-    std::vector<Bytes> messages;          ///< By bucket, as received; empty: not there.
+    std::vector<Bytes> messages;          ///< Indexed by bucket, as received; empty: not there.
     std::vector<std::uint32_t> dealings;  ///< Number of times that each was dealt.
     std::set<int> wanted_by;
   };
@@ -72,10 +72,10 @@ class PhotonExchange {
   std::uint64_t gathered_ = 0;
 };
 
-/// A worker's part: the photons of the frame that it makes ready. One thread, beside those that shoot.
+/// Worker's part: the photons of the frame that it prepares. One thread, beside those that shoot.
 class PhotonGathering {
  public:
-  /// The tracer has begun this frame and outlives this.
+  /// Begins gathering. The tracer has begun this frame and outlives this.
   PhotonGathering(raytrace::RayTracer& tracer, std::uint64_t frame, std::uint32_t threads);
 
   std::uint64_t frame() const { return frame_; }

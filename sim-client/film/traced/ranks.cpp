@@ -36,7 +36,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t most_words_bytes = 600;
 constexpr int most_fruitless_starts = 3;
 
-/// True if a program was ended by a signal: mpirun's own status tells so as shells do.
+/// True if a program was ended by a signal, which mpirun reports in its own status as shells do.
 bool is_of_signal(const program::ChildExit& end) { return end.signal != 0 || (end.code > 128 && end.code < 128 + 65); }
 
 /// Standard error of mpirun: the output of the programs and its own.
@@ -74,7 +74,7 @@ class Said {
   bool says_why_ = false;
 };
 
-/// When something in a film's folder was written last.
+/// Time of the latest write in a film's folder.
 std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
   std::optional<fs::file_time_type> newest;
   std::error_code error;
@@ -87,7 +87,7 @@ std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
 }
 
 struct StartEnd {
-  std::optional<int> status;  ///< Of the film's first program; empty: it was lost.
+  std::optional<int> status;  ///< Status of the film's first program; empty: it was lost.
   program::ChildExit of_mpirun;
   bool hosts_changed = false;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// A film by several programs that mpirun starts, restarted if it ends before the film is whole.
+/// Film by several programs that mpirun starts, restarted if it ends before the film is whole.
 ///
 /// Open MPI is told to go on when a program dies (--enable-recovery): a dead worker costs the tiles that it was
 /// tracing. If the master or mpirun itself dies, all are started again with --resume, which costs the tiles of all
@@ -22,7 +22,8 @@ struct RanksOptions {
   bool quiet = false;  ///< No summary at the end: the film is a trial.
 };
 
-/// The film by `arguments` of septet-film, without those of this file. Exit status of the program that made it.
+/// Makes the film by `arguments` of septet-film, without those of this file. Returns the exit status of the program
+/// that made it.
 Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string> arguments);
 
 /// Last line of the first of these programs on standard output, before its exit status.

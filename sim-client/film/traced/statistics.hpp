@@ -1,5 +1,5 @@
 #pragma once
-/// Record of which worker traced which tile, when and at what cost, as a JSON file for judging machines and schedules.
+/// Record of the traced tiles, with worker, time and cost, as a JSON file for judging machines and schedules.
 
 #include <filesystem>
 #include <vector>
@@ -19,10 +19,10 @@ struct TileTraced {
 };
 
 struct FilmStatistics {
-  std::vector<TileTraced> tiles;                     ///< In order of arrival.
+  std::vector<TileTraced> tiles;                     ///< Tiles in order of arrival.
   double begun_s = 0.0;                              ///< Time of dealing the first tiles, as `came_s`.
   double master_cpu_s = 0.0;                         ///< Processor time of the thread that deals and keeps tiles.
-  std::uint64_t sent_bytes = 0, received_bytes = 0;  ///< Between programs, without what Open MPI adds.
+  std::uint64_t sent_bytes = 0, received_bytes = 0;  ///< Bytes between programs, without the overhead of Open MPI.
   std::uint64_t splits = 0;
   std::uint64_t photon_buckets = 0;  ///< Photon buckets shot by several workers together; each counts once.
 };

@@ -268,7 +268,7 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
   TracingThreads tracing(*tracer, tiles, options, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
   std::optional<std::size_t> frame, soon;
-  std::optional<PhotonGathering> photons;  ///< Of a frame in preparation.
+  std::optional<PhotonGathering> photons;  ///< Photons of a frame in preparation.
   double begun_s = 0.0;
   machines.send(master, message(Word::prepared));
   Listening listening(machines, master_process);

@@ -1,6 +1,6 @@
 #pragma once
-/// A worker of a traced film: traces the runs of tiles that it gets, on its share of the machine's processors, until
-/// the master's end.
+/// Worker of a traced film: traces the runs of tiles that it gets, on its share of the machine's processors, until the
+/// master's end.
 
 #include <optional>
 
@@ -10,8 +10,8 @@
 
 namespace septet::film {
 
-/// For a program that has session and frames. Error: the session cannot be read, or the master is gone: silent for a
-/// minute, or `master_process` has ended where that can be seen.
+/// Traces for the master, in a program that has session and frames. Error: the session cannot be read, or the master is
+/// gone: silent for a minute, or `master_process` has ended where that can be seen.
 Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads,
                                 const program::ProcessMark& master_process);
 
@@ -19,8 +19,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
 /// SEPTET_FILM_PACES is a list, "0.1,0.9", whose n-th entry is program n's. Empty: no limit.
 std::optional<double> pace_of_test();
 
-/// Whole run of a program that mpirun has started and that is not the master; film and session come from the master.
-/// Exit status. Prints nothing: the master does.
+/// Serves the master: whole run of a program that mpirun has started and that is not the master; film and session come
+/// from the master. Returns the exit status. Prints nothing: the master does.
 int serve_master(Machines& machines);
 
 }  // namespace septet::film

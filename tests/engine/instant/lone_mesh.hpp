@@ -1,5 +1,5 @@
 #pragma once
-/// A scene of one mesh of one material in one place.
+/// Scene of one mesh of one material in one place.
 
 #include <cstdint>
 #include <utility>

@@ -245,7 +245,7 @@ TEST_CASE("two beams of a car become one as it goes away, with the same light in
     CHECK(apart_m <= apart_before_m + 1e-9);
     CHECK(apart_before_m - apart_m < (apart_before_m > 1e8 ? 1e9 : 0.45));
     apart_before_m = apart_m;
-    // Lamps fifteen metres before the eye and nearer are two where they are.
+    // Lamps fifteen metres before the eye and nearer are two, each at its place.
     if (distance_m < 19.0) CHECK(apart_m > 0.8);
     if (distance_m > 28.0) CHECK(apart_m == 0.0);
   }
@@ -276,7 +276,7 @@ TEST_CASE("a beacon lights what is around it while it flashes, in its colour, an
   const std::vector<BeaconLight> flash = lit(0.03);
   REQUIRE(flash.size() == 1);
   CHECK(flash[0].intensity.b > 4.0f * flash[0].intensity.g);
-  // Of sides of 0.3 x 0.1 and 0.5 x 0.1 m² the mean from all round.
+  // Mean from all round of sides of 0.3 x 0.1 and 0.5 x 0.1 m².
   CHECK(flash[0].intensity.b == relative(16.0 * 0.08 * 2.0 / 3.14159, 0.01));
   CHECK(flash[0].ahead == glm::vec2(1.0f, 0.0f));
   CHECK(glm::length(flash[0].position_m - Vec3(20.5, 0.5, 2.0)) < 1e-6);

@@ -1,5 +1,5 @@
 #pragma once
-/// The ray of a pixel, as a renderer's picture is looked at.
+/// Ray of a pixel of a renderer's picture.
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,7 +8,8 @@
 
 namespace septet::instant {
 
-/// From the eye through a place of the viewport, pixels from its upper left (a pixel's middle lies at ½); unit, world axes.
+/// Direction from the eye through a place of the viewport, pixels from its upper left (a pixel's middle lies at ½);
+/// unit, world axes.
 inline Vec3 ray_through(const FrameView& view, double x_px, double y_px) {
   const OffAxisView& projection = view.projection;
   const double across = x_px / view.viewport.width, down = y_px / view.viewport.height;

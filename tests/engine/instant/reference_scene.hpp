@@ -1,6 +1,6 @@
 #pragma once
-/// A small synthetic scene for tests and benchmarks of the renderer: a straight five-lane carriageway with markings and
-/// a barrier, grass, hills, trees, a gantry, a stretch of tunnel, and a box of a car with wheels and lamps.
+/// Small synthetic scene for tests and benchmarks of the renderer: a straight five-lane carriageway with markings and a
+/// barrier, grass, hills, trees, a gantry, a stretch of tunnel, and a box of a car with wheels and lamps.
 ///
 /// Everything is placed from `origin_m`, so that a test can put the world anywhere.
 

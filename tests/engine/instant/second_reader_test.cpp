@@ -1,4 +1,4 @@
-/// A second reader of an instant's description, which knows no Vulkan: rays against its triangles, one by one.
+/// Second reader of an instant's description, which knows no Vulkan: rays against its triangles, one by one.
 
 #include <algorithm>
 #include <cmath>

@@ -24,7 +24,7 @@ glm::vec3 mirrored(const SkyLight& light, const SkyTable& table, const glm::vec3
   return sky_radiance(as_table, direction);
 }
 
-/// The same by a sum over the facets' half-sphere.
+/// Mirrored light by a sum over the facets' half-sphere.
 glm::dvec3 summed(const SkyLight& light, const glm::vec3& axis, double roughness) {
   const double alpha = roughness * roughness;
   const glm::vec3 across = glm::normalize(glm::vec3(-axis.y, axis.x, 0.0f)), along = glm::cross(axis, across);

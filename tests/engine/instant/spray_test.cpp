@@ -30,7 +30,7 @@ std::vector<SmokePuff> spray_of(const DrawnParticipant& vehicle, double wetness,
   return puffs;
 }
 
-/// Through the middles of all puffs, as if they lay on one line.
+/// Optical depth through the middles of all puffs, as if they lay on one line.
 double depth_along(const std::vector<SmokePuff>& puffs) {
   double depth = 0.0;
   for (const SmokePuff& puff : puffs)
@@ -59,7 +59,7 @@ TEST_CASE("what hangs behind a vehicle takes as much light as its spray is compu
       const DrawnParticipant vehicle = vehicle_at(25.0, heavy);
       CHECK(depth_along(spray_of(vehicle, 1.0, time_s)) == relative(spray_depth(vehicle, 1.0), 0.15));
     }
-  // A lorry's at 90 km/h in standing water: two thirds to three quarters.
+  // Share of light taken by a lorry's spray at 90 km/h in standing water: two thirds to three quarters.
   CHECK(1.0 - std::exp(-spray_depth(vehicle_at(25.0, true), 1.0)) == relative(0.7, 0.05));
 }
 

@@ -30,7 +30,7 @@ inline FrameView plate_view(std::uint32_t size_px) {
   return view;
 }
 
-/// 8 m before the eye of plate_view, 6 m wide; `there` false: far below the ground.
+/// Plate 8 m before the eye of plate_view, 6 m wide; `there` false: far below the ground.
 inline scene::ResolvedScene plate_scene(const PlateLook& look, bool there) {
   scene::SurfaceMaterial red;
   red.base_color = {0.5f, 0.05f, 0.04f};

@@ -58,7 +58,7 @@ TEST_CASE("the road lies where the nearest vehicle's wheels stand, whatever its 
   const ReferenceScene reference = reference_scene();
   DrawnParticipant near_by = reference_car(reference, {4.0, 0.0, 10.02}),
                    far = reference_car(reference, {50.0, 0.0, 12.0});
-  // Its nose dives by 0.02 rad, and the front wheels go up into their arches by as much.
+  // The nose dives by 0.02 rad, and the front wheels go up into their arches by as much.
   near_by.world_from_vehicle.orientation = glm::angleAxis(0.02, Vec3(0, 1, 0));
   near_by.wheel_lift_m = {0.054, 0.054, 0.0, 0.0};
   const Vec3 eye_m(0.0, 0.0, 11.2);

@@ -69,9 +69,9 @@ TEST_CASE("a clear coat mirrors the sky as glass does and lets so much less ligh
     const double plain = double(board.seen(0.6f, 0.0f, down_rad).g), black = double(board.seen(0.0f, 1.0f, down_rad).g),
                  coated = double(board.seen(0.6f, 1.0f, down_rad).g);
     CHECK(black / (fresnel * sky) == relative(1.0, 0.06));
-    // Of the light of a whole sky a twelfth does not come through to the base.
+    // A twelfth of the light of a whole sky does not reach the base.
     CHECK((coated - black) / plain == relative((1.0 - fresnel) * 0.92, 0.02));
-    // Half of it coated is half of both.
+    // A half coating gives the mean of both.
     const double half = double(board.seen(0.6f, 0.5f, down_rad).g);
     CHECK(half == relative(0.5 * (plain + coated), 0.02));
   }

@@ -97,7 +97,7 @@ TEST_CASE("where two levels of detail meet both are drawn and each threshold sho
       CHECK(levels[1] == glm::vec2(levels[0].y, 1.0f));
     }
     CHECK(nearer <= before);
-    CHECK(before - nearer < 0.04f);  // A tick at 100 km/h is not that long.
+    CHECK(before - nearer < 0.04f);  // A tick at 100 km/h is shorter than that.
     before = nearer;
   }
   CHECK(both > 80);

@@ -79,7 +79,7 @@ TEST_CASE("the same input gives the same pixels in one renderer and in another")
 }
 
 TEST_CASE("the picture does not change when the whole world lies 100 km from its origin") {
-  // A whole number of the cloud tile and of no texel of the shadow map: only rounding may show.
+  // A whole number of tiles of the clouds, but not of texels of the shadow map: only rounding may show.
   Studio near({{}, false, 0}), far({{100e3, -100e3, 60.0}, false, 0});
   near.input.environment.cloud_cover = far.input.environment.cloud_cover = 0.0;
   near.input.participants = {reference_car(near.reference, {12, 0, 0})};

@@ -1,4 +1,4 @@
-/// Frost and cracks on panes of glass as they are drawn. Software device, validation layer on.
+/// Pictures of frost and cracks on panes of glass. Software device, validation layer on.
 
 #include <algorithm>
 #include <array>
@@ -42,7 +42,7 @@ struct PanePictures {
   }
 };
 
-/// Upright, half a metre before the eye, over the whole picture.
+/// Upright pane, half a metre before the eye, over the whole picture.
 ice::PaneShape upright_pane() {
   return ice::pane_between({0.0, -0.7, -0.5}, {0.0, 0.7, -0.5}, {0.0, -0.7, 0.5}, {0.0, 0.7, 0.5}, 0.0);
 }
@@ -107,7 +107,7 @@ TEST_CASE("what lies behind frost loses its contrast by Beer's law with the fros
     }
     REQUIRE(clear > 10.0);
     const double contrast = frosted / clear, even = std::exp(-16.0 * static_cast<double>(kgpm2));
-    // Feathers let through somewhat more than an even layer of their mass would.
+    // Feathers transmit somewhat more than an even layer of their mass would.
     CHECK(contrast >= even - 0.02);
     CHECK(contrast <= even + 0.15);
     if (kgpm2 > 0.0f)
@@ -129,7 +129,7 @@ TEST_CASE("more of a frosted pane is seen through with every minute of the blowe
     input.glass = {on_pane(ice::frost_surface(upright_pane(), frost), ice::OnGlass::frost, input.views[0])};
     if (input.glass[0].vertices.empty()) input.glass.clear();
     const RadianceImage seen = pictures.drawn(input);
-    std::array<double, 2> shares{};  // Of the upper and of the lower half.
+    std::array<double, 2> shares{};  // Shares of the upper and of the lower half.
     for (std::uint32_t y = 0; y < glass_height_px; ++y)
       for (std::uint32_t x = 0; x < glass_width_px; ++x)
         if (glm::length(seen.at(x, y) - clear.at(x, y)) < 0.01f * (glm::length(clear.at(x, y)) + 0.01f))
@@ -152,7 +152,7 @@ TEST_CASE(
   const RadianceImage clear = pictures.drawn(input);
   const ice::Star star{0.55, 0.45, 0.12, 5};
   const ice::IceBody cracks = on_pane(ice::star_surface(upright_pane(), star), ice::OnGlass::cracks, input.views[0]);
-  ice::IceBody turned = cracks;  // By half a turn about the upright: its other side looks here.
+  ice::IceBody turned = cracks;  // Half a turn about the upright: the other side faces the eye.
   for (ice::IceVertex& vertex : turned.vertices)
     for (glm::vec3* turns : {&vertex.position_m, &vertex.normal}) turns->x = -turns->x, turns->y = -turns->y;
   for (const bool other_side : {false, true}) {

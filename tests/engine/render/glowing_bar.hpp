@@ -1,5 +1,5 @@
 #pragma once
-/// A glowing bar, drawn across the edge of two screens, and its height at the edge, from the pixels.
+/// Glowing bar, drawn across the edge of two screens, and its height at the edge, from the pixels.
 
 #include <algorithm>
 #include <array>
@@ -56,7 +56,7 @@ inline double row_at_edge(const image::Image& picture, bool right_edge) {
   constexpr std::uint32_t columns = 40;
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (std::uint32_t i = 0; i < columns; ++i) {
-    const double x = i + 0.5;  // From the edge.
+    const double x = i + 0.5;  // Distance from the edge.
     const auto row = row_in(picture, right_edge ? picture.width - 1 - i : i);
     REQUIRE(row.has_value());
     sx += x;

@@ -17,11 +17,10 @@ constexpr std::uint32_t contact_width = 320, contact_height = 200;
 
 float luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
-/// The light beside and below a car that stands 10 m ahead, as a share of that of the empty road: means over 12 × 3
-/// pixels.
+/// Light beside and below a car that stands 10 m ahead, as a share of that of the empty road: means over 12 × 3 pixels.
 struct Ground {
-  float below = 0.0f;   ///< Between its rear wheels.
-  float beside = 0.0f;  ///< 0.8 m to its right.
+  float below = 0.0f;   ///< Between the rear wheels.
+  float beside = 0.0f;  ///< 0.8 m to the right of the car.
   image::Image picture;
 };
 

@@ -1,4 +1,4 @@
-/// The dipped and the main beam as they are drawn, in candela and in candela per square metre. Software device,
+/// Light of the dipped and the main beam in pictures, in candela and in candela per square metre. Software device,
 /// validation layer on.
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Lit {
     REQUIRE(renderer.upload(instant::lone_mesh(material, mesh, {Vec3(middle), {1, 0, 0, 0}})).has_value());
   }
 
-  /// cd/m² in a direction from the eye, of the beams alone.
+  /// Luminance in a direction from the eye, cd/m², of the beams alone.
   double luminance(const Vec3& eye_m, const Vec3& lamps_m, double down_rad, double left_rad, float main_beam = 0.0f) {
     FrameInput input;
     input.environment = instant::reference_day();
@@ -132,7 +132,7 @@ TEST_CASE(
       CHECK(drawn >= point.least);
       CHECK(drawn < ahead);
     }
-  // It lights objects over the road, and not the sky.
+  // The main beam lights objects over the road, and not the sky.
   CHECK(main_beam(-1.0, 0.0) > 0.5 * ahead);
   CHECK(main_beam(-6.0, 0.0) < 0.03 * ahead);
 }

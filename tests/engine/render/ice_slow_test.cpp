@@ -1,4 +1,4 @@
-/// Ice as it is drawn. Software device, validation layer on.
+/// Pictures of ice. Software device, validation layer on.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ ice::IceBody body_of(const ice::Surface& surface, const Vec3& origin_m) {
   return body;
 }
 
-/// From the world's origin along x.
+/// View from the world's origin along x.
 FrameInput seen_ahead(std::uint32_t width, std::uint32_t height) {
   FrameInput input;
   input.environment.sun_elevation_rad = 0.8;
@@ -228,7 +228,7 @@ TEST_CASE("two screens of one eye show the same ice on both sides of their edge"
     }
     check_valid(renderer, input);
     const image::Image left = *renderer.read_back();
-    // The neighbour looks the same way; its picture begins half a picture further to the right.
+    // The neighbouring screen has the same direction; its picture begins half a picture further to the right.
     OffAxisView& projection = input.views[0].projection;
     const double half_width_m = std::tan(0.45), half_height_m = half_width_m * height / width;
     projection = *off_axis_view(
@@ -274,7 +274,7 @@ TEST_CASE("open, inverted, flat, endless and crowded bodies of ice are drawn har
       input.ice[0].look.seen_beyond = true;
       check_valid(renderer, input);
     }
-  // Seventy at once share the layers.
+  // Seventy bodies at once share the layers.
   input.ice.assign(70, body_of(whole, {2, 0, 0}));
   for (ice::IceBody& body : input.ice) body.look.mode = ice::Mode::quality, body.look.seen_beyond = true;
   check_valid(renderer, input);

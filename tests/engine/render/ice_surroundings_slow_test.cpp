@@ -47,7 +47,7 @@ void lay_plate(scene::ResolvedScene& scene, std::uint32_t mesh, const Vec3& midd
   scene.instances.push_back(instance);
 }
 
-/// From 1.2 m over the world's origin along x.
+/// View from 1.2 m over the world's origin along x.
 FrameInput over_plates() {
   FrameInput input;
   input.environment.sun_elevation_rad = 0.8;
@@ -125,7 +125,7 @@ TEST_CASE(
       Renderer::create({plates_width, plates_height, DevicePreference::software, true, Antialiasing::none, nullptr});
   REQUIRE(renderer.has_value());
   scene::ResolvedScene scene = scene_of_plates();
-  // A grey road with a red mark across, which ends where the mark of thin ice is looked for.
+  // Grey road with a red mark across, which ends at the place where thin ice is measured.
   lay_plate(scene, 2, {30.0, 0.0, 0.0}, 29.0f);
   lay_plate(scene, 0, {6.0, 0.0, 0.002}, 0.5f);
   REQUIRE(renderer->upload(scene).has_value());

@@ -10,7 +10,7 @@
 namespace septet::render {
 namespace {
 
-/// A triangle of this size stands for a body.
+/// Body in the form of a triangle of this size.
 ice::IceBody body_at(const Vec3& origin_m, float size_m, bool thin = false) {
   ice::IceBody body;
   body.origin_m = origin_m;
@@ -42,7 +42,7 @@ TEST_CASE(
   for (int i = 0; i < 12; ++i) bodies.push_back(body_at({10.0 + 9.0 * i, 0.0, 0.0}, i == 7 ? 9.0f : 1.0f));
   const IceNeighbourhoods found = ice_neighbourhoods(bodies, Vec3(0.0));
   REQUIRE(found.middles_m.size() == most_neighbourhoods);
-  // The nearest, and the large one although it is further off than most.
+  // Groups of the nearest body, and of the large one although it is further off than most.
   CHECK(glm::length(found.middles_m[found.of_body[0]] - bodies[0].origin_m) < 2.0);
   CHECK(std::ranges::count(found.of_body, found.of_body[7]) > 1);
   CHECK(found.of_body[7] == found.of_body[11]);

@@ -21,7 +21,7 @@ StandingLamp lamp(const Vec3& position_m, bool roofed = false) {
   return {position_m, height_m, glm::vec3(candela), roofed};
 }
 
-/// The texel in whose middle or nearly so that place lies.
+/// Texel whose middle is at a place, or near it.
 glm::vec4 texel(const LampField& field, const Vec2& place_m) {
   const Vec2 at = (place_m - field.corner_m) / LampField::texel_m;
   return field.texels[static_cast<std::size_t>(at.y) * LampField::side + static_cast<std::size_t>(at.x)];
@@ -29,7 +29,7 @@ glm::vec4 texel(const LampField& field, const Vec2& place_m) {
 
 const glm::vec3 up(0, 0, 1);
 
-/// A quad of 0.4 × 0.2 m that looks down, 6 m above its instance's origin.
+/// Quad of 0.4 × 0.2 m that faces down, 6 m above its instance's origin.
 scene::ResolvedScene hanging_lens(float up_or_down) {
   scene::SurfaceMaterial material;
   material.emission = glm::vec3(0.5f);
@@ -40,7 +40,7 @@ scene::ResolvedScene hanging_lens(float up_or_down) {
   return instant::lone_mesh(material, lens, {Vec3(100, 50, 20), {1, 0, 0, 0}});
 }
 
-/// On a surface of that normal at a texel's place.
+/// Light on a surface of that normal at a texel's place.
 float lamplight(const glm::vec4& there, const glm::vec3& normal) {
   return light::lamplight(glm::vec3(there), light::from_all_sides(there), normal);
 }
@@ -64,7 +64,7 @@ TEST_CASE(
   // At 45°: cos⁴ is a quarter; the window that ends the lamp's reach takes a twentieth.
   const LampField roofed = lamp_field(std::array{lamp(Vec3(foot, 6.0), true)}, corner_m);
   CHECK(lamplight(texel(roofed, foot + Vec2(6, 0)), up) / lamplight(texel(roofed, foot), up) == relative(0.25f, 0.06));
-  // A wall that looks at the lamp is lit, its back is not.
+  // A wall that faces the lamp is lit, its back is not.
   const glm::vec4 there = texel(field, foot + Vec2(6, 0));
   CHECK(lamplight(there, {-1, 0, 0}) > 0.5f * beside);
   CHECK(lamplight(there, {1, 0, 0}) < 1e-3f * beside);

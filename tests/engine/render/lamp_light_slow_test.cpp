@@ -1,4 +1,4 @@
-/// How much light of a lamp arrives in a picture, by distance and over a wet road, and its loss in the air. Software
+/// Light of a lamp that arrives in a picture, by distance and over a wet road, and its attenuation in the air. Software
 /// device, validation layer on.
 
 #include <algorithm>
@@ -65,7 +65,7 @@ RadianceImage drawn(Renderer& renderer, const Instant& instant) {
   return *renderer.read_radiance();
 }
 
-/// Radiance of `with` more than of `without`, over all pixels.
+/// Excess of radiance in `with` over `without`, over all pixels.
 glm::dvec3 more(const RadianceImage& with, const RadianceImage& without) {
   glm::dvec3 sum(0.0);
   for (std::uint32_t y = 0; y < side_px; ++y)
@@ -91,7 +91,7 @@ TEST_CASE(
   for (const double ahead_m : {50.0, 75.0, 100.0, 200.0, 350.0, 500.0}) {
     FrameInput input = close_up(-0.4);
     input.environment.visibility_m = 200e3;
-    // The lens itself, of the area that the glow takes it to have.
+    // Lens itself, of the area that the glow assumes.
     Renderer renderer = renderer_for(square(ahead_m, 0.7, 0.0798f, {0.55f, 0.02f, 0.012f}));
     Instant instant = instant::describe(input, {});
     instant.lamps = {tail_lamp(ahead_m)};
@@ -121,7 +121,7 @@ TEST_CASE("rain and snow take as much of a picture's contrast as is computed of 
     input.environment.temperature_k = temperature_k;
     Instant instant = instant::describe(input, {});
     instant.extinction_per_m = instant.light->fog_per_m + share_of_sky * instant.light->fall_per_m;
-    instant.environment.rain_mm_per_h = 0.0;  // The drops before the eye aside.
+    instant.environment.rain_mm_per_h = 0.0;  // Without drops before the eye.
     const glm::vec3 behind = instant::sky_radiance(*instant.light, {0.9998f, 0.0f, 0.02f});
     return 1.0 - double(drawn(renderer, instant).at(side_px / 2, side_px / 2).g / behind.g);
   };
@@ -155,7 +155,7 @@ TEST_CASE("a wet road sends on as much of a lamp's light as water mirrors, in a 
   for (const double ahead_m : {20.0, 50.0}) {
     CAPTURE(ahead_m);
     Renderer renderer = renderer_for(square(ahead_m, -500.0, 0.1f, glm::vec3(0.0f)));
-    // As high as the streak is long, nearly to the eye's feet.
+    // Picture as high as the streak is long, nearly to the eye's feet.
     constexpr double pixel_m = 0.07, taller = 2.0;
     FrameInput input = close_up(-0.4, pixel_m / ahead_m, taller);
     input.environment.visibility_m = 200e3;
@@ -167,7 +167,7 @@ TEST_CASE("a wet road sends on as much of a lamp's light as water mirrors, in a 
     const RadianceImage wet = drawn(renderer, instant);
     // Eye and lamp stand 1.9 m over the road together.
     const double grazing = 1.9 / ahead_m, water = 0.02 + 0.98 * std::pow(1.0 - grazing, 5.0);
-    // Beside the glow the lens, which is not drawn here.
+    // Light of the lens, which is not drawn here, in addition to the glow.
     const double lens = double(0.55f * instant.emission_share) * 3.14159 * 0.09 * 0.09 / (taller * pixel_m * pixel_m);
     const double share = more(wet, dry).r / (more(dry, dark).r + lens);
     // Second moments of the streak, about its middle.
@@ -190,7 +190,7 @@ TEST_CASE("a wet road sends on as much of a lamp's light as water mirrors, in a 
     CAPTURE(share / water);
     CAPTURE(ratio);
     CHECK(share == relative(water, 0.25));
-    // Seen so flat as high as 1 / sin(grazing) times its width: 11 at 20 m, 26 at 50 m.
+    // At so low an angle the streak is 1 / sin(grazing) times as high as wide: 11 at 20 m, 26 at 50 m.
     CHECK(ratio * grazing > 0.76);
     CHECK(ratio * grazing < 1.3);
     CHECK(below == relative(grazing, 0.1));

@@ -1,4 +1,4 @@
-/// Draws the reference scene as a person would look at it; the pictures lie in the build folder below images/.
+/// Pictures of the reference scene for people to look at; they lie in the build folder below images/.
 
 #include <filesystem>
 #include <string>

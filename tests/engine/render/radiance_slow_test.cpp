@@ -1,4 +1,4 @@
-/// The linear radiance that a frame's picture is made from, read back. Software device, validation layer on.
+/// Linear radiance of a frame before it becomes a picture, read back. Software device, validation layer on.
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +44,8 @@ FrameInput forward(double elevation_rad) {
   return input;
 }
 
-/// A wall, 800 m wide and high, of squares as large as those of distant land. It glows with `emission` and reflects
-/// nothing.
+/// Wall, 800 m wide and high, of squares as large as those of distant land. It glows with `emission` and reflects no
+/// light.
 void upload_wall(Renderer& renderer, float emission, double away_m) {
   static std::uint64_t revision = 1;
   scene::SurfaceMaterial material = glowing_material();
@@ -143,7 +143,7 @@ TEST_CASE(
       for (std::uint32_t x = 0; x < radiance_width; x += 5) {
         const glm::vec3 ray(ray_through(instant.views[0], x + 0.5, y + 0.5));
         const glm::vec3 said = sky_radiance(*instant.light, ray), drawn = light.at(x, y);
-        // The sun's glare is the picture's own.
+        // The sun's glare is drawn in the picture alone.
         if (glm::dot(ray, instant.light->sun_direction) < 0.9f)
           furthest = std::max(furthest, std::abs(drawn.g / said.g - 1.0) + std::abs(drawn.r / said.r - 1.0));
       }
@@ -211,7 +211,7 @@ TEST_CASE("what is near is not shaded by the coarser form that it has further of
   forms[1].visible_from_m = 30.0f;
   forms[1].visible_to_m = 1e9f;
   CHECK(lit() == alone);
-  forms[1].visible_from_m = 0.0f;  // If it is there, it shades.
+  forms[1].visible_from_m = 0.0f;  // Once visible, it shades the board.
   CHECK(lit() < 0.6f * alone);
 }
 

@@ -57,7 +57,7 @@ Edge edge_of_shadow(ShadowEdges edges, float height_m) {
   input.environment.sun_azimuth_rad = 0.5 * std::numbers::pi;
   input.environment.cloud_cover = 0.0;
   input.views = {forward_view({0, 0, 0}, edge_width_px, edge_height_px)};
-  // Straight down from below the plate: a row of pixels lies across the edge, 2.1 m of it.
+  // View straight down from below the plate: a row of pixels lies across the edge, 2.1 m of it.
   constexpr double eye_m = 2.5, half_angle_rad = 0.4;
   input.views[0].projection =
       symmetric_view({0, 0, eye_m}, 0.0, -0.4999 * std::numbers::pi, 2.0 * half_angle_rad, 0.04);
@@ -86,7 +86,7 @@ TEST_CASE("a soft shadow's edge is as wide as the sun's disc makes it, and light
                soft = edge_of_shadow(ShadowEdges::soft, height_m);
     CAPTURE(narrow.width_m);
     CAPTURE(soft.width_m);
-    // Of a disc's shade 80 % lie within 1.37 of its radii.
+    // 80 % of a disc's penumbra lie within 1.37 of its radii.
     const double way_m = height_m * std::numbers::sqrt2, suns_m = 1.37 * 0.00465 * way_m;
     constexpr double texel_m = 0.043;
     CHECK(narrow.width_m < 2.0 * texel_m);

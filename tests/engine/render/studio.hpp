@@ -1,5 +1,5 @@
 #pragma once
-/// A small picture of the reference road, and measurements in it.
+/// Small picture of the reference road, and measurements in it.
 
 #include <cmath>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace septet::render::studio_pictures {
 
 inline constexpr std::uint32_t width = 320, height = 200;
 
-/// The reference road with a test's additions. Software device, validation layer on, which must be silent.
+/// Reference road with a test's additions. Software device, validation layer on, which must be silent.
 struct Studio {
   Renderer renderer;
   ReferenceScene reference;

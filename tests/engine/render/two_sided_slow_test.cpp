@@ -9,7 +9,7 @@
 namespace septet::render {
 namespace {
 
-/// Radiance in the middle of a picture of the plate, and with it away.
+/// Radiance in the middle of a picture with the plate, and without it.
 struct Seen {
   glm::vec3 plate{0.0f}, behind{0.0f};
 };

@@ -86,7 +86,7 @@ TEST_CASE("what falls is drawn before the eye in the open and nothing of it unde
       studio.input.views = {forward_view({tunnel ? 150.0 : 0.0, 0.0, 0.0}, width, height)};
       studio.input.views[0].velocity_mps = {25, 0, 0};
       const image::Image dry = studio.draw();
-      // Rain or, as hard to see through, less of snow.
+      // Rain, or a smaller amount of snow with the same visibility.
       studio.input.environment.rain_mm_per_h = temperature_k > 274.65 ? 10.0 : 0.8;
       const double change = mean_difference(dry, studio.draw());
       CAPTURE(tunnel);
@@ -98,7 +98,7 @@ TEST_CASE("what falls is drawn before the eye in the open and nothing of it unde
 
 TEST_CASE("a tunnel keeps the sky out and dims the car in it") {
   Studio studio({{}, true, 0});
-  // The same car, seen from as far behind it.
+  // Same car, seen from the same distance behind it.
   const auto draw_at = [&](double x_m) {
     studio.input.participants = {reference_car(studio.reference, {x_m + 12.0, -1.875, 0.02})};
     studio.input.views = {forward_view({x_m, -1.875, 0.0}, width, height)};
@@ -112,7 +112,7 @@ TEST_CASE("a tunnel keeps the sky out and dims the car in it") {
   CAPTURE(level(car(outside)));
   CAPTURE(level(car(inside)));
   CHECK(level(car(inside)) < 0.7 * level(car(outside)));
-  CHECK(level(car(inside)) > 5.0);  // It is dim, not gone.
+  CHECK(level(car(inside)) > 5.0);  // Dim, but visible.
   CHECK(above(outside).b > above(outside).r + 20.0);
   CHECK(above(inside).b <= above(inside).r);
 }

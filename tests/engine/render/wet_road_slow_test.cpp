@@ -94,7 +94,7 @@ glm::dvec3 mean_around(const RadianceImage& picture, std::pair<double, double> a
 
 /// Change of a frame's light by a car added in this lane, under this name for its picture.
 struct WithoutAndWith {
-  FrameInput input;  ///< With it.
+  FrameInput input;  ///< Frame with the car.
   RadianceImage without, with;
 };
 WithoutAndWith add_car(Drawing& drawing, const Environment& environment, double ahead_m, const std::string& name = {}) {
@@ -104,8 +104,8 @@ WithoutAndWith add_car(Drawing& drawing, const Environment& environment, double 
   return {input, std::move(without), drawing.draw(input, name)};
 }
 
-/// The red light of the brake lamps of one more car in this lane, of each pixel from the row on where the road is seen
-/// at `from_m`; row by row.
+/// Red light of the brake lamps of one more car in this lane, by pixel from the row on where the road is seen at
+/// `from_m`; row by row.
 std::vector<std::vector<double>> brake_light(Drawing& drawing, FrameInput input, double ahead_m, double from_m,
                                              const std::string& name) {
   DrawnParticipant car = reference_car(drawing.reference, {ahead_m, -1.875, 0.02});
@@ -136,7 +136,7 @@ double moved(const RadianceImage& a, const RadianceImage& b) {
   return away[away.size() * 9 / 10] * static_cast<double>(away.size()) / sum;
 }
 
-/// Where along the world the most water stands on the road 3 to 8 m before an eye.
+/// Place along x with the most water on the road 3 to 8 m ahead of an eye there.
 Vec3 most_puddles() {
   const std::vector<std::uint8_t> noise = instant::cloud_noise();
   double most = -1.0;
@@ -230,7 +230,7 @@ TEST_CASE("the film on a wet road shows a lens once, drawn out and not in copies
   FrameInput input = ahead(drawing, overcast(0.45));
   input.environment.sun_elevation_rad = -0.3;
   const auto rows = brake_light(drawing, input, 21.0, 19.0, "one_lens");
-  // Of the columns the brightest.
+  // Brightest column.
   std::vector<double> column;
   for (std::uint32_t x = 0; x < width; ++x) {
     std::vector<double> here;
@@ -240,7 +240,7 @@ TEST_CASE("the film on a wet road shows a lens once, drawn out and not in copies
   }
   const double brightest = *std::ranges::max_element(column);
   REQUIRE(brightest > 0.0);
-  // Rises again after it fell, by more than a twentieth of the brightest.
+  // Number of peaks: falls after a rise, each by more than a twentieth of the brightest.
   int peaks = 0;
   double lowest = 0.0, highest = 0.0;
   bool rises = true;

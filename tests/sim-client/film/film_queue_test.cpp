@@ -109,7 +109,7 @@ TEST_CASE("a file with the last number does not fill the queue") {
   FilmQueue queue = queue_in(folder / "queue");
   REQUIRE(queue.add({.arguments = {"x"}, .out = "/x"}) == 1);
   std::ofstream(queue.path() / "999999.json") << "{}";
-  std::ofstream(queue.path() / "000003.cancel");  // Of a film whose own file is gone.
+  std::ofstream(queue.path() / "000003.cancel");  // Request to cancel a film whose own file is gone.
   CHECK(queue.add({.arguments = {"x"}, .out = "/y"}) == 2);
   CHECK(queue.add({.arguments = {"x"}, .out = "/z"}) == 4);
   CHECK(queue.films().size() == 3);

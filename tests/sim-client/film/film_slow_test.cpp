@@ -61,7 +61,7 @@ void write_session_and_shots(const TemporaryFolder& folder) {
     }
     REQUIRE(writer.finish().has_value());
   }
-  // From a place to the side of the two, which turn with the sky behind them.
+  // View from a place to the side of the two, which turn with the sky behind them.
   std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0\nto_s = 1\nparticipant = \"2\"\nshutter_deg = 360\n";
 }
 
@@ -242,7 +242,7 @@ TEST_CASE("a film that is stopped while a frame is traced ends there") {
   REQUIRE(made.has_value());
   CHECK(made->frames == 2);
   CHECK(made->stopped);
-  CHECK(fs::exists(options.out / "000003.tiles"));  // Its traced tiles are kept.
+  CHECK(fs::exists(options.out / "000003.tiles"));  // The traced tiles are kept.
   CHECK(std::distance(fs::directory_iterator(options.out), {}) == 4);
 }
 
@@ -267,7 +267,7 @@ TEST_CASE("a film that was stopped goes on where it was and is the film that was
   options.samples = 3;
   CHECK(has(refusal_of(options), "another samples: 2, not 3"));
   options.samples = 2;
-  // As after a power cut, and after a kill.
+  // State after a power cut, and after a kill.
   fs::resize_file(options.out / "000002.png", fs::file_size(options.out / "000002.png") / 2);
   std::ofstream(options.out / "000006.png.part") << "half";
   std::string beside;

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180.0, frames_per_second = 25.0;
 
-/// A car on a slope that leans, and others.
+/// World with a car on a slope that leans, and others.
 Snapshot world_with_others() {
   Snapshot world;
   const auto add = [&](ParticipantId id, const char* model, const Vec3& place_m) {

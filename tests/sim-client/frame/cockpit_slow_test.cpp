@@ -1,4 +1,4 @@
-/// The inside of the driver's car as pixels: its instruments agree with the snapshot.
+/// Inside of the driver's car as pixels: its instruments agree with the snapshot.
 
 #include <algorithm>
 #include <cmath>
@@ -157,8 +157,8 @@ TEST_CASE("the steering wheel turns with the driver's") {
     Snapshot shown = in_the_seat();
     shown.driver_car.steering_wheel_rad = turn_rad;
     const auto picture = seat_picture(shown, rig, rig.screens[0], "wheel-" + std::to_string(turn_rad));
-    // The mark on the rim, bluer than hands and lighter than the rim in the cabin's shade: straight ahead it is at its
-    // top, and it goes to the left with a turn to the left.
+    // Mark on the rim, bluer than hands and lighter than the rim in the cabin's shade: straight ahead it is at the top,
+    // and it goes to the left with a turn to the left.
     double weight = 0.0, sum = 0.0;
     for (double x = top.x - 140.0; x <= top.x + 140.0; x += 1.0)
       for (double y = top.y; y <= top.y + 60.0; y += 1.0) {

@@ -30,7 +30,7 @@ scene::ResolvedScene scene_of_sheet(const std::string& name) {
   scene.revision = 1;
   scene.materials.resize(1);
   scene::SurfaceMesh& mesh = scene.meshes.emplace_back();
-  // Its x lies along the vehicle's y, and its −y along the vehicle's x.
+  // The sheet's x lies along the vehicle's y, and its −y along the vehicle's x.
   for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)})
     mesh.vertices.push_back({{corner.x, 0.0f, corner.y}, {0, -1, 0}, corner});
   mesh.indices = {0, 1, 2, 0, 2, 3};
@@ -85,7 +85,7 @@ TEST_CASE("a sheet is divided where a dent bends it, keeps its outline, and is a
     CHECK(glm::length(bent->vertices[i].normal) == relative(1.0, 1e-4));
   }
   CHECK(deepest == relative(0.3, 0.08));
-  // Its triangles cover the same area: seen from the front there is neither a hole nor an overlap.
+  // The triangles cover the same area: seen from the front there is neither a hole nor an overlap.
   std::uint32_t in_parts = 0;
   for (const scene::MeshPart& part : bent->parts) in_parts += part.index_count;
   CHECK(in_parts == bent->indices.size());

@@ -1,4 +1,5 @@
-/// Dents as pixels: the body is drawn as deep in as it was dented, where it was dented; from the seat the bonnet is.
+/// Dents as pixels: the body is drawn as deep as it was dented, and at the same place; from the seat the bonnet is,
+/// too.
 
 #include <algorithm>
 #include <array>
@@ -45,7 +46,7 @@ Snapshot with_dents(Snapshot snapshot, const std::vector<debris::Dent>& dents) {
   return snapshot;
 }
 
-/// From outside, `azimuth` counted from straight ahead of the vehicle.
+/// Picture from outside, `azimuth_deg` counted from straight ahead of the vehicle.
 image::Image from_outside(const std::string& model, const std::vector<debris::Dent>& dents, double azimuth_deg,
                           double elevation_deg, const std::string& name) {
   Snapshot snapshot;
@@ -78,7 +79,7 @@ bool differ(const image::Color& a, const image::Color& b, int by) {
   return std::abs(a.red - b.red) > by || std::abs(a.green - b.green) > by || std::abs(a.blue - b.blue) > by;
 }
 
-/// First column from the left, in these rows, in which the vehicle is.
+/// First column from the left, in these rows, with a pixel of the vehicle.
 double first_column(const image::Image& picture, const image::Image& nothing, std::uint32_t from_row,
                     std::uint32_t to_row) {
   for (std::uint32_t x = 0; x < picture.width; ++x)

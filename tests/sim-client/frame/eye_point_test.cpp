@@ -67,8 +67,8 @@ TEST_CASE("whoever looks aside sees in the middle of the screen what lies aside 
   const Vec3 far_ahead_m = rig.eye_point_m + Vec3(100.0, 0.0, 0.0);
   const Vec3 far_aside_m = rig.eye_point_m + 100.0 * Vec3(std::cos(turn_rad), std::sin(turn_rad), 0.0);
   CHECK(glm::distance(drawn_at(ahead->views[0], far_ahead_m), drawn_at(aside->views[0], far_aside_m)) < 1e-9);
-  CHECK(drawn_at(aside->views[0], far_ahead_m).x > 1.0);  // It has gone out to the right.
-  // A driver who looks there sees the left one in its place, and no second time.
+  CHECK(drawn_at(aside->views[0], far_ahead_m).x > 1.0);  // The point has gone out to the right.
+  // A driver who looks there sees the left mirror at its place, and no second picture of it.
   CHECK(ahead->mirrors.empty());
   REQUIRE(aside->mirrors.size() == 1);
   CHECK(aside->mirrors[0].mirror.name == "left mirror");

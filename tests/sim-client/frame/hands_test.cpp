@@ -15,7 +15,7 @@ TEST_CASE("hands hold the wheel as far as they reach, then go over each other an
     const double now = hands_rad(rad);
     furthest = std::max(furthest, std::abs(now));
     CHECK(std::abs(now - before) < 0.001 * 1.01 * std::max(1.0, hands_reach_rad / hands_back_in_rad));
-    CHECK(now * rad >= 0.0);  // On the side to which the wheel has been turned.
+    CHECK(now * rad >= 0.0);  // Hands on the side to which the wheel has been turned.
     turned_with += std::abs(now - before - 0.001) < 1e-9;
     before = now;
   }

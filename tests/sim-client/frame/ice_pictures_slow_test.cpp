@@ -26,7 +26,7 @@ namespace {
 constexpr std::uint32_t wide_px = 1024, high_px = 768;
 const double px_slope = 2.0 * std::tan(0.5) / wide_px;
 
-/// Along x, turned down by `pitch_rad`.
+/// View along x, turned down by `pitch_rad`.
 instant::FrameInput seen_from(const Vec3& eye_m, double pitch_rad) {
   instant::FrameInput input;
   input.environment.sun_elevation_rad = 0.8;
@@ -59,7 +59,7 @@ render::RadianceImage picture_of(render::Renderer& renderer, const instant::Fram
 
 bool is_marked(const glm::vec3& c) { return c.r > 0.2f && c.g < 0.75f * c.r; }
 
-/// As a screen gets it, its cracks marked in red.
+/// Body as a screen receives it, its cracks marked in red.
 ice::IceBody marked_body(const debris::Piece& piece) {
   const auto sent = debris::decode(debris::encode(debris::keyframe_of(piece)));
   REQUIRE(sent);

@@ -20,7 +20,7 @@ rig::Rig desktop(std::uint32_t width_px, std::uint32_t height_px) {
   rig::Rig rig = *rig::read_rig(shipped_text("rigs/desktop.toml"), "desktop");
   rig.screens[0].width_px = width_px;
   rig.screens[0].height_px = height_px;
-  rig.screens[0].show_interior = false;  // Whose dials show all but the stalled engine.
+  rig.screens[0].show_interior = false;  // Without the interior, whose dials show all but the stalled engine.
   return rig;
 }
 
@@ -32,7 +32,7 @@ Snapshot driving() {
   return snapshot;
 }
 
-/// Only the overlay, without a world. SEPTET_PICTURES: a folder for keeping it for people.
+/// Picture of the overlay alone, without a world. SEPTET_PICTURES: a folder for keeping it for people.
 image::Image draw(const rig::Screen& screen, const std::vector<instant::OverlayText>& texts, const std::string& name) {
   auto renderer = render::Renderer::create(
       {.width = screen.width_px, .height = screen.height_px, .device = render::DevicePreference::software});

@@ -53,7 +53,7 @@ instant::DynamicMesh beacon(const RigidTransform& world_from_car, const Vec3& pl
   mesh.prototype = *prototype_of(vehicles_scene(), "cockpit/signs");
   mesh.origin_m = world_from_car * place_m;
   mesh.radius_m = static_cast<float>(2.0 * half_m);
-  // Of the colour of the needles.
+  // Colour of the needles.
   const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::needle);
   for (const int axis : {0, 1, 2})
     for (const double side : {1.0, -1.0}) {
@@ -70,11 +70,11 @@ instant::DynamicMesh beacon(const RigidTransform& world_from_car, const Vec3& pl
 
 struct Seen {
   glm::dvec2 pixel{0.0};  ///< Middle of the changed pixels.
-  double changed = 0.0;   ///< Sum of that.
+  double changed = 0.0;   ///< Sum of the changes.
   float most = 0.0f;      ///< Radiance.
 };
 
-/// Draws a screen without and with something, and finds that.
+/// Draws a screen without and with a body, and finds it by the difference.
 class Stage {
  public:
   Stage(const rig::Rig& rig, const rig::Screen& screen, const Snapshot& shown, const Head& head = {},

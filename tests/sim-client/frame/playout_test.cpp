@@ -51,7 +51,7 @@ TEST_CASE("a world between two ticks is interpolated and counts as of the tick b
   history.add(tick_at(12, 0.02));
   const PlayedOut shown = show(history, 11.5 * played_tick_s, played_tick_s);
   CHECK(shown.on_tick);
-  CHECK(shown.tick == 11);  // Which never came: all screens agree on it all the same.
+  CHECK(shown.tick == 11);  // Tick 11 never came: all screens agree on it all the same.
   CHECK(shown.snapshot.participants[0].world_from_vehicle.position_m.x > 0.01);
   CHECK(shown.snapshot.participants[0].world_from_vehicle.position_m.x < 0.02);
   CHECK(show(history, 10.0 * played_tick_s, played_tick_s).tick == 10);

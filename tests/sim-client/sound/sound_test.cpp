@@ -25,7 +25,7 @@ std::uint32_t number_at(const std::string& bytes, std::size_t place) {
   return number;
 }
 
-/// A session of so many ticks.
+/// Session of so many ticks.
 fs::path session_in(const TemporaryFolder& folder, Tick ticks) {
   const fs::path file = folder.path() / "session.sqlite";
   auto writer = logging::must_create(file);

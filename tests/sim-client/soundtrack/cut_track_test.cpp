@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Two seconds in which nothing sounds but the own horn, from 1.0 to 1.1 s.
+/// Session of two seconds with no sound but the car's own horn, from 1.0 to 1.1 s.
 fs::path session_with_horn(const TemporaryFolder& folder) {
   const fs::path file = folder.path() / "session.sqlite";
   auto writer = logging::must_create(file);
@@ -40,7 +40,7 @@ fs::path session_with_horn(const TemporaryFolder& folder) {
   return file;
 }
 
-/// The left channel.
+/// Samples of the left channel.
 std::vector<double> samples_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -90,7 +90,7 @@ TEST_CASE(
   CHECK(std::abs(onset_s(samples, 2.0) - 2.1) < well_within_a_frame_s);
   CHECK(std::abs(onset_s(samples, 2.2) - 2.4) < well_within_a_frame_s);
   CHECK(onset_s(samples, 2.6) == -1.0);
-  // As a tape at half speed.
+  // Pitch of a tape at half speed.
   CHECK(static_cast<double>(crossings(samples, 0.52, 0.58)) ==
         relative(static_cast<double>(crossings(samples, 1.54, 1.66)), 0.1));
 }
