@@ -50,7 +50,7 @@ inline float wetness(const scene::SurfaceMaterial& material, const Environment& 
   return material.wettable ? static_cast<float>(weather.road_wetness) * material.share_of_sky : 0.0f;
 }
 
-/// Mirrors World.
+/// Same formulas as World's.
 inline Gloss gloss_of(const scene::SurfaceMaterial& material, const Environment& weather) {
   if (const float wet = wetness(material, weather); wet > 0.0f)
     return {light::film_share * wet, light::film_roughness * light::film_roughness, light::water_reflectance, 0.0f};
@@ -87,7 +87,7 @@ inline void simplify(scene::ResolvedScene& scene, bool matt) {
   }
 }
 
-/// Side by side before the eye, ten times as blue as clear ice is.
+/// Adds three bodies side by side before the eye, ten times as blue as clear ice.
 inline void add_ice(instant::Instant& instant) {
   const RigidTransform& car = instant.views.front().world_from_car;
   const Vec3 eye_m = instant::world_eye(instant.views.front());
@@ -101,7 +101,7 @@ inline void add_ice(instant::Instant& instant) {
   }
 }
 
-/// Side by side before the eye: car paint, chrome, a rim's half metal and a dark window, as on vehicles.
+/// Adds balls side by side before the eye: car paint, chrome, a rim's half metal and a dark window, as on vehicles.
 inline void add_balls(scene::ResolvedScene& scene, instant::Instant& instant) {
   struct Look {
     glm::vec3 color;
