@@ -1,5 +1,5 @@
 #pragma once
-/// What debris is made of, to look at.
+/// Materials of debris.
 
 #include "engine/scene/builder.hpp"
 

@@ -42,7 +42,7 @@ Encoded encoded(const scene::Store& store) {
   return result;
 }
 
-/// An object of the world, with the distances between which it is drawn.
+/// Object of the world, with the distances between which it is drawn.
 struct Drawn {
   const scene::Node* node;
   Vec3 position_m;
@@ -64,7 +64,7 @@ std::vector<Drawn> drawn(const scene::Store& store, std::string_view name) {
   return found;
 }
 
-/// The corners of its mesh's polygons in the world, three by three and, of a quad, twice.
+/// Corners of its mesh's polygons in the world, three by three and, of a quad, twice.
 std::vector<std::array<Vec3, 3>> triangles(const scene::Store& store, const Drawn& object) {
   std::vector<std::array<Vec3, 3>> found;
   const auto& data = std::get<scene::ObjectData>(object.node->data);
