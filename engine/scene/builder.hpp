@@ -46,9 +46,9 @@ struct MaterialParameters {
 };
 
 struct ObjectParameters {
-  RigidTransform parent_from_object{};  ///< Pose; of an object without a parent: world_from_object.
+  RigidTransform parent_from_object{};  ///< Pose; world_from_object for an object without a parent.
   glm::vec3 scale{1.0f};
-  NodeId geometry = no_node;        ///< An object without geometry groups its children.
+  NodeId geometry = no_node;        ///< No geometry: the object groups its children.
   std::vector<NodeId> materials{};  ///< Entry k is for the polygons of material index k.
   float visible_from_m = 0.0f;
   float visible_to_m = 1e9f;
