@@ -80,7 +80,7 @@ struct Wire {
     }
   }
 
-  /// Until the client is complete up to the store's revision; false after too many pumps.
+  /// Pumps until the client is complete up to the store's revision; false after too many pumps.
   bool settle(End& end, std::size_t bytes = 1u << 20) {
     for (int i = 0; i < 10000; ++i) {
       pump(end, bytes);
