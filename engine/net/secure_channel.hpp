@@ -31,7 +31,7 @@ enum class SendResult : std::uint8_t {
   queued,
   overwrote,  ///< Replaced an unsent message with its key.
   not_connected,
-  too_large,   ///< Over the message limit, or an unreliable one over one datagram.
+  too_large,   ///< Longer than the message limit, or, if unreliable, than one datagram.
   queue_full,  ///< A server drops such a client; a client may try again later.
 };
 

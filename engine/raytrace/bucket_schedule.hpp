@@ -66,7 +66,7 @@ class BucketSchedule {
   /// Deals the lost worker's run anew.
   void remove_worker(std::size_t worker);
 
-  /// Work for a worker without a run; null: there is nothing now, ask again later.
+  /// Work for a worker without a run; null: no work now, ask again later.
   std::optional<Deal> deal(std::size_t worker, double now_s);
   /// Records a tile that has come, and the processor time that it cost (0: unknown). False: it was there already.
   bool finish(std::size_t worker, std::size_t frame, std::uint32_t tile, double now_s, double cpu_s = 0.0);

@@ -118,8 +118,8 @@ class Geometry {
   /// Share of the light that comes along the ray from its far end, which is not before its beginning.
   float unshadowed(const Ray& ray) const { return unshadowed(begin_of(ray), way_of(ray), ray.to_m); }
 
-  /// Both for the rays whose bit is set in `which`. Returns the bits of those that met something; the other hits are
-  /// unspecified.
+  /// Same queries for the rays whose bit is set in `which`. Returns the bits of those that hit a surface; the other
+  /// hits are unspecified.
   std::uint32_t intersect(std::uint32_t which, const RayPacket& rays, Together together, HitPacket& hits) const;
   Float8 unshadowed(std::uint32_t which, const RayPacket& rays) const;
 

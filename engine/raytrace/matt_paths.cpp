@@ -56,7 +56,7 @@ class MattPaths {
   Vec8 light_ = eight(glm::vec3(0.0f)), throughput_ = eight(glm::vec3(1.0f));
   Vec8 from_m_ = eight(glm::vec3(0.0f));  ///< Last point.
   Float8 pdf_{};                          ///< Density with which the last direction was drawn.
-  Packet<LampWeights> lamp_weights_;      ///< At the last point.
+  Packet<LampWeights> lamp_weights_;      ///< Weights at the last point.
 };
 
 void MattPaths::go_alone(std::uint32_t which, std::uint32_t met, const HitPacket& hits) {

@@ -13,7 +13,7 @@ namespace septet::raytrace {
 namespace {
 
 constexpr std::uint32_t longest_caustic = 24;  ///< Edges of a photon's way through clear bodies.
-constexpr float sun_starts_m = 2000.0f;        ///< Distance before the body: nothing higher shades it.
+constexpr float sun_starts_m = 2000.0f;        ///< Distance before the body: no higher object shades it.
 constexpr float headlight_glass_m = 0.3f;      ///< Distance from a headlight to its lamp's glass, which would shade it.
 constexpr std::uint64_t photons_word = 0x70686f746f6e7321u;  ///< Makes random numbers different from those of pixels.
 

@@ -136,7 +136,7 @@ void add_samples(PixelSums& pixel, const World& world, const Camera& camera, con
   const bool blurs = later && settings.blurs;
   constexpr std::uint32_t size = packet_size;
   while (sums.samples < samples) {
-    // Packets hold the same samples whichever of them are wanted: a sample never depends on how a picture is divided.
+    // Packets hold the same samples for any subset wanted: a sample never depends on how a picture is divided.
     const std::uint32_t next = first_sample + sums.samples, first = next % size, packet = next - first;
     const std::uint32_t end = std::min(size, first + samples - sums.samples);
     const std::uint32_t begun = std::clamp(std::max(settings.samples, packet) - packet, end, size);

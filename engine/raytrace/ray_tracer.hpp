@@ -109,14 +109,14 @@ class RayTracer {
   void begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies = {},
              const instant::Instant* later = nullptr);
   /// Photons of the instant begun last, in buckets that may be traced in any order, on any machines; empty where they
-  /// would bring nothing.
+  /// would bring no light.
   std::vector<PhotonBucket> photon_buckets() const;
   std::vector<Photon> trace_photons(const PhotonBucket& bucket) const;
   /// Results of those buckets, in their order: pixels use that light from now on; without a call they use none.
   void set_photons(std::span<const std::vector<Photon>> of_buckets);
   /// Pixels of the instant begun last; the rectangle lies within the picture of its views.
   Bucket trace(const instant::PixelRectangle& rectangle) const;
-  /// One set of their samples; every pixel takes all of it, whatever the error.
+  /// One set of their samples; every pixel takes all of it, regardless of the error.
   Bucket trace(const instant::PixelRectangle& rectangle, const SampleSet& set) const;
   const instant::Instant& instant() const;
 

@@ -135,7 +135,7 @@ float Smoke::optical_depth(const Ray& ray) const {
   float depth = 0.0f;
   march(ray, [&](const Cell& cell, float from_m, float to_m) {
     depth += cell.extinction_per_m * (to_m - from_m);
-    return depth < 30.0f;  // Nothing measurable is left.
+    return depth < 30.0f;  // No measurable light is left.
   });
   return depth;
 }

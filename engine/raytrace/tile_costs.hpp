@@ -14,7 +14,7 @@ class TileCosts {
  public:
   explicit TileCosts(std::uint32_t tiles) : of_tile_(tiles, 0.0) {}
 
-  /// Returns 1 where nothing is known.
+  /// Returns 1 where no cost is known.
   double operator[](std::uint32_t tile) const { return of_tile_[tile] > 0.0 ? of_tile_[tile] / mean() : 1.0; }
 
   /// Measurements of one machine so far, kept by the caller.

@@ -26,7 +26,7 @@ class Outbox {
 
  private:
   struct Waiting {
-    Change change;                                                ///< For a range subject only the subject counts.
+    Change change;                                                ///< Only the subject counts for a range subject.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  ///< [first, end), rising, apart.
   };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Ground beside the roads for wheels: the land as it is drawn, everywhere, static.
 ///
-/// From the road's edge it falls into the land over the width of the verge; farther out it is the grid of the drawn
+/// It falls from the road's edge into the land over the width of the verge; farther out it is the grid of the drawn
 /// land, bilinear between its corners. Ditches are drawn but have no effect: the transition into the land is one even
 /// bank. Unevenness of a meadow lies on it (ISO 8608: a sum of waves of the class's density, between 1 and 20 m long,
 /// in all directions), for which the drawn grid is too coarse. Beside a lower road it is no higher than earth stands

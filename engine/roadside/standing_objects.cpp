@@ -114,7 +114,7 @@ class ObjectBuilder {
     standing.kind = kind;
     standing.world_from_object = {at.position_m + Vec3(0, 0, std::clamp(up_m, -50.0, 50.0)),
                                   orientation_from_angles(turn, 0.0, 0.0)};
-    // Up to 1.3 a height may stand at the corners alone.
+    // Height at the corners alone, as files up to OpenDRIVE 1.3 may give it.
     if (!(height_m > 0.0) && object.repeats.empty() && !object.outlines.empty())
       for (const road::OutlineCorner& corner : object.outlines.front().corners)
         height_m = std::max(height_m, corner.height_m);

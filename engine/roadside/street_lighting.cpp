@@ -106,7 +106,7 @@ class LampPlan {
         if (auto found = candidate(index, s, side)) {
           candidates_[candidate_cells.key_at(Vec2(found->lamp.world_from_lamp.position_m))].push_back(*found);
         }
-    // Position before the crossing, against whose light a pedestrian is seen.
+    // Position before the crossing: a pedestrian is seen against the ground that this lamp lights.
     constexpr double before_m = 2.0;
     for (const road::RoadObject& object : road.objects)
       if (object.type == "crosswalk")

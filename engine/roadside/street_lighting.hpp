@@ -4,7 +4,7 @@
 ///
 /// Lamps are placed first on each side of a crossing, then in a row along every street, on alternate sides; then all
 /// lanes, in junctions too, are searched for dark places, each of which gets the lamp that lights it most among the
-/// free positions. No lamp stands within 8 m of another, whichever road either belongs to, on a lane that is driven on,
+/// free positions. No lamp stands within 8 m of another, of any road, on a lane that is driven on,
 /// or before a signal. A pole stands at the kerb, on a pavement that is wide enough, else behind it.
 ///
 /// The same network gives the same lamps. World frame, metres.

@@ -42,7 +42,7 @@ class Terrain {
   /// Rough distance to the nearest road, at any range.
   double distance_m(const Vec2& p) const;
 
-  /// True if p lies under or over a bridge's or tunnel's stretch, where nothing grows.
+  /// True if p lies under or over a bridge's or tunnel's stretch, where no plants grow.
   bool is_kept_clear(const Nearest& nearest) const;
   /// True if p is near a tunnel's mouth, where the land breaks off at the portal.
   bool is_at_portal(const Nearest& nearest) const;

@@ -4,7 +4,7 @@
 
 namespace septet::roadside::tunnel_shape {
 
-inline constexpr double wall_clear_m = 0.5;    ///< From the asphalt's edge to the wall.
+inline constexpr double wall_clear_m = 0.5;    ///< Distance from the asphalt's edge to the wall.
 inline constexpr double middle_wall_m = 0.35;  ///< Half the thickness of the wall between the tubes.
 /// Heights over the road: of the ceiling, and of its lower edge along the wall; the ceiling slopes over
 /// `haunch_width_m`.

@@ -1,7 +1,7 @@
 #pragma once
 /// Fills a store with scenery: meshes, images, materials and placed objects, in the conventions of CONVENTIONS.md.
 ///
-/// Everything goes through commands, so that the scenery can be replicated, changed and logged like any other content.
+/// All content goes through commands, so that the scenery can be replicated, changed and logged like any other content.
 /// A call with values that a store would refuse (not finite, index out of range, over a limit) is a bug of the caller
 /// and stops the program.
 

@@ -106,7 +106,7 @@ class Slots {
 struct Resolver::State {
   ResolvedScene scene;
   std::uint64_t seen = 0;        ///< The store's revision at the last update.
-  std::uint64_t seen_index = 0;  ///< Its index revision.
+  std::uint64_t seen_index = 0;  ///< The store's index revision at that update.
   std::uint64_t placing = 0;     ///< Counts the passes of place_instances.
 
   std::map<NodeId, DrawnObject> objects;

@@ -77,7 +77,8 @@ struct SurfaceMaterial {
   /// Share of the sky's and the ground's light that passes close surroundings, where no ray is traced: 1 in the open,
   /// 0.35 on a dashboard. Excludes the sun's, for which shadows are drawn.
   float ambient_share = 1.0f;
-  bool lit_by_night = false;  ///< A window: its emission comes with the night; it is visible and lights nothing.
+  /// True for a window: its emission comes with the night; it is visible and lights no other surface.
+  bool lit_by_night = false;
 };
 
 /// Source of a part's motion or light on a vehicle.
@@ -115,7 +116,7 @@ enum class PartRole : std::uint8_t {
 /// One placed mesh.
 struct Instance {
   std::uint32_t mesh = 0;
-  RigidTransform world_from_object;  ///< In a prototype: vehicle_from_object.
+  RigidTransform world_from_object;  ///< Pose; vehicle_from_object in a prototype.
   glm::vec3 scale{1.0f};
   float visible_from_m = 0.0f;  ///< Drawn while the eye's distance is in [visible_from_m, visible_to_m).
   float visible_to_m = 1e9f;

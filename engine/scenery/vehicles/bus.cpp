@@ -20,7 +20,7 @@ using geometry::MeshBuilder;
 /// Lines of a bus in side view; heights from the ground.
 struct BusShape {
   float front, rear, half, height, ground, window_low, window_high, lean;
-  int doors;     ///< On the right side.
+  int doors;     ///< Number on the right side.
   bool lockers;  ///< True for lockers under a coach's high floor.
 };
 

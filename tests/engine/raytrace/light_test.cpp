@@ -108,7 +108,7 @@ TEST_CASE("lamps are drawn with the chances that are told and only such as may l
     CHECK((weights.chance(n) > 0.0f) == (n % 3 != 2));
   }
   CHECK(weights.drawn(0.99999994f) == 19);
-  // In the air no side is dark.
+  // No side is dark in the air.
   LampRow(lamps).weigh({0.0f, 0.0f, 0.0f}, glm::vec3(0.0f), 0.0f, weights);
   for (std::size_t n = 0; n < lamps.size(); ++n) CHECK(weights.chance(n) > 0.0f);
   // Position of a moving lamp at the ray's time.
@@ -215,7 +215,7 @@ TEST_CASE("a mirror shows a lamp as bright as it is") {
   scene::ResolvedScene scene;
   add_part(scene, wall(5.0f, 3.0f), mirror);
   add_part(scene, {glm::vec3(1.0f, 1.0f, -2.0f), {1.0f, 6.0f, -2.0f}, {1.0f, 6.0f, 2.0f}, {1.0f, 1.0f, 2.0f}}, lamp);
-  // Its image fills the needle's view.
+  // Mirror image of the lamp, which fills the needle's view.
   const double aside = std::atan2(0.75, 1.0);
   const PictureMean mean = mean_of(traced(scene, needle({5.0, 0.0, 0.0}, aside, even_sky(0.0f)), direct(64)));
   const double fresnel_here = 0.8 + 0.2 * std::pow(1.0 - std::cos(aside), 5.0);

@@ -69,7 +69,7 @@ TEST_CASE("an edge that moves while the shutter is open is a linear ramp as long
   sheet.number = 5;
   sheet.tint = glm::vec4(1.0f);
   instant.parts = {sheet};
-  sheet.origin_m.y = -1.5;  // To the right.
+  sheet.origin_m.y = -1.5;  // Motion to the right.
   later.parts = {sheet};
   const TraceSettings settings{.samples = 64, .filter = Filter::box};
   CHECK(off_ramp(traced_until(scene, instant, later, settings), 0.5 * side_px, 0.5 * side_px + 1.5 * px_of_m) < 0.03);

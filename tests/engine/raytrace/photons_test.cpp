@@ -186,7 +186,7 @@ TEST_CASE("a ball of glass sends on what it lets through, and where two stand in
   const double beam = std::numbers::pi * 0.25 * 30000.0 / (double(away_m) * double(away_m));
   const double one = energy({ball_of(1.5f, 0.4f, 0.5f, {0.0, 0.0, 0.0})});
   CHECK(one / (beam * let_through(1.5f, 0.4, 0.5)) == relative(1.0, 0.01));
-  // One in the other's shadow, clear: all light on the first passes through both.
+  // Two clear balls, one in the other's shadow: all light on the first passes through both.
   const double both = energy({ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, 0.0}), ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, -1.5})});
   CHECK(both / beam == relative(1.0, 0.015));
 }
@@ -199,7 +199,7 @@ TEST_CASE("under a ball of glass the sun makes a bright spot in a shadow, with t
   const auto instant = under_sun({0.0, 0.0, 40.0}, 2.0 * std::atan(0.5 * side_m / 41.2), side_px, 3.0f);
   TraceSettings settings{.samples = 16, .paths = {.longest = 6}, .filter = Filter::box};
   const TracedPicture open = traced(scene, instant, settings);
-  // It covers a part of its own spot: that part is visible through it.
+  // The ball covers a part of its own spot, which is visible through it.
   const std::vector<ClearBody> glass{ball_of(1.5f, 0.0f, 1.0f, {0.0, 0.0, 0.0})};
   const TracedPicture without = traced(scene, instant, settings, glass);
   settings.photons.caustic = 30000;

@@ -42,7 +42,7 @@ inline bool is_peer_scene(std::string_view name) {
 struct Gloss {
   float share = 0.0f;  ///< Share of its surface; 0: no gloss.
   float alpha = 1.0f;
-  float f0 = 0.04f;  ///< For a dielectric.
+  float f0 = 0.04f;  ///< Value of a dielectric.
   float metallic = 0.0f;
 };
 
@@ -69,7 +69,7 @@ inline void simplify(scene::ResolvedScene& scene, bool matt) {
       material.metallic = 0.0f;
       material.wettable = false;
     }
-    // As in World: a lamp under a roof lights others more brightly than it appears.
+    // Same as in World: a lamp under a roof lights others more brightly than it appears.
     material.emission *= glm::mix(instant::roofed_lamps_light_up, 1.0f, material.share_of_sky);
   }
   for (scene::SurfaceMesh& mesh : scene.meshes)

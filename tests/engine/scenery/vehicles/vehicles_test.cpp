@@ -160,7 +160,7 @@ TEST_CASE("cars have the lamps and wheels that move and light") {
   using enum scene::PartRole;
   for (const VehicleModel& model : vehicle_models()) {
     if (model.kind == ParticipantKind::pedestrian || model.kind == ParticipantKind::bicycle) continue;
-    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Its tractor has the lamps ahead.
+    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Lamps ahead are on its tractor.
     CAPTURE(model.name);
     const VehicleParts parts = vehicle_parts(model);
     for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left, lamp_indicator_right,

@@ -258,13 +258,13 @@ TEST_CASE("the strip beside the road lies below the pavement of a ramp that runs
       for (const Vec3& corner : corners) {
         const auto place = road::locate(motorway(), Vec2(corner), nullptr, 1.0);
         if (!place || place->lanes.outside_m > 0.0) continue;
-        // Within the pavement of some road, not at its own road's edge.
+        // Only places within the pavement of some road, not at its own road's edge.
         const road::RoadExtent extent = road::road_extent(motorway().roads[place->position.road], place->position.s_m);
         if (std::min(extent.left_t_m - place->position.t_m, place->position.t_m - extent.right_t_m) < 0.7) continue;
         ++beside;
         const double over_m = corner.z - road::evaluate(motorway(), place->position).position_m.z;
         above += over_m > 0.02;
-        shallow += over_m > -0.3 && over_m < -0.02;  // At a joint of two roads their edges meet.
+        shallow += over_m > -0.3 && over_m < -0.02;  // Edges of two roads meet at their joint.
       }
   CHECK(beside > 0);
   CHECK(above == 0);
