@@ -22,7 +22,7 @@ struct Photon {
   glm::vec3 position_m{0.0f};  ///< Position in World's frame.
   glm::vec3 power{0.0f};       ///< Radiance times m² times sr.
   glm::vec3 normal{0.0f};      ///< Normal of the triangle, on the side from which it came.
-  glm::vec3 to_light{0.0f};    ///< Unit vector to its origin.
+  glm::vec3 to_light{0.0f};    ///< Unit vector back along its ray.
   bool operator==(const Photon&) const = default;
 };
 
