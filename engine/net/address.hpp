@@ -19,13 +19,13 @@ struct Address {
 
 inline constexpr std::uint32_t loopback_ip = 0x7f000001;
 
-/// 224.0.0.0/4.
+/// True for 224.0.0.0/4.
 constexpr bool is_multicast(const Address& address) { return (address.ip >> 28) == 0xe; }
 constexpr bool is_loopback(const Address& address) { return (address.ip >> 24) == 127; }
 
-/// "239.7.7.7:4750".
+/// Text of the form "239.7.7.7:4750".
 std::string to_text(const Address& address);
-/// "239.7.7.7".
+/// Text of the form "239.7.7.7".
 std::string ip_text(std::uint32_t ip);
 
 /// Reads "a.b.c.d:port"; `where` names the source of the text for the error ("rig.toml: network.group").

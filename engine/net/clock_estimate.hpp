@@ -15,7 +15,7 @@ namespace septet::net {
 
 class ClockEstimate {
  public:
-  /// Adds one ping: sent and received in the client's time, answered at `server_s` in the server's.
+  /// Adds one ping: sent and received in the client's time, replied to at `server_s` in the server's.
   void add(double sent_s, double server_s, double received_s);
 
   bool valid() const { return !pings_.empty(); }
@@ -32,7 +32,7 @@ class ClockEstimate {
   /// Bound on the relative drift of two clocks: each is off by less than 100 ppm.
   static constexpr double drift = 200e-6;
   struct Ping {
-    double at_s, low_s, high_s;  ///< Interval of the offset at the time of the answer.
+    double at_s, low_s, high_s;  ///< Interval of the offset at the time of the reply.
   };
   std::deque<Ping> pings_;
   double low_s_ = 0.0, high_s_ = 0.0;

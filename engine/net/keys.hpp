@@ -17,7 +17,7 @@
 namespace septet::net {
 
 using PublicKey = std::array<std::uint8_t, 32>;
-/// Random per server start; signed into every tick, and told to clients over the scene lane.
+/// Random number of a server start; signed into every tick, and sent to clients over the scene lane.
 using SessionId = std::array<std::uint8_t, 16>;
 
 /// The 64 bytes of a secret key in memory of their own: excluded from core files, not swapped out where the system
@@ -54,7 +54,7 @@ class Identity {
 
 SessionId random_session_id();
 
-/// 64 hexadecimal digits.
+/// Text of 64 hexadecimal digits.
 std::string to_text(const PublicKey& key);
 Expected<PublicKey> parse_public_key(std::string_view text, std::string_view where);
 

@@ -10,7 +10,7 @@ namespace septet::net {
 
 struct MulticastProbe {
   bool works = false;
-  std::string reason;  ///< For a person: "multicast 239.7.7.7:4750 on 127.0.0.1 came back after 1 try".
+  std::string reason;  ///< Text for the operator: "multicast 239.7.7.7:4750 on 127.0.0.1 came back after 1 try".
 };
 
 /// Sends up to `tries` random probes to the group from one socket and listens on another of this machine, each for at

@@ -58,7 +58,7 @@ class ReliableSender {
   struct Fragment {
     std::uint64_t message = 0;
     std::size_t offset = 0, length = 0;
-    std::uint64_t position = 0;  ///< In the stream of all first sendings.
+    std::uint64_t position = 0;  ///< Position in the stream of all first sendings.
     bool is_void = false, lost = false, done = false;
   };
   struct Packet {
@@ -102,7 +102,7 @@ class ReliableSender {
 
   std::size_t congestion_window_;
   std::size_t smallest_window_;
-  bool was_full_ = false;  ///< The window has limited sending in this round.
+  bool was_full_ = false;  ///< True if the window has limited sending in this round.
   std::uint64_t round_end_ = 0;
   std::size_t round_acknowledged_ = 0, round_lost_ = 0;
   std::uint64_t resent_ = 0, overwritten_ = 0;

@@ -27,7 +27,7 @@ class RoundTrip {
  private:
   bool known_ = false;
   double latest_s_ = 0.0;
-  double smoothed_s_ = 0.010;  ///< Before the first sample.
+  double smoothed_s_ = 0.010;  ///< Value before the first sample.
   double deviation_s_ = 0.010;
 };
 

@@ -38,7 +38,7 @@ enum class ClientState : std::uint8_t {
 
 /// Reason why a client has no connection, as far as the client can tell.
 enum class Obstacle : std::uint8_t {
-  none,              ///< It is connected, or has not tried for long.
+  none,              ///< Connected, or no long attempt yet.
   no_answer,         ///< No datagram comes from the server's address.
   other_server_key,  ///< A server there cannot read a message sealed for the pinned key.
   other_version,     ///< The program there speaks another version of the protocol.

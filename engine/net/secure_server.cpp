@@ -125,7 +125,7 @@ void SecureServer::State::receive(std::vector<ServerEvent>& events) {
       take_data(*datagram, events);
     } else {
       ++strangers.malformed;
-      // The sender learns which version is spoken here, and nothing else.
+      // Tells the sender the version spoken here, and nothing else.
       if (is_of_other_version(datagram->bytes) && datagram->bytes.size() >= smallest_hello_bytes) {
         Bytes answer;
         ByteWriter writer(answer);

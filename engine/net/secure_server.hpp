@@ -83,7 +83,7 @@ class SecureServer {
   std::vector<ClientId> clients() const;
   /// Null for a client that is not connected. Valid until the next call.
   const ClientInfo* info(ClientId client) const;
-  /// Over all connections, past ones and unknown senders included.
+  /// Sum over all connections, past ones and unknown senders included.
   ChannelCounters counters() const;
 
  private:

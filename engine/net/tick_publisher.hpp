@@ -25,7 +25,7 @@ struct TickPublisherOptions {
 
 struct TickPublisherCounters {
   std::uint64_t ticks = 0;
-  std::uint64_t datagrams = 0;  ///< Handed to the socket, counting each destination.
+  std::uint64_t datagrams = 0;  ///< Datagrams handed to the socket, counting each destination.
   std::uint64_t bytes = 0;      ///< Bytes of those datagrams.
   std::uint64_t refused = 0;    ///< Datagrams that the socket did not accept.
 };

@@ -25,10 +25,11 @@ struct ReceivedTick {
 };
 
 struct TickReceiverCounters {
-  std::uint64_t datagrams = 0;      ///< All datagrams received.
-  std::uint64_t ticks = 0;          ///< Complete and delivered.
-  std::uint64_t repaired = 0;       ///< Ticks among those that a repetition completed.
-  std::uint64_t lost = 0;           ///< Left the window incomplete, or never seen between two complete ones.
+  std::uint64_t datagrams = 0;  ///< All datagrams received.
+  std::uint64_t ticks = 0;      ///< Ticks complete and delivered.
+  std::uint64_t repaired = 0;   ///< Ticks among those that a repetition completed.
+  /// Ticks that left the window incomplete, or were never seen between two complete ones.
+  std::uint64_t lost = 0;
   std::uint64_t forged = 0;         ///< Signature or fragment hash does not hold.
   std::uint64_t other_session = 0;  ///< Datagrams of an earlier or unknown run of the server.
   std::uint64_t malformed = 0;      ///< Not a tick datagram, truncated, or fields that contradict each other.
@@ -43,7 +44,7 @@ class TickReceiver {
 
   /// Refuses every datagram before `follow`: a session id comes over the authenticated scene lane.
   explicit TickReceiver(const PublicKey& server) : server_(server) {}
-  /// Forgets the earlier session and returns true, if this is another one. Of the same session, delivered ticks are not
+  /// Forgets the earlier session and returns true, if this is another one. Within one session, delivered ticks are not
   /// delivered again.
   bool follow(const SessionId& session);
 

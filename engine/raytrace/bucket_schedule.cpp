@@ -10,7 +10,7 @@
 namespace septet::raytrace {
 namespace {
 
-/// A worker from which nothing has come for this many times as long as its tiles take is taken for slower than it was.
+/// Multiple of the expected time of its tiles after which a silent worker is taken for slower than measured.
 constexpr double late = 3.0;
 constexpr double whole_frame = std::numeric_limits<double>::infinity();
 
@@ -77,7 +77,7 @@ void BucketSchedule::was_ready_after(std::size_t number, std::size_t frame, doub
   workers_[number].frame = frame;
 }
 
-/// The n-th worker is dealt the n-th frame; where there are fewer, all share what there is.
+/// Gives the n-th worker the n-th unfinished frame, in turns where frames are fewer than workers.
 std::optional<std::size_t> BucketSchedule::likely_first_frame(std::size_t number) const {
   const std::size_t left = frames_ - done_frames_.size();
   if (left == 0) return std::nullopt;
@@ -93,7 +93,7 @@ double BucketSchedule::speed_of_all() const {
   return speed;
 }
 
-/// Cost a second. One of which nothing is known yet is as fast as the others are, thread by thread.
+/// Cost a second. A worker not yet measured is taken for as fast, thread by thread, as the others are on average.
 double BucketSchedule::speed_of(const Worker& worker) const {
   if (worker.cost > 0.0) return worker.cost / std::max(worker.busy_s, 1e-9);
   double cost_per_s = 0.0, threads = 0.0;
@@ -139,7 +139,7 @@ bool BucketSchedule::is_over(const Worker& worker) const {
   return true;
 }
 
-/// The first tiles between two that are not dealt, as far as they lie together.
+/// Takes the first adjoining undealt tiles of [from, end), up to that cost.
 TileRun BucketSchedule::take(std::size_t number, std::uint32_t from, std::uint32_t end, double most_cost) {
   Frame& frame = begin(number);
   TileRun run{number, from, 0};
@@ -195,7 +195,7 @@ std::optional<TileRun> BucketSchedule::equal_bucket_for(std::size_t number) {
   return std::nullopt;
 }
 
-/// Takes over the end of the run that would be done last, as much of it that both are done at once.
+/// Takes over the end of the run that would be done last, at a size that lets both end at once.
 std::optional<Deal> BucketSchedule::split_for(std::size_t number, double now_s) const {
   const Worker& worker = workers_[number];
   std::optional<Deal> best;
@@ -211,7 +211,7 @@ std::optional<Deal> BucketSchedule::split_for(std::size_t number, double now_s) 
         (time_left_s - time_to_ready_s(worker, other.run->frame)) * left.per_s * own_per_s / (left.per_s + own_per_s);
     if (share < 0.5 * std::min(1.0, costs_[other.run->end - 1])) continue;
     const std::vector<bool>& done = begun_.at(other.run->frame).done;
-    // One tile at least, and no more than the share.
+    // Takes one tile at least, and no more than the share.
     std::uint32_t from = other.run->end;
     for (double taken = 0.0; from > left.first_unbegun; --from) {
       if (done[from - 1]) continue;
@@ -225,7 +225,7 @@ std::optional<Deal> BucketSchedule::split_for(std::size_t number, double now_s) 
   return best;
 }
 
-/// Tiles that others have begun, where this worker would be done with them sooner.
+/// Repeats tiles in another worker's hands where this worker would finish them sooner.
 std::optional<TileRun> BucketSchedule::repeat_for(std::size_t number, double now_s) const {
   const Worker& worker = workers_[number];
   const auto cost_of_one = [](const Left& left) {

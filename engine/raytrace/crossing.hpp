@@ -1,5 +1,6 @@
 #pragma once
-/// What a ray does at a surface: where the next one begins, and how it enters or leaves a clear body. For paths from the eye and from lights.
+/// Continuation of a ray at a surface: origin of the next ray, and reflection or refraction at a clear body. For paths
+/// from the eye and from lights.
 
 #include <algorithm>
 #include <cmath>
@@ -10,21 +11,21 @@
 
 namespace septet::raytrace {
 
-inline constexpr int most_sheets_passed = 64;  ///< Of glass, on one edge.
+inline constexpr int most_sheets_passed = 64;  ///< Sheets of glass, on one edge.
 
-/// More than a place is uncertain by, or eight are.
+/// Margin above the rounding error of a position, or of eight.
 template <typename Vector>
 inline auto margin_m(const Vector& position_m) {
   return 1e-4f + 2e-6f * larger(larger(magnitude(position_m.x), magnitude(position_m.y)), magnitude(position_m.z));
 }
 
-/// Beside the surface by that.
+/// Position moved off the surface by that margin.
 template <typename Vector>
 inline Vector beside(const Vector& position_m, const Vector& normal) {
   return position_m + normal * margin_m(position_m);
 }
 
-/// At a clear body's surface: reflected or refracted, as Fresnel's share falls. The ray's time stays.
+/// Reflects or refracts at a clear body's surface, drawn by Fresnel's share. The ray's time stays.
 inline Ray enter_or_leave(const SurfacePoint& point, const Ray& ray, PathRandom& random) {
   const glm::vec3& n = point.surface.normal;
   const float cosine = std::clamp(-glm::dot(n, ray.direction), 0.0f, 1.0f);
@@ -41,8 +42,8 @@ inline Ray enter_or_leave(const SurfacePoint& point, const Ray& ray, PathRandom&
   return next;
 }
 
-/// At a translucent sheet: half of the light that leaves comes from its other side. There the sheet is seen from that side, as `direction`, the
-/// ray's, is turned.
+/// Draws the side of a translucent sheet: half of the light that leaves comes from its other side. For that side
+/// `direction`, the ray's, and the normals are mirrored.
 inline void take_a_side(SurfacePoint& point, glm::vec3& direction, PathRandom& random) {
   if (random.uniform() < 0.5f) return;
   direction -= 2.0f * glm::dot(direction, point.flat_normal) * point.flat_normal;
@@ -50,7 +51,7 @@ inline void take_a_side(SurfacePoint& point, glm::vec3& direction, PathRandom& r
   point.surface.normal = -point.surface.normal;
 }
 
-/// The side of the surface on which this direction leads away from it; zero where it leads into it.
+/// Normal of the side on which this direction leads away from the surface; zero where it leads into it.
 inline glm::vec3 side_towards(const SurfacePoint& point, const glm::vec3& direction) {
   const float out = glm::dot(direction, point.flat_normal);
   if (out > 0.0f) return point.flat_normal;

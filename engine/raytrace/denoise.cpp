@@ -16,25 +16,26 @@ namespace {
 
 constexpr int reach_px = 7, patch_px = 1, strip_rows = 16;
 
-constexpr float strictness = 0.55f;  ///< Of the light: smaller keeps more, noise too.
+/// Weight of differences in light: a smaller one keeps more detail, and more noise.
+constexpr float strictness = 0.55f;
 constexpr float normal_sigma = 0.2f, albedo_sigma = 0.15f;
-constexpr float least_albedo =
-    0.1f;  ///< What is darker mirrors more light than it scatters, which its albedo tells nothing about.
+/// Lower bound for the divisor: darker surfaces mirror more light than they scatter, about which albedo says nothing.
+constexpr float least_albedo = 0.1f;
 constexpr int spark_reach_px = 2;
-constexpr std::size_t spark_rank = 3;       ///< A spark is brighter than all but so many around it,
-constexpr float spark_uncertainty = 0.25f;  ///< and its deviation at least this share of it: a lamp's is far less.
-constexpr float even_variance = 1e-9f;      ///< After exposure: far below a display's code.
+constexpr std::size_t spark_rank = 3;       ///< A spark is brighter than the pixel of this rank around it,
+constexpr float spark_uncertainty = 0.25f;  ///< and the spark's least deviation as a share of it: a lamp's is far less.
+constexpr float even_variance = 1e-9f;      ///< Variance after exposure: far below a display's code.
 
-/// What is compared of a pixel.
+/// Features of a pixel that are compared.
 struct Guide {
-  glm::vec3 light{0.0f};  ///< By the albedo, after exposure.
+  glm::vec3 light{0.0f};  ///< Radiance over albedo, after exposure.
   glm::vec3 modulation{1.0f};
-  float luminance = 0.0f, variance = 0.0f;  ///< Of the light as it is compared: l / (1 + l).
+  float luminance = 0.0f, variance = 0.0f;  ///< Both of the light as it is compared: l / (1 + l).
   glm::vec3 normal{0.0f}, albedo{0.0f};
 };
 
-/// What is left of a pixel's light: a spark, which few of its samples have met by chance, is no brighter than those around, for a filter would make
-/// a patch of it.
+/// Share of a pixel's light that is kept: a spark, which few of its samples have met by chance, is dimmed to those
+/// around, for a filter would make a patch of it.
 float share_without_spark(const TracedPicture& picture, int x, int y) {
   const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
   const auto pixel_at = [&](int column, int row) -> const TracedPixel& {
@@ -43,7 +44,7 @@ float share_without_spark(const TracedPicture& picture, int x, int y) {
   const TracedPixel& here = pixel_at(x, y);
   const float light = luminance(here.radiance);
   if (!(here.variance > spark_uncertainty * spark_uncertainty * light * light)) return 1.0f;
-  std::array<float, spark_rank> brightest{};  // Of those around, falling.
+  std::array<float, spark_rank> brightest{};  // Brightest of those around, in falling order.
   for (int row = std::max(0, y - spark_reach_px); row <= std::min(height - 1, y + spark_reach_px); ++row)
     for (int column = std::max(0, x - spark_reach_px); column <= std::min(width - 1, x + spark_reach_px); ++column) {
       if (row == y && column == x) continue;
@@ -63,12 +64,12 @@ class Guides {
       const auto n = static_cast<int>(guides_.size());
       const float left = share_without_spark(picture, n % width_, n / width_);
       Guide guide;
-      // A pixel is sky by as much as its normals, which the sky has none of, are short of one.
+      // Share of sky in a pixel: its mean normal is short of one by that, as the sky has no normal.
       const float sky = std::max(0.0f, 1.0f - glm::length(pixel.normal));
       guide.modulation = glm::max(pixel.albedo + sky, glm::vec3(least_albedo));
       guide.light = pixel.radiance * (left * scale) / guide.modulation;
-      // Lamps that some samples met and others missed vary by thousands of whites: what is far beyond white differs by little, or the dark around
-      // them would be like them.
+      // Lamps that some samples met and others missed vary by thousands of whites: differences far beyond white are
+      // compressed, or the dark around lamps would be similar to them.
       const float light = luminance(guide.light), beyond = 1.0f + light;
       guide.luminance = light / beyond;
       const float share = left * scale / (luminance(guide.modulation) * beyond * beyond);
@@ -83,11 +84,11 @@ class Guides {
   const Guide& at(int x, int y) const {
     return guides_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
   }
-  /// Beyond the edge the pixel at the edge.
+  /// Pixel, or the nearest one of the edge beyond it.
   const Guide& near(int x, int y) const { return at(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1)); }
 
  private:
-  /// Of few samples it is a bad estimate, and mostly too small: at least the mean of those around.
+  /// Raises the variance to at least the mean of those around: few samples estimate it badly, and mostly too small.
   void even_out_variance() {
     std::vector<float> means;
     means.reserve(guides_.size());
@@ -105,7 +106,7 @@ class Guides {
   std::vector<Guide> guides_;
 };
 
-/// How unlike the light of two pixels is, beyond their noise; 0 and less: alike.
+/// Difference of two pixels' light beyond their noise; 0 and less: similar.
 float distance_of(const Guide& a, const Guide& b) {
   const float off = a.luminance - b.luminance, both = a.variance + b.variance;
   return (off * off - (a.variance + std::min(a.variance, b.variance))) /
@@ -118,13 +119,13 @@ float likeness_of_surfaces(const Guide& a, const Guide& b) {
          glm::dot(albedo, albedo) / (2.0f * albedo_sigma * albedo_sigma);
 }
 
-/// Rows from..end of the filtered light.
+/// Computes rows from..end of the filtered light.
 void filter_strip(const Guides& guides, int from, int end, std::vector<glm::vec3>& filtered) {
   const int width = guides.width(), rows = end - from;
   const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
   std::vector<glm::vec3> sums(cells, glm::vec3(0.0f));
   std::vector<float> weights(cells, 0.0f);
-  // Distances of the strip and of a pixel around it.
+  // Distances between the strip and itself shifted by (dx, dy).
   const int wide = width + 2 * patch_px;
   std::vector<float> distances(static_cast<std::size_t>(wide) * static_cast<std::size_t>(rows + 2 * patch_px));
   for (int dy = -reach_px; dy <= reach_px; ++dy)

@@ -1,19 +1,21 @@
 #pragma once
-/// Noise out of a traced picture, after it is whole: each pixel becomes a mean of those around it that are like it.
+/// Denoising of a complete traced picture: each pixel becomes a mean of similar pixels around it.
 ///
-/// Alike are pixels whose surroundings of 3 × 3 differ by no more than their variances explain, as Rousselle, Knaus and Zwicker weigh them in
-/// "Adaptive Rendering with Non-Local Means Filtering" (2012), and whose first surfaces have the same normal and about the same albedo.
-/// Light is divided by the albedo before and multiplied after, so that what is painted on a surface stays sharp. Where there is no
-/// variance nothing changes. Sparks, of which few samples know by chance, are first made as bright as what is around them, so a picture of few samples
-/// loses some of the light that only such chances bring. What is seen in mirrors and through glass has no guide but its own light.
+/// Similar are pixels whose surroundings of 3 × 3 differ by no more than their variances explain, weighed as in
+/// Rousselle, Knaus and Zwicker, "Adaptive Rendering with Non-Local Means Filtering" (2012), and whose first surfaces
+/// have the same normal and about the same albedo. Light is divided by the albedo before and multiplied after, so that
+/// textures stay sharp. Pixels without variance do not change. Sparks, which few samples have met by chance, are first
+/// dimmed to the brightness around them, so that a picture of few samples loses some of the light that only such
+/// chances bring. Reflections and views through glass have no guide but their own light.
 ///
-/// A picture's pixels depend on the picture alone; it runs on this machine's cores.
+/// Each pixel of the result depends on the picture alone. Work is spread over this machine's cores.
 
 #include "engine/raytrace/ray_tracer.hpp"
 
 namespace septet::raytrace {
 
-/// The same picture with other radiance; all else, the variance too, is that of the samples. They are two a pixel or more.
+/// Same picture with filtered radiance; all other layers, the variance too, stay those of the samples. Needs two
+/// samples a pixel or more.
 TracedPicture denoised(const TracedPicture& picture, const instant::Exposure& exposure);
 
 }  // namespace septet::raytrace

@@ -1,5 +1,5 @@
 #pragma once
-/// Directions around a normal, and how they are drawn at random.
+/// Directions around a normal, and random draws of them.
 
 #include <algorithm>
 #include <bit>
@@ -18,10 +18,10 @@ namespace septet::raytrace {
 
 inline constexpr float pi = std::numbers::pi_v<float>;
 
-/// What a colour weighs where one number must decide: Rec. 709's luminance.
+/// Luminance by Rec. 709.
 inline float luminance(const glm::vec3& color) { return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
-/// Two axes that make a right-handed frame with a unit `axis` (Duff et al., "Building an Orthonormal Basis, Revisited", 2017), or eight.
+/// Right-handed frame about a unit `axis`, or eight (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
 template <typename Vector>
 struct FrameOf {
   Vector across, along, axis;
@@ -41,7 +41,8 @@ inline glm::vec3 from_angles(float cosine, float azimuth_rad) {
   return {sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), cosine};
 }
 
-/// Cosine and sine of a share of the full turn, in [0, 1), or of eight; within 4e-7, and the same on every machine, which a library's need not be.
+/// Cosine and sine of a share of the full turn in [0, 1), or of eight: within 4e-7, and the same on every machine,
+/// which a library's need not be.
 template <typename Real>
 struct OnCircle {
   Real cosine, sine;
@@ -50,11 +51,12 @@ struct OnCircle {
     using Bits = std::conditional_t<std::is_same_v<Real, float>, std::uint32_t, Bits8>;
     const Real eighths = 8.0f * share;
     const auto octant = whole(eighths);
-    // Of the angle from the nearest axis, at most an eighth.
+    // Angle from the nearest axis, at most an eighth of the turn.
     const Real x = (eighths - number((octant + 1) & ~1)) * (0.25f * pi), x2 = x * x;
     const Real s = x * (1.0f + x2 * (-1.0f / 6.0f + x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f))));
     const Real c = 1.0f + x2 * (-0.5f + x2 * (1.0f / 24.0f + x2 * (-1.0f / 720.0f + x2 * (1.0f / 40320.0f))));
-    // By bits, for a branch would be guessed wrongly half of the time: each odd quarter exchanges the two, two quarters turn a sign.
+    // Bits instead of a branch, which would be mispredicted half of the time: each odd quarter exchanges the two, two
+    // quarters turn a sign.
     const Bits quarter = std::bit_cast<Bits>((octant + 1) >> 1);
     const Bits c_bits = std::bit_cast<Bits>(c), s_bits = std::bit_cast<Bits>(s);
     const Bits exchanged = (c_bits ^ s_bits) & (0u - (quarter & 1u));
@@ -67,7 +69,7 @@ struct OnCircle {
   return {at.cosine, at.sine};
 }
 
-/// About z, with density cosine / π; of two numbers in [0, 1).
+/// Direction about z with density cosine / π, from two numbers in [0, 1).
 template <typename Vector, typename Real>
 [[gnu::always_inline]] inline Vector cosine_direction_of(Real random, Real share) {
   const Real radius = root(random);
@@ -78,7 +80,8 @@ inline glm::vec3 cosine_direction(const glm::vec2& random) {
   return cosine_direction_of<glm::vec3>(random.x, random.y);
 }
 
-/// Weight of a sample of density `pdf` where another strategy would have drawn it with density `other`: Veach's power heuristic.
+/// Weight of a sample of density `pdf` where another strategy would have drawn it with density `other`: Veach's power
+/// heuristic.
 inline float mis_weight(float pdf, float other) { return pdf * pdf / std::max(pdf * pdf + other * other, 1e-37f); }
 
 }  // namespace septet::raytrace

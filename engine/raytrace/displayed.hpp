@@ -1,12 +1,12 @@
 #pragma once
-/// A traced picture as a display shows it: by the same exposure and tone curve as the rasteriser's.
+/// Display image of a traced picture, by the rasteriser's exposure and tone curve.
 
 #include "engine/image/image.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
 
 namespace septet::raytrace {
 
-/// Opaque; what is not traced yet is black.
+/// Opaque; pixels not traced yet are black.
 image::Image displayed(const TracedPicture& picture, const instant::Exposure& exposure);
 
 }  // namespace septet::raytrace

@@ -1,6 +1,6 @@
 #pragma once
-/// A place on one of the lamps, or one of the headlights, drawn for a point of a path; and what smoke scatters. Inline, for a path
-/// does little else (4 % of trace/cornell).
+/// Random draws of a point on a lamp, of a headlight, and of a direction of scattering in smoke, for a point of a path.
+/// Inline, for a path does little else (4 % of trace/cornell).
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,14 @@ namespace septet::raytrace {
 
 inline constexpr float evenly_per_sr = 0.25f / pi;
 
-/// In smoke, to all sides alike.
+/// Scatters isotropically, as smoke does.
 inline Scattered scatter_evenly(const glm::vec3& albedo, PathRandom& random) {
   const glm::vec2 u = random.pair();
   const float up = 1.0f - 2.0f * u.x, across = std::sqrt(std::max(0.0f, 1.0f - up * up));
   return {glm::vec3(across * on_circle(u.y), up), albedo, evenly_per_sr};
 }
 
-/// `weights`: the lamps' at `from_m`. `distance_m` is set where there is light: to the place that was drawn.
+/// Draws a point on a lamp. `weights`: the lamps' at `from_m`. `distance_m`: to that point, set where there is light.
 [[gnu::always_inline]] inline LightSample draw_lamp(const World& world, const LampWeights& weights,
                                                     const glm::vec3& from_m, float time, PathRandom& random,
                                                     float& distance_m) {
@@ -54,7 +54,7 @@ inline Scattered scatter_evenly(const glm::vec3& albedo, PathRandom& random) {
   return {direction, emission, weights.chance(chosen) * square / (cosine * lamp.area_m2)};
 }
 
-/// `strengths`: the sum of all headlights' at `from_m`.
+/// Draws a headlight. `strengths`: sum over all headlights at `from_m`. `distance_m`: to it, set where there is light.
 inline LightSample draw_headlight(const World& world, float strengths, const glm::vec3& from_m, float time,
                                   PathRandom& random, float& distance_m) {
   if (!(strengths > 0.0f)) return {};

@@ -1,8 +1,9 @@
 #pragma once
-/// Eight numbers of a kind, one of each of eight paths, as a vector of 256 bits holds them; what is written for one number by a template
-/// (directions.hpp) is done for eight by the same lines.
+/// Vectors of eight numbers in 256 bits, one number for each of eight paths. Templates for one number (directions.hpp)
+/// also work for eight.
 ///
-/// Truths are Int8 of -1 and 0. A number never depends on those beside it. Vectors of GCC and Clang, for AVX2, which Embree is started for too.
+/// Truth values are Int8 of −1 and 0. A number never depends on those beside it. Vector extensions of GCC and Clang,
+/// compiled for AVX2, which Embree is started for too.
 
 #include <immintrin.h>
 
@@ -35,13 +36,13 @@ inline Float8 sign_of(Float8 x) {
   return std::bit_cast<Float8>((std::bit_cast<Int8>(x) & INT32_MIN) | std::bit_cast<Int8>(eight(1.0f)));
 }
 inline float sign_of(float x) { return std::copysign(1.0f, x); }
-/// Towards zero, and back.
+/// Rounds towards zero; `number` converts back.
 inline Int8 whole(Float8 x) { return __builtin_convertvector(x, Int8); }
 inline int whole(float x) { return static_cast<int>(x); }
 inline Float8 number(Int8 x) { return __builtin_convertvector(x, Float8); }
 inline float number(int x) { return static_cast<float>(x); }
 
-/// A bit for each that is true, and back.
+/// Bit mask of eight truth values; `truths_of` converts back.
 inline std::uint32_t bits_of(Int8 truths) {
   return static_cast<std::uint32_t>(_mm256_movemask_ps(std::bit_cast<Float8>(truths)));
 }
@@ -52,7 +53,7 @@ inline Int8 truths_of(std::uint32_t bits) {
 
 constexpr bool holds(std::uint32_t bits, std::size_t n) { return (bits >> n & 1u) != 0; }
 
-/// Eight points, ways or colours.
+/// Eight points, vectors or colours.
 struct Vec8 {
   Float8 x, y, z;
 
@@ -70,7 +71,7 @@ inline Vec8 chosen(Int8 truths, const Vec8& a, const Vec8& b) {
   return {truths ? a.x : b.x, truths ? a.y : b.y, truths ? a.z : b.z};
 }
 
-/// Eight rows of eight numbers, each at a multiple of 32 bytes, as eight columns.
+/// Transposes eight rows of eight numbers, each row aligned to 32 bytes, into eight columns.
 inline void transpose(const float* const (&rows)[8], Float8 (&columns)[8]) {
   Float8 r[8], pairs[8], fours[8];
   for (int n = 0; n < 8; ++n) r[n] = _mm256_load_ps(rows[n]);

@@ -29,27 +29,28 @@ struct Mesh {
   std::span<const scene::SurfaceVertex> vertices;
   std::span<const std::uint32_t> indices;
   bool open = false;
-  std::span<const scene::SurfaceVertex> later;  ///< Empty: its vertices stay.
-  Scene scene, fading;                          ///< Its hierarchy; null while nobody has placed it, or where it fades.
+  std::span<const scene::SurfaceVertex> later;  ///< Vertices at time 1; empty: they do not move.
+  Scene scene, fading;                          ///< Hierarchies without and with level fades; null until placed so.
 };
 
-/// One instruction set whatever the processor has more: hierarchies and rounding differ between them, and the machines of a film draw
-/// one picture. Septet is compiled for the same one (SEPTET_ARCHITECTURE); wider vectors were no faster (trace/cornell, trace/motorway).
+/// One instruction set on every processor: hierarchies and rounding differ between them, and the machines of a film
+/// draw one picture. Septet is compiled for the same one (SEPTET_ARCHITECTURE); wider vectors were no faster
+/// (trace/cornell, trace/motorway).
 constexpr const char* device_options = "threads=1,isa=avx2";
 
-/// What a filter asks of a place.
+/// State of a place that a filter reads.
 struct Standing {
   instant::LevelFade fade;
-  bool open = false;  ///< Its mesh is.
+  bool open = false;  ///< True if its mesh is.
 };
 
-/// What a query's filter needs to know; begins as Embree's own context does.
+/// Context of a query's filter; begins as Embree's own context does.
 struct Query {
   RTCIntersectContext context;
   const Openings* openings;
   const std::vector<Standing>* standing;
-  const float* thresholds;  ///< Of levels of detail, see instant::LevelFade, of each of its rays.
-  float* let_through;       ///< Of each of its rays.
+  const float* thresholds;  ///< Level-of-detail thresholds of its rays, see instant::LevelFade.
+  float* let_through;       ///< Shares of light of its rays.
 
   Query(const Openings* asked, const std::vector<Standing>& places, const float* levels, float* shares)
       : openings(asked), standing(&places), thresholds(levels), let_through(shares) {
@@ -57,8 +58,8 @@ struct Query {
   }
 };
 
-/// A number in [0, 1) that any change of a ray's direction makes another: rays beside each other see different levels, and one ray the same level of
-/// all that fades alike.
+/// Hash of a ray's direction to [0, 1), sensitive to any change: neighbouring rays see different levels, and one ray
+/// the same level of all fading meshes.
 float threshold_of(float x, float y, float z) {
   std::uint32_t mixed = 0;
   for (const float part : {x, y, z}) {
@@ -107,7 +108,8 @@ void weaken_light(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-/// `moved`: its vertices' positions, if not where the mesh has them. Both outlive the geometry.
+/// Makes an Embree geometry of a mesh. `moved`: its vertices' positions, if not the mesh's own. Both outlive the
+/// geometry.
 RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh, bool fades, std::span<const glm::vec3> moved = {}) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!mesh.later.empty()) {
@@ -152,7 +154,7 @@ void set_place(RTCGeometry instance, const Place& place) {
   }
 }
 
-/// From `begin`, with the near end behind it, along `way`, with the time behind it.
+/// Sets a ray from `begin`, a position and the near end, and `way`, a direction and the time.
 template <typename Four>
 void set_ray(RTCRay& ray, const Four& begin, const Four& way, float to_m, unsigned mask) {
   std::memcpy(&ray.org_x, &begin, sizeof begin);
@@ -181,7 +183,8 @@ Eight eight_of(const Number* row) {
   return numbers;
 }
 
-/// Which rays meet what: one hierarchy serves all, where Embree was built to look at masks; where it was not, no ray from a surface meets what is not seen.
+/// Ray masks: one hierarchy serves all rays where Embree was built with masks; without them no ray from a surface meets
+/// invisible geometry.
 constexpr unsigned for_seeing = 1, for_shadows = 2, for_paths = 4;
 unsigned mask_of(const Place& place) {
   if (place.seen) return for_seeing | for_shadows | for_paths;
@@ -189,9 +192,10 @@ unsigned mask_of(const Place& place) {
 }
 unsigned mask_of(From from) { return from == From::eye ? for_seeing : for_paths; }
 
-/// What keeps its place while the shutter is open is copied to it, not placed as an instance: one hierarchy of all triangles lets a ray pass
-/// by what only stands near, where the boxes of instances overlap (trace/motorway: 1.35 times as many samples a second). But that
-/// hierarchy is made for each instant (0.25 s a million triangles), so only of so many; a motorway with 200 vehicles has 168,000.
+/// Meshes that keep their place while the shutter is open are copied to it, not instanced: one hierarchy of all
+/// triangles lets a ray pass near a mesh without a visit, where the boxes of instances overlap (trace/motorway: 1.35
+/// times as many samples a second). But that hierarchy is built for each instant (0.25 s a million triangles), hence
+/// these limits; a motorway with 200 vehicles has 168,000.
 constexpr std::size_t most_moved_of_mesh = 50'000, most_moved = 500'000;
 
 }  // namespace
@@ -199,12 +203,12 @@ constexpr std::size_t most_moved_of_mesh = 50'000, most_moved = 500'000;
 struct Geometry::Parts {
   Device device;
   std::vector<Mesh> meshes;
-  Scene seen, shadows;                          ///< Shadows are thrown by more than is seen.
-  std::vector<std::vector<glm::vec3>> moved{};  ///< By place: its vertices, if they were moved.
-  std::vector<Standing> standing{};             ///< By place.
+  Scene seen, shadows;                          ///< More meshes throw shadows than are seen.
+  std::vector<std::vector<glm::vec3>> moved{};  ///< Positions by place, if they were moved.
+  std::vector<Standing> standing{};             ///< State by place.
   const Openings* openings = nullptr;
   bool has_masks = false;
-  bool fades = false;  ///< Some place does.
+  bool fades = false;  ///< True if some place does.
 
   Packet<float> thresholds(const RayPacket& rays) const {
     Packet<float> thresholds{};
@@ -214,7 +218,7 @@ struct Geometry::Parts {
     return thresholds;
   }
 
-  /// The mesh's own hierarchy, for instances.
+  /// Mesh's own hierarchy, for instances.
   RTCScene hierarchy(Mesh& mesh, bool is_fading) {
     Scene& scene = is_fading ? mesh.fading : mesh.scene;
     if (scene) return scene.get();

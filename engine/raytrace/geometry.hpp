@@ -1,11 +1,12 @@
 #pragma once
-/// What rays meet: meshes, each held once however often it is placed, and the places of an instant. Embree 3 lies behind this
-/// file and is included by geometry.cpp alone.
+/// Geometry that rays meet: meshes, each held once however often it is placed, and the places of an instant. Embree 3
+/// lies behind this file and is included by geometry.cpp alone.
 ///
-/// Frame: metres from an origin that the caller chooses, single precision; near the eye that is finest where it is seen best.
-/// Hierarchies are built by one thread for one instruction set and so are the same each time and on every machine: which of two
-/// surfaces in one place a ray meets does not change. (Processors of two makes estimate reciprocals differently: there a hit's place
-/// may differ in its last digit.) All queries are const and may be made by any number of threads at once.
+/// Frame: metres from an origin that the caller chooses, single precision; an origin near the eye is finest where it is
+/// seen best. Hierarchies are built by one thread for one instruction set and so are the same each time and on every
+/// machine: of two surfaces in one place a ray always meets the same one. (Processors of two makes estimate reciprocals
+/// differently: there a hit's place may differ in its last digit.) All queries are const and may be made by any number
+/// of threads at once.
 
 #include <array>
 #include <cstddef>
@@ -27,20 +28,20 @@
 namespace septet::raytrace {
 
 struct Ray {
-  glm::vec3 origin_m{0.0f}, direction{0.0f, 0.0f, 1.0f};  ///< Unit.
+  glm::vec3 origin_m{0.0f}, direction{0.0f, 0.0f, 1.0f};  ///< `direction`: unit.
   float from_m = 0.0f, to_m = std::numeric_limits<float>::infinity();
-  float time = 0.0f;  ///< Of what moves, 0 to 1.
+  float time = 0.0f;  ///< Time of moving geometry, 0 to 1.
 };
 
 struct Hit {
   float distance_m = 0.0f;
-  std::uint32_t place = 0;     ///< As `place` was given it.
-  std::uint32_t triangle = 0;  ///< Of the mesh.
-  float u = 0.0f, v = 0.0f;    ///< Weights of its second and third corner.
+  std::uint32_t place = 0;     ///< Index in the places passed to `place`.
+  std::uint32_t triangle = 0;  ///< Index in the mesh.
+  float u = 0.0f, v = 0.0f;    ///< Barycentric weights of its second and third corner.
 };
 
-/// Eight rays are traced at once, in less than half of the time that they take one by one where they begin alike. Which of them are asked
-/// for may tell in the last digit of a hit, so whoever wants the same picture again makes the same packets again.
+/// Eight rays are traced at once, in less than half of the time that they take one by one where they begin alike. The
+/// set of active rays may change the last digit of a hit, so a picture is reproduced only by the same packets.
 inline constexpr std::size_t packet_size = 8;
 template <typename Value>
 using Packet = std::array<Value, packet_size>;
@@ -63,30 +64,31 @@ struct HitPacket {
   Hit operator[](std::size_t n) const { return {distance_m[n], place[n], triangle[n], u[n], v[n]}; }
 };
 
-/// Whether a ray comes from the eye, or from a surface that is lit: that one meets what only throws a shadow for the eye, such as the driver's car.
+/// Origin of a ray: the eye, or a surface that is lit. The latter also meets geometry that for the eye only throws a
+/// shadow, such as the driver's car.
 enum class From : std::uint8_t { eye, surface };
 
-/// Whether rays of a packet lie side by side, from the eye, or begin anywhere, on surfaces.
+/// Coherence of a packet: rays side by side from the eye, or rays that begin anywhere, on surfaces.
 enum class Together : std::uint8_t { side_by_side, anywhere };
 
-/// Where a mesh stands: a vertex at origin_m + turn · position_m.
+/// Placement of a mesh: a vertex is at origin_m + turn · position_m.
 struct Place {
   std::uint32_t mesh = 0;
   glm::vec3 origin_m{0.0f};
   glm::mat3 turn{1.0f};
-  bool seen = true;                ///< False: no eye sees it, but what is around it does, and it throws a shadow.
-  std::optional<Motion> motion{};  ///< From there at time 0.
-  instant::LevelFade fade{};       ///< Rays whose threshold lies without it pass.
-  bool casts_shadow = true;        ///< False: what no eye sees throws no shadow, either.
+  bool seen = true;                ///< False: invisible to the eye, but lit and mirrored, and throws a shadow.
+  std::optional<Motion> motion{};  ///< Motion from here, which is time 0.
+  instant::LevelFade fade{};       ///< Level of detail: rays whose threshold lies outside it pass.
+  bool casts_shadow = true;        ///< False: throws no shadow either, if it is not seen.
 };
 
-/// What a surface lets through where it is not all there: asked for meshes with holes or glass.
+/// Transparency of surfaces: queried for meshes with holes or glass.
 class Openings {
  public:
   virtual ~Openings() = default;
-  /// A ray to be traced passes here as if there were nothing.
+  /// True where a ray passes as if there were no surface.
   virtual bool is_hole(std::uint32_t place, std::uint32_t triangle, float u, float v) const = 0;
-  /// Of the light of a shadow ray in this (unit) direction.
+  /// Share of a shadow ray's light that passes in this (unit) direction.
   virtual float share_let_through(std::uint32_t place, std::uint32_t triangle, float u, float v,
                                   const glm::vec3& direction) const = 0;
 };
@@ -99,29 +101,31 @@ class Geometry {
   Geometry& operator=(Geometry&&) noexcept;
   ~Geometry();
 
-  /// The next mesh, counted from 0. Vertices and indices are not copied; they outlive the geometry or the call of `keep`. `open`: it
-  /// has places that `Openings` is to be asked about. Triangles whose corners do not exist are the caller's bug.
+  /// Adds the next mesh, counted from 0. Vertices and indices are not copied; they outlive the geometry or the call of
+  /// `keep`. `open`: `Openings` is queried about it. `later`: its vertices at time 1; empty: they do not move.
+  /// Triangles whose corners do not exist are the caller's bug.
   void add_mesh(std::span<const scene::SurfaceVertex> vertices, std::span<const std::uint32_t> indices, bool open,
                 std::span<const scene::SurfaceVertex> later = {});
-  /// Forgets all meshes but the first `count`.
+  /// Removes all meshes but the first `count`.
   void keep(std::size_t count);
-  /// What stands where from now on. `openings` outlives the queries.
+  /// Replaces all places. `openings` outlives the queries.
   void place(std::span<const Place> places, const Openings* openings);
 
-  /// The first surface that is seen along the ray.
+  /// Finds the first visible surface along the ray.
   bool intersect(const Ray& ray, Hit& hit, From from = From::eye) const {
     return intersect(begin_of(ray), way_of(ray), ray.to_m, from, hit);
   }
   /// Share of the light that comes along the ray from its far end, which is not before its beginning.
   float unshadowed(const Ray& ray) const { return unshadowed(begin_of(ray), way_of(ray), ray.to_m); }
 
-  /// Both for those rays whose bit is set in `which`. Bits of those that met something; of the other hits nothing is told.
+  /// Same queries for the rays whose bit is set in `which`. Returns the bits of those that hit a surface; the other
+  /// hits are unspecified.
   std::uint32_t intersect(std::uint32_t which, const RayPacket& rays, Together together, HitPacket& hits) const;
   Float8 unshadowed(std::uint32_t which, const RayPacket& rays) const;
 
  private:
   struct Parts;
-  // Four numbers in a register: those that were stored singly and are loaded at once, as Embree does, make a processor wait.
+  // Four numbers in a register: numbers stored singly and loaded at once, as Embree does, stall a processor.
   using Four = float __attribute__((vector_size(16)));
   static Four begin_of(const Ray& ray) { return Four{ray.origin_m.x, ray.origin_m.y, ray.origin_m.z, ray.from_m}; }
   static Four way_of(const Ray& ray) { return Four{ray.direction.x, ray.direction.y, ray.direction.z, ray.time}; }

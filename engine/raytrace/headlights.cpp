@@ -33,7 +33,7 @@ HeadlightRow::HeadlightRow(std::span<const instant::Headlight> headlights, std::
   }
 }
 
-/// On a surface that looks at it.
+/// Strengths on a surface that faces the headlight.
 inline HeadlightRow::Strengths HeadlightRow::strengths(std::size_t first, const glm::vec3& from_m, float time) const {
   std::array<const float*, numbers> row;
   for (std::size_t n = 0; n < row.size(); ++n) row[n] = rows_[n].data() + first;
@@ -59,7 +59,7 @@ float HeadlightRow::sum(const glm::vec3& from_m, float time) const {
 DrawnHeadlight HeadlightRow::drawn(const glm::vec3& from_m, float time, float uniform, float sum) const {
   float rest = uniform * sum;
   std::size_t first_of_drawn = 0;
-  Strengths strengths_there{};  // Where rounding leads past the end, those of the last block that gives anything.
+  Strengths strengths_there{};  // Fallback where rounding leads past the end: the last block with any strength.
   for (std::size_t first = 0; first < count_; first += block) {
     const Strengths here = strengths(first, from_m, time);
     const float of_block = added(here);

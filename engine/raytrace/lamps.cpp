@@ -14,7 +14,7 @@ std::size_t LampWeights::drawn(float uniform) const {
   float rest = uniform * sum_;
   std::size_t b = 0;
   while (b + 1 < block_count_ && rest >= blocks_[b]) rest -= blocks_[b++];
-  // Rounding may lead past the last one of weight, where there are only such without.
+  // Rounding may lead past the last lamp of weight, into blocks without any.
   while (b > 0 && !(blocks_[b] > 0.0f)) --b;
   std::size_t chosen = block * b;
   for (std::size_t n = block * b; n < block * (b + 1); ++n) {
@@ -48,7 +48,7 @@ inline float LampRow::weight(const Rows& row, std::size_t n, const glm::vec3& fr
   const float to_x = row[x][n] + row[way_x][n] * time - from_m.x, to_y = row[y][n] + row[way_y][n] * time - from_m.y,
               to_z = row[z][n] + row[way_z][n] * time - from_m.z;
   const float radius_m = row[radius][n];
-  // The least number keeps a lamp without size or power from being 0 / 0.
+  // Lower bound that keeps a lamp without size or power from being 0 / 0.
   const float square = std::max(std::max(to_x * to_x + to_y * to_y + to_z * to_z, radius_m * radius_m), 1e-12f);
   const float per_m = 1.0f / std::sqrt(square), aside = radius_m * per_m;
   const float facing = (to_x * normal.x + to_y * normal.y + to_z * normal.z) * per_m + aside + in_air;

@@ -1,9 +1,10 @@
 #pragma once
-/// Lamps that are looked at from a place, and which of many: each by about what it would give there if nothing shaded it.
+/// Light sampling of lamps: one of many is drawn by an estimate of its unshadowed light at a place.
 ///
-/// A lamp is weighed by its power over the square of its distance and by the two cosines, the surface's and its own, both as wide as the
-/// lamp may reach from its middle. (Drawing lights by their estimated share: Shirley, Wang and Zimmerman, "Monte Carlo Techniques for
-/// Direct Lighting Calculations", 1996.) No lamp that may give something has the weight 0. Frame: that of World.
+/// Weights are a lamp's power over the square of its distance, times the two cosines, the surface's and its own, both
+/// widened by the lamp's angular radius. (Drawing lights by their estimated share: Shirley, Wang and Zimmerman, "Monte
+/// Carlo Techniques for Direct Lighting Calculations", 1996.) No lamp with a possible contribution has the weight 0.
+/// Frame: that of World.
 
 #include <algorithm>
 #include <array>
@@ -19,30 +20,30 @@
 namespace septet::raytrace {
 
 struct LampTriangle {
-  glm::vec3 corner_m{0.0f}, second{0.0f}, third{0.0f};  ///< From the first corner to the others.
+  glm::vec3 corner_m{0.0f}, second{0.0f}, third{0.0f};  ///< `second`, `third`: from the first corner to the others.
   glm::vec3 normal{0.0f};
 };
 
-/// Triangles that shine alike and lie together, such as one tube under a tunnel's roof.
+/// Triangles of equal emission that lie together, such as one tube under a tunnel's roof.
 struct Lamp {
   std::uint32_t place = 0, first_triangle = 0, triangle_count = 0;
   std::vector<LampTriangle> triangles;
   std::vector<float> cumulative_area;  ///< m².
-  float area_m2 = 0.0f;                ///< Of all.
+  float area_m2 = 0.0f;                ///< Sum of all triangles.
   glm::vec3 middle_m{0.0f};
   float radius_m = 0.0f;
   /// Mean of its triangles' normals by area: of length 1 where it is flat, 0 where it shines to all sides.
   glm::vec3 axis{0.0f};
   float power = 0.0f;        ///< Area times luminance.
-  glm::vec3 emission{0.0f};  ///< With which it lights.
-  glm::vec3 way_m{0.0f};     ///< Until time 1.
+  glm::vec3 emission{0.0f};  ///< Radiance that lights other surfaces.
+  glm::vec3 way_m{0.0f};     ///< Displacement until time 1.
   bool textured = false;     ///< Its image colours the emission.
-  bool spreads = false;      ///< It shines as a street lamp does (engine/world/street_lamp.hpp), not evenly.
+  bool spreads = false;      ///< True: it shines as a street lamp does (engine/world/street_lamp.hpp), not evenly.
 
-  /// Of its emission, what leaves it at this cosine to its axis, above 0.
+  /// Share of its emission that leaves it at this cosine to its axis, above 0.
   float share_at(float cosine) const { return spreads ? street_lamp::spread(cosine) / cosine : 1.0f; }
 
-  /// Which triangle a uniform number in [0, 1) draws, by area.
+  /// Triangle that a uniform number in [0, 1) draws, by area.
   std::size_t drawn_triangle(float uniform) const {
     const float at = uniform * area_m2;
     if (triangles.size() > most_counted)
@@ -56,7 +57,8 @@ struct Lamp {
   }
 
  private:
-  static constexpr std::size_t most_counted = 8;  ///< Up to so many are compared all, which no branch need guess.
+  /// Largest number for which all are compared, without a branch to predict.
+  static constexpr std::size_t most_counted = 8;
 };
 
 /// The lamps' weights at one place.
@@ -65,30 +67,30 @@ class LampWeights {
   static constexpr std::size_t most = 256;
 
   float sum() const { return sum_; }
-  /// Chance with which `drawn` gives it; there is light. Of one lamp it is known without a quotient.
+  /// Chance with which `drawn` returns it; needs a sum above 0. For one lamp it is known without a quotient.
   float chance(std::size_t lamp) const { return block_count_ == 0 ? 1.0f : weights_[lamp] / sum_; }
-  /// Which one a uniform number in [0, 1) draws; there is light.
+  /// Lamp that a uniform number in [0, 1) draws; needs a sum above 0.
   std::size_t drawn(float uniform) const;
 
  private:
   friend class LampRow;
   static constexpr std::size_t block = 8;
   std::array<float, most> weights_;
-  std::array<float, most / block> blocks_;  ///< Their sums by eight.
-  std::size_t block_count_ = 0;             ///< 0: there is one lamp at most.
+  std::array<float, most / block> blocks_;  ///< Sums of eight weights each.
+  std::size_t block_count_ = 0;             ///< Blocks in use; 0: there is one lamp at most.
   float sum_ = 0.0f;
 };
 
-/// Lamps as many numbers of each kind in a row, so that they are weighed eight at a time.
+/// Lamps stored as rows of equal quantities, so that eight are weighed at a time.
 class LampRow {
  public:
   LampRow() = default;
-  /// At most LampWeights::most.
+  /// Takes at most LampWeights::most.
   explicit LampRow(std::span<const Lamp> lamps);
-  /// `normal`: of the surface, unit; 0 in the air. `time`: while the shutter is open.
+  /// Weighs all lamps at a place. `normal`: of the surface, unit; 0 in the air. `time`: while the shutter is open.
   void weigh(const glm::vec3& from_m, const glm::vec3& normal, float time, LampWeights& weights) const;
 
-  /// The same up to a factor: of one lamp 1.
+  /// Weighs up to a common factor: one lamp alone has the weight 1.
   void weigh_for_choice(const glm::vec3& from_m, const glm::vec3& normal, float time, LampWeights& weights) const {
     if (count_ != 1) return weigh(from_m, normal, time, weights);
     weights.weights_[0] = weights.sum_ = 1.0f;
@@ -102,7 +104,7 @@ class LampRow {
                       float time);
 
   std::size_t count_ = 0;
-  std::array<std::vector<float>, numbers> rows_;  ///< Filled up to whole blocks by lamps without power.
+  std::array<std::vector<float>, numbers> rows_;  ///< Padded to whole blocks by lamps without power.
 };
 
 }  // namespace septet::raytrace

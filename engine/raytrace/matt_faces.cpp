@@ -1,4 +1,4 @@
-/// Which triangles of a World are matt faces, and when it has any.
+/// Choice of a World's matt faces, and the conditions under which it has any.
 
 #include "engine/raytrace/matt_faces.hpp"
 
@@ -11,7 +11,7 @@
 namespace septet::raytrace {
 namespace {
 
-constexpr float same_way = 1.0f - 1e-6f;  ///< Cosine between normals that are one.
+constexpr float same_way = 1.0f - 1e-6f;  ///< Cosine between normals that count as equal.
 
 bool stands_in_one_color(const Lamp& lamp) { return !lamp.textured && !lamp.spreads && lamp.way_m == glm::vec3(0.0f); }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles as eight paths at once meet them: flat, matt and standing still, a line of a processor's cache each.
+/// Triangles for eight paths at once: flat, matt and static, one cache line each.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,16 +13,16 @@ namespace septet::raytrace {
 
 /// Frame: that of World.
 struct alignas(64) Face {
-  glm::vec3 corner_m{0.0f}, second{0.0f}, third{0.0f};  ///< From the first corner to the others.
+  glm::vec3 corner_m{0.0f}, second{0.0f}, third{0.0f};  ///< `second`, `third`: from the first corner to the others.
   glm::vec3 normal{0.0f};                               ///< Unit.
-  glm::vec3 color{0.0f};                                ///< Albedo; of a lamp its radiance.
+  glm::vec3 color{0.0f};                                ///< Albedo; radiance of a lamp.
   static constexpr float front_side = 1.0f, both_sides = 2.0f;
-  float number =
-      0.0f;  ///< Of the two: it is matt and seen from there, 0: it is not matt; of a lamp its area in all, m².
+  /// Side constant of a matt triangle; 0: not matt. Total area of the lamp, m², for a lamp's triangle.
+  float number = 0.0f;
 };
 static_assert(sizeof(Face) == 16 * sizeof(float));
 
-/// Eight of them.
+/// Eight faces, transposed.
 struct Face8 {
   Vec8 corner_m, second, third, normal, color;
   Float8 number;
@@ -43,15 +43,15 @@ struct Face8 {
 struct MattFaces {
   static constexpr std::uint32_t none = 0xffffffffu;
   std::vector<Face> faces;
-  std::vector<std::uint32_t> first_of_place;  ///< By place: where its triangles begin, or none.
-  std::vector<Face> lamps;                    ///< All lamps' triangles.
+  std::vector<std::uint32_t> first_of_place;  ///< Index of its first triangle by place, or `none`.
+  std::vector<Face> lamps;                    ///< Triangles of all lamps.
   std::vector<std::uint32_t> first_of_lamp;
 
   const Face& at(std::uint32_t place, std::uint32_t triangle) const {
     const std::uint32_t first = first_of_place[place];
     return first == none ? other : faces[std::size_t{first} + triangle];
   }
-  Face other;  ///< What is not matt.
+  Face other;  ///< Stands for all triangles that are not matt.
 };
 
 }  // namespace septet::raytrace

@@ -14,9 +14,9 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// Places on lamps, and what comes from there if nothing is in the way.
+/// Points on lamps, and their unshadowed light.
 struct LampSeen {
-  Int8 there;  ///< Light may come.
+  Int8 there;  ///< True where light may come.
   Vec8 direction, radiance;
   Float8 distance_m, pdf;
 };
@@ -31,7 +31,7 @@ class MattPaths {
         starts_(starts),
         random_([&](std::size_t n) -> const PathRandom& { return starts[n].random; }) {
     for (std::size_t n = 0; n < packet_size; ++n) rays_.set(n, starts[n].ray);
-    if (world.lamps().size() == 1)  // Its weight is everywhere the same.
+    if (world.lamps().size() == 1)  // Weight of a single lamp, the same everywhere.
       for (LampWeights& weights : lamp_weights_) world.lamp_row().weigh_for_choice({}, {}, 0.0f, weights);
   }
 
@@ -51,12 +51,12 @@ class MattPaths {
   const std::uint32_t wanted_;
   Packet<PathStart>& starts_;
   PathRandom8 random_;
-  RayPacket rays_;  ///< The edge's.
+  RayPacket rays_;  ///< Rays of the current edge.
   std::uint32_t edge_ = 1;
   Vec8 light_ = eight(glm::vec3(0.0f)), throughput_ = eight(glm::vec3(1.0f));
-  Vec8 from_m_ = eight(glm::vec3(0.0f));  ///< The last point.
-  Float8 pdf_{};                          ///< With which the last direction was drawn.
-  Packet<LampWeights> lamp_weights_;      ///< At the last point.
+  Vec8 from_m_ = eight(glm::vec3(0.0f));  ///< Last point.
+  Float8 pdf_{};                          ///< Density with which the last direction was drawn.
+  Packet<LampWeights> lamp_weights_;      ///< Weights at the last point.
 };
 
 void MattPaths::go_alone(std::uint32_t which, std::uint32_t met, const HitPacket& hits) {
@@ -89,7 +89,7 @@ void MattPaths::note_first(std::uint32_t which, const HitPacket& hits, const Fac
   }
 }
 
-/// As draw_lamp (drawn_lights.hpp).
+/// Same as draw_lamp (drawn_lights.hpp), for eight.
 LampSeen MattPaths::draw_lamps(Int8 drawn, const Vec8& from_m, const Vec8& normal) {
   const std::vector<Lamp>& lamps = world_.lamps();
   Packet<std::size_t> which{};
@@ -125,7 +125,7 @@ LampSeen MattPaths::draw_lamps(Int8 drawn, const Vec8& from_m, const Vec8& norma
   return {drawn & (cosine > 1e-6f), direction, face.color, square * per_m, chance * square / (cosine * face.number)};
 }
 
-/// As Path::look_at_a_light, from matt surfaces.
+/// Same as Path::look_at_a_light, from matt surfaces.
 void MattPaths::look_at_lamps(Int8 going, const Face8& face, const Vec8& position_m, const Vec8& normal,
                               bool looks_alone) {
   const LampSeen lamp = draw_lamps(going, position_m, normal);
@@ -145,11 +145,11 @@ void MattPaths::look_at_lamps(Int8 going, const Face8& face, const Vec8& positio
   shadow.to_m = larger(square * per_m - 3.0f * margin_m(at), Float8{});
   shadow.time = rays_.time;
   const Float8 let_through = world_.geometry().unshadowed(which, shadow);
-  // Chosen, not weighed by nought: a path that has ended may hold no numbers any more.
+  // Selected, not multiplied by 0: a path that has ended may hold NaN.
   light_ = chosen(looks, light_ + throughput_ * face.color * lamp.radiance * (pdf * share * let_through), light_);
 }
 
-/// As Path::leave, from matt surfaces. Those that go on.
+/// Same as Path::leave, from matt surfaces. Returns the paths that go on.
 Int8 MattPaths::leave(Int8 going, const Face8& face, const Vec8& position_m, const Vec8& normal) {
   const auto [x, y] = random_.pair(going);
   const auto local = cosine_direction_of<Vec8>(x, y);
@@ -173,7 +173,7 @@ Int8 MattPaths::leave(Int8 going, const Face8& face, const Vec8& position_m, con
 
 void MattPaths::trace(std::uint32_t begun) {
   Int8 going = truths_of(begun);
-  std::uint32_t alone = 0;  ///< Whose light is told already.
+  std::uint32_t alone = 0;  ///< Bits of paths that were finished by themselves.
   for (; bits_of(going); ++edge_) {
     HitPacket hits;
     const std::uint32_t which = bits_of(going);
@@ -183,10 +183,10 @@ void MattPaths::trace(std::uint32_t begun) {
     for (std::size_t n = 0; n < packet_size; ++n)
       rows[n] = holds(met, n) ? &faces_.at(hits.place[n], hits.triangle[n]) : &faces_.other;
     const Face8 face(rows);
-    // From behind one that shows its front alone a path goes on by itself.
+    // Paths that meet the back of a one-sided face go on by themselves.
     const Int8 seen = (face.number > 1.5f) | ((face.number > 0.0f) & (dot(face.normal, rays_.direction) < 0.0f));
     const std::uint32_t matt = bits_of(seen) & met;
-    // What misses everything sees nothing after its first edge.
+    // Paths that miss all geometry see nothing after their first edge.
     const std::uint32_t by_themselves = edge_ == 1 ? which & ~matt : met & ~matt;
     go_alone(by_themselves, met, hits);
     alone |= by_themselves;

@@ -13,7 +13,7 @@ Motion::Key key_of(const Stand& stand) {
     key.stretch[axis] = glm::length(turn[axis]);
     if (key.stretch[axis] > 0.0f) turn[axis] /= key.stretch[axis];
   }
-  // What is mirrored is not turned into its image.
+  // Mirrored placements are not rotated into their image: the mirroring goes to the stretch.
   if (glm::determinant(turn) < 0.0f) turn[0] = -turn[0], key.stretch[0] = -key.stretch[0];
   key.turn = glm::normalize(glm::quat_cast(turn));
   return key;

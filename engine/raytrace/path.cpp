@@ -53,7 +53,7 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   if (kind == Kind::headlight && !point.in_smoke) {
     const float cosine = std::max(glm::dot(light.direction, point.surface.normal), 1e-3f);
     scattered.value *= light::beam_facing(cosine) / cosine;
-    // Beads and prisms send it back to the lamp, beside which the eye is; what they light elsewhere does not count.
+    // Beads and prisms send light back to the lamp, beside which the eye is; their effect elsewhere does not count.
     if (!scattered_)
       scattered.value += point.retroreflection * light::beam_returned(1.0f - glm::dot(light.direction, to_viewer));
   }
@@ -67,7 +67,7 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   shadow.direction = light.direction;
   shadow.time = time_;
   if (distance_m < std::numeric_limits<float>::infinity()) {
-    // To the very place that was drawn, from where the ray begins: beside it, a lamp seen at a grazing angle would shade itself.
+    // Ends at the drawn point, from the shifted origin: beside it, a lamp seen at a grazing angle would shade itself.
     const glm::vec3 at = point.position_m + light.direction * distance_m, way = at - shadow.origin_m;
     const float square = glm::dot(way, way), per_m = 1.0f / std::sqrt(std::max(square, 1e-30f));
     shadow.direction = way * per_m;
@@ -85,7 +85,7 @@ void Path::take_light(const Ray& shadow, const glm::vec3& estimate, float let_th
   light_ += estimate * (let_through * clear);
 }
 
-/// Half by what each kind of light would give if nothing shaded it, half evenly, for something may.
+/// Chances: half by the unshadowed light of each kind, half evenly, for something may shade it.
 void Path::choose_chances(const SurfacePoint& point) {
   if (world_.lamps_alone_shine()) {
     world_.lamp_row().weigh_for_choice(point.position_m, point.flat_normal, time_, lamp_weights_);
@@ -120,7 +120,7 @@ void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer
     n = 0;
     while (n < chances_.size() && (rest -= chances_[n]) >= 0.0f) ++n;
   }
-  if (n == chances_.size()) return;  // Nothing shines; or, once in millions, the chances' sum is rounded below 1.
+  if (n == chances_.size()) return;  // No light shines; or, once in millions, the chances' sum is rounded below 1.
   const auto kind = static_cast<Kind>(n);
   float distance_m = std::numeric_limits<float>::infinity();
   LightSample light;
@@ -138,7 +138,7 @@ void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer
       break;
     case Kind::headlight:
       light = draw_headlight(world_, headlight_sum_, point.position_m, time_, random_, distance_m);
-      // It shines from before its lamp's glass, which would shade it.
+      // Shortened by the distance to the lamp's glass, which would shade it.
       distance_m = std::max(0.0f, distance_m - 0.3f);
       break;
   }
@@ -148,7 +148,7 @@ void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer
 /// Adds the light that photons have brought there. True where that is all: the path ends.
 bool Path::take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, float edge_m) {
   const bool is_matt = !point.in_smoke && is_rough(point.surface);
-  // Near a corner the photons around lie on two walls, of which each is asked for its own: there the path goes on.
+  // Near a corner the photons around lie on two walls, each of which counts its own only: there the path goes on.
   if (gathers_ && is_matt && edge_m > 2.0f * photons_->global.reach_m()) {
     light_ += throughput_ * photons_->global.radiance(point, to_viewer);
     return true;
@@ -159,7 +159,7 @@ bool Path::take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, f
   return false;
 }
 
-/// Takes what flames on the edge give. True where the path turns before the edge's end: `point` is there then.
+/// Adds the light of flames on the edge. True where the path turns before the edge's end: `point` is there then.
 bool Path::meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point) {
   Ray edge = ray;
   edge.origin_m = from_m;
@@ -230,15 +230,15 @@ bool Path::arrive(bool met, Hit& hit, FirstSeen* first) {
   const glm::vec3 to_viewer = -ray_.direction;
   if (photons_ && take_photons(point_, to_viewer, edge_m)) return false;
   choose_chances(point_);
-  // All that the last edge would add is a second estimate of the same light; late in a path, at a rough surface, it is worth less
-  // than it costs.
+  // Skips the last edge, which would only add a second estimate of the same light; late in a path, at a rough surface,
+  // it is worth less than it costs.
   looks_alone_ =
       edge_ > 2 && edge_ + 1 == settings_.longest && is_rough(point_.surface) && world_.all_light_can_be_drawn();
   look_at_a_light(point_, to_viewer);
   return true;
 }
 
-/// Along the next edge. False: the path ends.
+/// Prepares the next edge. False: the path ends.
 bool Path::leave(Ray& next) {
   if (is_clear_) {
     next = ray_;

@@ -1,5 +1,5 @@
 #pragma once
-/// One path as it is traced by itself, through everything that there is (path_tracer.hpp tells by which rules).
+/// One path traced by itself, through any kind of surface and medium (rules: path_tracer.hpp).
 
 #include <array>
 #include <cstdint>
@@ -8,14 +8,15 @@
 
 namespace septet::raytrace {
 
-/// A path that was begun elsewhere, at the end of an edge that begins at a matt surface under lamps alone.
+/// State of a path that was begun elsewhere, at the end of an edge from a matt surface lit by lamps alone.
 struct PathMiddle {
-  std::uint32_t edge = 1;  ///< Which one it is; if the first, the rest is as a path begins.
+  std::uint32_t edge = 1;  ///< Number of that edge; for the first edge the other fields keep their defaults.
   glm::vec3 light{0.0f}, throughput{1.0f}, from_m{0.0f};
   float pdf = 0.0f;
 };
 
-/// One thread's walk along one path: by turns it arrives at the end of an edge, looks at a light from there, and leaves.
+/// Walk along one path, on one thread: by turns it arrives at the end of an edge, samples a light from there, and
+/// leaves.
 class Path {
  public:
   Path(const World& world, const PathSettings& settings, PathStart& start)
@@ -26,19 +27,20 @@ class Path {
         ray_(start.ray),
         time_(start.ray.time),
         from_share_of_sky_(world.eye_share_of_sky()) {}
-  /// In the middle of it: `edge` of its edges lie behind it or are begun, and `start` has its random numbers and the last edge's ray.
+  /// Continues a path: `edge` of its edges are complete or begun, and `start` holds its random numbers and the last
+  /// edge's ray.
   Path(const World& world, const PathSettings& settings, PathStart& start, const PathMiddle& middle,
        const LampWeights& lamp_weights);
 
-  /// At what the ray has met. False: the path ends there.
+  /// Arrives at the ray's hit, or at the sky. False: the path ends there.
   bool arrive(bool met, Hit& hit, FirstSeen* first);
-  /// Whether a light is looked at from its first point, along `shadow`; to be told how much of it comes through.
+  /// True if a light is sampled from its first point, along `shadow`; `take_light` adds the share that passes.
   bool looks() const { return looks_; }
   const Ray& shadow() const { return shadow_; }
   void take_light(float let_through) { take_light(shadow_, estimate_, let_through); }
-  /// From its first point to its end.
+  /// Walks from its first point to its end.
   void go_on();
-  /// From what its ray has met to its end.
+  /// Walks from its ray's hit to its end.
   void finish(bool met, Hit hit, FirstSeen* first);
   const glm::vec3& light() const { return light_; }
 
@@ -62,26 +64,26 @@ class Path {
   const PhotonMaps* photons_;
   const PathSettings& settings_;
   PathRandom& random_;
-  Ray ray_;                   ///< The edge's, from the last surface that let it through.
-  SurfacePoint point_;        ///< Where it ends.
-  Ray shadow_;                ///< Of the first point.
-  glm::vec3 estimate_{0.0f};  ///< What comes along it if nothing is in its way.
+  Ray ray_;                   ///< Ray of the edge, from the last surface that let it through.
+  SurfacePoint point_;        ///< End of the edge.
+  Ray shadow_;                ///< Shadow ray of the first point.
+  glm::vec3 estimate_{0.0f};  ///< Unshadowed light along it.
   std::uint32_t edge_ = 1;
   bool looks_ = false;
-  bool is_clear_ = false;  ///< The point is a clear body's, and ray_ goes on from there.
+  bool is_clear_ = false;  ///< True if the point is a clear body's, and ray_ goes on from there.
   glm::vec3 light_{0.0f}, throughput_{1.0f};
-  float time_;                      ///< While the shutter is open.
-  float from_share_of_sky_;         ///< Where the edge begins.
-  float pdf_ = 0.0f;                ///< With which the last direction was drawn; 0: it was no matter of chance.
-  glm::vec3 from_m_{0.0f};          ///< The last point that scattered.
-  LampWeights lamp_weights_;        ///< From there.
-  float headlight_sum_ = 0.0f;      ///< Of their strengths there.
-  std::array<float, 4> chances_{};  ///< With which each kind of light is looked at from there.
-  bool scattered_ = false;          ///< It has been at a surface that scatters.
-  bool looks_alone_ = false;        ///< It ends here: nothing is met by chance any more.
-  bool has_caustics_ =
-      false;  ///< At the last point that scattered the light through clear bodies is known: photons have brought it.
-  bool gathers_ = false;  ///< From a matt surface, on which what comes from another one is taken from photons there.
+  float time_;                      ///< Time while the shutter is open.
+  float from_share_of_sky_;         ///< Share of sky at the edge's beginning.
+  float pdf_ = 0.0f;                ///< Density with which the last direction was drawn; 0: it was not drawn at random.
+  glm::vec3 from_m_{0.0f};          ///< Last point that scattered.
+  LampWeights lamp_weights_;        ///< Weights there.
+  float headlight_sum_ = 0.0f;      ///< Sum of headlight strengths there.
+  std::array<float, 4> chances_{};  ///< Chances with which each kind of light is sampled from there.
+  bool scattered_ = false;          ///< True after a surface that scatters.
+  bool looks_alone_ = false;        ///< True if it ends here: no light is met by chance any more.
+  /// True if photons have brought the light through clear bodies to the last point that scattered.
+  bool has_caustics_ = false;
+  bool gathers_ = false;  ///< True from a matt surface on: light of the next matt surface is taken from its photons.
 };
 
 }  // namespace septet::raytrace

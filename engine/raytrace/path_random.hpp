@@ -1,9 +1,9 @@
 #pragma once
-/// Random numbers of a path: a function of the picture's seed, the pixel, the sample and how many were drawn before, and of
-/// nothing else, so that a picture is the same bit for bit whoever traces which of its pixels when.
+/// Random numbers of a path: a function of the picture's seed, the pixel, the sample and the number of draws before,
+/// and of nothing else, so that a picture is the same bit for bit on any machine and in any order of pixels.
 ///
-/// A counter is put through the finaliser of SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
-/// Generators", 2014), after the pixel and the sample have been mixed into its beginning the same way.
+/// Numbers are a counter put through the finaliser of SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom
+/// Number Generators", 2014), after the pixel and the sample have been mixed into its beginning the same way.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace septet::raytrace {
 
 class PathRandom {
  public:
-  PathRandom() = default;  ///< Of no path.
+  PathRandom() = default;  ///< Numbers of no path.
   PathRandom(std::uint64_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample)
       : PathRandom(of_pixel(seed, x, y), sample) {}
-  /// `pixel`: as `of_pixel` has it, which all samples of a pixel share.
+  /// `pixel`: result of `of_pixel`, which all samples of a pixel share.
   PathRandom(std::uint64_t pixel, std::uint32_t sample) : counter_(mixed(pixel + sample)) {}
   static std::uint64_t of_pixel(std::uint64_t seed, std::uint32_t x, std::uint32_t y) {
     return mixed(mixed(seed) ^ (std::uint64_t{y} << 32 | x));
@@ -27,7 +27,7 @@ class PathRandom {
 
   /// Uniform in [0, 1), 24 bits.
   float uniform() { return static_cast<float>(next() >> 40) * unit; }
-  /// Two of them.
+  /// Two such numbers.
   glm::vec2 pair() {
     const std::uint64_t bits = next();
     return {static_cast<float>(bits >> 40) * unit, static_cast<float>(bits & 0xffffffu) * unit};
@@ -48,7 +48,7 @@ class PathRandom {
   std::uint64_t counter_ = 0;
 };
 
-/// Those of eight paths: each draws the numbers that it would draw by itself.
+/// Random numbers of eight paths: each draws the numbers that it would draw by itself.
 class PathRandom8 {
  public:
   /// `of(n)`: the numbers of path n.
@@ -62,7 +62,7 @@ class PathRandom8 {
     return one;
   }
 
-  /// The others' numbers stay where they are.
+  /// Draws for the paths with a true `drawn`; the others' counters stay.
   Float8 uniform(Int8 drawn) {
     step(drawn);
     return numbers(PathRandom::mixed(low_) >> 40, PathRandom::mixed(high_) >> 40);
@@ -84,7 +84,7 @@ class PathRandom8 {
     high_ += std::bit_cast<Word4>(_mm256_cvtepi32_epi64(_mm256_extracti128_si256(truths, 1))) & PathRandom::step;
   }
   static Float8 numbers(Word4 low, Word4 high) {
-    // The lower half of each word, in order.
+    // Lower half of each word, in order.
     const Float8 halves = _mm256_shuffle_ps(std::bit_cast<Float8>(low), std::bit_cast<Float8>(high), 0x88);
     return number(std::bit_cast<Int8>(_mm256_permute4x64_epi64(std::bit_cast<__m256i>(halves), 0xd8))) *
            PathRandom::unit;

@@ -11,13 +11,14 @@
 namespace septet::raytrace {
 namespace {
 
-/// Photons on a surface that is turned further away lie on another one; so do those that stand out of the plane by more than this share of the reach.
+/// Photons on a surface turned further than this cosine lie on another one; so do those further out of the plane than
+/// this share of the reach.
 constexpr float same_surface_cosine = 0.8f, most_out_of_plane = 0.25f;
 constexpr std::size_t most_levels = 64;
 
 }  // namespace
 
-/// The nearest so far as a heap, the furthest first.
+/// Nearest photons so far as a heap, the furthest first.
 struct PhotonMap::Nearest {
   struct Found {
     float square_m2 = 0.0f;
@@ -55,7 +56,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons, std::uint32_t nearest, float r
   balance(0, photons_.size());
 }
 
-/// The middle one by place along the axis on which they are spread widest goes to the middle; the others before and behind it.
+/// Moves the median along the widest axis to the middle, smaller ones before and larger ones behind it.
 void PhotonMap::balance(std::size_t first, std::size_t end) {
   while (end - first > 1) {
     glm::vec3 low = photons_[first].position_m, high = low;
@@ -76,7 +77,7 @@ void PhotonMap::balance(std::size_t first, std::size_t end) {
 void PhotonMap::find(const SurfacePoint& point, Nearest& nearest) const {
   struct Stretch {
     std::size_t first, end;
-    float square_m2;  ///< Of the way to it.
+    float square_m2;  ///< Squared distance to it.
   };
   std::array<Stretch, most_levels> open;
   std::size_t count = 0;

@@ -13,17 +13,18 @@ namespace septet::raytrace {
 namespace {
 
 constexpr std::uint32_t longest_caustic = 24;  ///< Edges of a photon's way through clear bodies.
-constexpr float sun_starts_m = 2000.0f;        ///< Before the body: nothing higher shades it.
-constexpr float headlight_glass_m = 0.3f;      ///< It shines from before its lamp's glass, which would shade it.
-constexpr std::uint64_t photons_word = 0x70686f746f6e7321u;  ///< Other random numbers than those of pixels.
+constexpr float sun_starts_m = 2000.0f;        ///< Distance before the body: no higher object shades it.
+constexpr float headlight_glass_m = 0.3f;      ///< Distance from a headlight to its lamp's glass, which would shade it.
+constexpr std::uint64_t photons_word = 0x70686f746f6e7321u;  ///< Makes random numbers different from those of pixels.
 
-/// Share of a cone's directions that lie around a sphere, as seen from outside: half-angle θ, 1 − cos θ; more than a half within.
+/// Solid angle of a sphere as a share of 2π, seen from outside: 1 − cos θ with half-angle θ; 2, all directions, from
+/// within or close to it.
 float cone_lack(float square_m2, float radius_m) {
   const float sine2 = radius_m * radius_m / std::max(square_m2, 1e-20f);
   return sine2 < 0.98f ? sine2 / (1.0f + std::sqrt(1.0f - sine2)) : 2.0f;
 }
 
-/// Evenly in a cone about a way.
+/// Uniform direction in a cone about an axis.
 glm::vec3 in_cone(const glm::vec3& axis, float lack, const glm::vec2& random) {
   const float below_one = random.x * lack, sine = std::sqrt(std::max(0.0f, below_one * (2.0f - below_one)));
   return Frame(axis).to_world(glm::vec3(sine * on_circle(random.y), 1.0f - below_one));
@@ -62,7 +63,7 @@ PhotonLights::PhotonLights(const World& world, const PhotonSettings& settings, s
       const instant::Headlight& headlight = world.instant().headlights[light];
       const glm::vec3 way = body.middle_m - world.headlights().position_m(light, 0.0f);
       const float square = std::max(glm::dot(way, way), 1e-6f);
-      // Never nothing: the beam may reach its edge.
+      // Lower bound above 0: the beam's edge may reach the body.
       const float share =
           std::max(0.01f, light::beam_share(headlight.direction, way / std::sqrt(square), headlight.main_beam, 1.0f));
       add(Light::headlight, light, n, headlight.intensity * share * std::min(4.0f * pi, disc_m2 / square));
@@ -108,7 +109,7 @@ PhotonLights::Flight PhotonLights::towards_body(PathRandom& random, float time) 
   const float at = random.uniform() * pairs_.back().cumulative;
   const auto found = std::min(std::ranges::upper_bound(pairs_, at, {}, &Pair::cumulative), std::prev(pairs_.end()));
   const float before = found == pairs_.begin() ? 0.0f : std::prev(found)->cumulative;
-  // How many times as much as one of all that are sent at this pair would carry.
+  // Power relative to one photon of all that are sent at this pair.
   const float share = pairs_.back().cumulative / ((found->cumulative - before) * static_cast<float>(settings_.caustic));
   const World::ClearBodySphere& body = bodies_[found->body];
   Flight flight;
@@ -169,7 +170,7 @@ PhotonLights::Flight PhotonLights::from_lamp(PathRandom& random, float time) con
 
 void PhotonLights::follow(Flight flight, PhotonKind kind, PathRandom& random, std::vector<Photon>& photons) const {
   const bool of_caustic = kind == PhotonKind::caustic;
-  // A path from the eye has two edges before it takes what photons have brought.
+  // Photons follow at most the edges that a path from the eye has left after the two before it takes them.
   const std::uint32_t longest = of_caustic ? longest_caustic : std::max(1u, longest_ - std::min(longest_, 2u));
   Ray& ray = flight.ray;
   const float begun_with = std::max({flight.power.x, flight.power.y, flight.power.z});

@@ -19,10 +19,10 @@ glm::vec2 filtered_offset(Filter filter, PathRandom& random) {
   return sum;
 }
 
-/// The rays of one view: from the world's origin, the first view's eye, along the world's axes.
+/// Rays of one view: from the world's origin, the first view's eye, along the world's axes.
 struct Camera {
-  glm::vec3 eye_m, middle, right,
-      down;  ///< A ray's way: middle + right · x + down · y, pixels from the viewport's corner.
+  /// Direction of a ray: middle + right · x + down · y, pixels from the viewport's corner.
+  glm::vec3 eye_m, middle, right, down;
   glm::vec3 lens_right, lens_up, ahead;
   instant::PixelRectangle viewport;
 
@@ -38,7 +38,7 @@ struct Camera {
     lens_right = glm::vec3(turn * p.right), lens_up = glm::vec3(turn * p.up), ahead = glm::vec3(turn * -p.back);
   }
 
-  /// On the way to another camera of the same viewport.
+  /// Interpolation towards another camera of the same viewport.
   Camera towards(const Camera& later, float time) const {
     Camera camera = *this;
     for (const auto part : {&Camera::eye_m, &Camera::middle, &Camera::right, &Camera::down, &Camera::lens_right,
@@ -50,7 +50,7 @@ struct Camera {
     return x >= viewport.x && y >= viewport.y && x < viewport.x + std::int64_t{viewport.width} &&
            y < viewport.y + std::int64_t{viewport.height};
   }
-  /// Where what lies in this direction from the eye is seen, pixels; nothing: behind it.
+  /// Picture position of a direction from the eye, pixels; null: behind it.
   std::optional<glm::vec2> seen_at(const glm::vec3& way) const {
     const float distance = glm::dot(way, ahead);
     if (!(distance > 1e-6f * glm::length(way))) return std::nullopt;
@@ -96,7 +96,7 @@ glm::vec2 motion_px(const Camera& camera, const Camera& later, const FirstSeen& 
   return from && to ? *to - *from : glm::vec2(0.0f);
 }
 
-/// What a pixel's samples have added up to so far, in their order.
+/// Sums of a pixel's samples so far, in their order.
 struct PixelSums {
   TracedPixel sums;
   double light = 0.0, squares = 0.0;
@@ -116,7 +116,7 @@ struct PixelSums {
     light += luminous, squares += luminous * luminous;
     ++sums.samples;
   }
-  /// Its mean.
+  /// Mean of the samples.
   TracedPixel pixel() const {
     TracedPixel pixel = sums;
     const float share = 1.0f / static_cast<float>(std::max(1u, sums.samples));
@@ -127,7 +127,7 @@ struct PixelSums {
   }
 };
 
-/// Until the pixel has `samples` from the `first` one on.
+/// Adds samples from `first_sample` on until the pixel has `samples`.
 void add_samples(PixelSums& pixel, const World& world, const Camera& camera, const Camera* later,
                  const TraceSettings& settings, std::uint32_t x, std::uint32_t y, std::uint32_t samples,
                  std::uint32_t first_sample) {
@@ -136,7 +136,7 @@ void add_samples(PixelSums& pixel, const World& world, const Camera& camera, con
   const bool blurs = later && settings.blurs;
   constexpr std::uint32_t size = packet_size;
   while (sums.samples < samples) {
-    // Packets of the same samples whichever of them are asked for: a sample never depends on how a picture is shared out.
+    // Packets hold the same samples for any subset wanted: a sample never depends on how a picture is divided.
     const std::uint32_t next = first_sample + sums.samples, first = next % size, packet = next - first;
     const std::uint32_t end = std::min(size, first + samples - sums.samples);
     const std::uint32_t begun = std::clamp(std::max(settings.samples, packet) - packet, end, size);
@@ -200,7 +200,7 @@ TracedPixel joined(std::span<const TracedPixel> sets) {
   const double count = all.samples, mean = light / count;
   const auto share = static_cast<float>(1.0 / count);
   all.radiance *= share, all.normal *= share, all.albedo *= share;
-  // Within the sets, and between them.
+  // Variance within the sets, and between them.
   double squares = 0.0;
   for (const TracedPixel& set : sets) {
     const double n = set.samples, off = double{luminance(set.radiance)} - mean;
@@ -224,10 +224,10 @@ struct RayTracer::Parts {
   std::unique_ptr<World> world{};
   std::unique_ptr<PhotonLights> photon_lights{};
   PhotonMaps photons{};
-  std::vector<Camera> cameras{}, later_cameras{};  ///< The latter: none, or as many.
+  std::vector<Camera> cameras{}, later_cameras{};  ///< `later_cameras`: none, or as many.
   std::vector<std::uint8_t> cloud_noise = instant::cloud_noise();
 
-  /// Whose pixel it is; a later view lies over an earlier one. Null: of none.
+  /// Camera that shows this pixel; a later view lies over an earlier one. Null: none.
   const Camera* camera_at(std::int64_t x, std::int64_t y) const {
     const auto found = std::find_if(cameras.rbegin(), cameras.rend(), [&](const Camera& c) { return c.shows(x, y); });
     return found == cameras.rend() ? nullptr : &*found;
@@ -242,7 +242,7 @@ struct RayTracer::Parts {
   void trace_block(std::int64_t left, std::int64_t top, Bucket& bucket) const;
 };
 
-/// The block whose upper left pixel is told, whole; what the bucket has of it goes there.
+/// Traces the whole block with this upper left pixel and stores the part inside the bucket.
 void RayTracer::Parts::trace_block(std::int64_t left, std::int64_t top, Bucket& bucket) const {
   std::array<PixelSums, block_side_px * block_side_px> block{};
   std::uint32_t samples = std::min(first_samples, settings.samples);
@@ -257,7 +257,7 @@ void RayTracer::Parts::trace_block(std::int64_t left, std::int64_t top, Bucket& 
     }
     const double short_by = shown > 0.0 ? squares / shown / (double{settings.error} * settings.error) : 0.0;
     if (!(short_by > 1.0) || samples >= settings.samples) break;
-    // As many as that estimate asks for, but it may be a bad one: at most twice as many as there are.
+    // Estimate of the samples needed, which may be a bad one: at most twice as many as there are.
     const double wanted = samples * std::min(short_by, 2.0);
     samples = std::min(settings.samples, std::max(samples + 4, static_cast<std::uint32_t>(wanted)));
   }

@@ -41,7 +41,7 @@ SceneIndex::SceneIndex(const scene::ResolvedScene& scene) {
 
 std::vector<std::uint32_t> triangle_materials(const scene::SurfaceMesh& mesh) {
   std::vector<std::uint32_t> of_triangles(mesh.indices.size() / 3, no_material);
-  // Where two hold a triangle the first counts.
+  // First part wins where two hold a triangle.
   for (auto part = mesh.parts.rbegin(); part != mesh.parts.rend(); ++part)
     for (std::size_t n = part->first_index; n < std::size_t{part->first_index} + part->index_count; n += 3)
       if (n / 3 < of_triangles.size()) of_triangles[n / 3] = part->material;

@@ -1,5 +1,6 @@
 #pragma once
-/// What of a scene is worked out once for all its instants: which materials have holes, are seen from behind or are plain, and which triangle is of which.
+/// Properties of a scene that hold for all its instants: materials with holes, with visible backs, and plain ones, and
+/// the material of each triangle.
 
 #include <cstdint>
 #include <vector>
@@ -8,16 +9,16 @@
 
 namespace septet::raytrace {
 
-inline constexpr float opaque_from = 0.999f;  ///< As the rasteriser has it.
-inline constexpr float rough_from = 0.6f;     ///< Rougher than that nothing is seen to mirror.
+inline constexpr float opaque_from = 0.999f;  ///< Least alpha of an opaque material, as in the rasteriser.
+inline constexpr float rough_from = 0.6f;     ///< Roughness from which no mirroring is visible.
 
 struct SceneIndex {
   explicit SceneIndex(const scene::ResolvedScene& scene);
-  std::vector<bool> cut;            ///< For each material, whether its image has holes.
-  std::vector<bool> shows_back;     ///< For each material, whether it is seen from behind.
-  std::vector<std::uint8_t> plain;  ///< For each material, whether it is a matt colour and no more.
-  std::vector<bool> open;           ///< For each mesh, whether a ray may pass in places: holes, or glass.
-  /// For each mesh its triangles' materials, by their index; one number for all of them, if they are of one.
+  std::vector<bool> cut;            ///< By material: true if its image has holes.
+  std::vector<bool> shows_back;     ///< By material: true if it is visible from behind.
+  std::vector<std::uint8_t> plain;  ///< By material: 1 if it is a matt colour and no more.
+  std::vector<bool> open;           ///< By mesh: true if a ray may pass in places: holes, or glass.
+  /// Materials of the triangles, by mesh and triangle; one number for all of them, if they are of one.
   std::vector<std::vector<std::uint32_t>> materials;
 };
 

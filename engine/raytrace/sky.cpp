@@ -26,7 +26,8 @@ Sky::Sky(const instant::SkyLight& light)
     for (std::uint32_t column = 0; column < columns; ++column) {
       const float solid_angle = 2.0f * (height_of(row + 1.0f, rows) - height_of(static_cast<float>(row), rows)) *
                                 (azimuth_of(column + 1.0f, columns) - azimuth_of(static_cast<float>(column), columns));
-      // Between cells the table is interpolated: the brightest neighbour counts. What lies below the horizon is mostly hidden.
+      // Between cells the table is interpolated: the brightest neighbour counts. Cells below the horizon are mostly
+      // hidden.
       float brightest = 0.0f;
       for (std::uint32_t r = std::max(row, 1u) - 1; r <= std::min(row + 1, rows - 1); ++r)
         for (std::uint32_t c = std::max(column, 1u) - 1; c <= std::min(column + 1, columns - 1); ++c)
@@ -74,7 +75,7 @@ float Sky::pdf(const glm::vec3& direction) const {
 
 LightSample Sky::sample_sun(const glm::vec2& random) const {
   const float cosine = 1.0f - random.x * (1.0f - sun_cosine);
-  // A cosine so near to one has few digits left: the sine is worked out from what it lacks of one.
+  // Cosines so near to 1 have few digits left: the sine is computed from 1 − cosine.
   const float lack = random.x * (1.0f - sun_cosine), sine = std::sqrt(lack * (2.0f - lack));
   const float azimuth_rad = 2.0f * pi * random.y;
   return {sun_.to_world({sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), cosine}), sun_radiance_,

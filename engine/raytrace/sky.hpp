@@ -1,8 +1,8 @@
 #pragma once
-/// The sky and the sun as lights: what comes from a direction, and directions drawn by how bright they are.
+/// The sky and the sun as lights: radiance of a direction, and directions drawn by brightness.
 ///
-/// The sky is SkyLight's table, drawn cell by cell by brightness and evenly within one; the sun, or at night the moon, is a
-/// disc of 0.53° with SkyLight's irradiance.
+/// The sky is SkyLight's table, drawn cell by cell by brightness and evenly within one; the sun, or at night the moon,
+/// is a disc of 0.53° with SkyLight's irradiance.
 
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace septet::raytrace {
 struct LightSample {
   glm::vec3 direction{0.0f};  ///< Unit, to the light.
   glm::vec3 radiance{0.0f};
-  float pdf = 0.0f;  ///< 1/sr; 0: there is nothing to be drawn.
+  float pdf = 0.0f;  ///< Density, 1/sr; 0: no light to sample.
 };
 
 class Sky {
@@ -36,14 +36,14 @@ class Sky {
   }
 
  private:
-  static constexpr float sun_cosine = 0.99998931f;  ///< Of 0.265°.
+  static constexpr float sun_cosine = 0.99998931f;  ///< Cosine of 0.265°.
   static constexpr float sun_solid_angle = 2.0f * pi * (1.0f - sun_cosine);
   static constexpr std::uint32_t columns = instant::SkyTable::columns, rows = instant::SkyTable::rows;
 
   instant::SkyLight light_;
   float sun_azimuth_rad_;
-  std::vector<float> cumulative_;  ///< Shares of the cells up to each one, the last 1; empty: a black sky.
-  std::vector<float> pdf_;         ///< By cell, 1/sr.
+  std::vector<float> cumulative_;  ///< Cumulative shares of the cells, the last 1; empty: a black sky.
+  std::vector<float> pdf_;         ///< Density by cell, 1/sr.
   Frame sun_;
   glm::vec3 sun_radiance_;
 };

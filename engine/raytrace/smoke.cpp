@@ -11,7 +11,7 @@ namespace {
 
 constexpr float reach_deviations = 4.0f;
 
-/// Also not what lies beyond a float.
+/// False also for positions beyond a float.
 bool counts(const instant::SmokePuff& puff) {
   return puff.extinction_area_m2 > 0.0f && puff.radius_m > 0.0f &&
          std::abs(puff.position_m.x) + std::abs(puff.position_m.y) + std::abs(puff.position_m.z) +
@@ -52,7 +52,7 @@ void Smoke::add(const instant::SmokePuff& puff, const glm::vec3& middle_m) {
   std::array<int, 3> first{}, last{};
   std::array<std::vector<float>, 3> weight;
   float sum = 1.0f;
-  // A Gaussian is the product of its three sections.
+  // Product of its three sections, which a Gaussian is.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float at = middle_m[static_cast<int>(axis)] - corner_m_[static_cast<int>(axis)];
     first[axis] = std::clamp(static_cast<int>((at - reach_m) / cell_m_), 0, count_[axis] - 1);
@@ -84,7 +84,7 @@ void Smoke::add(const instant::SmokePuff& puff, const glm::vec3& middle_m) {
     }
 }
 
-/// Calls visit(cell, from_m, to_m) for each cell in the ray's order, until that says false.
+/// Calls visit(cell, from_m, to_m) for each cell in the ray's order, until it returns false.
 template <typename Visit>
 void Smoke::march(const Ray& ray, const Visit& visit) const {
   if (cells_.empty()) return;
@@ -135,7 +135,7 @@ float Smoke::optical_depth(const Ray& ray) const {
   float depth = 0.0f;
   march(ray, [&](const Cell& cell, float from_m, float to_m) {
     depth += cell.extinction_per_m * (to_m - from_m);
-    return depth < 30.0f;  // Nothing measurable is left.
+    return depth < 30.0f;  // No measurable light is left.
   });
   return depth;
 }

@@ -1,9 +1,9 @@
 #pragma once
 /// Smoke as matter that light crosses: absorption, scattering and the light of flames, by Beer and Lambert.
 ///
-/// The puffs of an instant are spread over cells of even density, in which the way to the next scattering, what is let through and
-/// what flames add on the way have closed forms, so that chance decides only where a path turns. What a puff takes from the light in
-/// all, its extinction area, is kept exactly. It scatters evenly to all sides.
+/// The puffs of an instant are spread over cells of even density, in which the distance to the next scattering, the
+/// transmittance and the light of flames on the way have closed forms, so that chance decides only where a path turns.
+/// A puff's total attenuation, its extinction area, is kept exactly. It scatters evenly to all sides.
 ///
 /// Frame: metres from the origin that the caller gave, along the world's axes. Const once made; any number of threads.
 
@@ -18,13 +18,13 @@
 
 namespace septet::raytrace {
 
-/// What becomes of light on its way through.
+/// Result of a ray's way through smoke.
 struct SmokeWalk {
-  bool scatters = false;  ///< Before the ray's end.
+  bool scatters = false;  ///< True if it scatters before the ray's end.
   float distance_m = 0.0f;
-  glm::vec3 albedo{0.0f};  ///< Where it scatters.
-  glm::vec3 emitted{
-      0.0f};  ///< By flames on the whole way, dimmed by what lies before them: radiance at the ray's beginning.
+  glm::vec3 albedo{0.0f};  ///< Albedo where it scatters.
+  /// Light of flames on the whole way, dimmed by the smoke before them: radiance at the ray's beginning.
+  glm::vec3 emitted{0.0f};
 };
 
 class Smoke {
@@ -32,20 +32,20 @@ class Smoke {
   static constexpr std::size_t most_cells = 3'000'000;
 
   Smoke() = default;
-  /// Puffs without density, or in no place that is a number, are left out.
+  /// Puffs without density, or with a position that is not finite, are left out.
   Smoke(std::span<const instant::SmokePuff> puffs, const Vec3& origin_m);
 
   bool empty() const { return cells_.empty(); }
   float cell_m() const { return cell_m_; }
-  /// Between the ray's two ends.
+  /// Optical depth between the ray's two ends.
   float optical_depth(const Ray& ray) const;
-  /// It scatters where so much optical depth is behind it: −ln of a uniform number.
+  /// Scatters at this optical depth: −ln of a uniform number.
   SmokeWalk walk(const Ray& ray, float depth_to_scatter) const;
 
  private:
   struct Cell {
     float extinction_per_m = 0.0f;
-    glm::vec3 albedo{0.0f};  ///< Until all puffs are in: weighed by extinction; so are flames.
+    glm::vec3 albedo{0.0f};  ///< Sum weighed by extinction until all puffs are in; `flames` likewise.
     float flames = 0.0f;     ///< Share of flame_radiance.
   };
   template <typename Visit>

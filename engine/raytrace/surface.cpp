@@ -8,7 +8,7 @@
 namespace septet::raytrace {
 namespace {
 
-/// Which layer a direction is drawn for.
+/// Chances with which a direction is drawn for each layer.
 struct Shares {
   float coat = 0.0f, layer = 0.0f, base = 1.0f;
 };
@@ -20,7 +20,7 @@ Shares shares_of(const Surface& surface, float viewer_z) {
   const float layer = (1.0f - coat) * (has_layer(surface) ? luminance(light::schlick(surface.f0, viewer_z)) : 0.0f);
   const float base = std::max(0.0f, 1.0f - coat - layer) * luminance(surface.diffuse);
   const float sum = std::max(coat + layer + base, 1e-6f);
-  // Even an unlikely layer is drawn at times: its highlight may be what is bright.
+  // Minimum chance of an unlikely layer: its highlight may be bright.
   Shares shares{coat / sum, layer / sum, base / sum};
   if (surface.coat > 0.0f) shares.coat = std::max(shares.coat, 0.1f);
   if (has_layer(surface)) shares.layer = std::max(shares.layer, 0.1f);

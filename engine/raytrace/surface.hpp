@@ -1,8 +1,9 @@
 #pragma once
-/// How a point of a surface scatters light: a coloured diffuse base under a rough reflecting layer, with a clear coat over both.
+/// Scattering of light at a surface: a coloured diffuse base under a rough reflecting layer, with a clear coat over
+/// both.
 ///
-/// Light that a layer reflects does not reach the one below: the base is weighed with (1 − F) of both directions, which is
-/// reciprocal and never gives back more than came. Radiance is reflected on the side of `normal` alone.
+/// Light that a layer reflects does not reach the one below: the base is weighed with (1 − F) of both directions, which
+/// is reciprocal and never returns more than came. Radiance is reflected on the side of `normal` alone.
 
 #include "engine/raytrace/ggx.hpp"
 #include "engine/raytrace/path_random.hpp"
@@ -12,23 +13,23 @@ namespace septet::raytrace {
 struct Surface {
   glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< Unit, towards the viewer.
   glm::vec3 diffuse{0.0f};             ///< Albedo of the base.
-  glm::vec3 f0{0.0f};                  ///< What the layer reflects head-on; black: there is no layer.
+  glm::vec3 f0{0.0f};                  ///< Reflectance of the layer head-on; black: there is no layer.
   float alpha = 1.0f;                  ///< Roughness² of the layer.
-  float coat = 0.0f;                   ///< Share of the surface that a clear coat covers: lacquer, or water.
+  float coat = 0.0f;                   ///< Share of the surface covered by a clear coat: lacquer, or water.
   float coat_f0 = 0.04f;               ///< Index 1.5; water has 0.02.
   float coat_alpha = 0.001f;
-  float mirrors =
-      1.0f;  ///< Share of what layer and coat mirror that soot on them leaves; `diffuse` has lost it already.
+  /// Share of the mirroring of layer and coat that soot on them leaves; `diffuse` has lost it already.
+  float mirrors = 1.0f;
 };
 
-/// A diffuse base alone.
+/// True for a diffuse base alone.
 inline bool is_rough(const Surface& surface) {
   return surface.coat <= 0.0f && surface.f0.x + surface.f0.y + surface.f0.z <= 0.0f;
 }
 
 struct Scattering {
   glm::vec3 value{0.0f};  ///< Bidirectional reflectance times the cosine, 1/sr.
-  float pdf = 0.0f;       ///< With which `scatter` would have drawn the direction, 1/sr.
+  float pdf = 0.0f;       ///< Density with which `scatter` would have drawn the direction, 1/sr.
 };
 
 struct Scattered {
@@ -37,7 +38,7 @@ struct Scattered {
   float pdf = 0.0f;
 };
 
-/// Unit directions away from the surface, to the viewer and to the light.
+/// Directions: unit, away from the surface, to the viewer and to the light.
 Scattering layered_scattering(const Surface& surface, const glm::vec3& to_viewer, const glm::vec3& to_light);
 Scattered layered_scatter(const Surface& surface, const glm::vec3& to_viewer, PathRandom& random);
 

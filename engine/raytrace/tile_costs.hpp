@@ -1,8 +1,9 @@
 #pragma once
-/// What a tile will cost, from what the tile at the same place has cost in the frames before: a film's next picture is much like
-/// its last. The unit is a frame's mean tile, so that a frame of n tiles costs n, and all that counts tiles counts costs as well.
+/// Prediction of a tile's cost from the cost of the tile at the same place in the frames before: a film's next picture
+/// is much like its last. The unit is a frame's mean tile, so that a frame of n tiles costs n, and costs can replace
+/// counts of tiles.
 ///
-/// What tiles cost on machines of different speed is compared by what each machine needs for a unit. One thread.
+/// Costs on machines of different speed are compared by each machine's time for a unit. One thread.
 
 #include <cstdint>
 #include <vector>
@@ -13,20 +14,20 @@ class TileCosts {
  public:
   explicit TileCosts(std::uint32_t tiles) : of_tile_(tiles, 0.0) {}
 
-  /// 1 where nothing is known.
+  /// Returns 1 where no cost is known.
   double operator[](std::uint32_t tile) const { return of_tile_[tile] > 0.0 ? of_tile_[tile] / mean() : 1.0; }
 
-  /// What one machine has measured so far: kept by whoever knows the machine.
+  /// Measurements of one machine so far, kept by the caller.
   struct Machine {
-    double cpu_s = 0.0, cost = 0.0;  ///< Of the same tiles; the latter as it was predicted.
+    double cpu_s = 0.0, cost = 0.0;  ///< Totals of the same tiles; `cost` as it was predicted.
   };
-  /// This machine has needed so much processor time for a tile. Anything but a positive number tells nothing.
+  /// Learns the processor time that this machine needed for a tile. Only a positive finite number counts.
   void learn(std::uint32_t tile, double cpu_s, Machine& machine);
 
  private:
   double mean() const { return sum_ / known_; }
 
-  std::vector<double> of_tile_;  ///< 0: not known.
+  std::vector<double> of_tile_;  ///< Cost by tile; 0: not known.
   double sum_ = 0.0, known_ = 0.0;
 };
 

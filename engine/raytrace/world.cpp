@@ -23,7 +23,7 @@
 namespace septet::raytrace {
 namespace {
 
-/// Of 8-bit sRGB.
+/// Linear values of 8-bit sRGB.
 const std::array<float, 256>& linear_codes() {
   static const std::array<float, 256> codes = [] {
     std::array<float, 256> table{};
@@ -33,7 +33,7 @@ const std::array<float, 256>& linear_codes() {
   return codes;
 }
 
-/// A smoothed normal may turn away from the viewer where the triangle does not: it is brought back to the edge.
+/// Turns a smoothed normal back to the silhouette where it faces away from the viewer and the triangle does not.
 glm::vec3 facing_viewer(const glm::vec3& normal, const glm::vec3& ray_direction) {
   const float facing = -glm::dot(normal, ray_direction);
   return facing < 1e-3f ? glm::normalize(normal - (1e-3f - facing) * ray_direction * 1.01f) : normal;
@@ -89,13 +89,13 @@ bool World::shows_back(const scene::SurfaceMaterial& material) const {
   return &material == &no_material_ || index_.shows_back[static_cast<std::size_t>(&material - scene_.materials.data())];
 }
 
-/// Between four texels; the image repeats.
 glm::vec2 World::in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv) {
   const std::uint32_t columns = std::max(1u, material.picture_columns), rows = std::max(1u, material.picture_rows);
   const std::uint32_t picture = placed.number % (columns * rows);
   return (uv + glm::vec2(picture % columns, picture / columns)) / glm::vec2(columns, rows);
 }
 
+/// Interpolates between four texels; the image repeats.
 glm::vec4 World::texel(const scene::SurfaceMaterial& material, const glm::vec2& uv) const {
   if (material.base_color_image < 0 || static_cast<std::size_t>(material.base_color_image) >= scene_.images.size())
     return glm::vec4(1.0f);
@@ -118,7 +118,7 @@ glm::vec4 World::texel(const scene::SurfaceMaterial& material, const glm::vec2& 
                   glm::mix(read(low.x, low.y + 1), read(low.x + 1, low.y + 1), share.x), share.y);
 }
 
-/// Share of a surface's light that the soot on it takes, between the eight cells around.
+/// Share of a surface's light that the soot on it takes, interpolated between the eight cells around.
 float World::soot(const glm::vec3& position_m) const {
   const instant::SootField& field = instant_.soot;
   const glm::vec3 at((inverse(field.world_from_field) * (origin_m_ + Vec3(position_m))) / field.cell_m - 0.5);
@@ -135,7 +135,8 @@ float World::soot(const glm::vec3& position_m) const {
   return sum;
 }
 
-/// Where the hit lies and how the surface stands there; the normal between the corners' own, towards the viewer.
+/// Sets the position and orientation of a hit and returns the normal interpolated between the corners' own, towards the
+/// viewer.
 glm::vec3 World::stand(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   const Corners at = corners(placed, hit.triangle);
   const float w = 1.0f - hit.u - hit.v;
@@ -147,11 +148,11 @@ glm::vec3 World::stand(const PlacedSurface& placed, const Ray& ray, const Hit& h
                                &then_c = placed.later[index[2]];
     a = glm::mix(a, then_a.position_m, ray.time), b = glm::mix(b, then_b.position_m, ray.time);
     c = glm::mix(c, then_c.position_m, ray.time);
-    // Debris is flat: its normal is exactly that of the triangle as it is then (Parus et al., eq. 1). Ice is smooth.
+    // Debris is flat: its normal is exactly that of the triangle at that time (Parus et al., eq. 1). Ice is smooth.
     normal = placed.body ? glm::mix(normal, w * then_a.normal + hit.u * then_b.normal + hit.v * then_c.normal, ray.time)
                          : glm::cross(b - a, c - a);
   }
-  // From the corners, not along the ray: a far hit's distance has fewer digits.
+  // Computed from the corners, not along the ray: a far hit's distance has fewer digits.
   point.position_m = w * a + hit.u * b + hit.v * c;
   point.flat_normal = glm::cross(b - a, c - a);
   if (placed.motion) {
@@ -222,7 +223,7 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   if (!instant_.soot.cover.empty()) blacken(1.0f - soot(point.position_m), point);
 }
 
-/// Snow, water and gloss on a surface of the colour `base`, looked at along −`seen`.
+/// Applies snow, water and gloss to a surface of the colour `base`, seen along −`seen`.
 void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
                         const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const {
   const Environment& weather = instant_.environment;
@@ -259,12 +260,12 @@ void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMateria
     surface.coat_f0 = light::coat_reflectance;
     surface.coat_alpha = light::coat_roughness * light::coat_roughness;
   }
-  if (point.opacity < 1.0f)  // The better it mirrors, the less is seen through it.
+  if (point.opacity < 1.0f)  // Mirroring reduces the view through glass.
     point.opacity = std::clamp(
         point.opacity + luminance(light::schlick(surface.f0, std::min(1.0f, glm::dot(normal, seen)))), 0.0f, 1.0f);
 }
 
-/// The light of what shines, `color` times as its material says.
+/// Sets the emission: the material's, times `color`.
 void World::give_off(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec3& color,
                      const Hit& hit, const glm::vec3& seen, SurfacePoint& point) const {
   point.emission = material.emission * (placed.tint.w * instant_.emission_share) * color;
@@ -273,12 +274,13 @@ void World::give_off(const PlacedSurface& placed, const scene::SurfaceMaterial& 
   if (cosine > 1e-6f && is_street_lamp(placed, material, instant::looks_down(point.flat_normal)))
     point.lights_up *= street_lamp::spread(cosine) / cosine;
   if (material.lit_by_night) point.emission *= instant_.light->night, point.lights_up = 0.0f;
-  if (!point.from_front) return;  // No lamp is looked at from behind.
+  if (!point.from_front) return;  // Lamps are not sampled from behind.
   for (const std::uint32_t lamp : placed.lamps)
     if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
 }
 
-/// Soot leaves that share of all light that comes from a surface. What a lamp lights it lights as before: its lens is drawn as a light of its own.
+/// Applies soot, which leaves this share of all light from a surface. A lamp's light on other surfaces stays: its lens
+/// is drawn as a light of its own.
 void World::blacken(float share, SurfacePoint& point) {
   point.surface.diffuse *= share;
   point.surface.mirrors = share;
@@ -336,7 +338,8 @@ glm::vec3 World::open_fog_radiance(const glm::vec3& direction) const {
   return sky_.radiance({across * direction.x / level, across * direction.y / level, up});
 }
 
-/// What drives has blown snow off, and one sees through what is clear. Returns the share of the place on which it lies.
+/// Applies snow; headwind has blown it off vehicles, and clear glass stays clear. Returns the share of the point that
+/// it covers.
 float World::lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
                       float up, float share_of_sky, glm::vec3& albedo) const {
   const auto cover = static_cast<float>(instant_.environment.snow_cover);

@@ -1,10 +1,11 @@
 #pragma once
-/// The world of one instant as a path meets it: where a ray ends, of what the surface there is made, and what shines.
+/// World of one instant for paths: hits of rays, the surfaces there, and the lights.
 ///
-/// Made from a scene and the description of an instant (engine/instant), the same that the rasteriser draws, by the same rules: level
-/// of detail by the eye's distance, paint, wetness, snow, soot, lamps that are lit, the light of sky and sun. What the rasteriser
-/// must pretend is left out, since light finds its own way here: the share of the sky under a roof, and the light of its lamps.
-/// Frame: metres from the first view's eye, along the world's axes. Const once made; any number of threads.
+/// Made from a scene and the description of an instant (engine/instant), the same that the rasteriser draws, by the
+/// same rules: level of detail by the eye's distance, paint, wetness, snow, soot, lit lamps, the light of sky and sun.
+/// The rasteriser's approximations are left out, since light finds its own way here: the share of the sky under a roof,
+/// and the light of its lamps. Frame: metres from the first view's eye, along the world's axes. Const once made; any
+/// number of threads.
 
 #include <optional>
 
@@ -26,43 +27,46 @@ inline constexpr std::uint32_t no_lamp = 0xffffffffu;
 
 struct PhotonMaps;
 
-/// Where a ray met a surface.
+/// Point where a ray met a surface.
 struct SurfacePoint {
   Surface surface;
   glm::vec3 position_m{0.0f};
-  glm::vec3 flat_normal{0.0f};      ///< Of the triangle, towards the viewer.
-  bool from_front = true;           ///< It was met on the side that its triangle faces.
-  glm::vec3 emission{0.0f};         ///< Towards the viewer.
-  float lights_up = 1.0f;           ///< How many times as bright it is for what it lights.
-  glm::vec3 retroreflection{0.0f};  ///< cd/(lx m²), to where light comes from.
+  glm::vec3 flat_normal{0.0f};      ///< Normal of the triangle, towards the viewer.
+  bool from_front = true;           ///< True if it was met on the side that its triangle faces.
+  glm::vec3 emission{0.0f};         ///< Emitted radiance towards the viewer.
+  float lights_up = 1.0f;           ///< Factor of its emission for the surfaces that it lights.
+  glm::vec3 retroreflection{0.0f};  ///< Coefficient of retroreflection, cd/(lx m²), towards the light.
   float opacity = 1.0f;             ///< Share of the rays that it stops; the others go straight on.
-  bool in_smoke = false;  ///< No surface: a place in the air that scatters evenly to all sides, surface.diffuse of it.
-  /// A sheet that scatters what falls on either side to both alike: `surface.diffuse` is the share of both.
+  /// True: a point in the air, not a surface, that scatters isotropically with the albedo surface.diffuse.
+  bool in_smoke = false;
+  /// True for a sheet that scatters light from either side to both alike: `surface.diffuse` is the share of both.
   bool translucent = false;
-  /// A crack's, which stands in it: light leaves on whichever side of the sheet that leads.
+  /// True for the face of a crack within a sheet: light leaves on either side of the sheet.
   bool face_in_sheet = false;
-  bool dielectric = false;  ///< A body to see into: `index` and `absorption_per_m` are its inside's.
+  bool dielectric = false;  ///< True for a transparent body: `index` and `absorption_per_m` are those of its inside.
   float index = 1.5f;
   glm::vec3 absorption_per_m{0.0f};
-  float share_of_sky = 1.0f;  ///< As the rasteriser guesses it; here only a guess at which lights matter.
+  /// Share of visible sky by the rasteriser's estimate; here only a guess at which lights matter.
+  float share_of_sky = 1.0f;
   std::uint32_t place = 0;
-  std::uint32_t lamp = no_lamp;  ///< Which lamp's light it gives.
+  std::uint32_t lamp = no_lamp;  ///< Index of the lamp that it belongs to.
 };
 
-/// A closed body of clear matter, such as ice, of which light takes two interfaces and what lies between.
+/// Closed body of clear matter, such as ice: refracts at its surface and absorbs inside.
 struct ClearBody {
-  Vec3 origin_m{0.0};  ///< World.
-  std::vector<scene::SurfaceVertex>
-      vertices;  ///< From the origin along the world's axes; three a triangle, ccw outside.
+  Vec3 origin_m{0.0};  ///< World frame.
+  /// Vertices from the origin along the world's axes; three a triangle, counter-clockwise seen from outside.
+  std::vector<scene::SurfaceVertex> vertices;
   float index = 1.31f;
   glm::vec3 absorption_per_m{0.0f};
-  std::vector<scene::SurfaceVertex> later{};  ///< From the same origin at time 1; none: it does not move.
+  std::vector<scene::SurfaceVertex> later{};  ///< Vertices from the same origin at time 1; empty: it does not move.
 };
 
 class World : public Openings {
  public:
-  /// `index` is the scene's. `geometry` holds the scene's meshes; those of this instant alone are added behind them. `cloud_noise` is instant::cloud_noise(). All of
-  /// these outlive the world. `later`: the instant at which the shutter closes, time 1, for what moves until then; null: nothing does.
+  /// `index` is the scene's. `geometry` holds the scene's meshes; those of this instant alone are added behind them.
+  /// `cloud_noise` is instant::cloud_noise(). All of these outlive the world. `later`: the instant at which the shutter
+  /// closes, time 1, for motion until then; null: nothing moves.
   World(const scene::ResolvedScene& scene, const SceneIndex& index, const instant::Instant& instant,
         const instant::Instant* later, std::span<const ClearBody> bodies, std::span<const std::uint8_t> cloud_noise,
         Geometry& geometry);
@@ -72,7 +76,7 @@ class World : public Openings {
 
   const Geometry& geometry() const { return geometry_; }
   const Sky& sky() const { return sky_; }
-  /// What is seen of clouds, which the light of the sky's table holds already.
+  /// Visible clouds, whose light the sky's table holds already.
   instant::CloudSeen cloud(const glm::vec3& direction) const {
     return instant::cloud_seen(cloud_noise_, *instant_.light, instant_.environment.cloud_cover, cloud_drift_m_,
                                direction);
@@ -80,34 +84,35 @@ class World : public Openings {
   const instant::Instant& instant() const { return instant_; }
   const std::vector<Lamp>& lamps() const { return lamps_; }
   const LampRow& lamp_row() const { return lamp_row_; }
-  /// Nothing shines that can only be met by chance.
+  /// True if every light can be drawn, none is met by chance only.
   bool all_light_can_be_drawn() const { return all_lamps_are_drawn_ && smoke_.empty() && fog_per_m() <= 0.0f; }
-  /// No sky, no sun, no headlights: what is looked at is a lamp.
+  /// True without sky, sun and headlights: every light sampled is a lamp.
   bool lamps_alone_shine() const { return lamps_alone_shine_; }
-  /// For eight paths at once; null where they are not traced so: something else than still lamps of one colour each shines, or there is smoke or fog.
+  /// Faces for eight paths at once; null where paths are traced singly: other lights than still lamps of one colour
+  /// each shine, or there is smoke or fog.
   const MattFaces* matt_faces() const { return matt_faces_ ? &*matt_faces_ : nullptr; }
   const HeadlightRow& headlights() const { return headlights_; }
-  /// A sphere around each clear body, wherever it is while the shutter is open.
+  /// Sphere around a clear body in all its positions while the shutter is open.
   struct ClearBodySphere {
     std::uint32_t place = 0;
     glm::vec3 middle_m{0.0f};
     float radius_m = 0.0f;
   };
   std::vector<ClearBodySphere> clear_body_spheres() const;
-  /// What paths take from photons; null: nothing. Set while none is traced; outlives the paths.
+  /// Photons that paths use; null: none. Set while no path is traced; outlives the paths.
   const PhotonMaps* photons() const { return photons_; }
   void set_photons(const PhotonMaps* photons) { photons_ = photons; }
   const Smoke& smoke() const { return smoke_; }
-  const Vec3& origin_m() const { return origin_m_; }  ///< World.
+  const Vec3& origin_m() const { return origin_m_; }  ///< World frame.
 
-  /// As a picture's layers name them (TracedPixel).
+  /// Numbers for a picture's layers (TracedPixel).
   std::uint32_t object(std::uint32_t place) const { return placed_[place].object; }
   std::uint32_t participant(std::uint32_t place) const { return placed_[place].stands ? 0 : placed_[place].number; }
 
-  /// What the ray met; all of `point` is set.
+  /// Describes the hit; all of `point` is set.
   void point(const Ray& ray, const Hit& hit, SurfacePoint& point) const;
-  /// What fog gives off in this direction: as bright as the sky behind it, below the horizon as the sky just above.
-  /// Between places with these shares of the sky.
+  /// Radiance of fog in this direction: as bright as the sky behind it, below the horizon as the sky just above.
+  /// Interpolates between places with these shares of the sky.
   glm::vec3 fog_radiance(const glm::vec3& direction, float from_share_of_sky, float to_share_of_sky) const;
   float eye_share_of_sky() const { return instant_.share_of_sky; }
   float fog_per_m() const { return instant_.extinction_per_m; }
@@ -127,16 +132,16 @@ class World : public Openings {
     glm::vec4 tint{1.0f};
     float share_of_sky = 1.0f;
     bool snowed_on = true;
-    std::uint32_t number = 0;                  ///< Of its participant.
-    bool stands = false;                       ///< An instance of the scene: not a part of a participant, nor loose.
-    std::span<const std::uint32_t> materials;  ///< Of its triangles, or one of all.
-    std::vector<std::uint32_t> lamps;          ///< Indices of lamps_.
+    std::uint32_t number = 0;  ///< Number of its participant.
+    bool stands = false;       ///< True for an instance of the scene: not a part of a participant, nor loose.
+    std::span<const std::uint32_t> materials;  ///< Materials of its triangles, or one of all.
+    std::vector<std::uint32_t> lamps;          ///< Indices into lamps_.
     const ClearBody* body = nullptr;
     std::uint32_t object = 0;  ///< TracedPixel::object.
     std::optional<Motion> motion{};
-    std::span<const scene::SurfaceVertex> later{};  ///< Its vertices at time 1, if they move.
-    const ice::IceBody* on_glass = nullptr;         ///< What lies on a pane, if it is that.
-    bool lights_around = false;                     ///< As instant::PlacedMesh.
+    std::span<const scene::SurfaceVertex> later{};  ///< Vertices at time 1, if they move.
+    const ice::IceBody* on_glass = nullptr;         ///< Ice on a pane, if it is that.
+    bool lights_around = false;                     ///< Same as instant::PlacedMesh::lights_around.
     bool is_turned = turn != glm::mat3(1.0f);
 
     glm::vec3 turned(const glm::vec3& way) const { return is_turned ? turn * way : way; }
@@ -157,10 +162,10 @@ class World : public Openings {
   void add_matt_faces();
   Face matt_face(const PlacedSurface& placed, std::uint32_t triangle) const;
   Corners corners(const PlacedSurface& placed, std::uint32_t triangle) const;
-  /// Whether it is seen from behind, as the rasteriser draws it.
+  /// True if it is visible from behind, as the rasteriser draws it.
   bool shows_back(const scene::SurfaceMaterial& material) const;
   const scene::SurfaceMaterial& material_of(const PlacedSurface& placed, std::uint32_t triangle) const;
-  /// Place in the material's image: of several pictures in it, that of the participant.
+  /// Texture coordinate: of several pictures in an image, that of the participant.
   static glm::vec2 in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv);
   glm::vec4 texel(const scene::SurfaceMaterial& material, const glm::vec2& at) const;
   glm::vec3 stand(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const;
@@ -182,17 +187,18 @@ class World : public Openings {
   Sky sky_;
   std::span<const std::uint8_t> cloud_noise_;
   glm::vec2 cloud_drift_m_;
-  std::vector<glm::vec2> ripples_;  ///< instant::ripple_slopes; none where it is dry.
+  std::vector<glm::vec2> ripples_;  ///< Result of instant::ripple_slopes; empty where it is dry.
   Vec3 origin_m_;
   Smoke smoke_;
-  bool nothing_lies_on_it_;  ///< Neither snow nor soot.
+  bool nothing_lies_on_it_;  ///< True without snow and soot.
   std::vector<PlacedSurface> placed_;
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
   std::vector<std::vector<scene::SurfaceVertex>> later_soups_;
-  std::vector<std::vector<scene::SurfaceVertex>> panes_;        ///< What lies on glass, now and at time 1 by turns.
-  std::uint32_t next_mesh_ = 0;                                 ///< Of those added behind the scene's.
-  std::vector<std::vector<std::uint32_t>> reshaped_materials_;  ///< Of what stands in for a mesh, its triangles'.
+  std::vector<std::vector<scene::SurfaceVertex>> panes_;  ///< Vertices of ice on glass, at times 0 and 1 by turns.
+  std::uint32_t next_mesh_ = 0;                           ///< Next index behind the scene's meshes.
+  /// Triangle materials of the meshes that replace a scene's.
+  std::vector<std::vector<std::uint32_t>> reshaped_materials_;
   HeadlightRow headlights_;
   std::vector<Lamp> lamps_;
   LampRow lamp_row_;

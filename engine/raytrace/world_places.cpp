@@ -1,4 +1,4 @@
-/// How what an instant shows gets into a World: where it stands, where it goes, and which of it are lamps.
+/// Construction of a World from an instant: places, motions, and the lamps among them.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 namespace septet::raytrace {
 namespace {
 
-constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
+constexpr float lamp_gap_m = 0.3f;  ///< Gap beyond which triangles are lamps of their own.
 
 std::vector<scene::SurfaceVertex> as_soup(const ice::IceBody& body) {
   std::vector<scene::SurfaceVertex> vertices;
@@ -27,7 +27,7 @@ std::vector<scene::SurfaceVertex> as_soup(const ice::IceBody& body) {
   return vertices;
 }
 
-/// Vertices as they are then, from the origin that they have now; none where they are others.
+/// Vertices at the later time, from the origin of now; empty where they are others.
 std::vector<scene::SurfaceVertex> vertices_from(const Vec3& origin_m, std::size_t count, const Vec3& then_origin_m,
                                                 std::span<const scene::SurfaceVertex> then) {
   const Vec3 way_m = then_origin_m - origin_m;
@@ -49,7 +49,7 @@ void World::add_headlights(const instant::Instant* later) {
   headlights_ = HeadlightRow(instant_.headlights, ways_m, origin_m_);
 }
 
-/// The same part of the same participant in both, where there is one.
+/// Pairs the same part of the same participant in both instants.
 void World::add_parts(std::vector<Place>& places, const instant::Instant* later) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const instant::PlacedMesh*>> then;
   if (later)
@@ -106,7 +106,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
   placed_.back().lights_around = placed.lights_around;
 }
 
-/// Triangles of this instant alone.
+/// Adds triangles of this instant alone.
 void World::add_soups(std::vector<Place>& places, const instant::Instant* later, std::span<const ClearBody> bodies) {
   std::size_t longest = 0;
   for (const instant::LooseMesh& loose : instant_.loose) longest = std::max(longest, loose.mesh.vertices.size());
@@ -179,21 +179,22 @@ std::vector<World::ClearBodySphere> World::clear_body_spheres() const {
     for (const auto vertices : {placed.vertices, placed.later})
       for (const scene::SurfaceVertex& vertex : vertices)
         square = std::max(square, glm::dot(vertex.position_m - middle, vertex.position_m - middle));
-    // A little more, for rounding: a vertex on the rim is within.
+    // Enlarged for rounding: a vertex on the rim is within.
     const float radius_m = 1.0001f * std::sqrt(square);
     if (radius_m > 0.0f && std::isfinite(radius_m)) spheres.push_back({place, placed.origin_m + middle, radius_m});
   }
   return spheres;
 }
 
-/// Where street lamps are lit, whatever stands in the open and shines down is one.
+/// True for a part of the scene in the open that shines down, where street lamps are lit.
 bool World::is_street_lamp(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const {
   return instant_.light->street_lamps > 0.0f && placed.stands && looks_down &&
          material.share_of_sky * placed.share_of_sky >= 0.5f;
 }
 
-/// Beacons and lamps that stand are seen no brighter than a picture shows them. What a beacon lights is lit by all of
-/// it, what lamps that look down light as brightly as the rasteriser has it.
+/// Factor of a lamp's light on other surfaces. Beacons and static lamps are drawn no brighter than a picture shows
+/// them; a beacon lights its surroundings with all of its emission, and lamps that look down as brightly as the
+/// rasteriser has it.
 float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const {
   if (placed.lights_around) return 1.0f / instant_.emission_share;
   if (!placed.stands) return 1.0f;
@@ -201,7 +202,7 @@ float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial
   return glm::mix(instant::roofed_lamps_light_up, open, material.share_of_sky * placed.share_of_sky);
 }
 
-/// The triangles of a part that shines, those in a row that lie together as one lamp each.
+/// Adds the triangles of an emissive part; consecutive ones that lie together make one lamp.
 void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
   const PlacedSurface& placed = placed_[place];
   if (part.material >= scene_.materials.size() || part.index_count < 3) return;
@@ -248,11 +249,11 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
 }
 
 void World::add_lamps(const std::vector<Place>& places) {
+  // The level with the larger share lights for both.
   for (std::uint32_t n = 0; n < placed_.size(); ++n)
-    if (placed_[n].tint.w > 0.0f && places[n].seen &&
-        places[n].fade.share() >= 0.5f)  // One of two levels lights for both.
+    if (placed_[n].tint.w > 0.0f && places[n].seen && places[n].fade.share() >= 0.5f)
       for (const scene::MeshPart& part : placed_[n].parts) add_lamps(n, part);
-  // The others are met by chance alone; where there are so many they are far or weak.
+  // Others are met by chance alone; where there are so many they are far or weak.
   const auto weight = [](const Lamp& lamp) { return lamp.power / (1.0f + glm::dot(lamp.middle_m, lamp.middle_m)); };
   std::stable_sort(lamps_.begin(), lamps_.end(), [&](const Lamp& a, const Lamp& b) { return weight(a) > weight(b); });
   all_lamps_are_drawn_ = lamps_.size() <= LampWeights::most;

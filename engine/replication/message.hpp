@@ -26,7 +26,7 @@ struct Welcome {
 struct CommandBatch {
   std::uint64_t sequence = 0;
   std::uint64_t received = 0;
-  Bytes commands;  ///< As encoded by command_codec.hpp, one after another; packed only on the wire.
+  Bytes commands;  ///< Commands as encoded by command_codec.hpp, one after another; packed only on the wire.
 };
 struct Complete {
   std::uint64_t revision = 0;

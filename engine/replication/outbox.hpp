@@ -21,12 +21,12 @@ class Outbox {
   void forget(const Subject& first, const Subject& last);
   bool empty() const { return waiting_.empty(); }
 
-  /// Appends commands until `out` holds about `bytes` or nothing waits, and appends their subjects to `sent`.
+  /// Appends commands until `out` holds about `bytes` or no change waits, and appends their subjects to `sent`.
   void write(const scene::Store& store, std::size_t bytes, Bytes& out, std::vector<Change>& sent);
 
  private:
   struct Waiting {
-    Change change;                                                ///< For a range subject only the subject counts.
+    Change change;                                                ///< Only the subject counts for a range subject.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  ///< [first, end), rising, apart.
   };
 

@@ -32,15 +32,15 @@ struct ReplicationClient::State {
   StoreLimits limits;
 
   std::unique_ptr<Store> shown = std::make_unique<Store>();
-  std::unique_ptr<Store> filling;  ///< Set where it is another than the one shown.
+  std::unique_ptr<Store> filling;  ///< New mirror, where it is not the one shown.
   std::uint64_t generation = 0;
   std::set<std::tuple<NodeId, PartKind, PartId>> subscribed_parts;
 
   std::uint64_t token = 0;
-  std::uint64_t received = 0;  ///< The server's last batch.
+  std::uint64_t received = 0;  ///< Number of the server's last batch.
   std::uint64_t sent = 0;
   std::deque<SentBatch> unacknowledged;
-  std::size_t to_repeat = 0;  ///< Number of the latest of them to be sent (again).
+  std::size_t to_repeat = 0;  ///< Number of the latest unacknowledged batches to be sent (again).
   Bytes queued;               ///< Commands that are in no batch yet.
   bool hello_due = false, welcomed = false, owes_acknowledgement = false;
 
@@ -60,7 +60,7 @@ struct ReplicationClient::State {
     ever_complete = false;
     owes_acknowledgement = false;
     filling = std::make_unique<Store>(limits);
-    if (shown->revision() == 0) show();  // There is no older mirror to keep: show this one as it fills.
+    if (shown->revision() == 0) show();  // No older mirror exists to keep: this one is shown as it fills.
     queue(NodeIndexSubscribe{policy.node_types});
   }
   void show() {

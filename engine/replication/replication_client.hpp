@@ -39,7 +39,7 @@ class ReplicationClient {
   /// Sends subscriptions, requests and acknowledgements that are due.
   void pump(const Send& send);
 
-  /// Requests a change from the server (the reply is the same command, or nothing) or a subscription beyond the
+  /// Requests a change from the server (the reply is the same command, or none) or a subscription beyond the
   /// policy's. Requests of a session that is not resumed are lost.
   void request(const scene::Command& command);
   /// The store to be shown: the mirror, or, while a new connection fills a new one, the last complete one.

@@ -41,7 +41,7 @@ struct Session {
 
   Outbox outbox;
   std::deque<Command> requests;  ///< Requests without a reply yet.
-  std::uint64_t received = 0;    ///< The client's last batch.
+  std::uint64_t received = 0;    ///< Number of the client's last batch.
   bool owes_acknowledgement = false;
   std::uint64_t sent = 0;
   std::deque<Unacknowledged> unacknowledged;
@@ -79,11 +79,11 @@ struct Session {
 
 struct Connection {
   std::string identity;
-  std::unique_ptr<Session> session;  ///< From its hello on.
+  std::unique_ptr<Session> session;  ///< Set from its hello on.
   Bytes unsent;                      ///< A message that the lane did not accept.
 };
 
-/// The subjects of a part's content.
+/// Drops waiting changes of a part's content.
 void forget_content(Outbox& outbox, const Subject& definition) {
   const auto [node, kind, part, item] = definition;
   if (kind == SubjectKind::tag_group)
@@ -181,7 +181,8 @@ struct ReplicationServer::State {
     session.next_listed = node == store.nodes().end() ? no_node : node->first;
   }
 
-  /// Turns a client's request into changes to send. False when there is none left.
+  /// Turns the next request, or the next nodes of the index, into changes to send. False when no request is left, or no
+  /// more are allowed.
   bool go_on(Session& session, int& requests) {
     if (session.next_listed != no_node) return list_nodes(session), true;
     if (session.requests.empty() || requests <= 0) return false;

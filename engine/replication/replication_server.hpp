@@ -23,7 +23,7 @@
 
 namespace septet::replication {
 
-/// Hands a message to the reliable, ordered lane; false where it does not accept it now (it is offered again).
+/// Hands a message to the reliable, ordered lane; false where the lane does not accept it now (it is offered again).
 using Send = std::function<bool(std::span<const std::byte> message)>;
 
 /// Id of a connection, given by the lane; a client that reconnects has a new one.
@@ -31,21 +31,21 @@ using ConnectionId = std::uint32_t;
 
 struct ReplicationOptions {
   std::size_t batch_bytes = 32 * 1024;         ///< Size of the commands in one message, before packing.
-  std::size_t window_bytes = 4 * 1024 * 1024;  ///< Sent and not yet acknowledged, before packing.
-  std::size_t lost_sessions = 32;              ///< Kept for clients that come back.
-  std::size_t waiting_requests = 1u << 20;     ///< Limit of one client's; more end its connection.
+  std::size_t window_bytes = 4 * 1024 * 1024;  ///< Bytes sent and not yet acknowledged, before packing.
+  std::size_t lost_sessions = 32;              ///< Sessions kept for clients that come back.
+  std::size_t waiting_requests = 1u << 20;     ///< Limit of one client's requests; more end its connection.
 };
 
 class ReplicationServer {
  public:
-  /// `instance` tells this run of the server from earlier ones; any number that does not repeat.
-  /// The store must outlive the server.
+  /// `instance` distinguishes this run of the server from earlier ones; any number that does not repeat. The store must
+  /// outlive the server.
   ReplicationServer(const scene::Store& store, std::uint64_t instance, const ReplicationOptions& options = {});
   ~ReplicationServer();
 
   /// `identity` (its key, its name) decides which sessions a client can resume.
   void connect(ConnectionId connection, std::string identity);
-  /// Its session is kept for a while.
+  /// Keeps its session for a while.
   void disconnect(ConnectionId connection);
 
   /// Returns the client's requested changes, for the owner of the store to apply or not. After an error the connection
@@ -57,8 +57,8 @@ class ReplicationServer {
 
   struct Pumped {
     std::size_t messages = 0;
-    std::size_t bytes = 0;  ///< As handed to `send`.
-    bool finished = false;  ///< Nothing waits for this client but its acknowledgements.
+    std::size_t bytes = 0;  ///< Bytes as handed to `send`.
+    bool finished = false;  ///< True if only acknowledgements wait for this client.
   };
   /// Serves requests and sends changes until about `max_bytes` (before packing) are written.
   Pumped pump(ConnectionId connection, std::size_t max_bytes, const Send& send);

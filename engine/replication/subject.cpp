@@ -99,7 +99,7 @@ struct ChangeOf {
   }
 };
 
-/// The type of node that has such subjects; empty where every type has.
+/// The type of node that has such subjects; empty where every type has them.
 std::optional<NodeType> type_of(Kind kind) {
   switch (kind) {
     case Kind::existence:

@@ -53,7 +53,7 @@ constexpr bool is_range(SubjectKind kind) {
 struct Change {
   Subject subject;
   std::uint32_t first = 0, end = 0;  ///< Range of vertices, polygons or tiles.
-  bool renew = false;                ///< Was destroyed (and perhaps made again) since it was last sent.
+  bool renew = false;                ///< True if destroyed (and perhaps made again) since it was last sent.
   /// Smallest sizes of a geometry since it was last sent; elements beyond them are forgotten.
   std::uint32_t smallest_vertices = ~0u, smallest_polygons = ~0u;
 };

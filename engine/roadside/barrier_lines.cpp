@@ -35,7 +35,7 @@ BarrierForm form_of(const road::RoadObject& object) {
   return says("railing") && !hangs ? BarrierForm::railing : BarrierForm::rail;
 }
 
-/// One that is placed but once reaches half its length to either side.
+/// Repeats of an object; an object without repeats reaches half its length to either side.
 std::vector<road::ObjectRepeat> repeats_of(const road::RoadObject& object) {
   if (!object.repeats.empty()) return object.repeats;
   road::ObjectRepeat one;
@@ -55,7 +55,7 @@ bool gives_posts(const road::Road& road) {
   });
 }
 
-/// Whether lanes of some road lie under a post or within `clear_m` beside it: what lies beside one road may lie on
+/// True if lanes of some road lie under a post or within `clear_m` beside it: a place beside one road may lie on
 /// another, as the gore of an exit does.
 bool is_on_lanes(const RoadShape& roads, road::RoadIndex index, double s_m, double t_m, double clear_m) {
   const auto holds = [&](double t) {
@@ -167,7 +167,7 @@ std::vector<Barrier> barriers(const RoadShape& roads, const RoadTile& tile) {
       barrier.height1_m = height_m(repeat.z_offset_end_m, repeat.height_end_m);
       barrier.width_m = std::min(repeat.width_start_m, widest_barrier_m);
       barrier.line = {repeat.s_m, repeat.s_m + repeat.length_m, repeat.t_start_m, repeat.t_end_m};
-      // What runs to a loose end of the road runs on with it.
+      // A barrier that reaches a loose end of the road runs on with it.
       if (barrier.line.s0_m < 0.01) barrier.line.s0_m = roads.begin_m(tile.road);
       if (barrier.line.s1_m > length - 0.01) barrier.line.s1_m = roads.end_m(tile.road);
       result.push_back(barrier);

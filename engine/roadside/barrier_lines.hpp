@@ -1,8 +1,9 @@
 #pragma once
-/// Where guard rails, walls and marker posts stand along a road: what the scenery draws and what cars run against.
+/// Guard rails, walls and marker posts along a road, for the scenery that draws them and the cars that run against
+/// them.
 ///
-/// A line is straight in road coordinates; it becomes a polyline through its stations in each tile, and both users take the
-/// same ones.
+/// A line is straight in road coordinates; it becomes a polyline through its stations in each tile, and both users take
+/// the same ones.
 
 #include <array>
 #include <cstdint>
@@ -18,32 +19,32 @@ struct BesideLine {
   double t_at(double s_m) const;
 };
 
-/// Stations of the part of the line within the tile, both ends included, at most `step_m` apart; none where less than half a
-/// metre of it lies there.
+/// Stations of the part of the line within the tile, both ends included, at most `step_m` apart; empty where less than
+/// half a metre of it lies there.
 std::vector<double> stations(const RoadTile& tile, const BesideLine& line, double step_m);
 
 enum class BarrierForm : std::uint8_t { rail, jersey, railing, wall, fence, hedge };
 inline constexpr std::array barrier_forms{BarrierForm::rail, BarrierForm::jersey, BarrierForm::railing,
                                           BarrierForm::wall, BarrierForm::fence,  BarrierForm::hedge};
-/// A parapet's handrail lies on its posts and reaches so far over them.
+/// Overhang of a parapet's handrail, which lies on its posts.
 inline constexpr double handrail_over_posts_m = 0.02;
-/// How high one of this form is where the file gives no height.
+/// Height of a barrier of this form where the file gives no height.
 double usual_height_m(BarrierForm form);
 struct Barrier {
   BarrierForm form = BarrierForm::rail;
   BesideLine line{};
-  double height0_m = 0.0, height1_m = 0.0;  ///< Of its upper edge over the road, where the line begins and ends.
-  double width_m = 0.0;                     ///< Of walls and hedges; 0: a usual one.
+  double height0_m = 0.0, height1_m = 0.0;  ///< Height of its upper edge over the road, where the line begins and ends.
+  double width_m = 0.0;                     ///< Width of walls and hedges; 0: a usual one.
 
   double height_at(double s_m) const;
 };
-/// Whether an object is a barrier at all, by its type (OpenDRIVE 1.8, §13.14; older files name the form itself), and whether it stands along a
-/// line of its road: on repeats that are continuous or nearly so, or along the road as long as it is. Others stand as they are
-/// (standing_objects.hpp).
+/// True for an object that is a barrier by its type (OpenDRIVE 1.8, §13.14; older files name the form itself);
+/// `runs_along` if it stands along a line of its road: on repeats that are continuous or nearly so, or along the road
+/// as long as it is. Others stand alone (standing_objects.hpp).
 bool is_barrier(const road::RoadObject& object);
 bool runs_along(const road::RoadObject& object);
-/// The barriers of the tile's road that stand in the tile: rails end at a tunnel's mouth. A bridge that the file does not give
-/// (road/decks.hpp) has railings.
+/// Barriers of the tile's road that stand in the tile: rails end at a tunnel's mouth. A bridge that the file does not
+/// give (road/decks.hpp) has railings.
 std::vector<Barrier> barriers(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double barrier_step_m = 10.0;
 
@@ -51,7 +52,8 @@ inline constexpr double barrier_step_m = 10.0;
 std::vector<BesideLine> noise_walls(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double noise_wall_step_m = 8.0;
 
-/// Reflecting posts every 50 m behind the rail, none in towns and junctions, on or right beside another road's lanes, or where the file gives its own; each stands at the first station of its line, which is a metre long.
+/// Reflecting posts every 50 m behind the rail. Left out in towns and junctions, on or right beside another road's
+/// lanes, and where the file gives its own. Each stands at the first station of its line, which is a metre long.
 std::vector<BesideLine> marker_posts(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double marker_post_step_m = 2.0;
 

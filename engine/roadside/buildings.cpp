@@ -28,7 +28,7 @@ std::vector<Building> placed_buildings(const RoadShape& roads, const Terrain& te
       const Nearest near = terrain.nearest(p);
       if (!near.found || near.outside_m < 75.0 || terrain.woodland(p) > 0.02) continue;
       const double z = terrain.height_m(p, near);
-      // Not on a slope.
+      // Steep sites are left out.
       if (std::abs(terrain.height_m(p + Vec2(25, 0)) - z) + std::abs(terrain.height_m(p + Vec2(0, 25)) - z) > 4.5)
         continue;
       const bool is_church = ++since_church > 8;

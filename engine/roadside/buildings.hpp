@@ -1,5 +1,5 @@
 #pragma once
-/// Where houses stand, and their walls in plan: what the scenery draws and what cars run against.
+/// Houses and their walls in plan, for the scenery that draws them and the cars that run against them.
 
 #include <cstdint>
 #include <span>
@@ -15,9 +15,9 @@ inline constexpr int building_kind_count = 3;
 /// A house in its building's frame.
 struct HouseBlock {
   double length_m, width_m;  ///< Along x and y.
-  double x_m, y_m;           ///< Of its middle.
+  double x_m, y_m;           ///< Position of its middle.
 };
-/// A farm's dwelling, barn and shed; a church's nave and tower.
+/// Blocks of a farm: dwelling, barn and shed; of a church: nave and tower.
 std::span<const HouseBlock> house_blocks(BuildingKind kind);
 
 struct Building {

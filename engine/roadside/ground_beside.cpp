@@ -18,12 +18,12 @@ namespace septet::roadside {
 namespace {
 
 constexpr double road_reach_m = 60.0;
-/// The strip beside the road as scenery/world/verges.cpp draws it: from the edge into the land, over the land's grid,
-/// and under it.
+/// Zones of the strip beside the road, as scenery/world/verges.cpp draws it: from the edge into the land, over the
+/// land's grid, and under it.
 constexpr double bank_until_m = 9.5, strip_until_m = 20.0, grid_from_m = 38.0, strip_lift_m = 0.35;
 constexpr double uneven_from_m = 2.0, uneven_until_m = 6.0;
 
-/// Bilinear between the corners of the drawn land's finest grid; keeps those of the last cell.
+/// Bilinear height between the corners of the drawn land's finest grid; keeps those of the last cell.
 class DrawnLand {
  public:
   explicit DrawnLand(const Terrain& terrain) : terrain_(terrain) {}
@@ -47,7 +47,7 @@ class DrawnLand {
   bool has_cell_ = false;
 };
 
-/// Where the nearest road ends beside a point.
+/// Edge of the nearest road beside a point.
 struct RoadEdge {
   double outside_m = std::numeric_limits<double>::infinity(), z_m = 0.0;
 };
@@ -58,7 +58,7 @@ RoadEdge edge_near(const road::RoadNetwork& roads, const Nearest& near, const Ve
   if (found) {
     const road::RoadPosition& at = found->position;
     const road::Road& road = roads.roads[at.road];
-    // Beyond a loose end the road runs on, as the terrain knows.
+    // Roads run on beyond a loose end, which the terrain has.
     if (at.s_m > 0.0 && at.s_m < road.length_m) {
       const road::RoadExtent extent = road::road_extent(road, at.s_m);
       const double t_m = std::clamp(at.t_m, extent.right_t_m, extent.left_t_m);
@@ -84,7 +84,7 @@ double height_m(const road::RoadNetwork& roads, const Terrain& terrain, DrawnLan
   if (edge.outside_m <= paved_edge_m) return edge.z_m;
   const double uneven_m = smooth_step(uneven_from_m, uneven_until_m, edge.outside_m) * unevenness_m(p);
   if (edge.outside_m >= grid_from_m) return drawn.height_m(p) + uneven_m;
-  // In a hill nobody drives: the tunnel's floor goes on as far as its walls let anybody come.
+  // No vehicle gets inside a hill: the tunnel's floor goes on as far as its walls let any vehicle come.
   if (is_in_tunnel(roads, near)) return edge.z_m;
   double land_m = terrain.height_m(p, near) + strip_lift_m;
   if (edge.outside_m > strip_until_m)
@@ -93,9 +93,9 @@ double height_m(const road::RoadNetwork& roads, const Terrain& terrain, DrawnLan
   return terrain.lanes().limited_m(p, bank_m) + uneven_m;
 }
 
-/// Waves of an uneven ground: each stands for a band of spatial frequencies and runs its own way.
+/// Wave of an uneven ground, for one band of spatial frequencies and one direction.
 struct Wave {
-  Vec2 per_m{0.0};  ///< Radians a metre, along its way.
+  Vec2 per_m{0.0};  ///< Wave vector, radians a metre.
   double amplitude_m = 0.0, phase_rad = 0.0;
 };
 
@@ -105,7 +105,7 @@ std::array<Wave, 16> waves_of(double density_m3) {
   const double ratio = std::pow(highest_pm / lowest_pm, 1.0 / static_cast<double>(waves.size()));
   double from_pm = lowest_pm;
   for (std::size_t i = 0; i < waves.size(); ++i, from_pm *= ratio) {
-    // The density falls with the square of the frequency; its integral over the band is half the amplitude squared.
+    // Density falls with the square of the frequency; its integral over the band is half the amplitude squared.
     const double variance_m2 = density_m3 * reference_pm * reference_pm * (1.0 / from_pm - 1.0 / (from_pm * ratio));
     const double way_rad = golden_rad * static_cast<double>(i),
                  number = 2.0 * std::numbers::pi * from_pm * std::sqrt(ratio);

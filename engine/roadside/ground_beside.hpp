@@ -1,10 +1,11 @@
 #pragma once
-/// The ground beside the roads as wheels find it: the land that is drawn, everywhere, standing still.
+/// Ground beside the roads for wheels: the land as it is drawn, everywhere, static.
 ///
-/// From the road's edge it falls into the land over the width of the verge; farther out it is the grid of the drawn
-/// land, between whose corners it is bilinear. Ditches are drawn and not felt: the way into the land is one even bank.
-/// On it lies the unevenness of a meadow (ISO 8608: a sum of waves of the class's density, between 1 and 20 m long, in
-/// all directions), which pictures are too coarse to show. Beside a lower road it is no higher than earth stands (lane_levels.hpp).
+/// It falls from the road's edge into the land over the width of the verge; farther out it is the grid of the drawn
+/// land, bilinear between its corners. Ditches are drawn but have no effect: the transition into the land is one even
+/// bank. Unevenness of a meadow lies on it (ISO 8608: a sum of waves of the class's density, between 1 and 20 m long,
+/// in all directions), for which the drawn grid is too coarse. Beside a lower road it is no higher than earth stands
+/// (lane_levels.hpp).
 ///
 /// Pure functions; safe from many threads. World frame, metres.
 
@@ -16,15 +17,15 @@
 
 namespace septet::roadside {
 
-/// Of grass; values with their sources: ground_beside.toml.
+/// Properties of grass; values with their sources: ground_beside.toml.
 struct GroundCover {
   double friction = 0.0;            ///< Peak coefficient, dry.
-  double rolling_resistance = 1.0;  ///< Times that of asphalt.
+  double rolling_resistance = 1.0;  ///< Multiple of the rolling resistance of asphalt.
   double roughness_m3 = 0.0;        ///< Displacement power spectral density at 0.1 cycles/m.
 };
 const GroundCover& meadow();
 
-/// Nearer than this to the lanes the ground is level across and paved, as the road is.
+/// Distance from the lanes within which the ground is level across and paved, as the road is.
 inline constexpr double paved_edge_m = 0.7;
 
 struct GroundBeside {
@@ -32,12 +33,12 @@ struct GroundBeside {
   Vec3 normal{0.0, 0.0, 1.0};  ///< Unit, upwards.
 };
 
-/// At a point outside the lanes. `hint`: a place on a road near it, or null; `level_m`: a world z near the ground, which tells a road from
-/// the one below it.
+/// Ground at a point outside the lanes. `hint`: a place on a road near it, or null; `level_m`: a world z near the
+/// ground, which distinguishes a road from the one below it.
 GroundBeside ground_beside(const road::RoadNetwork& roads, const Terrain& terrain, const Vec2& p,
                            const road::RoadPosition* hint, std::optional<double> level_m = std::nullopt);
 
-/// How far the meadow's unevenness lifts a point over the drawn land.
+/// Height of the meadow's unevenness at a point, over the drawn land.
 double unevenness_m(const Vec2& p);
 
 }  // namespace septet::roadside

@@ -11,12 +11,12 @@
 namespace septet::roadside {
 namespace {
 
-/// Half the diagonal of places; and how far a lane on a slope lies lower within that.
+/// Half the diagonal between places, and the tolerance for a lane's slope within that.
 constexpr double between_m = 1.42, slack_m = 0.3;
-constexpr double inside_m = 0.1;         ///< Of a lane's edge the first place lies.
-constexpr double tunnel_clear_m = 60.0;  ///< Before a mouth the hill begins.
+constexpr double inside_m = 0.1;         ///< Distance of the first place from a lane's edge.
+constexpr double tunnel_clear_m = 60.0;  ///< Distance from a tunnel's mouth within which the hill begins.
 
-/// The places across one station.
+/// Adds the places across one station.
 void add_row(const RoadShape& roads, road::RoadIndex index, double s_m, std::vector<LaneLevels::Place>& places) {
   const road::Road& road = roads.road(index);
   bool carried = false;

@@ -31,12 +31,12 @@ class LaneLevels {
   struct Place {
     Vec2 p;
     double most_m = 0.0;   ///< Ground here lies no higher.
-    bool carried = false;  ///< By a bridge: ground beside it does not matter.
+    bool carried = false;  ///< True on a bridge: ground beside it does not matter.
   };
 
   explicit LaneLevels(const RoadShape& roads);
 
-  /// `z_m`, or less where ground so high would lie over a lane or too steeply beside one.
+  /// Returns `z_m`, or less where ground so high would lie over a lane or too steeply beside one.
   double limited_m(const Vec2& p, double z_m) const;
 
   /// Calls `visit` with each place in the box and some around it.
@@ -47,7 +47,7 @@ class LaneLevels {
         for (std::uint32_t i = cell->second.first; i < cell->second.end; ++i) visit(places_[i]);
     });
   }
-  /// The least `most_m` within `reach_m` of the square that holds p; large where no lane is.
+  /// Least `most_m` within `reach_m` of the square that holds p; large where there is no lane.
   double least_near_m(const Vec2& p) const;
 
   const std::vector<Place>& places() const { return places_; }
@@ -60,7 +60,7 @@ class LaneLevels {
     double least_m = 1e300;
   };
 
-  std::vector<Place> places_;  ///< By cell.
+  std::vector<Place> places_;  ///< Sorted by cell.
   std::unordered_map<std::uint64_t, Cell> by_cell_;
   std::unordered_map<std::uint64_t, double> least_near_;
 };

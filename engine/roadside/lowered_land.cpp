@@ -13,7 +13,7 @@
 namespace septet::roadside {
 namespace {
 
-constexpr double clear_m = 0.3;  ///< Land under lanes stays as far below them.
+constexpr double clear_m = 0.3;  ///< Clearance of the land below lanes.
 constexpr int most_rounds = 60;
 
 using Shares = std::array<double, 4>;
@@ -24,7 +24,7 @@ std::array<std::uint64_t, 4> corners_of(const Vec2& low) {
           PlaneCells::key_of(x, y + 1)};
 }
 
-/// The corners' shares by either way to cut the square into triangles, round from the lower left corner.
+/// Corners' weights in both triangulations of the square, anticlockwise from the lower left corner.
 std::array<Shares, 2> shares_at(const Vec2& share) {
   const double x = share.x, y = share.y;
   const Shares rising = x > y ? Shares{1 - x, x - y, y, 0} : Shares{1 - y, 0, x, y - x};
@@ -56,7 +56,8 @@ LoweredLand::LoweredLand(const LaneLevels& lanes, const std::function<double(con
         corner->second = height_m((low + steps[k]) * land_cell_m);
     if (std::max(excess_m(at, at.shares[0]), excess_m(at, at.shares[1])) > 0.0) over.push_back(at);
   }
-  // Each place lowers the corners around it by their shares until none is left that lies under the land.
+  // Each place lowers the corners around it in proportion to their weights, until no place lies under the land or the
+  // rounds are used up.
   bool is_done = over.empty();
   for (int round = 0; round < most_rounds && !is_done; ++round) {
     is_done = true;

@@ -1,5 +1,6 @@
 #pragma once
-/// Whether a name that a road file gives holds a word, in upper or lower case; files of different makers name their objects differently.
+/// Case-insensitive search for a word in a name of a road file; files of different makers name their objects
+/// differently.
 
 #include <algorithm>
 #include <cctype>

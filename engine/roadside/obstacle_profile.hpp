@@ -1,6 +1,6 @@
 #pragma once
-/// Sizes and make of what stands beside a road, one row a kind: the scenery draws them, cars run against them, and bodies are
-/// dented at their height.
+/// Sizes and contact properties of obstacles beside a road, one row a kind: the scenery draws them, cars run against
+/// them, and bodies are dented at their height.
 
 #include "engine/roadside/signals.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
@@ -8,14 +8,15 @@
 
 namespace septet::roadside {
 
-/// Height of an obstacle that stands on the land and reaches over all that drives.
+/// Height of an obstacle that stands on the land and reaches above every vehicle.
 inline constexpr double endless_m = 1e6;
 
 struct ObstacleProfile {
-  double radius_m;     ///< Half the thickness of a line.
-  double height_m;     ///< Over the ground at its foot.
-  double friction;     ///< Of painted sheet metal sliding along it, chosen: 0.3 on steel, 0.45 on concrete and bark.
-  double yielding_kg;  ///< As Obstacle::yielding_kg.
+  double radius_m;  ///< Half the thickness of a line.
+  double height_m;  ///< Height over the ground at its foot.
+  /// Coefficient for painted sheet metal sliding along it; chosen: 0.3 on steel, 0.45 on concrete and bark.
+  double friction;
+  double yielding_kg;  ///< Same as Obstacle::yielding_kg.
 };
 
 constexpr ObstacleProfile profile_of(ObstacleKind kind) {
@@ -35,7 +36,7 @@ constexpr ObstacleProfile profile_of(ObstacleKind kind) {
     case ObstacleKind::gantry_leg:
       return {0.28, 8.0, 0.30, 0.0};
     case ObstacleKind::marker_post:
-      return {0.06, 1.05, 0.20, 3.0};  // A plastic tube.
+      return {0.06, 1.05, 0.20, 3.0};  // Plastic tube.
     case ObstacleKind::tree:
       return {0.20, endless_m, 0.45, 0.0};
     case ObstacleKind::bush:
@@ -45,7 +46,7 @@ constexpr ObstacleProfile profile_of(ObstacleKind kind) {
     case ObstacleKind::post:
       return {signal_post_radius_m, 4.0, 0.30, 0.0};
     case ObstacleKind::ground_face:
-      return {0.0, 0.0, 0.45, 0.0};  // Its height is found under way (simulation/ground_faces.hpp).
+      return {0.0, 0.0, 0.45, 0.0};  // Height is found during the drive (simulation/ground_faces.hpp).
   }
   return {0.1, 1.0, 0.4, 0.0};
 }

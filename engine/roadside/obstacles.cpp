@@ -25,7 +25,7 @@ namespace {
 
 constexpr PlaneCells obstacle_cells{32.0};
 constexpr double most_reach_m = 30.0;
-constexpr std::uint32_t stem_runs = 0x8000'0000u;  // Numbers of what is not in the list.
+constexpr std::uint32_t stem_runs = 0x8000'0000u;  // Run numbers of obstacles outside the list.
 
 class Builder {
  public:
@@ -33,7 +33,7 @@ class Builder {
 
   void point(ObstacleKind kind, const Vec3& foot_m, double radius_m) { add(kind, run_++, foot_m, foot_m, radius_m); }
 
-  /// A run of straight stretches; what joins within it is closed.
+  /// Adds a run of straight stretches, whose inner joints are closed.
   void line(ObstacleKind kind, const std::vector<Vec3>& points_m) {
     if (points_m.size() < 2) return;
     for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
@@ -64,7 +64,7 @@ class Builder {
   std::uint32_t run_ = 0;
 };
 
-/// Joins what goes on from one tile to the next.
+/// Joins a line's pieces from one tile to the next.
 class LineJoiner {
  public:
   LineJoiner(Builder& builder, ObstacleKind kind) : builder_(builder), kind_(kind) {}
@@ -193,12 +193,11 @@ void add_house(const RigidTransform& world_from_house, const HouseBlock& block, 
     return world_from_house * Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
   };
   const std::array<Vec3, 4> corners{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
-  for (std::size_t i = 0; i < corners.size();
-       ++i)  // Each wall is a thing of its own: two are met at once without one hiding the other.
+  for (std::size_t i = 0; i < corners.size(); ++i)  // Own run for each wall: two are met at once, neither is hidden.
     builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]});
 }
 
-/// What the file places: trees and lamps are among those above and below.
+/// Adds objects of the road file, except its trees and lamps, which are among those above and below.
 void add_objects(const RoadShape& roads, Builder& builder) {
   for (const StandingObject& object : standing_objects(roads)) {
     if (object.kind == StandingKind::pole)
@@ -259,7 +258,8 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
     }
 }
 
-/// A rail that goes on as another one, of the next road or of another make, has no end to run into.
+/// Closes the ends of rails that continue as another one, of the next road or of another make: they are no ends to run
+/// into.
 void Obstacles::close_ends() {
   struct End {
     Vec2 at, outwards;
@@ -303,8 +303,8 @@ std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m) cons
       if (distance_m(obstacles_[i], p) < reach_m + obstacles_[i].radius_m) numbers.push_back(i);
   });
   std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()),
-                numbers.end());  // Not std::ranges::unique: clang 14 cannot compile it.
+  // Uses std::unique, as clang 14 cannot compile std::ranges::unique.
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   for (const std::uint32_t i : numbers) found.push_back(obstacles_[i]);
   if (may_be_wood)
     for (const Stem& stem : wood_stems(terrain_, seed_, p, reach_m)) {

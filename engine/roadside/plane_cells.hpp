@@ -1,5 +1,5 @@
 #pragma once
-/// Squares of the plane, by which things are found near a place.
+/// Grid of squares in the plane, for look-ups near a place.
 
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace septet::roadside {
 
-/// Squares of `cell_m` along each axis, each with a key for a hash table.
+/// Grid of squares `cell_m` wide, each with a key for a hash table.
 struct PlaneCells {
   double cell_m = 1.0;
 

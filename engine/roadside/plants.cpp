@@ -14,7 +14,7 @@
 namespace septet::roadside {
 namespace {
 
-/// A stand of spruce ready to be thinned has about a thousand stems to the hectare.
+/// Spacing of a stand of spruce ready to be thinned: about a thousand stems to the hectare.
 constexpr double stem_spacing_m = 3.2;
 
 void plant_tile(const Terrain& terrain, std::uint64_t seed, const Vec2& corner, double side_m, Random& random,
@@ -22,7 +22,7 @@ void plant_tile(const Terrain& terrain, std::uint64_t seed, const Vec2& corner, 
   constexpr double step = 16.0;
   for (double y = 0; y < side_m; y += step)
     for (double x = 0; x < side_m; x += step) {
-      // One after the other: which argument of a call a compiler evaluates first is its own choice.
+      // Drawn one after the other: a compiler may evaluate a call's arguments in any order.
       const double left = random.uniform(0, step), ahead = random.uniform(0, step);
       const Vec2 p = corner + Vec2(x + ahead, y + left);
       const double chance = random.uniform(), choice = random.uniform();
@@ -32,8 +32,8 @@ void plant_tile(const Terrain& terrain, std::uint64_t seed, const Vec2& corner, 
         continue;
       const double wood = terrain.woodland(p), group = geometry::fractal_noise(p.x / 95.0, p.y / 95.0, 2, seed + 9);
       double density = 0.012 + (group > 0.28 ? 0.20 : 0.0) + (wood > 0.02 && wood < 0.98 ? 0.38 : 0.0);
-      if (wood > 0.5 && near.outside_m < 55.0) density = 0.55;  // The wood's edge towards the road.
-      if (wood > 0.5 && near.outside_m > 75.0) density = 0.05;  // Its inside is one canopy.
+      if (wood > 0.5 && near.outside_m < 55.0) density = 0.55;  // Edge of the wood towards the road.
+      if (wood > 0.5 && near.outside_m > 75.0) density = 0.05;  // Inside of the wood, which is one canopy.
       if (near.outside_m < 22.0) density *= 0.55;
       if (chance > density) continue;
       const bool conifers = geometry::fractal_noise(p.x / 300.0, p.y / 300.0, 2, seed + 11) > 0.05;
@@ -53,7 +53,7 @@ Vec2 corner_of(const Vec2& p, double side_m) {
   return {std::floor(p.x / side_m) * side_m, std::floor(p.y / side_m) * side_m};
 }
 
-/// Size of the land's cells where p lies.
+/// Size of the land's cells at p.
 double cell_at(const Terrain& terrain, const Vec2& p) {
   const auto distance_m = [&](double side_m) { return terrain.distance_m(corner_of(p, side_m) + Vec2(side_m / 2)); };
   if (distance_m(far_land_tile_m) > far_land_from_m) return far_land_cell_m;

@@ -20,7 +20,7 @@ namespace {
 constexpr PlaneCells area_cells{16.0};
 constexpr double margin_m = 1.0;
 constexpr double stone_m = 0.15;  // Width of a kerb stone where the file gives none.
-constexpr double step_m = 2.0;    // Of a long kerb, so that it bends with its road.
+constexpr double step_m = 2.0;    // Step along a long kerb, so that it bends with its road.
 constexpr double lowest_m = 0.005;
 constexpr std::size_t most_areas = 50'000, most_corners = 1'000, most_corners_of_all = 500'000, most_cells = 1'000'000;
 constexpr double widest_m = 500.0, storey_m = 1.0;
@@ -36,7 +36,7 @@ bool is_raised(const road::RoadObject& object) {
   return says_kerb(object.type) || says_kerb(object.subtype) || says_kerb(object.name);
 }
 
-/// Where an object stands: x along it, z off the road.
+/// Placement of an object: x along it, z off the road.
 struct Stand {
   road::RoadPosition at;
   double up_m = 0.0;
@@ -57,7 +57,7 @@ class AreaBuilder {
   }
 
  private:
-  /// `over_m`: of the top over the road's surface.
+  /// `over_m`: height of the top over the road's surface.
   struct Corner {
     Vec3 top_m;
     double over_m;
@@ -74,7 +74,8 @@ class AreaBuilder {
 
   void add_area(const road::RoadPosition& at, const std::vector<Corner>& corners) {
     if (corners.size() < 3) return;
-    // Whoever is on an area asks each of its sides, and its top is cut into triangles: that goes with the square of its corners.
+    // A query on an area tests each of its sides, and its top is triangulated: the cost grows with the square of its
+    // corners.
     if (corners.size() > most_corners || corners.size() > corners_left_) return void(complete_ = false);
     const double most_m = std::ranges::max(corners, {}, &Corner::over_m).over_m;
     if (!(most_m > lowest_m && most_m <= highest_kerb_m)) return;

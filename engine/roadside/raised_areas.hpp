@@ -1,12 +1,14 @@
 #pragma once
-/// Kerbs and traffic islands that a road file gives as objects: what the scenery draws and what wheels climb.
+/// Kerbs and traffic islands that a road file gives as objects, for the scenery that draws them and the wheels that
+/// climb them.
 ///
-/// OpenDRIVE 1.8, §13: objects of type `trafficIsland`, and any object (but paint) whose type, subtype or name says kerb or curb;
-/// the standard has no type of its own for a single kerb. Their shape is their outlines, else their box or circle, along their
-/// repeats where they have some. An outline that is not closed is a kerb stone along its line. What rises more than
-/// `highest_kerb_m` is a wall and no kerb, and nothing here. (Kerbs that are lanes of another height belong to the road's surface.)
+/// OpenDRIVE 1.8, §13: objects of type `trafficIsland`, and any object (but paint) whose type, subtype or name says
+/// kerb or curb; the standard has no type of its own for a single kerb. Their shape is their outlines, else their box
+/// or circle, along their repeats where they have some. An outline that is not closed is a kerb stone along its line.
+/// Objects higher than `highest_kerb_m` are walls and left out here. (Kerbs that are lanes of another height belong to
+/// the road's surface.)
 ///
-/// Worked out once, then const, safe to read from many threads. World frame, metres.
+/// Computed once, then const, safe to read from many threads. World frame, metres.
 
 #include <cstdint>
 #include <span>
@@ -20,8 +22,8 @@ namespace septet::roadside {
 inline constexpr double highest_kerb_m = 0.3;
 
 struct RaisedArea {
-  road::RoadIndex road = 0;  ///< Of the object.
-  double s_m = 0.0;          ///< Where it begins.
+  road::RoadIndex road = 0;  ///< Road of the object.
+  double s_m = 0.0;          ///< Station of its beginning.
   std::vector<Vec3> top_m;   ///< Corners of its upper edge, world frame; the last one is joined to the first.
   Vec2 low_m{0.0}, high_m{0.0};
 };
@@ -30,20 +32,20 @@ class RaisedAreas {
  public:
   explicit RaisedAreas(const road::RoadNetwork& network);
 
-  /// World z of the ground at p where the road's surface lies at `road_z_m`: that, or the highest area within a metre above it
-  /// (others lie on a bridge). Inside an area the height is that of the nearest place of its edge: a lowered stretch is lowered
-  /// across.
+  /// World z of the ground at p where the road's surface lies at `road_z_m`: that, or the highest area within a metre
+  /// above it (others lie on a bridge). Inside an area the height is that of the nearest place of its edge, so that a
+  /// lowered stretch is lowered across.
   double ground_at(const Vec2& p, double road_z_m) const;
-  /// Whether an area may lie within `reach_m` (at most 1) of p.
+  /// True if an area may lie within `reach_m` (at most 1) of p.
   bool is_near(const Vec2& p, double reach_m) const;
 
   std::span<const RaisedArea> all() const { return areas_; }
-  /// False where the file has more or larger ones than can be (engine/road/CHECKS.md): the rest is left out.
+  /// False where the file has more or larger ones than the limits (engine/road/CHECKS.md): the rest is left out.
   bool complete() const { return complete_; }
 
  private:
   std::vector<RaisedArea> areas_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;  ///< With a metre around each area.
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;  ///< Areas by cell, with a metre around each.
   bool complete_ = true;
 };
 

@@ -34,7 +34,7 @@ double RoadShape::free_overrun_m(road::RoadIndex index, bool at_end, double most
         if (other.position.road != index || std::abs(other.position.s_m - end_m) > look_m) return true;
     return false;
   };
-  // A loose end that lies on another road's lanes has no way out at all.
+  // A loose end that lies on another road's lanes has no overrun at all.
   for (double beyond_m = 0.5; beyond_m < most_m; beyond_m += look_m)
     if (meets(beyond_m)) return std::max(0.0, beyond_m - look_m - verge_m);
   return most_m;
@@ -51,7 +51,7 @@ road::RoadPoint RoadShape::at(road::RoadIndex index, double s_m, double t_m) con
   if (const double beyond = s_m - inside; beyond != 0.0) {
     point.position_m.x += std::cos(point.heading_rad) * beyond;
     point.position_m.y += std::sin(point.heading_rad) * beyond;
-    // The grade runs out within the first few hundred metres.
+    // Fade of the grade within the first few hundred metres.
     constexpr double run_out_m = 250.0;
     point.position_m.z -= std::tan(point.pitch_rad) * run_out_m * std::tanh(beyond / run_out_m);
   }
@@ -127,7 +127,7 @@ std::vector<double> close_stations(const RoadShape& roads, const RoadTile& tile,
                off = edge(0.5 * (s0_m + s1_m), side) - 0.5 * (from + to);
     const Vec2 chord(to - from);
     const double length = glm::length(chord);
-    // Only what lies across the chord is an error: stations are not evenly spaced along an edge.
+    // Only the distance across the chord is an error: stations are not evenly spaced along an edge.
     const double aside = length > 0.0 ? std::abs(chord.x * off.y - chord.y * off.x) / length : glm::length(Vec2(off));
     return aside > most_aside_m || std::abs(off.z) > most_over_m;
   };

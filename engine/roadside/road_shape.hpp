@@ -1,6 +1,5 @@
 #pragma once
-/// The roads with what stands beside them: evaluated anywhere, carried on straight beyond loose ends,
-/// and cut into tiles.
+/// Roads for their surroundings: evaluated anywhere, extended straight beyond loose ends, and cut into tiles.
 
 #include <vector>
 
@@ -11,8 +10,8 @@
 
 namespace septet::roadside {
 
-/// A stretch of one road with one lane section and one kind of surroundings. Its frame lies in its
-/// middle on the reference line, x along the road, z up.
+/// Stretch of one road with one lane section and one kind of surroundings. Its frame lies in its middle on the
+/// reference line, x along the road, z up.
 struct RoadTile {
   road::RoadIndex road = 0;
   double s0_m = 0.0, s1_m = 0.0;
@@ -22,13 +21,13 @@ struct RoadTile {
   double middle_m() const { return 0.5 * (s0_m + s1_m); }
 };
 
-/// How far a road that is linked to nothing runs on.
+/// Length by which a road runs on beyond an end without a link.
 inline constexpr double usual_overrun_m = 1500.0;
 
 class RoadShape {
  public:
-  /// `overrun_m`: how far a road runs on beyond an end that is linked to nothing. One that would run over another road's
-  /// lanes ends before them.
+  /// `overrun_m`: length by which a road runs on beyond an end without a link. An overrun that would reach another
+  /// road's lanes ends before them.
   RoadShape(const road::RoadNetwork& network, double overrun_m);
 
   const road::RoadNetwork& network() const { return network_; }
@@ -38,13 +37,13 @@ class RoadShape {
   double end_m(road::RoadIndex index) const;
 
   road::RoadPoint at(road::RoadIndex index, double s_m, double t_m) const;
-  /// `up_m` along the surface's normal.
+  /// Point `up_m` along the surface's normal.
   Vec3 point(road::RoadIndex index, double s_m, double t_m, double up_m = 0.0) const;
-  /// In the tile's frame.
+  /// Point in the tile's frame.
   glm::vec3 local(const RoadTile& tile, double s_m, double t_m, double up_m = 0.0) const;
   glm::vec3 local(const RoadTile& tile, const Vec3& world_m) const;
 
-  /// The structure of a kind at a station, or nullptr.
+  /// Structure of a kind at a station, or nullptr.
   const road::RoadStructure* structure_at(road::RoadIndex index, double s_m, road::RoadStructure::Kind kind) const;
 
   /// Tiles of at most `length_m`, in order of road and station.
@@ -62,8 +61,9 @@ std::vector<double> stations(const RoadTile& tile, double step_m);
 
 /// Stations within a tile at which a lane's height steps.
 std::vector<double> height_steps(const RoadShape& roads, const RoadTile& tile);
-/// As `stations`, with those of height_steps, and so close that straight pieces between them leave the lanes' edges by no more than 3 cm in plan and 1 cm in height
-/// (down to 0.6 m apart, at most some 128 of them): what is drawn in a bend lies where wheels find it.
+/// Same as `stations`, with those of height_steps, and so close that straight pieces between them leave the lanes'
+/// edges by no more than 3 cm in plan and 1 cm in height (down to 0.6 m apart, at most some 128 of them): the drawn
+/// bend lies where wheels find it.
 std::vector<double> close_stations(const RoadShape& roads, const RoadTile& tile, double most_step_m);
 
 }  // namespace septet::roadside

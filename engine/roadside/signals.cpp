@@ -15,7 +15,7 @@ namespace {
 constexpr double highest_paint_m = 0.1, usual_bottom_m = 2.1, light_height_m = 0.95, light_width_m = 0.32;
 
 bool is_light_type(std::string_view type) {
-  // The catalogue of OpenDRIVE: 1000001 vehicles, 1000002 pedestrians, from 1000007 on further forms of lamps.
+  // Catalogue of OpenDRIVE: 1000001 vehicles, 1000002 pedestrians, from 1000007 on further forms of lamps.
   return type.size() == 7 && type.starts_with("10000") && type != "1000003" && type != "1000004" && type != "1000005" &&
          type != "1000006";
 }
@@ -81,7 +81,7 @@ std::vector<StandingSignal> standing_signals(const RoadShape& roads) {
         standing.width_m = usual(signal.width_m, 0.6, 0.2, 8.0);
         standing.height_m = usual(signal.height_m, standing.width_m, 0.2, 8.0);
       }
-      // Over what hangs at this place already.
+      // Raised above the signals at this place.
       for (std::size_t i = first; i < result.size(); ++i) {
         const StandingSignal& other = result[i];
         if (glm::distance(other.world_from_signal.position_m, at.position_m) > 0.5 ||

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_footprint_corners = 200;
 
-/// Nothing for what is no standing thing, or is one that others draw.
+/// Kind of a standing object; null for others, and for those that other files draw.
 std::optional<StandingKind> standing_kind_of(const road::RoadObject& object) {
   const std::string& type = object.type;
   constexpr std::array elsewhere{"gantry", "crosswalk", "trafficIsland", "parkingSpace", "patch",
@@ -37,7 +37,7 @@ std::optional<StandingKind> standing_kind_of(const road::RoadObject& object) {
     return StandingKind::lamp;
   if (type == "tree") return StandingKind::tree;
   if (type == "vegetation") {
-    if (!object.outlines.empty()) return std::nullopt;  // An area that is grown over.
+    if (!object.outlines.empty()) return std::nullopt;  // Area of vegetation.
     return object.height_m > 3.0 || mentions(object.subtype, "tree") || mentions(object.name, "tree")
                ? StandingKind::tree
                : StandingKind::bush;
@@ -48,7 +48,7 @@ std::optional<StandingKind> standing_kind_of(const road::RoadObject& object) {
   return std::nullopt;
 }
 
-/// The same corners against the clock; none where they span no area.
+/// Corners in anticlockwise order; empty where they span no area.
 std::vector<Vec2> against_the_clock(std::vector<Vec2> corners) {
   double twice_area = 0.0;
   for (std::size_t i = 0, before = corners.size() - 1; i < corners.size(); before = i++)
@@ -63,7 +63,7 @@ std::vector<Vec2> box_corners(double length_m, double width_m) {
   return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-/// What stands along an outline that is not closed: there on one side, and back on the other.
+/// Outline of a strip along an open line: there on one side, and back on the other.
 std::vector<Vec2> strip_along(const std::vector<Vec2>& line, double width_m) {
   std::vector<Vec2> there, back;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -91,7 +91,7 @@ class ObjectBuilder {
  private:
   void add_row(road::RoadIndex index, const road::RoadObject& object, StandingKind kind,
                const road::ObjectRepeat& repeat) {
-    // A continuous row of such things is drawn as things that touch.
+    // A continuous row of objects is drawn as objects that touch.
     const double step_m = std::max({repeat.distance_m > 0.0 ? repeat.distance_m : object.length_m, 1.0});
     for (double on = 0.0; on <= repeat.length_m + 1e-6 && objects_.size() < most_standing_objects; on += step_m) {
       const double share = repeat.length_m > 0.0 ? on / repeat.length_m : 0.0;
@@ -114,7 +114,7 @@ class ObjectBuilder {
     standing.kind = kind;
     standing.world_from_object = {at.position_m + Vec3(0, 0, std::clamp(up_m, -50.0, 50.0)),
                                   orientation_from_angles(turn, 0.0, 0.0)};
-    // Up to 1.3 a height may stand at the corners alone.
+    // Height at the corners alone, as files up to OpenDRIVE 1.3 may give it.
     if (!(height_m > 0.0) && object.repeats.empty() && !object.outlines.empty())
       for (const road::OutlineCorner& corner : object.outlines.front().corners)
         height_m = std::max(height_m, corner.height_m);
@@ -122,7 +122,7 @@ class ObjectBuilder {
     standing.height_m = height_m > 0.0 ? height_m : usual_m[static_cast<std::size_t>(kind)];
     if (standing.height_m > highest_object_m) return;
     if (kind == StandingKind::lamp) {
-      // Its arm reaches over the road.
+      // Arm of the lamp, over the road.
       const double across = at.heading_rad + (t_m > 0.0 ? -0.5 : 0.5) * std::numbers::pi;
       standing.world_from_object.orientation = orientation_from_angles(across, 0.0, 0.0);
     }

@@ -1,10 +1,11 @@
 #pragma once
-/// What a road file itself says stands beside its roads: buildings, lamps, trees, poles and whatever else has a height. What the scenery draws and what cars
-/// run against. Where a file gives houses or lamps, none are made up (street.hpp).
+/// Standing objects that a road file gives beside its roads: buildings, lamps, trees, poles and all others with a
+/// height, for the scenery that draws them and the cars that run against them. Where a file gives houses or lamps, no
+/// others are generated (street.hpp).
 ///
-/// OpenDRIVE 1.8, §13: objects by their type, along their repeats where they have some; their shape is their closed outline, else their
-/// circle, else their box. Kerbs and islands are raised areas, barriers along the road lines (barrier_lines.hpp), gantries and crossings what they are elsewhere. Of a size that is not
-/// given a usual one is taken. World frame, metres.
+/// OpenDRIVE 1.8, §13: objects by their type, along their repeats where they have some; their shape is their closed
+/// outline, else their circle, else their box. Left to other files: kerbs and islands (raised areas), barriers along
+/// the road (barrier_lines.hpp), gantries and crossings. Missing sizes get usual values. World frame, metres.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,20 +20,20 @@ enum class StandingKind : std::uint8_t { building, lamp, tree, bush, pole, block
 
 struct StandingObject {
   StandingKind kind = StandingKind::block;
-  RigidTransform world_from_object;  ///< Its foot; x as the object's u.
+  RigidTransform world_from_object;  ///< Pose of its foot; x along the object's u.
   double height_m = 1.0;
-  double radius_m = 0.0;  ///< Of poles; of others 0.
-  std::vector<Vec2>
-      footprint_m;  ///< Of buildings and blocks: corners against the clock, in the object's frame; at least three.
+  double radius_m = 0.0;  ///< Radius of poles; 0 for others.
+  /// Corners of buildings and blocks, anticlockwise, in the object's frame; at least three.
+  std::vector<Vec2> footprint_m;
 };
 
 inline constexpr std::size_t most_standing_objects = 5'000;
 inline constexpr double highest_object_m = 200.0, widest_object_m = 300.0;
 
-/// In the file's order; what is larger than the limits or has no extent is left out.
+/// Objects in the file's order; those larger than the limits or without extent are left out.
 std::vector<StandingObject> standing_objects(const RoadShape& roads);
 
-/// Does the file give any of this kind?
+/// True if the file gives any of this kind.
 bool gives(const road::RoadNetwork& network, StandingKind kind);
 
 }  // namespace septet::roadside

@@ -23,7 +23,7 @@ constexpr std::size_t most_houses = 6000;
 constexpr double house_clear_m = 2.0, signal_clear_m = 3.0, least_gap_m = 2.5;
 constexpr PlaneCells house_cells{32.0};
 
-/// How far p lies from the nearest road's lanes; `far` where there is none near.
+/// Distance from p to the nearest road's lanes, at most 8 m.
 double off_roads_m(const road::RoadNetwork& network, const Vec2& p) {
   const auto found = road::locate(network, p, nullptr, 8.0);
   return found ? found->lanes.outside_m : 8.0;
@@ -49,7 +49,7 @@ class LotBuilder {
 
   void line(road::RoadIndex index, double side, Random& random) {
     const road::Road& road = roads_.road(index);
-    // From one lot to the next; one that is not clear is left empty.
+    // Lots follow one another; a lot that is not clear is left empty.
     double s = random.uniform(4.0, 10.0);
     while (s < road.length_m && houses_.size() < most_houses) {
       const double choice = random.uniform(), gap = random.uniform(5.0, 12.0), back = random.uniform(4.0, 7.0);

@@ -1,8 +1,8 @@
 #pragma once
-/// What a town's streets are lined with: houses and lamps. What the scenery draws and what cars run against.
+/// Houses and lamps along a town's streets, for the scenery that draws them and the cars that run against them.
 ///
-/// The same network and seed give the same streets. No house stands on a lane of any road (a lawn excepted), in a junction or before a
-/// signal; no lamp on a lane that is driven on. World frame, metres.
+/// The same network and seed give the same streets. No house stands on a lane of any road (a lawn excepted), in a
+/// junction or before a signal; no lamp on a lane that is driven on. World frame, metres.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ namespace septet::roadside {
 enum class TownHouseKind : std::uint8_t { cottage, house, block };
 inline constexpr int town_house_kind_count = 3, town_house_colour_count = 4;
 
-/// Along the street and away from it.
+/// Sizes along the street and away from it.
 struct TownHouseSize {
   double length_m, depth_m;
 };
@@ -23,17 +23,17 @@ TownHouseSize size_of(TownHouseKind kind);
 struct TownHouse {
   TownHouseKind kind = TownHouseKind::house;
   int colour = 0;
-  RigidTransform world_from_house;  ///< Its middle at the ground; x along the street, which lies towards −y.
+  RigidTransform world_from_house;  ///< Pose of its middle at the ground; x along the street, which lies towards −y.
 };
 std::vector<TownHouse> town_houses(const RoadShape& roads, std::uint64_t seed);
 
 struct StreetLamp {
-  RigidTransform world_from_lamp;  ///< Its foot; x towards the road.
+  RigidTransform world_from_lamp;  ///< Pose of its foot; x towards the road.
 };
-/// Those of the file, or where it has none those that street_lighting.hpp plans.
+/// Lamps of the file, or where it has none those planned by street_lighting.hpp.
 std::vector<StreetLamp> street_lamps(const RoadShape& roads);
 
-/// Whether p lies in a house or within `margin_m` of it.
+/// True if p lies in a house or within `margin_m` of it.
 bool is_in_house(const std::vector<TownHouse>& houses, const Vec2& p, double margin_m);
 
 }  // namespace septet::roadside

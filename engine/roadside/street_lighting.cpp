@@ -20,14 +20,16 @@ constexpr double least_apart_m = 8.0, clear_of_signal_m = 4.0, row_spacing_m = 3
 constexpr double from_kerb_m = 0.45, pavement_for_pole_m = 1.5;
 constexpr double sample_m = 3.0, candidate_m = 3.0, candidate_reach_m = 32.0;
 constexpr double enough_lux = 11.0;
-constexpr double least_lux = 6.6, least_of_mean = 0.42;  ///< On any place of a lane, to be over what the standard asks.
+/// Targets for any place of a lane, above those of the standard.
+constexpr double least_lux = 6.6, least_of_mean = 0.42;
 constexpr PlaneCells light_cells{LampLight::reach_m}, candidate_cells{candidate_reach_m};
 
 bool is_kept_free(road::LaneType type) {
   return type != road::LaneType::none && type != road::LaneType::sidewalk && type != road::LaneType::curb;
 }
 
-/// Beside the lanes that are driven on: on the pavement there if a pole leaves room on it, else behind it.
+/// Lateral position of a pole beside the lanes that are driven on: on the pavement there if a pole leaves room on it,
+/// else behind it.
 double pole_t(const road::Road& road, double s_m, double side) {
   const road::LaneSection& section = road::section_at(road, s_m);
   const int count = side > 0 ? section.left_count : section.right_count;
@@ -59,7 +61,7 @@ class LampPlan {
   std::vector<StreetLamp> made() {
     for (const Candidate& at : crossings_) take(at);
     for (road::RoadIndex index = 0; index < roads_.network().roads.size(); ++index) row(index);
-    // A lane that is dark first, then one that is uneven beside what others have brought it.
+    // Dark lanes first, then lanes that are uneven beside the light of other lanes' lamps.
     for (road::RoadIndex index = 0; index < roads_.network().roads.size(); ++index)
       light_up(index, [](double) { return least_lux; });
     for (road::RoadIndex index = 0; index < roads_.network().roads.size(); ++index)
@@ -79,7 +81,7 @@ class LampPlan {
            !roads_.structure_at(index, s_m, road::RoadStructure::Kind::tunnel);
   }
 
-  /// Nothing where a pole may not stand.
+  /// Null where a pole may not stand.
   std::optional<Candidate> candidate(road::RoadIndex index, double s_m, double side) const {
     const road::Road& road = roads_.road(index);
     if (!is_lit(index, s_m)) return std::nullopt;
@@ -104,7 +106,7 @@ class LampPlan {
         if (auto found = candidate(index, s, side)) {
           candidates_[candidate_cells.key_at(Vec2(found->lamp.world_from_lamp.position_m))].push_back(*found);
         }
-    // A walker is seen against what the lamp before the crossing lights.
+    // Position before the crossing: a pedestrian is seen against the ground that this lamp lights.
     constexpr double before_m = 2.0;
     for (const road::RoadObject& object : road.objects)
       if (object.type == "crosswalk")
@@ -130,7 +132,7 @@ class LampPlan {
     for (int i = 0; i <= steps; ++i) {
       const double s = first + (steps > 0 ? length * i / steps : 0.0);
       side = -side;
-      // Lamps of a road beside it or across it do for both.
+      // Lamps of a road beside it or across it serve both.
       if (light_.lux(roads_.at(index, s, road::outer_border_t_m(road, road::section_at(road, s), 0, s)).position_m) >
           enough_lux)
         continue;
@@ -139,7 +141,7 @@ class LampPlan {
     }
   }
 
-  /// Places near both edges of a lane, all along the stretch of its section.
+  /// Places near both edges of a lane, along the whole stretch of its section.
   std::vector<Vec3> places_on(road::RoadIndex index, std::size_t section_index, int lane) const {
     const road::Road& road = roads_.road(index);
     const road::LaneSection& section = road.sections[section_index];
@@ -157,7 +159,7 @@ class LampPlan {
     return places;
   }
 
-  /// Where a lane that is driven on is darker than `least` of what is all along it.
+  /// Adds lamps where a lane that is driven on is darker than `least` of its mean.
   void light_up(road::RoadIndex index, const auto& least) {
     const road::Road& road = roads_.road(index);
     for (std::size_t n = 0; n < road.sections.size(); ++n) {
@@ -174,7 +176,7 @@ class LampPlan {
     }
   }
 
-  /// Of the free places near by the one whose lamp gives most there, if that is worth one.
+  /// Adds the free lamp near by that gives the most light there, if that is worth one.
   bool add_best(const Vec3& ground_m) {
     constexpr double worth_lux = 0.5;
     const Candidate* best = nullptr;

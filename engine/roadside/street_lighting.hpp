@@ -1,9 +1,11 @@
 #pragma once
-/// Where street lamps stand so that a town's lanes are lit as EN 13201 asks of such streets: 7.5 lx in the mean, 0.35 of the mean at least (classes P2 and C5).
+/// Street lamps of a town, placed so that its lanes are lit as EN 13201 demands of such streets: 7.5 lx in the mean,
+/// and everywhere at least 0.35 of the mean (classes P2 and C5).
 ///
-/// First one on each side of a crossing, then a row along every street, on one side and the other by turns, then what is still dark is looked for on all lanes, in
-/// junctions too, and gets the lamp that lights it most of those places that are free. No lamp stands within 8 m of another, whichever road either belongs
-/// to, on a lane that is driven on, or before a signal. A pole stands at the kerb, on a pavement that is wide enough, else behind it.
+/// Lamps are placed first on each side of a crossing, then in a row along every street, on alternate sides; then all
+/// lanes, in junctions too, are searched for dark places, each of which gets the lamp that lights it most among the
+/// free positions. No lamp stands within 8 m of another, of any road, on a lane that is driven on,
+/// or before a signal. A pole stands at the kerb, on a pavement that is wide enough, else behind it.
 ///
 /// The same network gives the same lamps. World frame, metres.
 
@@ -17,23 +19,23 @@
 
 namespace septet::roadside {
 
-inline constexpr std::size_t most_lamps = 12000;  ///< Of a network; further ones are left away.
+inline constexpr std::size_t most_lamps = 12000;  ///< Limit for a network; further lamps are left out.
 
-/// Of a network whose file places none itself (street_lamps asks).
+/// Lamps of a network whose file places none itself, which street_lamps checks.
 std::vector<StreetLamp> planned_lamps(const RoadShape& roads);
 
-/// What lamps give level ground at places, lx. Keeps the lamps by where they stand.
+/// Illuminance of level ground by lamps, lx. Lamps are indexed by position.
 class LampLight {
  public:
   explicit LampLight(const std::vector<StreetLamp>& lamps = {});
   void add(const StreetLamp& lamp);
-  /// At a place of the ground.
+  /// Illuminance at a place of the ground.
   double lux(const Vec3& ground_m) const;
-  /// Whether a lamp's pole stands within this distance, less than `reach_m`.
+  /// True if a lamp's pole stands within this distance, less than `reach_m`.
   bool stands_near(const Vec2& p, double distance_m) const;
 
-  static constexpr double reach_m =
-      40.0;  ///< Further away a lamp gives less than a thousandth of what it gives below it.
+  /// Reach of a lamp: further away it gives less than a thousandth of its illuminance straight below.
+  static constexpr double reach_m = 40.0;
 
  private:
   struct Placed {

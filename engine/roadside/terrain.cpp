@@ -35,7 +35,7 @@ double Terrain::meander_m(double across_m) {
 }
 
 std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double side_m, double reach_m) {
-  // By y first, then by x; neighbours in the list mostly name the same squares.
+  // Sorted by y, then by x; neighbours in the list mostly name the same squares.
   std::set<std::pair<std::int64_t, std::int64_t>> found;
   for (const Vec2& place : places) {
     const Vec2 first = glm::floor((place - reach_m) / side_m - 0.5), last = glm::ceil((place + reach_m) / side_m - 0.5);
@@ -55,7 +55,7 @@ void Terrain::add_samples(const RoadShape& roads, road::RoadIndex index) {
     double from_m, to_m;
     bool after_deck, before_deck;
   };
-  // A road on a deck has no ground of its own.
+  // Decks have no ground of their own.
   std::vector<Stretch> stretches{{roads.begin_m(index), roads.end_m(index), false, false}};
   std::vector<std::pair<double, double>> decks;
   for (const road::RoadStructure& structure : road.structures)
@@ -169,7 +169,7 @@ std::vector<glm::i64vec2> Terrain::squares_near(double side_m, double within_m) 
 double Terrain::height_m(const Vec2& p, const Nearest& near) const { return land_m(p, near) - lowered_.by_m(p); }
 
 double Terrain::land_m(const Vec2& p, const Nearest& near) const {
-  // The level of the roads around, and hills that grow with the distance from them.
+  // Level of the roads around, and hills that grow with the distance from them.
   double weights = 0.0, level = 0.0, least = 1e9;
   for (const Sample& sample : coarse_) {
     const double square = glm::dot(p - Vec2(sample.position_m), p - Vec2(sample.position_m));
@@ -183,7 +183,7 @@ double Terrain::land_m(const Vec2& p, const Nearest& near) const {
   land += smooth_step(500.0, 3600.0, distance) *
           (55.0 + 85.0 * geometry::fractal_noise(p.x / 1700.0, p.y / 1700.0, 4, seed_ + 1));
   if (!near.found) {
-    // Nothing else: too far from every road for cut and fill.
+    // Unchanged: too far from every road for cut and fill.
   } else {
     const double fill = near.edge_z_m - (near.outside_m <= 0.0 ? 1.3 : 0.9);
     land = std::lerp(fill, land, smooth_step(9.0, 150.0, near.outside_m));

@@ -1,8 +1,8 @@
 #pragma once
-/// Which stretches of road lie in a town: kerbs and lawns instead of ditches, houses and lamps beside them, no marker posts.
+/// Stretches of road in a town: kerbs and lawns instead of ditches, houses and lamps beside them, no marker posts.
 ///
-/// A road says so by its type (OpenDRIVE 1.8, §8.3 with e_roadType: town and what belongs to it); one without a type by its pavements; one
-/// within a junction by the roads that lead into it.
+/// A road's type decides (OpenDRIVE 1.8, §8.3 with e_roadType: town and its variants, lowSpeed, pedestrian, bicycle);
+/// for a road without a type its pavements; for one within a junction the roads that lead into it.
 
 #include "engine/road/road_network.hpp"
 

@@ -16,7 +16,7 @@ Unsigned little_endian(const std::uint8_t* bytes) {
 }
 
 std::uint8_t byte_of_unit(double value) {
-  if (!(value > 0.0)) return 0;  // also NaN
+  if (!(value > 0.0)) return 0;  // NaN gives 0, too.
   return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0) * 255.0));
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Fills a store with scenery: meshes, images, materials and placed objects, in the conventions of CONVENTIONS.md.
 ///
-/// Everything goes through commands, so that the scenery can be replicated, changed and logged like any other content.
+/// All content goes through commands, so that the scenery can be replicated, changed and logged like any other content.
 /// A call with values that a store would refuse (not finite, index out of range, over a limit) is a bug of the caller
 /// and stops the program.
 
@@ -46,9 +46,9 @@ struct MaterialParameters {
 };
 
 struct ObjectParameters {
-  RigidTransform parent_from_object{};  ///< Pose; of an object without a parent: world_from_object.
+  RigidTransform parent_from_object{};  ///< Pose; world_from_object for an object without a parent.
   glm::vec3 scale{1.0f};
-  NodeId geometry = no_node;        ///< An object without geometry groups its children.
+  NodeId geometry = no_node;        ///< No geometry: the object groups its children.
   std::vector<NodeId> materials{};  ///< Entry k is for the polygons of material index k.
   float visible_from_m = 0.0f;
   float visible_to_m = 1e9f;

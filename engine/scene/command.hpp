@@ -44,7 +44,7 @@ struct PartSubscribe {
 
 // ---- every node
 
-/// As a request the id is `no_node`; the server assigns one (Store::assign_id).
+/// Creation of a node: `no_node` as a request; the server assigns an id (Store::assign_id).
 struct NodeCreate {
   NodeId node = no_node;
   NodeType type = NodeType::object;
@@ -122,8 +122,7 @@ struct GeometrySizeSet {
   std::uint32_t polygons = 0;
   bool operator==(const GeometrySizeSet&) const = default;
 };
-/// Creates a layer with every value at the default; of a layer that exists, renames it, or (another
-/// type) makes it anew.
+/// Creates a layer with every value at the default; renames an existing one, or makes it anew if its type differs.
 struct GeometryLayerSet {
   NodeId node = no_node;
   PartId layer = 0;
@@ -197,7 +196,7 @@ struct BitmapSizeSet {
   std::uint32_t width = 0, height = 0, depth = 1;
   bool operator==(const BitmapSizeSet&) const = default;
 };
-/// Creates a layer of zeros; of a layer that exists, renames it, or (another type) makes it anew.
+/// Creates a layer of zeros; renames an existing one, or makes it anew if its type differs.
 struct BitmapLayerSet {
   NodeId node = no_node;
   PartId layer = 0;

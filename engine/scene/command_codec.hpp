@@ -1,9 +1,9 @@
 #pragma once
 /// Commands to bytes and back, as specified in COMMANDS.md.
 ///
-/// The decoder trusts nothing: it is bounded in time and memory (COMMANDS.md), refuses values out of range, not finite,
-/// over a limit or followed by rubbish, and never stops the program. A number of vertices, polygons or reals that all
-/// lie on a grid of 2^-k is sent as small integers, so meshes snapped to a grid are about a third of the size.
+/// The decoder trusts no input: it is bounded in time and memory (COMMANDS.md), refuses values out of range, not finite
+/// or over a limit, and trailing bytes, and never stops the program. Vertices, polygons or reals that all lie on a grid
+/// of 2^-k are sent as small integers, so meshes snapped to a grid are about a third of the size.
 
 #include <cstddef>
 #include <span>

@@ -20,7 +20,7 @@ struct Lobe {
 
 struct Lobes {
   Lobe plain;  ///< Light of its own.
-  Lobe lit;    ///< In proportion to the light that falls on it.
+  Lobe lit;    ///< Light in proportion to the light that falls on it.
   Lobe mirror;
   Lobe through;
   float refraction_index = 1.5f;
@@ -180,7 +180,7 @@ T tag_or(const Node& node, const char* name, T otherwise) {
   return typed ? *typed : otherwise;
 }
 
-/// Finite and moderate numbers for a renderer, whatever the tree.
+/// Finite and moderate numbers for a renderer, for any tree.
 glm::vec3 moderate(const glm::vec3& color, float most) {
   const auto one = [&](float value) { return value > 0.0f ? std::min(value, most) : 0.0f; };
   return {one(color.r), one(color.g), one(color.b)};

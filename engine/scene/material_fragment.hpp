@@ -123,7 +123,7 @@ struct RampFragment {
   RampKind kind = RampKind::linear;
   RampChannel channel = RampChannel::red;  ///< Channel of `mapping` that runs along the ramp.
   FragmentId mapping = no_fragment;
-  std::vector<RampPoint> points;  ///< At least one; positions rise.
+  std::vector<RampPoint> points;  ///< Points, at least one; positions rise.
   bool operator==(const RampFragment&) const = default;
 };
 

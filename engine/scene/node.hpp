@@ -107,8 +107,8 @@ constexpr std::uint32_t layer_width(LayerType type) {
 inline constexpr PartId base_vertex_layer = 0xFFFF;
 inline constexpr PartId base_polygon_layer = 0xFFFE;
 
-/// A named value for every vertex, corner or face. Exactly one of the two arrays is in use, of
-/// (vertices or polygons) × layer_width values.
+/// Named value for every vertex, corner or face. Exactly one of the two arrays is in use, of (vertices or polygons) ×
+/// layer_width values.
 struct GeometryLayer {
   std::string name;
   LayerType type = LayerType::vertex_real;
@@ -129,8 +129,7 @@ struct Crease {
 
 struct GeometryData {
   std::vector<glm::vec3> vertices_m;     ///< The base vertex layer.
-  std::vector<PolygonCorners> polygons;  ///< The base polygon layer; a polygon whose first corner is no_vertex is
-                                         ///< absent.
+  std::vector<PolygonCorners> polygons;  ///< Base polygon layer; a polygon whose first corner is no_vertex is absent.
   std::map<PartId, GeometryLayer> layers;
   Crease vertex_crease, edge_crease;
   std::uint64_t shape_revision = 0;  ///< Revision of vertices_m and polygons.

@@ -26,12 +26,12 @@ struct DrawnObject {
   Transform transform;
   bool hidden = false;
   NodeId geometry = no_node;
-  std::vector<std::pair<std::uint32_t, NodeId>> materials;  ///< By face material index, rising.
+  std::vector<std::pair<std::uint32_t, NodeId>> materials;  ///< Materials by face material index, rising.
   std::vector<NodeId> children;
   float visible_from_m = 0.0f, visible_to_m = 1e9f;
   PartRole role = PartRole::fixed;
   bool casts_shadow = true;
-  std::uint32_t mesh = 0;  ///< Its slot when it was last placed.
+  std::uint32_t mesh = 0;  ///< Slot at its last placement.
 };
 
 /// Meshes are shared by objects that have geometry and materials in common.
@@ -40,7 +40,7 @@ using MeshKey = std::pair<NodeId, std::vector<std::pair<std::uint32_t, NodeId>>>
 struct MeshSlot {
   MeshKey key;
   std::uint64_t made_from = 0;  ///< The geometry node's revision.
-  std::uint64_t last_used = 0;  ///< The last pass of place_instances in which an instance had it.
+  std::uint64_t last_used = 0;  ///< Last pass of place_instances in which an instance used it.
 };
 
 template <class T>
@@ -106,7 +106,7 @@ class Slots {
 struct Resolver::State {
   ResolvedScene scene;
   std::uint64_t seen = 0;        ///< The store's revision at the last update.
-  std::uint64_t seen_index = 0;  ///< Its index revision.
+  std::uint64_t seen_index = 0;  ///< The store's index revision at that update.
   std::uint64_t placing = 0;     ///< Counts the passes of place_instances.
 
   std::map<NodeId, DrawnObject> objects;

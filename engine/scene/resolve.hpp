@@ -4,9 +4,9 @@
 /// Incremental: `update` compares the revisions and redoes only parts that changed since its last call, so that a flood
 /// of commands costs no more than the nodes that they touched. Slots of ResolvedScene keep their index for as long as
 /// their node is in use; slots of removed content are emptied (with a new revision), and an emptied mesh slot is used
-/// again. The reading of nodes is fixed in CONVENTIONS.md. Content that makes no sense (a dangling link, a polygon with
-/// a corner out of range, a loop of children or fragments) is left out or neutral, never an error: the store holds
-/// whatever the network brought.
+/// again. The reading of nodes is fixed in CONVENTIONS.md. Meaningless content (a dangling link, a polygon with a
+/// corner out of range, a loop of children or fragments) is left out or neutral, never an error: the store holds any
+/// content that the network brought.
 
 #include <cstdint>
 #include <memory>

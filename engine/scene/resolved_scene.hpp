@@ -37,7 +37,7 @@ struct SurfaceMesh {
   glm::vec3 bounds_min_m{0.0f}, bounds_max_m{0.0f};
 };
 
-/// 8-bit RGBA, rows from the top. Mip levels are the renderer's business.
+/// 8-bit RGBA, rows from the top. Mip levels are made by the renderer.
 struct TextureImage {
   std::uint64_t revision = 0;
   std::uint32_t width = 0, height = 0;
@@ -55,8 +55,8 @@ struct SurfaceMaterial {
   float metallic = 0.0f;
   float opacity = 1.0f;
   float refraction_index = 1.5f;
-  glm::vec3 emission{
-      0.0f};  ///< Relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
+  /// Radiance relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
+  glm::vec3 emission{0.0f};
   bool takes_paint = false;  ///< base_color is multiplied by the participant's paint.
   bool wettable = false;     ///< Darkens and reflects with the road's wetness.
   /// A thin stripe, whose uv.x runs from 0 at one edge to 1 at the other. A rasteriser draws it no thinner than it can
@@ -70,14 +70,15 @@ struct SurfaceMaterial {
   /// Share of the sky's light, and the sun's, that reaches it: 1 in the open, 0 in a tunnel, whose lamps then light it.
   /// The bounds of an instance with a material below ½ dim vehicles that drive through them.
   float share_of_sky = 1.0f;
-  float clear_coat = 0.0f;  ///< Share of it under a clear coat.
+  float clear_coat = 0.0f;  ///< Share of its area under a clear coat.
   /// True: its triangles are visible from both sides; false: culled from behind. Cut-out and transparent ones are
   /// always two-sided. Shadows are cast by either side of all.
   bool two_sided = false;
   /// Share of the sky's and the ground's light that passes close surroundings, where no ray is traced: 1 in the open,
   /// 0.35 on a dashboard. Excludes the sun's, for which shadows are drawn.
   float ambient_share = 1.0f;
-  bool lit_by_night = false;  ///< A window: its emission comes with the night; it is visible and lights nothing.
+  /// True for a window: its emission comes with the night; it is visible and lights no other surface.
+  bool lit_by_night = false;
 };
 
 /// Source of a part's motion or light on a vehicle.
@@ -93,18 +94,19 @@ enum class PartRole : std::uint8_t {
   lamp_indicator_right,
   lamp_head,
   lamp_tail,
-  signal_red,  ///< Of a traffic light, here and below.
+  signal_red,  ///< Lamp of a traffic light, as are the next two.
+  /// Limbs of a walking person, to arm_right: engine/world/limbs.hpp. A shin stands at the place of its thigh.
   signal_amber,
   signal_green,
   beacon,
   steering_wheel,
-  leg_left,  ///< Of a walking person, here and below: engine/world/limbs.hpp. A leg's shin stands where its thigh does.
+  leg_left,
   leg_right,
   shin_left,
   shin_right,
   arm_left,
   arm_right,
-  pedalling_leg_left,  ///< Of a cyclist; with the rear wheel.
+  pedalling_leg_left,  ///< Limbs of a cyclist, to crank; they move with the rear wheel.
   pedalling_leg_right,
   pedalling_shin_left,
   pedalling_shin_right,
@@ -114,7 +116,7 @@ enum class PartRole : std::uint8_t {
 /// One placed mesh.
 struct Instance {
   std::uint32_t mesh = 0;
-  RigidTransform world_from_object;  ///< In a prototype: vehicle_from_object.
+  RigidTransform world_from_object;  ///< Pose; vehicle_from_object in a prototype.
   glm::vec3 scale{1.0f};
   float visible_from_m = 0.0f;  ///< Drawn while the eye's distance is in [visible_from_m, visible_to_m).
   float visible_to_m = 1e9f;

@@ -1,7 +1,7 @@
 #pragma once
 /// The node store: the world's content, as the server owns it and as a screen mirrors it.
 ///
-/// All change goes through `apply`. A command may come from the network: whatever it holds, it is either applied whole
+/// Every change goes through `apply`. A command may come from the network: with any content, it is either applied whole
 /// or refused with a reason, and a refused one changes nothing. Memory is bounded by StoreLimits. Iteration is in order
 /// of id, so that equal stores give equal command streams. Not safe to share between threads while it is changed.
 

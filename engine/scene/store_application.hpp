@@ -56,7 +56,7 @@ struct Store::Application {
     touch(owner);
     return {};
   }
-  /// Destroys a part; false where there is none.
+  /// Destroys a part; false where it does not exist.
   template <class Key, class Part>
   bool destroy_part(Node& owner, std::map<Key, Part>& parts, Key id) const {
     const auto found = parts.find(id);

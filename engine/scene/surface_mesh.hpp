@@ -17,7 +17,7 @@ geometry::PolygonMesh polygons_of(const GeometryData& geometry);
 SurfaceMesh triangulate(const geometry::PolygonMesh& mesh,
                         const std::function<std::uint32_t(std::uint32_t)>& material_of);
 
-/// Both, with the node's subdivision.
+/// Combines the two, with the node's subdivision.
 SurfaceMesh surface_of_geometry(const Node& node, const std::function<std::uint32_t(std::uint32_t)>& material_of);
 
 }  // namespace septet::scene

@@ -1,6 +1,6 @@
 #pragma once
-/// Text on signs and plates. Where the font is missing the text is left out: the scenery is still
-/// worth driving through, and Font::find's error is the business of whoever starts the program.
+/// Text on signs and plates. Where the font is missing the text is left out: the scenery remains usable, and
+/// Font::find's error is reported by the program that starts.
 
 #include <optional>
 #include <string_view>

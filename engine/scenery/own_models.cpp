@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 12> things{"oak",        "birch",      "s
                                                   "red-farm",   "white-farm", "church",      "cottage",
                                                   "town-house", "town-block", "street-lamp", "sign-post"};
 
-/// "wheel_front_left.001" is a wheel: modelling programs number what has the same name.
+/// Removes the number that modelling programs append to equal names: "wheel_front_left.001" is a wheel.
 std::string_view without_number(std::string_view name) { return name.substr(0, name.find('.')); }
 
 Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const gltf::Model& model) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Materials by name for polygons: a mesh is drawn with indices into a palette, and only what it
-/// uses is linked when it is added to the scene.
+/// Materials by name for polygons: a mesh is drawn with indices into a palette, and only the materials in use are
+/// linked when it is added to the scene.
 
 #include <string_view>
 #include <vector>
@@ -13,7 +13,7 @@ namespace septet::scenery {
 /// Material nodes in the order of the indices that meshes of this palette use.
 using Palette = std::vector<scene::NodeId>;
 
-/// How a mesh is placed and seen; the rest of ObjectParameters comes from the mesh and the palette.
+/// Placement and visibility of a mesh; the rest of ObjectParameters comes from the mesh and the palette.
 struct Placement {
   RigidTransform parent_from_object;
   glm::vec3 scale{1.0f};
@@ -22,7 +22,7 @@ struct Placement {
   bool casts_shadow = true;
 };
 
-/// A mesh in the scene with the materials that it wears: what instances are made of.
+/// Mesh in the scene with its materials, from which instances are made.
 struct Shape {
   scene::NodeId geometry = scene::no_node;
   std::vector<scene::NodeId> materials;

@@ -53,7 +53,7 @@ void add_trunk(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
   add_blob(b, {0.60f, 0, 1.65f}, {0.125f, 0.095f, 0.075f}, splits);
 }
 
-/// Both cranks with their pedals: the left one on top, as pedalling_leg has it.
+/// Both cranks with their pedals: the left one on top, as in pedalling_leg.
 geometry::PolygonMesh cranks(std::uint32_t sides) {
   MeshBuilder b;
   b.material = index_of(Finish::trim);

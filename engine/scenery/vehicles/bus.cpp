@@ -17,11 +17,11 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// The lines of a bus in side view; heights from the ground.
+/// Lines of a bus in side view; heights from the ground.
 struct BusShape {
   float front, rear, half, height, ground, window_low, window_high, lean;
-  int doors;     ///< On the right side.
-  bool lockers;  ///< Under a coach's high floor.
+  int doors;     ///< Number on the right side.
+  bool lockers;  ///< True for lockers under a coach's high floor.
 };
 
 BusShape bus_shape(const VehicleModel& model) {
@@ -49,7 +49,7 @@ geometry::PolygonMesh hull(const BusShape& s, DetailLevel level) {
   return hull;
 }
 
-/// Near by one sees in: what is behind the panes of `body`, which are cut out of what is drawn of it.
+/// Interior of a near bus, visible through the panes that are cut out of `body`.
 struct Saloon {
   MeshBuilder& builder;
   const geometry::PolygonMesh& body;
@@ -62,7 +62,7 @@ struct Saloon {
     draw_patch(builder, body, face, rectangle(face, low, high), options);
   }
 
-  /// Draws what is left of the body, lined, and a floor with low walls.
+  /// Draws the rest of the body, lined, and a floor with low walls.
   void close(const BusShape& s) {
     builder.material = index_of(Finish::paint);
     builder.append(open, glm::mat4(1.0f), true);
@@ -78,7 +78,7 @@ struct Saloon {
   }
 };
 
-/// The driver, and rows of two and two with whoever rides.
+/// Driver, and rows of two and two passengers, some seats empty.
 VehicleParts passengers(const BusShape& s) {
   const float head = s.window_low + 0.36f, first = s.front - 2.6f, last = s.rear + 1.0f;
   std::vector<SeatPlace> places{{{s.front - 1.15f - 0.6f * s.lean, 0.62f, head}}};
@@ -138,7 +138,7 @@ void add_faces(MeshBuilder& builder, const BusShape& s, const VehicleModel& mode
   }
   if (far) return;
   const float front_door = s.front - 1.25f;
-  // Doors are of glass; what is beside the windows has been drawn with them.
+  // Doors are of glass; the area beside the windows is drawn with them.
   const float door_top = fine ? s.window_low - 0.02f : s.window_high;
   patch(Finish::glass, Face::right, {front_door, 0.5f}, {front_door + 0.95f, door_top});
   if (s.doors > 1) patch(Finish::glass, Face::right, {2.2f, 0.5f}, {3.4f, door_top});
@@ -164,7 +164,7 @@ VehicleParts bus_parts(const VehicleModel& model) {
     MeshBuilder builder;
     add_faces(builder, s, model, level);
     if (level == DetailLevel::far) {
-      builder.material = index_of(Finish::glass);  // As dark as tyres, and one draw less.
+      builder.material = index_of(Finish::glass);  // Dark as tyres, which saves one draw.
       for (const float x : {0.0f, static_cast<float>(model.wheelbase_m)})
         for (const float side : {1.0f, -1.0f}) {
           const float y = side * (s.half + 0.01f), r = 0.5f * side;

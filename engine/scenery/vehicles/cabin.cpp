@@ -11,7 +11,7 @@ namespace {
 using geometry::MeshBuilder;
 using geometry::PolygonMesh;
 
-/// The cabin's room: between the feet of windscreen and rear window, over the belt line.
+/// Interior of the cabin: between the feet of windscreen and rear window, over the belt line.
 struct Cabin {
   float rear, front, half, floor, belt, head_z;
 };
@@ -40,11 +40,11 @@ PolygonMesh open_body(const CarSurface& car) {
     if (window.face == Face::left) open = cut_out(open, Face::right, mirrored(window.outline), options);
   }
   const Cabin cabin = cabin_of(car);
-  // The inside of roof, pillars and doors: what encloses the cabin, from behind and a little further in.
+  // Lining of roof, pillars and doors: the cabin's enclosure, from behind and a little further in.
   MeshBuilder lining;
   lining.material = index_of(Finish::cabin);
   add_lining(lining, open, cabin.belt - 0.02f, cabin.rear - 0.1f, cabin.front + 0.1f);
-  // A tub under the windows, as narrow behind as the tail is.
+  // Tub under the windows, as narrow at the rear as the tail.
   const float y = 0.88f * cabin.half, rear_y = std::min(y, 0.86f * car.half_width_m() * car.shape.tail_half_width);
   const bool goods = carries_goods(car.model);
   const float x = goods ? cabin.rear : cabin.rear + 0.12f, low = cabin.floor, top = cabin.belt + 0.02f;

@@ -23,7 +23,8 @@ const glm::vec3 foot(windscreen::foot_left_m), head(windscreen::head_left_m);
 const glm::vec3 roof_end{0.05f, 0.60f, 1.40f}, rear_foot{-0.62f, 0.70f, 0.97f};
 constexpr float floor_z = 0.30f, belt_z = 0.95f, door_y = 0.80f, bulkhead_x = 2.50f;
 
-/// From below the windscreen's foot up along its edge and back along the roof's, on the left: right is towards the car's middle, up into the cabin.
+/// Path from below the windscreen's foot up along its edge and back along the roof's, on the left: right is towards the
+/// car's middle, up into the cabin.
 std::vector<geometry::PathFrame> edge_of_roof() {
   const std::array<glm::vec3, 4> places{foot + (foot - head) * 0.12f, foot, head, roof_end};
   std::vector<geometry::PathFrame> path;
@@ -36,13 +37,14 @@ std::vector<geometry::PathFrame> edge_of_roof() {
   return path;
 }
 
-/// A bar of flat faces along the roof's edge.
+/// Adds a bar of flat faces along the roof's edge.
 void add_sweep(MeshBuilder& builder, CockpitFinish finish, std::span<const glm::vec2> profile) {
   builder.material = index_of(finish);
   builder.append(geometry::extrude(profile, edge_of_roof(), true), glm::mat4(1.0f), true);
 }
 
-/// The left pillar and the roof's edge, which are one: the trim within, the seal of the windscreen on one side of it, the door's frame with its own on the other.
+/// Adds the left pillar and the roof's edge, which are one: the trim inside, the windscreen's seal on one side of it,
+/// the door's frame with its own seal on the other.
 void add_pillar(MeshBuilder& builder) {
   constexpr std::array<glm::vec2, 6> trim{{{-0.026f, -0.018f},
                                            {0.028f, -0.018f},
@@ -65,7 +67,7 @@ void add_pillar(MeshBuilder& builder) {
   add_sweep(builder, CockpitFinish::rubber, glass_seal);
 }
 
-/// Sides of the cabin on the left: the doors below their windows, the pillars between and behind them.
+/// Adds the left side of the cabin: doors below their windows, pillars between and behind them.
 void add_side(MeshBuilder& builder) {
   builder.material = index_of(CockpitFinish::panel);
   builder.patch({rear_foot.x, door_y, floor_z}, {bulkhead_x, door_y, floor_z}, {bulkhead_x, door_y, 0.93f},
@@ -89,7 +91,7 @@ geometry::PolygonMesh cabin_frame() {
   add_side(left);
   builder.append(left.mesh());
   builder.append(geometry::mirrored_y(left.mesh()));
-  // The roof before and above the driver, and two sun visors folded against it.
+  // Roof before and above the driver, and two sun visors folded against it.
   builder.material = index_of(CockpitFinish::lining);
   const float y = head.y + 0.03f;
   builder.patch({head.x + 0.02f, y, head.z - 0.01f}, {head.x + 0.02f, -y, head.z - 0.01f},
@@ -104,7 +106,7 @@ geometry::PolygonMesh cabin_frame() {
         geometry::box({head.x - 0.17f, from, head.z - 0.030f}, {head.x - 0.01f, to, head.z - 0.012f}, 0.006f),
         glm::mat4(1.0f), true);
   }
-  // Floor, bulkheads and the shelf below the rear window: light comes in by the windows alone.
+  // Floor, bulkheads and the shelf below the rear window: light comes in through the windows alone.
   builder.material = index_of(CockpitFinish::carpet);
   const float x = rear_foot.x;
   builder.patch({x, door_y, floor_z}, {x, -door_y, floor_z}, {bulkhead_x, -door_y, floor_z},

@@ -18,7 +18,7 @@ using geometry::PolygonMesh;
 
 constexpr int station_count = 15, side_points = 5, ring_points = 2 * side_points + 1;
 
-/// What the body looks like along its length, in world measures.
+/// Extents of the body, in world measures.
 struct Lines {
   float rear, front, axle_front, radius, half_width, height;
 };
@@ -29,7 +29,7 @@ Lines lines_of(const VehicleModel& model) {
           static_cast<float>(model.width_m / 2),      static_cast<float>(model.height_m)};
 }
 
-/// Station of the lower body: tail, rear wheel arch (2…6), door, front wheel arch (8…12), nose.
+/// Stations of the lower body: tail, rear wheel arch (2…6), door, front wheel arch (8…12), nose.
 std::array<float, station_count> station_x(const Lines& l) {
   const float r = l.radius;
   std::array<float, station_count> x{l.rear,
@@ -77,7 +77,7 @@ float taper(int station, const CarShape& shape) {
   }
 }
 
-/// The middle line over the car and the belt line beside it.
+/// Point of the middle line over the car, and of the belt line beside it.
 struct UpperPoint {
   float x, top, rail, rail_half_width, belt_x, belt;
 };
@@ -100,7 +100,7 @@ std::array<UpperPoint, station_count> upper_points(const Lines& l, const CarShap
   for (int i = 3; i <= 8; ++i) {
     const float t = static_cast<float>(i - 3) / 5.0f;
     const float at = std::lerp(roof_rear, roof_front, t);
-    // A roof is highest a little before its middle and falls to both ends.
+    // Roofs are highest a little before their middle and fall to both ends.
     const float fall = 0.075f * (t - 0.55f) * (t - 0.55f) * 4.0f;
     const float belt_x = std::lerp(std::lerp(backlight, roof_rear, 0.45f), std::lerp(cowl, roof_front, 0.22f), t);
     u[i] = {at, roof - fall, roof - fall - s.roof_arch_m, roof_w, belt_x, std::lerp(s.belt_rear_m, s.belt_front_m, t)};
@@ -160,7 +160,7 @@ CarShape car_shape(const VehicleModel& model) {
     s = {0.18f, 0.98f, 1.02f, 1.00f, 0.82f, 1.06f, 0.98f,  0.12f,
          0.98f, 0.30f, 0.08f, 0.72f, 0.76f, 0.92f, 0.050f, true};
   } else if (model.name == "dropside-van" || model.name == "box-van") {
-    // A cab with a low back, on which a bed or a box stands.
+    // Cab with a low back, on which a bed or a box stands.
     s = {0.24f, 1.28f, 1.20f, 1.22f, 0.98f, 1.00f, 0.98f, 0.22f,
          1.02f, 3.00f, 2.72f, 0.82f, 0.82f, 0.98f, 0.05f, false};
   } else if (model.name == "estate") {

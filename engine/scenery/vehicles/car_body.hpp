@@ -1,16 +1,16 @@
 #pragma once
-/// The bodies of cars, vans and ambulances as control cages.
+/// Bodies of cars, vans and ambulances as control cages.
 ///
-/// A cage is a grid: stations along the car, and on each station a ring of points from one sill
-/// over the roof to the other. The shape's numbers place the few lines that tell one kind of car
-/// from another. Vehicle frame (rigid_transform.hpp), metres.
+/// A cage is a grid: stations along the car, and on each station a ring of points from one sill over the roof to the
+/// other. The shape's numbers place the few lines that distinguish the kinds of cars. Vehicle frame
+/// (rigid_transform.hpp), metres.
 
 #include "engine/geometry/polygon_mesh.hpp"
 #include "engine/world/vehicle_model.hpp"
 
 namespace septet::scenery {
 
-/// The lines of a car in side view. x is measured as the names say, z from the ground.
+/// Lines of a car in side view. x is measured as the names say, z from the ground.
 struct CarShape {
   float ground_m = 0.17f;         ///< Height of the sill.
   float belt_front_m = 0.93f;     ///< Lower edge of the side windows at the windscreen…
@@ -23,20 +23,20 @@ struct CarShape {
   float roof_front_m = 1.45f;     ///< Head of the windscreen, behind the front axle.
   float roof_rear_m = 1.15f;      ///< Head of the rear window, before the tail.
   float backlight_m = 0.48f;      ///< Foot of the rear window, before the tail.
-  float roof_half_width = 0.66f;  ///< Shares of half the width.
+  float roof_half_width = 0.66f;  ///< Share of half the width, as are the next two.
   float nose_half_width = 0.74f;
   float tail_half_width = 0.84f;
-  float roof_arch_m = 0.045f;  ///< The roof's middle over its rails.
-  bool third_window = false;   ///< Estates have one behind the rear doors.
+  float roof_arch_m = 0.045f;  ///< Height of the roof's middle over its rails.
+  bool third_window = false;   ///< True for estates, which have one behind the rear doors.
 };
 
-/// The shape of a model of the catalogue; lorry, motorcycle and pedestrian have none (checked).
+/// Shape of a model of the catalogue; lorry, motorcycle and pedestrian have no such shape (checked).
 CarShape car_shape(const VehicleModel& model);
 
-/// The cage. After `subdivision_level` steps its bounds are those of the model.
+/// Control cage. After `subdivision_level` steps its bounds are those of the model.
 geometry::PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape, std::uint32_t subdivision_level);
 
-/// A body of a few dozen polygons with its windows, for far away; materials are Finish indices.
+/// Body of a few dozen polygons with its windows, for far away; materials are Finish indices.
 geometry::PolygonMesh car_body_far(const VehicleModel& model, const CarShape& shape);
 
 }  // namespace septet::scenery

@@ -16,13 +16,13 @@ namespace {
 using geometry::MeshBuilder;
 using scene::PartRole;
 
-/// Lamps of one role. Each is a part of its own, so that it shines where it is.
+/// Lamps of one role. Each is a part of its own, so that it shines at its position.
 class LampPen {
  public:
   LampPen(const CarSurface& car, VehicleParts& parts, const char* name, PartRole role, Finish finish)
       : car_(car), parts_(parts), name_(name), role_(role), finish_(finish) {}
 
-  /// A rectangle on the car's left; `low` is nearer to the middle.
+  /// Draws a rectangle on the car's left; `low` is nearer to the middle.
   void left(Face face, glm::vec2 low, glm::vec2 high) { draw(face, low, high); }
   void right(Face face, glm::vec2 low, glm::vec2 high) { draw(face, {-high.x, low.y}, {-low.x, high.y}); }
   void both(Face face, glm::vec2 low, glm::vec2 high) {
@@ -43,7 +43,7 @@ class LampPen {
   }
 
  private:
-  /// Flat, before the outermost point of the body that it covers.
+  /// Draws a flat plate before the outermost point of the body that it covers.
   void draw_plate(Face face, glm::vec2 low, glm::vec2 high) {
     const bool ahead = face == Face::front;
     std::optional<float> x;
@@ -74,7 +74,7 @@ VehicleParts car_lamps(const CarSurface& car) {
   LampPen head(car, parts, "lamp head", PartRole::lamp_head, Finish::lens_head);
   head.both(Face::front, {0.50f * nose, lamp_low}, {0.93f * nose, lamp_top});
 
-  // From the outside in and from below: tail and brake, indicator, reverse.
+  // Order from the outside in and from below: tail and brake, indicator, reverse.
   const float outer = 0.95f * tail, inner = (van ? 0.80f : 0.56f) * tail;
   const float top = van ? 1.30f : s.tail_m - 0.055f, low = van ? 0.80f : s.tail_m - 0.235f;
   const float middle = (top * 0.45f + low * 0.55f), between = van ? inner : (inner * 0.62f + outer * 0.38f);

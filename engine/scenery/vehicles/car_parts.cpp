@@ -18,7 +18,7 @@ VehiclePart part(std::string name, PolygonMesh mesh, std::uint32_t subdivision_l
   return {std::move(name), std::move(mesh), subdivision_level, {Placement{}}};
 }
 
-/// Dark discs on the flanks stand in for the wheels of a far car.
+/// Draws dark discs on the flanks in place of a far car's wheels.
 void add_far_wheels(geometry::MeshBuilder& builder, const VehicleModel& model) {
   builder.material = index_of(Finish::tyre);
   const auto r = static_cast<float>(model.wheel_radius_m), y = static_cast<float>(model.width_m / 2) + 0.01f;
@@ -51,7 +51,7 @@ VehicleParts car_parts(const VehicleModel& model) {
       if (ambulance) builder.append(livery(surface));
       of_level.push_back(part("body" + suffix, builder.take()));
     } else {
-      // Near by one looks in: the surface is cut here, not on the screen.
+      // Windows are open near by: the surface is cut here, not on the screen.
       if (level == DetailLevel::near) {
         of_level.push_back(part("body" + suffix, open_body(surface)));
         for (VehiclePart& inside : occupants(surface)) {

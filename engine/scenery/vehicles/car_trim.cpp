@@ -36,7 +36,7 @@ struct TrimPen {
     builder.material = index_of(finish);
     draw_patch(builder, car.body, face, outline, patch);
   }
-  /// Near by the body has a hole there, and so has its frame.
+  /// Draws a window; a near body has a hole there, and so has its frame.
   void window(const Window& window) const {
     const PatchOptions glass = window_options(car, window.face, 0.009f);
     const Finish finish = fine && window.clear ? Finish::clear_glass : Finish::glass;
@@ -80,7 +80,7 @@ void draw_seams(const TrimPen& pen, const Glasshouse& g) {
   handle(van ? g.roof_front - 0.62f : g.pillar + 0.19f);
   if (!van) handle(radius * 0.9f + 0.22f);
   if (van) return;
-  // The bonnet's edge in front of the windscreen.
+  // Edge of the bonnet in front of the windscreen.
   const float half = car.half_width_m();
   pen.one(Finish::trim, Face::top,
           {{{{g.cowl + 0.03f, 0.72f * half},

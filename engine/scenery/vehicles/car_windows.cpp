@@ -54,7 +54,7 @@ void add_van_windows(std::vector<Window>& windows, const CarSurface& car, const 
                           {0.80f * half, top + 0.06f},
                           {-0.80f * half, top + 0.06f}}}});
   if (car.model.name == "minibus" || car.model.name == "police-van") {
-    // Passengers look out as far as the tail.
+    // Windows for passengers reach as far as the tail.
     const float from = g.roof_front - 0.86f, to = static_cast<float>(-car.model.rear_overhang_m) + 0.28f;
     for (int k = 0; k < 3; ++k) {
       const float a = std::lerp(from, to, static_cast<float>(k) / 3.0f),
@@ -95,7 +95,7 @@ std::vector<Window> car_windows(const CarSurface& car) {
 }
 
 PatchOptions window_options(const CarSurface& car, Face face, float lift_m) {
-  // What is flatter than this is roof or bonnet.
+  // Flatter surfaces are roof or bonnet.
   constexpr float steepest = 0.2f;
   const float corner_cut = car.level == DetailLevel::near ? 0.10f : 0.0f;
   return face == Face::left ? PatchOptions{lift_m, corner_cut} : PatchOptions{lift_m, corner_cut, steepest};

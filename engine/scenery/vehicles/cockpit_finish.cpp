@@ -12,13 +12,14 @@ struct InsideLook {
   const char* name;
   glm::vec3 color;  ///< Linear Rec. 709.
   float roughness;
-  /// Of the sky's light what comes in by the windows to where it mostly lies: found by the ray tracer (tests/images/cabin_slow_test.cpp).
+  /// Share of the sky's light that comes through the windows to the material's usual place: computed by the ray tracer
+  /// (tests/images/cabin_slow_test.cpp).
   float ambient_share;
   float metallic = 0.0f;
-  float glow = 0.0f;  ///< Of the picture's own colours.
+  float glow = 0.0f;  ///< Emission, as a factor of the picture's own colours.
 };
 
-/// In the order of CockpitFinish.
+/// Looks in the order of CockpitFinish.
 constexpr std::array<InsideLook, 14> inside_looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.28f, 1.0f},
     {"soft", {0.060f, 0.060f, 0.062f}, 0.95f, 0.55f},

@@ -1,5 +1,5 @@
 #pragma once
-/// What the inside of the driver's car is made of, and the faces of its instruments.
+/// Materials of the inside of the driver's car, and the faces of its instruments.
 
 #include <cstdint>
 
@@ -8,8 +8,8 @@
 namespace septet::scenery {
 
 enum class CockpitFinish : std::uint32_t {
-  paint,  ///< The bonnet's.
-  soft,   ///< The top of the dashboard: dull, or it would be seen in the windscreen.
+  paint,  ///< Paint of the bonnet.
+  soft,   ///< Top of the dashboard: dull, or the windscreen would mirror it.
   panel,
   lining,
   leather,
@@ -18,7 +18,7 @@ enum class CockpitFinish : std::uint32_t {
   gloss,
   metal,
   rubber,
-  dial_faces,  ///< Lit from behind, as the signs.
+  dial_faces,  ///< Backlit, as are the signs.
   signs,
   water,  ///< Drops on the windscreen.
   carpet,

@@ -16,7 +16,8 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// From under the bonnet's edge back to the driver and down, in (x, z): beside the instruments, and before them.
+/// Profiles from under the bonnet's edge back to the driver and down, in (x, z): beside the instruments, and before
+/// them.
 constexpr std::array<glm::vec2, 10> beside{{{2.66f, 0.905f},
                                             {2.34f, 0.918f},
                                             {2.08f, 0.940f},
@@ -38,7 +39,7 @@ constexpr std::array<glm::vec2, 10> over_instruments{{{2.66f, 0.905f},
                                                       {1.87f, 0.86f},
                                                       {1.88f, 0.60f}}};
 
-/// How much of the hood stands at `y`.
+/// Share of the hood's height at `y`.
 float hood(float y) {
   return glm::smoothstep(0.205f, 0.165f, std::abs(y - static_cast<float>(instrument_panel::middle_m.y)));
 }
@@ -49,7 +50,7 @@ void add_box(MeshBuilder& builder, CockpitFinish finish, const glm::vec3& min_m,
   builder.append(geometry::box(min_m, max_m, bevel_m), glm::mat4(1.0f), true);
 }
 
-/// A vent with its slats, in the dashboard's front.
+/// Adds a vent with its slats, in the dashboard's front.
 void add_vent(MeshBuilder& builder, float y) {
   add_box(builder, CockpitFinish::metal, {1.832f, y - 0.062f, 0.846f}, {1.86f, y + 0.062f, 0.914f}, 0.006f);
   add_box(builder, CockpitFinish::gloss, {1.828f, y - 0.055f, 0.852f}, {1.86f, y + 0.055f, 0.908f}, 0.003f);
@@ -78,12 +79,12 @@ geometry::PolygonMesh dashboard() {
       builder.quad(i * count + k, i * count + k + 1, (i + 1) * count + k + 1, (i + 1) * count + k);
     }
   for (const float y : {0.66f, 0.06f, -0.08f, -0.66f}) add_vent(builder, y);
-  // The console in the middle: a display, and knobs below it.
+  // Console in the middle: a display, and knobs below it.
   add_box(builder, CockpitFinish::soft, {1.80f, -0.13f, 0.45f}, {1.88f, 0.11f, 0.835f}, 0.012f);
   add_box(builder, CockpitFinish::gloss, {1.793f, -0.11f, 0.715f}, {1.83f, 0.09f, 0.82f}, 0.004f);
   for (const float y : {0.055f, -0.075f})
     add_box(builder, CockpitFinish::metal, {1.775f, y - 0.017f, 0.665f}, {1.81f, y + 0.017f, 0.699f}, 0.008f);
-  // A strip along the passenger's side, and the lid below it.
+  // Strip along the passenger's side, and the lid below it.
   add_box(builder, CockpitFinish::metal, {1.838f, -0.58f, 0.826f}, {1.85f, -0.16f, 0.834f}, 0.002f);
   return builder.take();
 }

@@ -33,7 +33,7 @@ glm::dvec2 around(const Dial& dial, double share_of_radius, double angle_rad) {
   return dial.middle_m + share_of_radius * dial.radius_m * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
 }
 
-/// `step` between the strokes, of which each `long_each`-th is long and numbered; red from `red_from`.
+/// Paints a dial with strokes `step` apart, of which each `long_each`-th is long and numbered; red from `red_from`.
 void paint_dial(Image& image, const Dial& dial, double step, int long_each, double red_from, const char* unit) {
   const Lettering bold(image::FontStyle::bold), regular(image::FontStyle::condensed_bold);
   const auto stroke = [&](double from, double to, double angle_rad, double width_px, Color color) {
@@ -63,7 +63,7 @@ void paint_dial(Image& image, const Dial& dial, double step, int long_each, doub
 
 constexpr std::int32_t cell_px = 64;
 
-/// Draws in the middle of its cell, in shares of half of it: x to the right, y up.
+/// Draws a sign in the middle of its cell. Coordinates: shares of half the cell, x to the right, y up.
 class SignPen {
  public:
   SignPen(Image& image, Sign sign)
@@ -91,7 +91,7 @@ class SignPen {
   void text(const std::string& text, double size_px, Color color) const {
     Lettering(image::FontStyle::bold).centred(image_, x_, y_ + 0.365 * size_px, text, size_px, color);
   }
-  /// A headlamp's outline whose beams fall to the left, by `drop` on their way.
+  /// Draws a headlamp's outline whose beams fall to the left, by `drop` on their way.
   void lamp(double drop, Color color) const {
     std::vector<Point> lens{{0.05, 0.5}};
     for (int i = 0; i <= 8; ++i) {

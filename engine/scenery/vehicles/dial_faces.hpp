@@ -1,5 +1,6 @@
 #pragma once
-/// The pictures of the instruments: the faces of both dials, and the signs that are lit on them (engine/world/instrument_panel.hpp).
+/// Pictures of the instruments: the faces of both dials, and the signs that light up on them
+/// (engine/world/instrument_panel.hpp).
 
 #include "engine/image/image.hpp"
 

@@ -23,10 +23,10 @@ struct Look {
   float clear_coat = 0.0f;
 };
 
-/// Car paint is a rough base under a clear coat.
+/// Share of clear coat on car paint, whose base is rough.
 constexpr float lacquer = 1.0f;
 
-/// In the order of Finish.
+/// Looks in the order of Finish.
 constexpr std::array<Look, 31> looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.7f, 0.0f, {}, 1.0f, lacquer},
     {"glass", {0.012f, 0.016f, 0.018f}, 0.06f},
@@ -63,9 +63,9 @@ constexpr std::array<Look, 31> looks{{
 
 constexpr std::uint32_t plate_columns = 4, plate_rows = 8, plate_width_px = 128, plate_height_px = 28;
 
-/// Three letters and three digits, other ones for each number.
+/// Plate of three letters and three digits for each number.
 std::string plate_text(std::uint32_t number) {
-  constexpr std::string_view letters = "ABCDEFGHJKLMNOPRSTUWXYZ";  // Those of Swedish plates.
+  constexpr std::string_view letters = "ABCDEFGHJKLMNOPRSTUWXYZ";  // Letters of Swedish plates.
   const auto letter = [&](std::uint32_t step) { return letters[(number * step + step / 2) % letters.size()]; };
   return {letter(5),
           letter(7),
@@ -76,7 +76,7 @@ std::string plate_text(std::uint32_t number) {
           static_cast<char>('0' + (number * 9 + 4) % 10)};
 }
 
-/// All plates, with a border that is seen on white paint.
+/// Picture of all plates, with a border that is visible on white paint.
 Image plate_image() {
   Image plates(plate_columns * plate_width_px, plate_rows * plate_height_px, {20, 20, 22});
   const Lettering bold(image::FontStyle::bold);
@@ -90,7 +90,7 @@ Image plate_image() {
   return plates;
 }
 
-/// Two rows of chequers, as on Swedish ambulances: blue and yellow in turn.
+/// Picture of two rows of chequers, as on Swedish ambulances: blue and yellow in turn.
 Image chequer_image() {
   const Color yellow{246, 212, 30}, blue{14, 60, 140};
   Image chequers(128, 32, yellow);
@@ -100,7 +100,7 @@ Image chequer_image() {
   return chequers;
 }
 
-/// One word on a ground, as wide as it fits.
+/// Picture of one word on a ground, centred.
 Image word_image(const char* word, Color ground, Color ink) {
   Image text(128, 40, ground);
   Lettering(image::FontStyle::bold).centred(text, 64, 33, word, 34, ink);

@@ -1,5 +1,5 @@
 #pragma once
-/// The finishes of vehicles: what paint, glass, rubber and lamps are made of.
+/// Finishes of vehicles: the materials of paint, glass, rubber and lamps.
 
 #include <cstdint>
 
@@ -38,7 +38,7 @@ enum class Finish : std::uint32_t {
   police_lettering,
   taxi_sign,
   timber,
-  clear_glass,  ///< Tinted: one sees through it what is inside.
+  clear_glass,  ///< Tinted and transparent.
 };
 
 constexpr std::uint32_t index_of(Finish finish) { return static_cast<std::uint32_t>(finish); }

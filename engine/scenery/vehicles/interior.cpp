@@ -19,8 +19,8 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// The body below its windows and without its roof, in whose place the cabin's frame stands. `seen`: of it only what the driver sees, bonnet and, in
-/// the mirrors, flanks.
+/// Body below its windows and without its roof, which the cabin's frame replaces. `seen`: only the part that the driver
+/// sees, bonnet and, in the mirrors, flanks.
 geometry::PolygonMesh body_below_windows(const VehicleModel& model, std::uint32_t material, bool seen) {
   const CarShape shape = car_shape(model);
   const geometry::PolygonMesh body = shown_surface(car_body_cage(model, shape, 1), 1);
@@ -40,7 +40,7 @@ geometry::PolygonMesh body_below_windows(const VehicleModel& model, std::uint32_
   return builder.take();
 }
 
-/// Where the steering wheel turns: the column leans back, and +x of the wheel points along it, away from the driver.
+/// Placement of the steering wheel: the column leans back, and +x of the wheel points along it, away from the driver.
 Placement on_column() {
   Placement wheel;
   wheel.role = scene::PartRole::steering_wheel;
@@ -56,7 +56,7 @@ void seen_from_within(VehicleParts& parts) {
     }
 }
 
-/// What each frame makes of a material has it from such a piece.
+/// Small piece of a material, from which the meshes of each frame take it.
 VehicleParts sample_of(CockpitFinish finish) {
   MeshBuilder plate;
   plate.material = index_of(finish);
@@ -75,7 +75,7 @@ VehicleParts interior_parts() {
   parts.push_back({"frame", cabin_frame(), 0, {Placement{}}});
   parts.push_back({"steering wheel", steering_wheel(), 0, {on_column()}});
   seen_from_within(parts);
-  // It is what shades the cabin. Dashboard and wheel are finer than a shadow's texels.
+  // Shades the cabin. Dashboard and wheel are finer than a shadow's texels.
   std::ranges::find(parts, "frame", &VehiclePart::name)->places.front().casts_shadow = true;
   return parts;
 }
@@ -99,7 +99,7 @@ VehicleParts hands_parts() {
 }
 
 VehicleParts instrument_parts() {
-  // On a screen of another shape than theirs something dull lies around them.
+  // A dull surface lies around the instruments on a screen of another shape.
   using namespace instrument_panel;
   MeshBuilder around;
   around.material = index_of(CockpitFinish::rubber);

@@ -6,15 +6,14 @@
 
 namespace septet::scenery {
 
-/// A bar with tapering, rounded ends from a (radius ra) to b (radius rb), with the builder's
-/// material.
+/// Adds a bar with tapering, rounded ends from a (radius ra) to b (radius rb), with the builder's material.
 void add_limb(geometry::MeshBuilder& builder, const glm::vec3& a, const glm::vec3& b, float ra, float rb,
               std::uint32_t sides);
 
-/// An ellipsoid; `splits` as for geometry::icosphere.
+/// Adds an ellipsoid; `splits` as for geometry::icosphere.
 void add_blob(geometry::MeshBuilder& builder, const glm::vec3& centre, const glm::vec3& radii, std::uint32_t splits);
 
-/// A box of one finish (geometry::box).
+/// Adds a box of one finish (geometry::box).
 void add_box(geometry::MeshBuilder& builder, Finish finish, const glm::vec3& low, const glm::vec3& high,
              float bevel_m = 0.0f);
 

@@ -14,11 +14,11 @@ using geometry::MeshBuilder;
 
 bool is_police(const VehicleModel& model) { return model.name == "police-car" || model.name == "police-van"; }
 
-/// Lamps that stand on the roof at x, one to the left and one to the right, between these distances from the middle.
+/// Adds lamps on the roof at x, one to the left and one to the right, between these distances from the middle.
 void add_bar(VehicleParts& parts, const CarSurface& car, float x, float inner, float outer, float high) {
   const bool far = car.level == DetailLevel::far;
   if (far) inner = 0.0f;
-  // On the lowest point under it, into which it reaches a little: it never floats.
+  // Height of the lowest point under it, into which it reaches a little, so that it never floats.
   float roof = car.height_m();
   for (const float at_x : {x - 0.11f, x + 0.11f})
     for (const float y : {inner, outer})
@@ -28,7 +28,7 @@ void add_bar(VehicleParts& parts, const CarSurface& car, float x, float inner, f
                                {0.22f, outer - inner, high + 0.02f}));
 }
 
-/// A band of two rows on both sides, in pieces of four pairs: as many as keep the chequers square.
+/// Draws a band of two rows on both sides, in pieces of four pairs: as many as keep the chequers square.
 void draw_chequers(MeshBuilder& builder, const CarSurface& car, float rear, float front, float low, float high) {
   builder.material = index_of(Finish::chequers);
   const float pieces = std::max(1.0f, std::round((front - rear) / ((high - low) * 4.0f)));
@@ -73,7 +73,8 @@ geometry::PolygonMesh ambulance_livery(const CarSurface& car) {
   const float half = car.half_width_m() * 0.72f, hood = car.shape.hood_front_m;
   draw_patch(builder, car.body, Face::rear, rectangle(Face::rear, {-half, 0.98f}, {half, 1.38f}), flat);
   builder.material = index_of(Finish::lettering_mirrored);
-  // Over the radiator, where who is ahead reads it in the mirror: on nothing that leans back further than a bonnet does.
+  // Over the radiator, for drivers ahead who read it in the mirror: on surfaces that lean back no further than a bonnet
+  // does.
   draw_patch(builder, car.body, Face::front, rectangle(Face::front, {-0.58f, hood - 0.02f}, {0.58f, hood + 0.16f}),
              {0.012f, 0.0f, 0.25f});
   if (car.level != DetailLevel::near) return builder.take();

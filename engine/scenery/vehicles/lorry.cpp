@@ -18,13 +18,13 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// The few measures that tell one lorry from another; x as in the vehicle frame.
+/// Measures that distinguish one lorry from another; x as in the vehicle frame.
 struct LorryShape {
   LoadBay bay;
   float front, cab_rear, cab_top = 3.05f;
   bool has_cab = true, articulated = false, fire = false;
-  bool deflector = true;            ///< Over the cab, to the height of a box.
-  float chassis_front;              ///< Of the frame that carries the load.
+  bool deflector = true;            ///< Fairing over the cab, to the height of a box.
+  float chassis_front;              ///< Front end of the frame that carries the load.
   std::vector<float> driven, free;  ///< Axles with twin and with single wheels, besides the steered one.
 };
 
@@ -83,7 +83,7 @@ LorryShape lorry_shape(const VehicleModel& model) {
 geometry::PolygonMesh cab_box(const LorryShape& s, bool fine) {
   geometry::PolygonMesh cab = geometry::box({s.cab_rear, -s.bay.half + 0.04f, 0.62f},
                                             {s.front, s.bay.half - 0.04f, s.cab_top}, fine ? 0.13f : 0.0f);
-  // The screen leans back a little.
+  // Windscreen leans back a little.
   for (glm::vec3& p : cab.vertices_m)
     if (p.x > s.front - 0.3f && p.z > 2.0f) p.x -= 0.16f;
   return cab;
@@ -99,7 +99,7 @@ void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
     draw_patch(builder, cab, face, outline, {lift, fine ? 0.08f : 0.0f, 0.2f});
   };
   const auto pane = [&](Face face, const PatchOutline& outline) {
-    // Near by one sees in.
+    // Open windows near by.
     if (fine) open = cut_out(open, face, outline, {0.012f, 0.08f, 0.2f});
     patch(fine ? Finish::clear_glass : Finish::glass, face, outline);
   };
@@ -110,12 +110,12 @@ void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
     patch(Finish::trim, Face::front, rectangle(Face::front, {-half + 0.14f, 0.76f}, {half - 0.14f, 0.93f}));
   for (const Face face : {Face::left, Face::right}) {
     pane(face, rectangle(face, {s.front - 1.25f, 1.75f}, {s.front - 0.32f, window_top - 0.1f}));
-    if (s.fire)  // The crew sits behind the driver.
+    if (s.fire)  // Crew behind the driver.
       pane(face, rectangle(face, {s.front - 2.45f, 1.75f}, {s.front - 1.45f, window_top - 0.1f}));
   }
   builder.material = index_of(paint);
   builder.append(open, glm::mat4(1.0f), true);
-  if (fine) {  // Roof, pillars and rear wall from within, over a floor below the windows.
+  if (fine) {  // Roof, pillars and rear wall from inside, over a floor below the windows.
     constexpr float floor = 1.35f;
     builder.material = index_of(Finish::cabin);
     add_lining(builder, open, 1.74f, s.cab_rear - 1.0f, s.front + 1.0f);
@@ -141,7 +141,7 @@ void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
             {s.front - 0.85f, s.bay.half - 0.22f, std::min(s.bay.height, 3.85f) - 0.18f}, fine ? 0.25f : 0.0f);
 }
 
-/// The driver with an empty seat beside him; of a fire engine the crew, too.
+/// Driver with an empty seat beside him; in a fire engine the crew, too.
 VehicleParts crew(const LorryShape& s) {
   const float head = s.cab_top - 0.78f, x = s.front - 0.85f, y = 0.62f;
   std::vector<SeatPlace> places{{{x, y, head}, true}, {{x, -y, head}, s.fire}};
@@ -150,7 +150,7 @@ VehicleParts crew(const LorryShape& s) {
   return seated_people(places);
 }
 
-/// The frame, and what hangs on it between and behind the wheels.
+/// Adds the frame, and the parts that hang on it between and behind the wheels.
 void add_chassis(MeshBuilder& builder, const LorryShape& s, float front_axle, DetailLevel level) {
   const bool fine = level == DetailLevel::near;
   const LoadBay& bay = s.bay;
@@ -185,7 +185,7 @@ void add_chassis(MeshBuilder& builder, const LorryShape& s, float front_axle, De
       if (!axles->empty() && bay.load != Load::fire)
         add_box(builder, Finish::trim, {axles->back() - 0.7f, std::min(side * 0.62f, outer), 1.02f},
                 {axles->front() + 0.62f, std::max(side * 0.62f, outer), 1.07f});
-    if (s.articulated)  // The legs on which a trailer stands alone.
+    if (s.articulated)  // Legs on which a trailer stands alone.
       add_box(builder, Finish::trim, {to + 0.15f, std::min(side * 0.6f, side * 0.75f), 0.35f},
               {to + 0.3f, std::max(side * 0.6f, side * 0.75f), bay.floor});
     else if (front_axle > 5.0f)

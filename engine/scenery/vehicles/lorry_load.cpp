@@ -16,7 +16,7 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// A bar along the vehicle with an elliptic section and flat ends, pulled in by `end_m` at both.
+/// Adds a bar along the vehicle with an elliptic section and flat ends, pulled in by `end_m` at both.
 void add_barrel(MeshBuilder& builder, Finish finish, float rear, float front, const glm::vec3& middle, float half_width,
                 float half_height, float end_m, std::uint32_t sides) {
   const std::array<geometry::LathePoint, 6> profile{{{0.0f, rear},
@@ -25,7 +25,7 @@ void add_barrel(MeshBuilder& builder, Finish finish, float rear, float front, co
                                                      {1.0f, front - end_m},
                                                      {1.0f - 2.0f * end_m, front},
                                                      {0.0f, front}}};
-  // The lathe's axis z becomes x, its x becomes y.
+  // Maps the lathe's axis z to x and its x to y.
   const glm::mat4 along(glm::vec4(0, half_width, 0, 0), glm::vec4(0, 0, half_height, 0), glm::vec4(1, 0, 0, 0),
                         glm::vec4(0, middle.y, middle.z, 1));
   builder.material = index_of(finish);
@@ -39,7 +39,7 @@ void add_cargo_box(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
           level == DetailLevel::near ? 0.04f : 0.0f);
   if (level == DetailLevel::far) return;
   builder.material = index_of(Finish::trim);
-  // Two doors in a frame: the line between them, theirs around, bars that lock them and hinges.
+  // Two doors in a frame: the lines between and around them, locking bars and hinges.
   const float low = b.floor + 0.12f, high = b.height - 0.1f, edge = b.half - 0.07f;
   const auto on_rear = [&](Finish finish, float left, float right, float from, float to, float lift = 0.008f) {
     const float x = b.rear - lift;
@@ -107,7 +107,7 @@ void add_tipper(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
       add_box(builder, Finish::livery_yellow, {x, side > 0 ? b.half - 0.02f : -b.half - 0.05f, b.floor},
               {x + 0.1f, side > 0 ? b.half + 0.05f : -b.half + 0.02f, top});
   }
-  // A shield over the cab.
+  // Shield over the cab.
   add_box(builder, Finish::livery_yellow, {b.front, -b.half + 0.3f, top + 0.2f},
           {b.front + 0.75f, b.half - 0.3f, top + 0.28f});
 }
@@ -138,7 +138,7 @@ void add_timber(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   }
 }
 
-/// A fire engine's lockers behind roller shutters, its ladder on top.
+/// Adds a fire engine's lockers behind roller shutters, its ladder on top.
 void add_lockers(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   const float top = b.height - 0.35f;
   add_box(builder, Finish::fire_red, {b.rear, -b.half, 0.62f}, {b.front, b.half, top},

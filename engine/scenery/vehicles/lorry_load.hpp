@@ -1,5 +1,5 @@
 #pragma once
-/// What a lorry carries behind its cab.
+/// Loads of a lorry, behind its cab.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@ namespace septet::scenery {
 
 enum class Load : std::uint8_t { none, box, tank, tipper, timber, fire };
 
-/// The room for it: from `rear` to `front`, over the floor, as high and half as wide as the lorry.
+/// Space for the load: from `rear` to `front`, over the floor, as high and half as wide as the lorry.
 struct LoadBay {
   Load load = Load::box;
   float rear = 0.0f, front = 0.0f, half = 0.0f, height = 0.0f, floor = 1.08f;

@@ -38,7 +38,7 @@ void add_rider(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
   }
   b.material = index_of(Finish::cloth_bright);
   add_limb(b, {0.27f, 0, 0.90f}, {0.48f, 0, 1.16f}, 0.15f, 0.17f, sides + 2);
-  // The helmet stands clear of the shoulders: a head is what one knows a rider by.
+  // The helmet stands clear of the shoulders: a rider is recognised by the head.
   add_limb(b, {0.52f, 0, 1.22f}, {0.60f, 0, 1.32f}, 0.075f, 0.07f, sides);
   b.material = index_of(Finish::white_panel);
   add_blob(b, {0.64f, 0, 1.40f}, {0.145f, 0.125f, 0.135f}, splits);

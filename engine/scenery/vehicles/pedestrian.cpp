@@ -11,7 +11,7 @@ namespace {
 
 using scene::PartRole;
 
-constexpr float middle_x = 0.10f;  ///< The origin is below the rear foot of a step.
+constexpr float middle_x = 0.10f;  ///< Position over the origin, which is below the rear foot of a step.
 
 /// Trunk and head, facing +x; `sides` and `splits` set the level of detail.
 geometry::PolygonMesh trunk(std::uint32_t sides, std::uint32_t splits) {
@@ -28,7 +28,7 @@ geometry::PolygonMesh trunk(std::uint32_t sides, std::uint32_t splits) {
   return b.take();
 }
 
-/// From the shoulder, a little bent.
+/// Arm from the shoulder, a little bent.
 geometry::PolygonMesh hanging_arm(float side, std::uint32_t sides) {
   geometry::MeshBuilder b;
   b.material = index_of(Finish::cloth_bright);

@@ -60,7 +60,7 @@ VehicleParts seated_people(std::span<const SeatPlace> places) {
     backs.append(back, to);
     if (!place.taken) continue;
     geometry::PolygonMesh one = person;
-    if (++number % 2 == 0)  // Not all wear the same.
+    if (++number % 2 == 0)  // Alternating clothes.
       std::ranges::replace(one.polygon_materials, index_of(Finish::cloth_bright), index_of(Finish::cloth_dark));
     people.append(one, to);
   }

@@ -1,4 +1,4 @@
-/// What is slow or is drawn behind: farm tractors and caravans.
+/// Slow and towed vehicles: farm tractors and caravans.
 
 #include <algorithm>
 #include <utility>
@@ -79,7 +79,7 @@ VehicleParts caravan_parts(const VehicleModel& model) {
   VehicleParts parts;
   const auto front = static_cast<float>(model.front_m()), rear = static_cast<float>(-model.rear_overhang_m);
   const auto half = static_cast<float>(model.width_m / 2), height = static_cast<float>(model.height_m);
-  const float hull_front = front - 1.2f;  // The drawbar is before it.
+  const float hull_front = front - 1.2f;  // Hull begins behind the drawbar.
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle, DetailLevel::far}) {
     const bool far = level == DetailLevel::far;
     geometry::PolygonMesh hull = geometry::box({rear, -half, 0.42f}, {hull_front, half, height}, far ? 0.0f : 0.16f);

@@ -21,12 +21,12 @@ constexpr float radius_m = 0.187f, rim_m = 0.0155f, pi = std::numbers::pi_v<floa
 
 glm::vec3 on_rim(float angle_rad) { return {0, radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad)}; }
 
-/// One hand around the rim at `angle_rad` (from y over z), its arm towards `elbow`.
+/// Adds one hand around the rim at `angle_rad` (from y over z), its arm towards `elbow`.
 void add_hand(MeshBuilder& builder, float angle_rad, const glm::vec3& elbow) {
   const glm::vec3 at = on_rim(angle_rad), out = at / radius_m;
   const glm::vec3 along(0, -out.z, out.y);
   builder.material = index_of(CockpitFinish::skin);
-  constexpr float toward = -0.018f;  // The driver's side of the rim.
+  constexpr float toward = -0.018f;  // Driver's side of the rim.
   const glm::vec3 palm = at + out * 0.012f + glm::vec3(toward, 0, 0);
   for (int finger = 0; finger < 4; ++finger) {
     const glm::vec3 root = palm + along * (0.021f * (static_cast<float>(finger) - 1.5f)) + out * 0.014f;
@@ -60,7 +60,7 @@ geometry::PolygonMesh steering_wheel() {
     path.push_back({p, p / radius_m, glm::vec3(1, 0, 0), 0.0f});
   }
   builder.append(geometry::extrude(section, path, true), glm::mat4(1.0f), true);
-  // A mark where straight ahead is up.
+  // Mark at the top when the wheel is straight.
   builder.material = index_of(CockpitFinish::metal);
   add_blob(builder, on_rim(0.5f * pi) + glm::vec3(-0.008f, 0, 0), {0.011f, 0.006f, 0.0115f}, 1);
   for (const float angle : {0.12f, pi - 0.12f, 1.5f * pi})

@@ -14,7 +14,7 @@ namespace {
 
 using geometry::PolygonMesh;
 
-/// Axes of the picture and of the look, and which end of the look is nearer.
+/// Axes of the picture and of depth, and the sign of depth towards the viewer.
 struct FaceAxes {
   int u, v, depth;
   float towards_viewer;
@@ -44,7 +44,7 @@ struct SurfaceVertex {
   glm::vec3 position_m, normal;
 };
 
-/// Directions of the sums of the area vectors around each vertex.
+/// Normalised sums of the area vectors around each vertex.
 std::vector<glm::vec3> vertex_normals(const PolygonMesh& mesh) {
   std::vector<glm::vec3> normals(mesh.vertices_m.size(), glm::vec3(0.0f));
   for (const auto& corners : mesh.polygons) {
@@ -57,7 +57,7 @@ std::vector<glm::vec3> vertex_normals(const PolygonMesh& mesh) {
   return normals;
 }
 
-/// The outline with its corners cut off by a chord and a half.
+/// Outline with each corner replaced by two chords of an arc.
 std::vector<glm::vec2> rounded(const PatchOutline& outline, float cut) {
   std::vector<glm::vec2> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -67,7 +67,7 @@ std::vector<glm::vec2> rounded(const PatchOutline& outline, float cut) {
       points.push_back(corner);
       continue;
     }
-    // As long on both sides, so that the rounding is one of a circle.
+    // Equal lengths on both sides, so that the rounding is circular.
     const float reach = cut * std::min(glm::distance(corner, before), glm::distance(corner, after)) * 2.0f;
     const glm::vec2 from = corner + glm::normalize(before - corner) * reach,
                     to = corner + glm::normalize(after - corner) * reach;
@@ -82,7 +82,7 @@ float twice_area(const std::vector<glm::vec2>& polygon) {
   return area;
 }
 
-/// Sutherland and Hodgman 1974: what of `piece` lies to the left of a line.
+/// Part of `piece` to the left of a line (Sutherland and Hodgman 1974).
 std::vector<SurfaceVertex> left_of(const std::vector<SurfaceVertex>& piece, glm::vec2 from, glm::vec2 to,
                                    const FaceAxes& axes) {
   const auto side = [&](const SurfaceVertex& v) { return cross2(to - from, flat(axes, v.position_m) - from); };
@@ -99,7 +99,7 @@ std::vector<SurfaceVertex> left_of(const std::vector<SurfaceVertex>& piece, glm:
   return kept;
 }
 
-/// What of `piece` lies left of every edge of the border.
+/// Part of `piece` to the left of every edge of the border.
 std::vector<SurfaceVertex> clipped(std::vector<SurfaceVertex> piece, const std::vector<glm::vec2>& border,
                                    const FaceAxes& axes) {
   for (std::size_t e = 0; e < border.size() && piece.size() >= 3; ++e)
@@ -107,7 +107,7 @@ std::vector<SurfaceVertex> clipped(std::vector<SurfaceVertex> piece, const std::
   return piece;
 }
 
-/// The border counter-clockwise in the picture's own axes.
+/// Border counter-clockwise in the picture's own axes.
 std::vector<glm::vec2> border_of(const PatchOutline& outline, float corner_cut) {
   std::vector<glm::vec2> border = rounded(outline, corner_cut);
   if (twice_area(border) < 0.0f) std::reverse(border.begin(), border.end());
@@ -128,7 +128,7 @@ bool faces(const std::vector<SurfaceVertex>& piece, const FaceAxes& axes, float 
   return facing[axes.depth] * axes.towards_viewer > min_facing * glm::length(facing);
 }
 
-/// Whether another part of the body hides it from the viewer.
+/// True if another part of the body hides it from the viewer.
 bool is_hidden(const PolygonMesh& body, Face face, const std::vector<SurfaceVertex>& piece) {
   const FaceAxes axes = axes_of(face);
   glm::vec3 middle(0.0f);
@@ -140,8 +140,8 @@ bool is_hidden(const PolygonMesh& body, Face face, const std::vector<SurfaceVert
 }  // namespace
 
 PatchOutline rectangle(Face face, glm::vec2 low, glm::vec2 high) {
-  // Seen from the front the car's left (greater y) is on the right; seen from its left side the
-  // front (greater x) is on the left.
+  // Seen from the front, the car's left (greater y) is on the right; seen from its left side the front (greater x) is
+  // on the left.
   if (face == Face::rear || face == Face::left) std::swap(low.x, high.x);
   if (face == Face::top) return {{{{low.x, high.y}, {low.x, low.y}, {high.x, low.y}, {high.x, high.y}}}};
   return {{{{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}}}};
@@ -191,7 +191,7 @@ void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face fa
     if (!faces(piece, axes, options.min_facing)) continue;
     piece = clipped(std::move(piece), border, axes);
     if (piece.size() < 3) continue;
-    // A polygon that another part of the body hides from the viewer keeps clear of the patch.
+    // Polygons hidden from the viewer by another part of the body keep clear of the patch.
     if (is_hidden(body, face, piece)) continue;
     for (std::size_t k = 1; k + 1 < piece.size(); k += 2) {
       const std::uint32_t a = vertex(piece[0]), b = vertex(piece[k]), c = vertex(piece[k + 1]);
@@ -275,7 +275,7 @@ geometry::PolygonMesh cut_out(const geometry::PolygonMesh& body, Face face, cons
       add(body.polygons[p], p, true);
       continue;
     }
-    // What lies to the right of one edge and to the left of those before it.
+    // Part to the right of one edge and to the left of those before it.
     for (std::size_t e = 0; e < border.size() && piece.size() >= 3; ++e) {
       const glm::vec2 from = border[e], to = border[(e + 1) % border.size()];
       const std::vector<SurfaceVertex> outside = left_of(piece, to, from, axes);

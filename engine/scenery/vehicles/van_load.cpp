@@ -29,7 +29,7 @@ geometry::PolygonMesh van_load(const CarSurface& car) {
         {front, std::max(side * half, side * (half - wall)), top});
   add(Finish::rim, {rear, -half + wall, low}, {rear + wall, half - wall, top});
   add(Finish::trim, {front - 0.08f, -half + wall, low}, {front, half - wall, top + 0.75f});
-  if (car.level != DetailLevel::far) {  // What it carries today.
+  if (car.level != DetailLevel::far) {  // Goods on the bed.
     add(Finish::timber, {rear + 0.4f, -0.7f, low}, {rear + 1.9f, 0.1f, low + 0.62f});
     add(Finish::tarpaulin, {rear + 2.05f, -0.75f, low}, {front - 0.3f, 0.75f, low + 0.5f}, near ? 0.1f : 0.0f);
   }

@@ -1,9 +1,9 @@
 #pragma once
-/// The parts of the vehicles, as meshes with finishes, before they enter the scene.
+/// Parts of the vehicles, as meshes with finishes, before they enter the scene.
 ///
-/// Three levels of detail: near (up to about 6,000 triangles, with what is seen through windows), middle (800) and far (120). Parts
-/// that turn or shine are parts of their own with a role. Vehicle frame, metres; wheels have their
-/// origin in their centre.
+/// Three levels of detail: near (up to about 6,000 triangles, with the interior behind windows), middle (800) and far
+/// (120). Parts that turn or shine are parts of their own with a role. Vehicle frame, metres; wheels have their origin
+/// in their centre.
 
 #include <string>
 #include <vector>
@@ -22,12 +22,13 @@ struct VehiclePart {
   std::string name;
   geometry::PolygonMesh mesh;  ///< Materials are Finish indices.
   std::uint32_t subdivision_level = 0;
-  std::vector<Placement> places;  ///< One instance each; visibility ranges are filled in by set_detail.
+  std::vector<Placement> places;  ///< Instances; visibility ranges are filled in by set_detail.
 };
 
 using VehicleParts = std::vector<VehiclePart>;
 
-const char* suffix_of(DetailLevel level);  ///< " near", " middle", " far": parts of one level are told apart so.
+/// Name suffix " near", " middle" or " far", which distinguishes parts of different levels.
+const char* suffix_of(DetailLevel level);
 
 /// Gives `of_level` its range and its names, and adds it to `parts`.
 void add_level(VehicleParts& parts, VehicleParts of_level, DetailLevel level);
@@ -46,15 +47,16 @@ VehicleParts caravan_parts(const VehicleModel& model);
 VehicleParts bicycle_parts(const VehicleModel& model);
 VehicleParts motorcycle_parts(const VehicleModel& model);
 VehicleParts pedestrian_parts(const VehicleModel& model);
-/// What the driver of the S80 sees of his own car: bonnet, dashboard, pillars, steering wheel. Materials are CockpitFinish indices, here
-/// and in all that follow but the next.
+/// Parts of the S80 that its driver sees: bonnet, dashboard, pillars, steering wheel. Materials are CockpitFinish
+/// indices, as in all functions below but the next.
 VehicleParts interior_parts();
-/// What else of that car throws shadows and shines while its inside is drawn: wheels, lamps, the body without what the cabin's frame stands for.
-/// The whole body, of a model that looks like it from outside, would stand among the dashboard and keep light from it. Materials are Finish indices.
+/// Other parts of that car that throw shadows and shine while its inside is drawn: wheels, lamps, the body without the
+/// part that the cabin's frame replaces. The whole body, of a model for the view from outside, would stand among the
+/// dashboard and keep light from it. Materials are Finish indices.
 VehicleParts shell_parts();
-VehicleParts hands_parts();       ///< The driver's hands; they turn as the wheel does.
-VehicleParts instrument_parts();  ///< The faces of the instruments alone, for a screen that shows nothing else.
-VehicleParts water_parts();       ///< Of the material of drops on the windscreen.
-VehicleParts sign_parts();        ///< Of the material of needles and lit signs, which each frame puts in their places.
+VehicleParts hands_parts();       ///< Driver's hands; they turn as the wheel does.
+VehicleParts instrument_parts();  ///< Faces of the instruments alone, for a screen with no other content.
+VehicleParts water_parts();       ///< Sample of the material of drops on the windscreen.
+VehicleParts sign_parts();  ///< Sample of the material of needles and lit signs, which each frame puts in their places.
 
 }  // namespace septet::scenery

@@ -13,7 +13,8 @@
 namespace septet::scenery {
 namespace {
 
-/// Shapes by their meshes: vehicles of one outline have parts in common, which are sent once and drawn together.
+/// Known meshes with their shapes: vehicles of one outline have parts in common, which are sent once and drawn
+/// together.
 struct KnownShape {
   geometry::PolygonMesh mesh;
   std::uint32_t subdivision_level;

@@ -1,16 +1,16 @@
 #pragma once
-/// The vehicles of the catalogue as prototypes of the scene.
+/// Vehicles of the catalogue as prototypes of the scene.
 
 #include "engine/scene/builder.hpp"
 #include "engine/scenery/own_models.hpp"
 
 namespace septet::scenery {
 
-/// Adds "model/NAME" for every entry of vehicle_models(), with turning wheels and lamps by role and
-/// three levels of detail, and "model/interior/volvo-s80": what the driver sees of his own car, for
-/// rigs that have no car around the driver; "model/cockpit/hands", "…/instruments", "…/signs" and "…/water" go with it.
+/// Adds "model/NAME" for every entry of vehicle_models(), with turning wheels and lamps by role and three levels of
+/// detail, and "model/interior/volvo-s80": the driver's view of his own car, for rigs that have no car around the
+/// driver; "model/cockpit/hands", "…/instruments", "…/signs" and "…/water" go with it.
 ///
-/// What `own` has of them is drawn in their place, the same at all distances.
+/// Models in `own` replace these, the same at all distances.
 void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own = nullptr);
 
 }  // namespace septet::scenery

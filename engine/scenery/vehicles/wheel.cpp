@@ -18,7 +18,7 @@ using geometry::MeshBuilder;
 using geometry::PolygonMesh;
 using scene::PartRole;
 
-/// The lathe's axis z becomes −y turned so that high is outside (+y).
+/// Turns the lathe's axis z to −y, so that its high end is outside (+y).
 glm::mat4 axis_to_y() { return glm::rotate(glm::mat4(1.0f), -std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0)); }
 
 void add_spokes(MeshBuilder& builder, const WheelSize& size, float hub, float rim, float depth) {
@@ -30,7 +30,7 @@ void add_spokes(MeshBuilder& builder, const WheelSize& size, float hub, float ri
     const auto at = [&](float x, float y, float z) {
       return builder.vertex(glm::vec3(turn * glm::vec4(x, y, z, 1.0f)));
     };
-    // A bar from hub to rim: its face and its two flanks.
+    // Bar from hub to rim: its face and its two flanks.
     const std::array<std::uint32_t, 8> v{
         at(-wide, depth + 0.012f, hub), at(wide, depth + 0.012f, hub), at(narrow, depth, rim),
         at(-narrow, depth, rim),        at(-wide, low, hub),           at(wide, low, hub),
@@ -98,7 +98,7 @@ PolygonMesh wheel_mesh(const WheelSize& size, DetailLevel level) {
 
 void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_track_m, bool front) {
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle}) {
-    // Of middle wheels all vehicles share one, stretched: so that they are drawn together.
+    // Middle wheels of all vehicles share one mesh, stretched, so that they are drawn together.
     const bool shared = level == DetailLevel::middle;
     const PolygonMesh left = shared ? middle_wheel({1.0f, 1.0f}) : wheel_mesh(size, level);
     const std::string suffix = level == DetailLevel::near ? "near" : "middle";

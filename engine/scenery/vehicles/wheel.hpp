@@ -16,7 +16,7 @@ geometry::PolygonMesh wheel_mesh(const WheelSize& size, DetailLevel level);
 /// Adds near and middle wheels at the four corners given by wheelbase and track.
 void add_wheels(VehicleParts& parts, const VehicleModel& model, const WheelSize& size);
 
-/// Adds one pair of wheels, both levels, that turns with the rear (or steers with the front) axle.
+/// Adds one pair of wheels, both levels, that turns with the rear axle (or steers with the front one).
 void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_track_m, bool front);
 
 }  // namespace septet::scenery

@@ -21,12 +21,12 @@ using roadside::BesideLine;
 
 using roadside::Barrier;
 
-/// How much higher than usual a barrier is; what differs by less than a share of this is not.
+/// Share by which a height must differ from the usual one to count.
 constexpr double least_change = 0.03;
 constexpr double usual_hedge_m = 0.8;  ///< Width of a hedge whose file gives none.
-constexpr float leaf_tile_m = 1.2f;    ///< What a hedge shows of the texture of leaves once.
+constexpr float leaf_tile_m = 1.2f;    ///< Length over which a hedge shows the texture of leaves once.
 constexpr std::uint64_t hedge_seed = 17;
-/// What PathFrame::length_m of `frames` counts in.
+/// Unit of PathFrame::length_m in `frames`.
 constexpr float frame_m = 4.0f;
 constexpr float obstacle_top_m(ObstacleKind kind) { return static_cast<float>(roadside::profile_of(kind).height_m); }
 constexpr float rail_top_m = obstacle_top_m(ObstacleKind::guard_rail),
@@ -40,8 +40,8 @@ float stretch(const Barrier& barrier, double s_m) {
   return std::abs(share - 1.0) < least_change ? 1.0f : static_cast<float>(share);
 }
 
-/// Frames along a line within a tile; right is −t, up is off the surface, the origin on the
-/// surface. `barrier`: whose height stretches up.
+/// Frames along a line within a tile; right is −t, up is off the surface, the origin on the surface. `barrier`: its
+/// height stretches up.
 std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile, const BesideLine& line, double step_m,
                               const Barrier* barrier = nullptr) {
   std::vector<PathFrame> path;
@@ -67,7 +67,7 @@ void extrude_into(MeshBuilder& builder, Ground ground, std::span<const glm::vec2
   builder.append(mesh, glm::mat4(1.0f), true);
 }
 
-/// The steps of a New Jersey wall, seen along the road, counter-clockwise.
+/// Profile of a New Jersey wall, seen along the road, counter-clockwise.
 constexpr std::array<glm::vec2, 8> jersey{{{-0.30f, -0.05f},
                                            {0.30f, -0.05f},
                                            {0.30f, 0.08f},
@@ -76,7 +76,7 @@ constexpr std::array<glm::vec2, 8> jersey{{{-0.30f, -0.05f},
                                            {-0.09f, jersey_top_m},
                                            {-0.14f, 0.34f},
                                            {-0.30f, 0.08f}}};
-/// The W of a guard rail towards traffic at the left of the profile, folded round its back.
+/// Profile of a guard rail's W towards traffic at its left, folded round its back.
 constexpr std::array<glm::vec2, 7> rail_left{{{-0.05f, 0.44f},
                                               {0.0f, 0.48f},
                                               {-0.08f, 0.53f},
@@ -87,7 +87,7 @@ constexpr std::array<glm::vec2, 7> rail_left{{{-0.05f, 0.44f},
 constexpr std::array<glm::vec2, 4> rail_simple{
     {{-0.04f, 0.44f}, {0.02f, 0.44f}, {0.02f, rail_top_m}, {-0.04f, rail_top_m}}};
 
-/// A profile for the other side of the road, still counter-clockwise.
+/// Mirrors a profile for the other side of the road, still counter-clockwise.
 template <std::size_t N>
 std::array<glm::vec2, N> mirrored(const std::array<glm::vec2, N>& profile) {
   std::array<glm::vec2, N> result;
@@ -99,7 +99,7 @@ void add_posts(MeshBuilder& builder, const std::vector<PathFrame>& path, Ground 
                const glm::vec3& high) {
   builder.material = index_of(ground);
   geometry::PolygonMesh post = geometry::box(low, high);
-  post.corner_uvs.clear();  // Plain materials need none.
+  post.corner_uvs.clear();  // Plain materials need no texture coordinates.
   for (const PathFrame& frame : path) {
     glm::mat4 place(1.0f);
     const glm::vec3 forward = glm::normalize(glm::cross(frame.up, frame.right));
@@ -155,7 +155,8 @@ struct BarrierPen {
     return {{{-half, -0.3f}, {half, -0.3f}, {half, high}, {-half, high}}};
   }
 
-  /// Leaves with holes, cut round above and grown unevenly, over a dark core that hides what lies behind, as crowns have.
+  /// Draws leaves with holes, rounded at the top and uneven, over a dark core that hides the background, as crowns
+  /// have.
   void draw_hedge(const roadside::Barrier& barrier) {
     const std::array<glm::vec2, 4> box = box_of(barrier, usual_hedge_m);
     const float half = box[2].x, high = box[2].y, foot = box[0].y;
@@ -170,7 +171,7 @@ struct BarrierPen {
     const auto path = frames(world, tile, barrier.line, 1.25, &barrier);
     if (path.size() < 2) return;
     geometry::PolygonMesh leaves = geometry::extrude(shell, path, true);
-    // Inwards alone, so that it is as wide and as high as its file says.
+    // Inwards only, so that width and height stay those of the file.
     const float unevenness_m = std::min(0.12f, 0.2f * half);
     const auto random = [](std::size_t n, std::int64_t axis) {
       return static_cast<float>(geometry::lattice_random(static_cast<std::int64_t>(n), axis, hedge_seed));
@@ -192,14 +193,13 @@ struct BarrierPen {
                  true);
   }
 
-  /// The rail as a thin closed tube: the W in front, a flat back.
+  /// Guard rail as a thin closed tube: the W in front, a flat back.
   static std::vector<glm::vec2> rail_left_sheet(bool on_right) {
-    // For the left-hand side traffic is to the right (+x of the profile).
+    // Traffic beside a left-hand rail is to the right (+x of the profile).
     const auto w = on_right ? rail_left : mirrored(rail_left);
     std::vector<glm::vec2> profile(w.begin(), w.end());
     if (on_right) {
-      // Upwards along the front, which lies at the left: turned round, so that the tube is
-      // counter-clockwise.
+      // Upwards along the front, which lies at the left: reversed, so that the tube is counter-clockwise.
       profile = {w.rbegin(), w.rend()};
       profile.push_back({0.03f, 0.46f});
       profile.push_back({0.03f, 0.73f});
@@ -222,7 +222,7 @@ struct BarrierPen {
   }
 };
 
-/// Reflecting posts every 50 m behind the rail, a kilometre board every 500 m.
+/// Adds reflecting posts every 50 m behind the rail, a kilometre board every 500 m.
 void add_marker_posts(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
   for (const BesideLine& line : roadside::marker_posts(world.roads, tile)) {
     const std::vector<PathFrame> path = frames(world, tile, line, roadside::marker_post_step_m);

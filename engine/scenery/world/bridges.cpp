@@ -21,14 +21,14 @@ using geometry::MeshBuilder;
 
 using namespace roadside::bridge_shape;
 
-/// A deck narrower than two box girders, or over a road, is one slab: it leaves the room that lorries need.
+/// Decks narrower than two box girders, or over a road, are one slab, which leaves the clearance that lorries need.
 constexpr double girders_width_m = 28.0, slab_m = 0.9, slab_taper_m = 1.2;
 
 bool is_slab(const road::RoadStructure& bridge, const road::RoadExtent& extent) {
   return bridge.over_road || extent.left_t_m - extent.right_t_m < girders_width_m;
 }
 
-/// The underside from the left edge beam's foot to the right one's, seen along the road.
+/// Underside from the left edge beam's foot to the right one's, seen along the road.
 std::vector<std::pair<double, double>> underside_of(bool slab, double left, double right) {
   if (slab) {
     const double taper = std::min(slab_taper_m, 0.4 * (left - right));
@@ -38,7 +38,7 @@ std::vector<std::pair<double, double>> underside_of(bool slab, double left, doub
           {right + 13.6, -0.8}, {right + 12.0, -2.6}, {right + 4.2, -2.6}, {right + 2.6, -0.8}};
 }
 
-/// The deck's edge beams and its underside, seen from below and from afar.
+/// Adds the deck's edge beams and its underside, seen from below and from afar.
 void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
               const road::RoadStructure& bridge) {
   const std::vector<double> along = stations(tile, bridge.over_road ? 4.0 : 16.0);
@@ -47,7 +47,7 @@ void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
   for (const double s : along) {
     const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), s);
     const double left = extent.left_t_m + overhang_m, right = extent.right_t_m - overhang_m;
-    // Round the section from the upper left edge, counter-clockwise seen along the road.
+    // Section from the upper left edge, counter-clockwise seen along the road.
     std::vector<std::pair<double, double>> section{
         {extent.left_t_m, 0.0}, {extent.left_t_m, 0.12}, {left, 0.12}, {left, edge_foot_m}};
     const auto underside = underside_of(slab, left, right);
@@ -92,7 +92,7 @@ void add_column(MeshBuilder& builder, const WorldContext& world, const RoadTile&
   builder.append(pier, glm::mat4(1.0f), true);
 }
 
-/// A pier for each box girder; a slab has one every 14 m at most, that leave lanes below free.
+/// Adds a pier for each box girder; a slab gets one every 14 m at most, that leave lanes below free.
 void add_piers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
                const road::RoadStructure& bridge) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), tile.middle_m());
@@ -115,7 +115,7 @@ void add_piers(MeshBuilder& builder, const WorldContext& world, const RoadTile& 
   }
 }
 
-/// Walls at both ends that hold the road's bank.
+/// Adds walls at both ends that hold the road's bank.
 void add_abutment(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double s) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), s);
   const double left = extent.left_t_m + overhang_m + 0.6, right = extent.right_t_m - overhang_m - 0.6;

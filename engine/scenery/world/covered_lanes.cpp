@@ -12,7 +12,7 @@
 namespace septet::scenery {
 namespace {
 
-/// Shares of a triangle's corners at p, seen from above; all 0 outside of it.
+/// Weights of a triangle's corners at p, seen from above; all 0 outside of it.
 Vec3 shares_in(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p) {
   const Vec2 u = b - a, v = c - a, w = p - a;
   const double area = u.x * v.y - u.y * v.x;
@@ -22,7 +22,7 @@ Vec3 shares_in(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p) {
   return {1.0 - s - t, s, t};
 }
 
-/// A quad between two rows and the box around it.
+/// Quad between two rows and the box around it.
 struct Quad {
   std::array<Vec3*, 4> corners;
   std::size_t row, column;
@@ -54,7 +54,7 @@ void add_covered(const Quad& quad, const Vec2& p, double most_m, std::vector<Cov
   }
 }
 
-/// Lanes below a quad that may be so narrow that it lies between their places: they are asked for at points of its own.
+/// Adds lanes below a quad so narrow that it lies between their places: the middles of its triangles are tested.
 void add_between_places(const WorldContext& world, const RoadTile& tile, double s, const Quad& quad,
                         std::vector<Covered>& covered) {
   const road::RoadNetwork& network = world.roads.network();

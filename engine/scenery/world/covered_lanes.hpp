@@ -1,7 +1,8 @@
 #pragma once
-/// Ground that is drawn in rows of points beside a road, and the lanes below it.
+/// Lanes below ground that is drawn in rows of points beside a road.
 ///
-/// A quad between two rows may be drawn as either pair of its triangles; a lane must lie below neither of all four. Metres, world frame.
+/// A quad between two rows may be drawn as either pair of its triangles; a lane must lie below neither of all four.
+/// Metres, world frame.
 
 #include <array>
 #include <cstddef>
@@ -14,10 +15,10 @@
 
 namespace septet::scenery {
 
-/// A place of a tile's own road so far along it is another turn of it.
+/// Distance along a tile's own road from which a place belongs to another turn of it.
 inline constexpr double over_itself_m = 40.0;
 
-/// A place of a lane below one of the four triangles that a quad may be drawn as.
+/// Place of a lane below one of the four triangles that a quad may be drawn as.
 struct Covered {
   std::array<Vec3*, 3> corners;
   Vec3 shares;
@@ -29,13 +30,12 @@ struct Covered {
   }
 };
 
-/// Lanes of other roads that the ground between these rows, one for each station, lies over. `among_roads`: lanes may be
-/// narrow here, so that they are looked for between LaneLevels' places too. The result points into `rows`.
+/// Places of lanes that the ground between these rows, one for each station, lies over. `among_roads`: lanes may be
+/// narrow here, so that points between LaneLevels' places are tested too. The result points into `rows`.
 std::vector<Covered> covered_lanes(const WorldContext& world, const RoadTile& tile, std::span<const double> along,
                                    std::vector<std::vector<Vec3>>& rows, bool among_roads);
 
-/// Lowers the rows' points until they lie over no lane. Returns the quads, by row and column, of which that could not be
-/// reached.
+/// Lowers the rows' points until they lie over no lane. Returns the quads, by row and column, for which that failed.
 std::set<std::pair<std::size_t, std::size_t>> lower_below_lanes(const std::vector<Covered>& covered);
 
 }  // namespace septet::scenery

@@ -6,9 +6,8 @@
 namespace septet::scenery {
 namespace {
 
-/// Long tiles take over here. Their middles lie further apart than those of short ones, so both are
-/// drawn over half a long tile to either side: a gap would show, an overlap does not at this
-/// distance.
+/// Tile lengths. Long tiles take over at a distance. Their middles lie further apart than those of short ones, so both
+/// are drawn over half a long tile to either side: a gap would show, an overlap does not at this distance.
 constexpr double short_tile_m = 160.0, long_tile_m = 640.0;
 constexpr float short_until_m = 1500.0f, long_from_m = 1100.0f;
 

@@ -1,7 +1,6 @@
 #pragma once
-/// The road as it is seen from afar: pavement, lines, verges and barriers of a tile in one mesh of
-/// a few plain materials, so that it costs few draws. Each part is drawn by the file that draws its
-/// near form.
+/// Road as seen from afar: pavement, lines, verges and barriers of a tile in one mesh of a few plain materials, so that
+/// it costs few draws. Each part is drawn by the file that draws its near form.
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/scenery/world/world_context.hpp"

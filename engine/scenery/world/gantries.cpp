@@ -51,8 +51,8 @@ geometry::PolygonMesh frame_mesh(double width_m) {
   return builder.take();
 }
 
-/// A board in the (y, z) plane that faces −x (oncoming traffic of the right-hand carriageway), its
-/// picture as material 0, grey behind it as material 1.
+/// Board in the (y, z) plane that faces −x (oncoming traffic of the right-hand carriageway), its picture as material 0,
+/// grey behind it as material 1.
 geometry::PolygonMesh board_mesh(float width, float height) {
   MeshBuilder builder;
   builder.material = 0;
@@ -105,8 +105,7 @@ RigidTransform turned_round(const RigidTransform& pose) {
   return pose * RigidTransform{Vec3(0.0), glm::angleAxis(std::numbers::pi, Vec3(0, 0, 1))};
 }
 
-/// Distances count down along the road from the network's first station; the other way they count
-/// up.
+/// Picture of a board. Distances count down along the road from the network's first station, and up against it.
 image::Image face_for(double station_km, bool against, std::size_t number) {
   const auto rounded = [](double km) { return std::max(1, static_cast<int>(std::lround(km))); };
   if (against)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float foot_m = -1.5f, window_every_m = 4.0f, floor_m = 2.8f, below_lowest = 1.5f / floor_m;
 
-/// How often a wall shows the facade's picture, and down to where.
+/// Repeats of the facade's picture along a wall, and down it.
 float windows_along(float wall_m) { return std::round(wall_m / window_every_m); }
 float floors_below(float eaves_m) { return std::round(eaves_m / floor_m); }
 
@@ -52,7 +52,7 @@ void add_house(geometry::MeshBuilder& builder, const roadside::HouseBlock& block
 
 void add_lit_windows(geometry::MeshBuilder& builder, const roadside::HouseBlock& block, const HouseLook& look,
                      double share, Random& random) {
-  // Of the facade's picture, from its left and from its top: two panes beside each other.
+  // Extents in the facade's picture, from its left and from its top: two panes beside each other.
   constexpr float panes[2][2] = {{45.0f / 128.0f, 62.0f / 128.0f}, {66.0f / 128.0f, 83.0f / 128.0f}};
   constexpr float top = 39.0f / 128.0f, bottom = 85.0f / 128.0f, before_wall_m = 0.02f, least_over_ground_m = 0.4f;
   const auto length = static_cast<float>(block.length_m), width = static_cast<float>(block.width_m);
@@ -65,7 +65,7 @@ void add_lit_windows(geometry::MeshBuilder& builder, const roadside::HouseBlock&
       for (float n = 0.0f; n < floors; ++n) {
         const bool lit = random.uniform() < share;
         const float high_m = look.eaves - (n + top) * picture_m, low_m = look.eaves - (n + bottom) * picture_m;
-        // The door is in the middle of the front.
+        // Door in the middle of the front.
         const bool is_door = out.y < 0.0f && low_m < 2.2f && std::abs((k + 0.5f) * bay_m - 0.5f * wall_m) < 1.2f;
         if (!lit || is_door || low_m < least_over_ground_m) continue;
         for (const auto& [from, to] : panes) {

@@ -1,5 +1,5 @@
 #pragma once
-/// A house: walls with windows, a saddle roof with eaves, its chimney.
+/// House: walls with windows, a saddle roof with eaves, its chimney.
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/mesh_builder.hpp"
@@ -13,10 +13,10 @@ struct HouseLook {
   Ground wall, roof;
 };
 
-/// In the block's place; the walls reach 1.5 m into the ground.
+/// Adds a house at the block's place; the walls reach 1.5 m into the ground.
 void add_house(geometry::MeshBuilder& builder, const roadside::HouseBlock& block, const HouseLook& look);
 
-/// Panes of Ground::window_lit before that share of the windows of the same house, which of them `random` draws.
+/// Adds panes of Ground::window_lit before that share of the windows of the same house, drawn by `random`.
 void add_lit_windows(geometry::MeshBuilder& builder, const roadside::HouseBlock& block, const HouseLook& look,
                      double share, Random& random);
 

@@ -13,7 +13,8 @@ double turn(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
 
-/// Cuts ears off until a triangle is left; what crosses itself is drawn as far as it goes.
+/// Fills a polygon by cutting off ears until a triangle is left; one that crosses itself is filled as far as ears are
+/// found.
 void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top) {
   std::vector<std::size_t> left(top.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
@@ -30,7 +31,7 @@ void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top)
   std::size_t k = 0;
   while (left.size() >= 3) {
     const std::size_t n = left.size();
-    // From the last ear on, beside which the next one mostly is.
+    // Starts at the last ear, beside which the next one mostly is.
     std::size_t tried = 0;
     for (k %= n; tried < n && !is_ear(k); ++tried) k = (k + 1) % n;
     if (tried == n) return;
@@ -44,7 +45,7 @@ void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top)
 
 void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised) {
   if (raised.all().empty()) return;
-  constexpr float foot_m = 0.5f;  // So far down: the road under it may fall away.
+  constexpr float foot_m = 0.5f;  // Depth of the face: the road under it may fall away.
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
     geometry::MeshBuilder builder;
     builder.material = index_of(Ground::concrete);

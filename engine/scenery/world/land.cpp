@@ -24,10 +24,10 @@ constexpr double tile_m = roadside::land_tile_m, middle_tile_m = roadside::middl
 constexpr double near_cell_m = roadside::land_cell_m, middle_cell_m = roadside::middle_land_cell_m,
                  far_cell_m = roadside::far_land_cell_m;
 constexpr float middle_until_m = 7000.0f;
-constexpr double ring_drop_m = 0.35;  ///< A tile overlaps its neighbours by one cell, sunk by this.
+constexpr double ring_drop_m = 0.35;  ///< Depth by which a tile's overlap of one cell over its neighbours is sunk.
 constexpr double texture_m = 6.0;
 
-/// What grows at a place: fields are the cells of a jittered lattice (a Voronoi diagram).
+/// Ground cover at a place: fields are the cells of a jittered lattice (a Voronoi diagram).
 Ground field_at(const WorldContext& world, const Vec2& p) {
   constexpr double spacing = 210.0;
   const Vec2 q(p.x * 0.94 - p.y * 0.34, (p.x * 0.34 + p.y * 0.94) * 1.6);
@@ -52,8 +52,8 @@ Ground field_at(const WorldContext& world, const Vec2& p) {
   return Ground::soil;
 }
 
-/// A square grid of cells in a tile's frame. Its near form has one ring of cells more, whose outer
-/// edge is sunk: so neighbours meet without a crack and with the same normals.
+/// Square grid of cells in a tile's frame. Its near form has one ring of cells more, whose outer edge is sunk, so that
+/// neighbours meet without a crack and with the same normals.
 class LandGrid {
  public:
   LandGrid(const WorldContext& world, const Vec2& corner, double side_m, double cell)
@@ -74,7 +74,7 @@ class LandGrid {
     Vec2 p;
     Nearest near;
     double z;
-    Ground kind;  ///< What lies or grows there.
+    Ground kind;  ///< Ground cover.
   };
   const Vec3& origin() const { return origin_; }
   const Point& at(int x, int y) const { return points_[static_cast<std::size_t>((y + 1) * (count_ + 3) + x + 1)]; }
@@ -83,7 +83,7 @@ class LandGrid {
     return glm::vec3(Vec3(point.p, point.z + up) - origin_);
   }
 
-  /// True where the land was left out for a tunnel's mouth.
+  /// Draws the ground; true where land was left out for a tunnel's mouth.
   bool draw_ground(MeshBuilder& builder, bool plain) const {
     bool has_hole = false;
     const auto stride = static_cast<std::uint32_t>(count_ + 3);
@@ -113,7 +113,7 @@ class LandGrid {
     return roadside::is_wood(world_.terrain, middle, cell_);
   }
 
-  /// The crowns of a wood as one bumpy roof with sides.
+  /// Draws the crowns of a wood as one bumpy roof with sides.
   void draw_canopy(MeshBuilder& builder, bool plain) const {
     const bool plain_sides = cell_ > 100.0;
     std::map<std::pair<int, int>, std::uint32_t> tops;
@@ -123,7 +123,7 @@ class LandGrid {
     };
     const auto top = [&](int x, int y) {
       const auto [place, fresh] = tops.try_emplace({x, y}, 0u);
-      // At the border the roof ends below the trees' tips, between which one sees through.
+      // At the border the roof ends below the trees' tips, between which there are gaps.
       if (fresh) place->second = builder.vertex(top_point(x, y, !plain_sides && is_wood_border(x, y) ? 0.6 : 1.0));
       return place->second;
     };
@@ -136,7 +136,7 @@ class LandGrid {
                      plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
         const auto side = [&](int nx, int ny, int ax, int ay, int bx, int by) {
           if (is_wood(nx, ny)) return;
-          // The trees' tips stand out over the roof; from afar the side is part of it.
+          // Tips of the trees above the roof; from afar the side is part of it.
           const glm::vec3 tips(0, 0, plain_sides ? 0.0f : 2.5f);
           const auto start = static_cast<float>(lattice_random(x, y, 3));
           builder.material = index_of(plain_sides ? Ground::far_canopy : Ground::wood_edge);
@@ -161,7 +161,7 @@ class LandGrid {
     return field_at(world_, p);
   }
 
-  /// A corner of a cell or a place on its edge: how far along x and y, and how far off the roads.
+  /// Corner of a cell or place on its edge: position within the cell along x and y, and distance from the roads.
   struct Place {
     Vec2 p;
     double outside_m;
@@ -173,12 +173,12 @@ class LandGrid {
             glm::mix(a.share, b.share, static_cast<float>(t)), 0};
   }
 
-  /// Where the ground changes between two corners; from whichever side it is looked for, the same place.
+  /// Place between two corners at which the ground changes, the same in either order of corners.
   Place change(MeshBuilder& builder, const Place& a, const Place& b) const {
     if (b.p.x < a.p.x || (b.p.x == a.p.x && b.p.y < a.p.y)) return change(builder, b, a);
     const Ground kind = kind_at(a.p, a.outside_m);
     double low = 0.0, high = 1.0;
-    for (int round = 0; round < 5; ++round) {  // As fine as it is sent.
+    for (int round = 0; round < 5; ++round) {  // Precision of the transmitted positions.
       const double t = 0.5 * (low + high);
       const Place middle = between(a, b, t);
       (kind_at(middle.p, middle.outside_m) == kind ? low : high) = t;
@@ -189,7 +189,8 @@ class LandGrid {
     return place;
   }
 
-  /// One quad where a cell bears one thing; where the border of two runs through it, both sides of a line along the border.
+  /// Draws one quad for a cell of one ground; where the border of two runs through it, both sides of a line along the
+  /// border.
   void draw_cell(MeshBuilder& builder, int x, int y, const std::array<std::uint32_t, 4>& vertices, bool plain) const {
     std::array<Place, 4> corners;
     std::array<Ground, 4> kinds;
@@ -200,7 +201,7 @@ class LandGrid {
       corners[k] = {point.p, outside_m(point.near), {steps[k][0], steps[k][1]}, vertices[k]};
       kinds[k] = point.kind;
     }
-    // A whole number of repeats per cell: neighbours meet, and the numbers are small on the wire.
+    // Whole number of repeats per cell: neighbours meet, and the numbers are small on the wire.
     const auto d = static_cast<float>(std::round(cell_ / texture_m));
     const auto draw = [&](Ground kind, std::initializer_list<const Place*> places) {
       builder.material = index_of(plain ? far_of(kind) : kind);
@@ -221,13 +222,13 @@ class LandGrid {
     for (std::size_t k = 0; k < 4; ++k)
       if (kinds[k] != kinds[(k + 1) % 4]) changes[count++] = k;
     if (count != 2) {
-      // One thing, or more than two: by what lies in the middle.
+      // Cells of one ground, or of more than two, take the ground of their middle.
       const Place middle = between(corners[0], corners[2], 0.5);
       draw(count == 0 ? kinds[0] : kind_at(middle.p, middle.outside_m),
            {&corners[0], &corners[1], &corners[2], &corners[3]});
       return;
     }
-    // From the corner after the first change to the one before the second lies one side.
+    // One side lies from the corner after the first change to the one before the second.
     const std::size_t first = (changes[0] + 1) % 4, last = changes[1];
     const std::size_t within = last - first + 1;
     const Place in = change(builder, corners[changes[0]], corners[first]),
@@ -249,7 +250,7 @@ class LandGrid {
     draw(others, {&after, corner(alone + 3), &before});
   }
 
-  /// Whether a corner of the grid lies at a wood's border.
+  /// True if a corner of the grid lies at a wood's border.
   bool is_wood_border(int x, int y) const {
     return !(is_wood(x - 1, y - 1) && is_wood(x, y - 1) && is_wood(x - 1, y) && is_wood(x, y));
   }
@@ -275,7 +276,7 @@ void add_land_mesh(const WorldContext& world, const Vec3& origin, const char* na
   place(world.builder, name, add_shape(world.builder, name, mesh, world.palette, options), placement);
 }
 
-/// Land and woods of a grid in plain colours as one mesh.
+/// Draws land and woods of a grid in plain colours as one mesh.
 void build_plain(const WorldContext& world, const LandGrid& grid, const Vec3& origin, float from_m, float to_m) {
   MeshBuilder builder;
   grid.draw_ground(builder, true);
@@ -299,7 +300,7 @@ void build_tile(const WorldContext& world, const Vec2& corner) {
   near.draw_canopy(wood, false);
   add_land_mesh(world, near.origin(), "land", ground.mesh(), 0.0f, land_near_m);
   add_land_mesh(world, near.origin(), "wood", wood.mesh(), 0.0f, land_near_m);
-  // Where the land breaks off at a portal, large cells would reach across the road.
+  // Large cells would reach across the road where the land breaks off at a portal.
   if (has_hole)
     build_plain(world, near, near.origin(), land_near_m, middle_until_m);
   else
@@ -316,7 +317,8 @@ void build_middle_tile(const WorldContext& world, const Vec2& corner) {
     for (int i = 0; i < 2; ++i) build_tile(world, corner + Vec2(i, j) * tile_m);
 }
 
-/// The stream on a valley's floor. Along its banks and under the bridge it mirrors them, not the sky: there it is dark and dull.
+/// Stream on a valley's floor. Along its banks and under the bridge it mirrors them, not the sky: there it is dark and
+/// dull.
 void build_water(const WorldContext& world, const Terrain::Valley& valley) {
   constexpr std::array<double, 4> columns_m{15.0, 11.0, -11.0, -15.0};
   constexpr double bridge_mirrored_m = 30.0;
@@ -325,7 +327,8 @@ void build_water(const WorldContext& world, const Terrain::Valley& valley) {
   std::uint32_t last = 0;
   for (double distance = -330.0; distance <= 330.0; distance += 15.0) {
     const Vec2 middle = Vec2(valley.middle_m) + across * distance + valley.along * Terrain::meander_m(distance);
-    const double z = world.terrain.height_m(middle) + 1.8;  // Over the bottom as the squares of the land draw it.
+    // Height over the bottom as the squares of the land draw it.
+    const double z = world.terrain.height_m(middle) + 1.8;
     std::uint32_t row = 0;
     for (std::size_t k = 0; k < columns_m.size(); ++k) {
       const std::uint32_t v =

@@ -33,7 +33,7 @@ Ground asphalt_of(const RoadTile& tile) {
   return laid[((stretch % 4) + 4) % 4];
 }
 
-/// Laid over the land as a whole, not along a lane: what overlaps looks the same.
+/// Size of a texture laid over the land as a whole, not along a lane, so that overlapping lanes look the same.
 double world_texture_m(Ground ground) {
   switch (ground) {
     case Ground::asphalt_plain:
@@ -46,7 +46,7 @@ double world_texture_m(Ground ground) {
   }
 }
 
-/// The surface of one tile. Rows are stations; where a height steps there are two of them at one place.
+/// Surface of one tile. Rows are stations; where a height steps there are two of them at one place.
 class TileSurfaces {
  public:
   TileSurfaces(const WorldContext& world, const RoadTile& tile)
@@ -95,7 +95,7 @@ class TileSurfaces {
     Edge left, right;
   };
 
-  /// A border of a lane at the lane's own height: a hair's breadth inside it.
+  /// Border of a lane at the lane's own height: 0.01 mm inside it.
   Edge edge(int lane, bool leftmost) const {
     Edge edge;
     for (const double s : rows_) {
@@ -127,7 +127,7 @@ class TileSurfaces {
     return strip;
   }
 
-  /// A stone's face between what lies higher and what lies lower.
+  /// Draws a kerb stone's face between a higher and a lower edge.
   void draw_kerb(const Edge& left, const Edge& right) {
     builder_.material = index_of(Ground::kerb_stone);
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -140,8 +140,8 @@ class TileSurfaces {
     }
   }
 
-  /// Lanes of other roads that are driven take the place of lawn and of a junction's pavement, that of lawn those that are
-  /// walked too. Lanes on another level take nothing.
+  /// True where drivable lanes of other roads take the place of lawn or of a junction's pavement, and walked lanes that
+  /// of lawn. Lanes on another level take no place.
   bool is_taken(const glm::vec3& place, Ground ground) const {
     const road::RoadNetwork& network = world_.roads.network();
     const Vec3 place_m = tile_.world_from_tile * Vec3(place);
@@ -153,7 +153,7 @@ class TileSurfaces {
              std::abs(road::evaluate(network, at).position_m.z - place_m.z) < road::least_rise_m;
     });
   }
-  /// In the middle, or near a corner.
+  /// True in the middle of the quad, or near a corner.
   bool is_taken(const std::array<glm::vec3, 4>& quad, Ground ground) const {
     constexpr float near_corner = 0.25f;
     const glm::vec3 middle = 0.25f * (quad[0] + quad[1] + quad[2] + quad[3]);
@@ -178,7 +178,7 @@ class TileSurfaces {
       const glm::vec3 &a = strip.left.points[i], &b = strip.right.points[i], &c = strip.right.points[i + 1],
                       &d = strip.left.points[i + 1];
       if (may_be_taken && is_taken(std::array{a, b, c, d}, ground)) continue;
-      const bool worn = std::max(width0, width1) > 3.0;  // The texture shows where wheels of a lane run.
+      const bool worn = std::max(width0, width1) > 3.0;  // The texture shows the wheel tracks of a lane.
       const auto u0 = static_cast<float>(worn ? 1.0 : width0 / lane_texture_width_m),
                  u1 = static_cast<float>(worn ? 1.0 : width1 / lane_texture_width_m);
       const auto v0 = static_cast<float>((rows_[i] - tile_.s0_m) / lane_texture_length_m),
@@ -190,7 +190,7 @@ class TileSurfaces {
     }
   }
 
-  /// Slabs, and towards the road a stone.
+  /// Draws slabs, and towards the road a stone.
   void draw_paving(const Strip& whole, bool left_of_road) {
     Edge seam;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -228,7 +228,7 @@ class TileSurfaces {
     }
   }
 
-  /// Where a lane's height steps along the road.
+  /// Draws the faces where a lane's height steps along the road.
   void draw_faces_across() {
     builder_.material = index_of(Ground::kerb_stone);
     for (int lane = section_.left_count; lane >= -section_.right_count; --lane) {
@@ -238,7 +238,7 @@ class TileSurfaces {
         if (rows_[i + 1] - rows_[i] > 1e-3) continue;
         const glm::vec3 &a = left.points[i], &b = right.points[i], &c = right.points[i + 1], &d = left.points[i + 1];
         if (std::max(std::abs(a.z - d.z), std::abs(b.z - c.z)) < 1e-3f) continue;
-        // Seen from where it is lower.
+        // Visible from the lower side.
         if (d.z + c.z > a.z + b.z)
           builder_.patch(a, b, c, d);
         else
@@ -247,7 +247,7 @@ class TileSurfaces {
     }
   }
 
-  /// A whole number of repeats of every texture that is laid over the land.
+  /// Whole number of repeats of every texture that is laid over the land.
   static constexpr double anchor_m = 105.0;
 
   const WorldContext& world_;
@@ -288,7 +288,7 @@ Ground ground_of(const WorldContext& world, const RoadTile& tile, const road::La
     case curb:
       return tile.in_tunnel ? Ground::concrete_tunnel : Ground::kerb_stone;
     case median:
-      // Before a motorway's barrier it is paved like the lanes.
+      // In the country a median is paved like the lanes, before a motorway's barrier.
       return on_earth && roadside::is_in_town(world.roads.network(), tile.road, tile.middle_m()) ? Ground::verge
                                                                                                  : asphalt;
     case rail:
@@ -310,7 +310,7 @@ geometry::PolygonMesh lane_surfaces(const WorldContext& world, const RoadTile& t
 void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double far_step_m) {
   const road::Road& road = world.roads.road(tile.road);
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
-  // From left to right: the lanes at which the colour changes.
+  // Runs from left to right, cut where the colour changes.
   struct Run {
     Ground ground;
     int first, last;
@@ -333,7 +333,7 @@ void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const Ro
                               end = road::lane_borders(road, section, run.last, along[i]);
       const double left = run.first > 0 ? first.outer_t_m : first.inner_t_m,
                    right = run.last > 0 ? end.inner_t_m : end.outer_t_m;
-      const bool crowned = run.first > 0 && run.last < 0;  // The middle of the road lies in it.
+      const bool crowned = run.first > 0 && run.last < 0;  // True if the middle of the road lies in it.
       const std::uint32_t row = builder.vertex(world.roads.local(tile, along[i], left));
       if (crowned) builder.vertex(world.roads.local(tile, along[i], std::clamp(0.0, right, left)));
       builder.vertex(world.roads.local(tile, along[i], right));

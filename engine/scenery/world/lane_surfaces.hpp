@@ -1,5 +1,6 @@
 #pragma once
-/// What the lanes of a road are covered with, and their surfaces: where wheels find them, with kerbs between lanes of different heights.
+/// Surfaces of the lanes of a road, at the height of the wheels' surface, with kerbs between lanes of different
+/// heights, and their materials.
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/polygon_mesh.hpp"
@@ -9,13 +10,13 @@
 
 namespace septet::scenery {
 
-/// What a lane is covered with at a tile. In a junction lanes of several roads lie on one another, all in one asphalt.
+/// Material of a lane at a tile. In a junction lanes of several roads overlap, all in one asphalt.
 Ground ground_of(const WorldContext& world, const RoadTile& tile, const road::Lane& lane);
 
-/// The lanes of a tile, each at its height (OpenDRIVE 1.8, §11.7.3), a face wherever two of them differ.
+/// Lanes of a tile, each at its height (OpenDRIVE 1.8, §11.7.3), a face wherever two of them differ.
 geometry::PolygonMesh lane_surfaces(const WorldContext& world, const RoadTile& tile);
 
-/// The same from afar: one strip for neighbouring lanes of one colour.
+/// Draws the lanes for a far view: one strip for neighbouring lanes of one colour.
 void draw_far_pavement(geometry::MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m);
 
 }  // namespace septet::scenery

@@ -30,7 +30,7 @@ bool is_rectangle(std::span<const Vec2> corners) {
          std::abs(glm::dot(corners[1] - corners[0], corners[3] - corners[0])) < 0.05;
 }
 
-/// Walls along the footprint, with a window every four metres where it is a building, and a flat roof.
+/// Adds walls along the footprint, with a window every four metres where it is a building, and a flat roof.
 void add_prism(MeshBuilder& builder, const StandingObject& object, Ground wall, Ground roof) {
   const auto height = static_cast<float>(object.height_m), foot = object.kind == StandingKind::building ? -1.5f : -0.2f;
   const std::size_t count = object.footprint_m.size();
@@ -44,7 +44,7 @@ void add_prism(MeshBuilder& builder, const StandingObject& object, Ground wall, 
                   {{{0, storeys + low}, {windows, storeys + low}, {windows, 0}, {0, 0}}});
   }
   builder.material = index_of(roof);
-  // A fan from the middle: exact for what bulges nowhere inwards, and near it for the rest.
+  // Fan from the middle: exact for convex outlines, and an approximation for the rest.
   Vec2 middle(0.0);
   for (const Vec2& corner : object.footprint_m) middle += corner / static_cast<double>(count);
   const std::uint32_t top = builder.vertex(glm::vec3(glm::vec2(middle), height));

@@ -20,8 +20,7 @@ constexpr double texture_length_m = 7.5, texture_width_m = 3.75;
 constexpr double near_step_m = 10.0;
 constexpr double mark_lift_m = 0.010, repair_lift_m = 0.006, repair_edge_lift_m = 0.003, far_mark_lift_m = 0.04;
 
-/// Points between a tile's stations lie on the chords that the pavement is made of, so that what is
-/// painted stays above it.
+/// Points between a tile's stations, on the chords of which the pavement is made, so that paint stays above it.
 class TileSurface {
  public:
   TileSurface(const RoadShape& roads, const RoadTile& tile, std::vector<double> along)
@@ -44,7 +43,7 @@ class TileSurface {
 /// Texture coordinates of a stripe: across it as far as the asphalt's texture reaches, or from one edge to the other.
 enum class StripeUv { none, texture, edges };
 
-/// A stripe `width_m` wide around t(s) from s0 to s1, broken at the pavement's stations.
+/// Draws a stripe `width_m` wide around t(s) from s0 to s1, broken at the pavement's stations.
 template <class T>
 void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, double s1, double width_m, double lift_m,
                  const T& t_of, StripeUv uv) {
@@ -75,8 +74,8 @@ Ground mark_of(const RoadTile& tile, bool broken, bool near) {
   return broken ? Ground::far_mark_broken : Ground::far_mark;
 }
 
-/// All lines of a tile; far away they are three times as wide and darker, and broken ones become continuous in their mean
-/// grey, which keeps still.
+/// Draws all lines of a tile; far ones are three times as wide and darker, and broken ones become continuous in their
+/// mean grey, which avoids flicker.
 void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, bool near, double step_m) {
   const double widening = near ? 1.0 : 3.0;
   const road::Road& road = world.roads.road(tile.road);
@@ -92,7 +91,7 @@ void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile&
         if (end - begin < 0.05 || line.width_m <= 0.0) continue;
         const auto t_of = [&](double s) { return border(s) + line.t_offset_m; };
         const bool broken = line.space_m > 0.0;
-        if (broken && step_m > 60.0) continue;  // Too far to be told from the asphalt.
+        if (broken && step_m > 60.0) continue;  // Indistinguishable from the asphalt at this distance.
         builder.material = index_of(mark_of(tile, broken, near));
         if (!broken || !near) {
           draw_stripe(builder, surface, begin, end, line.width_m * widening, near ? mark_lift_m : far_mark_lift_m, t_of,
@@ -128,7 +127,7 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
     const double width = borders.width_m() * random.uniform(0.45, 0.92),
                  shift = random.uniform(-0.5, 0.5) * (borders.width_m() - width - 0.3);
     const auto middle_t = [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; };
-    // Its edge is rolled out thin: half way to the old asphalt's tone.
+    // Edge rolled out thin: half way to the old asphalt's tone.
     constexpr double edge_m = 0.18;
     builder.material = index_of(Ground::repair_edge);
     draw_stripe(builder, surface, s0 - edge_m, s1 + edge_m, width + 2 * edge_m, repair_edge_lift_m, middle_t,

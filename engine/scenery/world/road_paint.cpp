@@ -21,7 +21,7 @@ using geometry::MeshBuilder;
 using roadside::SignalForm;
 
 constexpr double paint_lift_m = 0.014, bar_m = 0.5, stop_line_m = 0.5, arrow_length_m = 4.0, parking_line_m = 0.12;
-constexpr double piece_m = 2.0;  ///< Of what lies along a bend or over a crest.
+constexpr double piece_m = 2.0;  ///< Length of pieces along a bend or over a crest.
 
 /// Paint of one tile, in road coordinates.
 class PaintPen {
@@ -33,13 +33,13 @@ class PaintPen {
     const int pieces = std::max(1, static_cast<int>(std::ceil(std::min((s1 - s0) / piece_m, 200.0))));
     for (int i = 0; i < pieces; ++i) {
       const double a = std::lerp(s0, s1, static_cast<double>(i) / pieces), b = std::lerp(s0, s1, (i + 1.0) / pieces);
-      // As of a stripe: across it from one edge to the other.
+      // Texture coordinates of a stripe: across it from one edge to the other.
       const auto v0 = static_cast<float>(a - tile_.s0_m), v1 = static_cast<float>(b - tile_.s0_m);
       builder_.patch(at(a, t1), at(a, t0), at(b, t0), at(b, t1), {{{0, v0}, {1, v0}, {1, v1}, {0, v1}}});
     }
   }
 
-  /// Corners ahead and to the left of a place, in metres; `ahead` is +1 along s.
+  /// Draws a polygon with corners ahead and to the left of a place, in metres; `ahead` is +1 along s.
   void polygon(double s, double t, double ahead, const std::vector<Vec2>& corners) {
     builder_.material = index_of(Ground::paint);
     std::vector<std::uint32_t> vertices;
@@ -74,7 +74,7 @@ struct Span {
   }
 };
 
-/// From one kerb to the other.
+/// Span from one kerb to the other.
 Span carriageway(const road::Road& road, double s_m) {
   Span span;
   const road::LaneSection& section = road::section_at(road, s_m);
@@ -88,7 +88,7 @@ Span carriageway(const road::Road& road, double s_m) {
   return span;
 }
 
-/// Where the line of this t lies within a polygon of (s, t).
+/// Span in s of the line of this t within a polygon of (s, t).
 Span along_within(const std::vector<Vec2>& corners, double t_m) {
   Span span;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -99,7 +99,7 @@ Span along_within(const std::vector<Vec2>& corners, double t_m) {
   return span;
 }
 
-/// Bars along the road, half a metre wide and apart.
+/// Draws bars along the road, half a metre wide and apart.
 void draw_crossing(PaintPen& pen, const RoadTile& tile, const std::vector<Vec2>& corners, const Span& across) {
   Span t;
   for (const Vec2& corner : corners) t.add(corner.y);
@@ -135,7 +135,7 @@ std::vector<Vec2> corners_of(const road::RoadObject& object) {
   return corners;
 }
 
-/// A line of paint from one place of (s, t) to another.
+/// Draws a line of paint from one place of (s, t) to another.
 void draw_line(PaintPen& pen, const Vec2& from, const Vec2& to, double width_m) {
   const double length_m = glm::length(to - from);
   if (!(length_m > 0.05) || length_m > 100.0) return;
@@ -144,7 +144,7 @@ void draw_line(PaintPen& pen, const Vec2& from, const Vec2& to, double width_m) 
   pen.polygon(from.x, from.y, 1.0, {before - aside, behind - aside, behind + aside, before + aside});
 }
 
-/// Around it but for the side that is nearest to the road's axis, from which one drives in.
+/// Draws the outline but for the side nearest to the road's axis, which is the entrance.
 void draw_parking_space(PaintPen& pen, const std::vector<Vec2>& corners) {
   if (corners.size() < 3 || corners.size() > 20) return;
   const auto off_axis = [&](std::size_t i) { return std::abs(corners[i].y + corners[(i + 1) % corners.size()].y); };
@@ -155,7 +155,7 @@ void draw_parking_space(PaintPen& pen, const std::vector<Vec2>& corners) {
     if (i != open) draw_line(pen, corners[i], corners[(i + 1) % corners.size()], parking_line_m);
 }
 
-/// One space, or a row of them along its repeats.
+/// Draws one space, or a row of them along its repeats.
 void draw_parking(PaintPen& pen, const RoadTile& tile, const road::RoadObject& object, double road_length_m) {
   const std::vector<Vec2> corners = corners_of(object);
   const auto draw_at = [&](double s_m, double t_m) {
@@ -178,7 +178,7 @@ void draw_parking(PaintPen& pen, const RoadTile& tile, const road::RoadObject& o
 std::vector<Vec2> corners_of(const road::Road& road, const road::Signal& signal) {
   const double depth = std::clamp(signal.value > 0.0 ? signal.value : 4.0, 2.0, 10.0),
                width = signal.width_m > 0.0 ? signal.width_m : 50.0;
-  // From its station on, away from the road's nearer end.
+  // Begins at its station, away from the road's nearer end.
   const double s0 = std::clamp(signal.s_m < 0.5 * road.length_m ? signal.s_m : signal.s_m - depth, 0.0,
                                std::max(0.0, road.length_m - depth));
   return {{s0, signal.t_m - 0.5 * width},
@@ -187,7 +187,7 @@ std::vector<Vec2> corners_of(const road::Road& road, const road::Signal& signal)
           {s0, signal.t_m + 0.5 * width}};
 }
 
-/// Across the lanes that lead up to it.
+/// Draws a line across the lanes that lead up to it.
 void draw_stop_line(PaintPen& pen, const road::Road& road, const road::Signal& signal) {
   const int along = roadside::direction_of(road, signal);
   const bool right_hand = road.rule == road::TrafficRule::right_hand;
@@ -232,7 +232,7 @@ void build_road_paint(const WorldContext& world) {
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
     const road::Road& road = world.roads.road(tile.road);
     PaintPen pen(world, tile);
-    // What ends with the road belongs to its last tile.
+    // Objects at the road's end belong to its last tile.
     const auto here = [&](double s_m) {
       return lies_in(tile, std::clamp(s_m, 0.0, std::nextafter(road.length_m, 0.0)));
     };

@@ -12,7 +12,7 @@ namespace septet::scenery {
 
 namespace {
 
-/// Whether anything of junctions or towns is drawn.
+/// True if anything of junctions or towns is drawn.
 bool has_towns(const road::RoadNetwork& network) {
   return std::ranges::any_of(network.roads, [](const road::Road& road) {
     return road.junction != road::no_index || std::ranges::any_of(road.sections, [](const road::LaneSection& section) {

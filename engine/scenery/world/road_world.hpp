@@ -1,9 +1,8 @@
 #pragma once
-/// The world around a road network, generated: pavement and markings, land, structures, signs,
-/// trees.
+/// Generated world around a road network: pavement and markings, land, structures, signs, trees.
 ///
-/// The same network, seed and options give the same scene. Everything is seen through levels of
-/// detail that keep one 44° × 30° view within about 60,000 triangles.
+/// The same network, seed and options give the same scene. Levels of detail keep one 44° × 30° view within about 60,000
+/// triangles.
 
 #include <cstdint>
 
@@ -19,18 +18,18 @@ namespace septet::scenery {
 struct RoadWorldOptions {
   bool vegetation = true;
   bool buildings = true;
-  const OwnModels* own =
-      nullptr;  ///< Of trees, houses, lamps and posts, drawn in the place of those that are made here.
-  double overrun_m = roadside::usual_overrun_m;  ///< How far loose ends of roads run on.
-  const roadside::RaisedAreas* raised =
-      nullptr;  ///< Of this network, where the caller has them; else they are worked out.
+  /// Own models of trees, houses, lamps and posts, which replace the generated ones; null: none.
+  const OwnModels* own = nullptr;
+  double overrun_m = roadside::usual_overrun_m;  ///< Overrun of loose ends of roads.
+  /// Raised areas of this network; null: they are computed.
+  const roadside::RaisedAreas* raised = nullptr;
 };
 
-/// Whether the world around the roads can be built in reasonable time and memory: as much land,
-/// road, paint and structures as a region holds. Error: what there is too much of.
+/// Checks that the world around the roads can be built in reasonable time and memory: as much land, road, paint and
+/// structures as a region holds. Error: the quantity that is too large.
 Expected<void> check_world_size(const road::RoadNetwork& network, const RoadWorldOptions& options = {});
 
-/// For a network that check_world_size lets pass.
+/// Builds the world of a network that check_world_size accepts.
 void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network, std::uint64_t seed,
                       const RoadWorldOptions& options = {});
 

@@ -159,7 +159,7 @@ SignFace face_of(const Entry& entry, const road::Signal& signal, double value) {
   return face;
 }
 
-/// A category by the first letters of a number that no table has.
+/// Category by the first letters of a number that no table has.
 SignFace unknown(std::string_view country, std::string_view number) {
   if (number.empty()) return {};
   if (country == "de") {
@@ -176,7 +176,7 @@ SignFace sign_face(const road::Signal& signal) {
   std::string country = lower(signal.country), type = lower(signal.type), subtype = lower(signal.subtype);
   const std::string name = lower(signal.name);
   double value = signal.value;
-  // "de_274-50": the whole sign in its name.
+  // Names may hold the whole sign: "de_274-50".
   if ((type.empty() || type == "-1") && (name.starts_with("de_") || name.starts_with("se_"))) {
     country = name.substr(0, 2);
     const std::size_t dash = name.find('-', 3);
@@ -189,11 +189,11 @@ SignFace sign_face(const road::Signal& signal) {
     if (!entry) entry = find(german, type);
     if (!entry) return unknown("de", type);
     SignFace face = face_of(*entry, signal, value);
-    // The subtypes of the arrows of 209 and 211: 10 to the left, 20 to the right, 30 straight on.
+    // Subtypes of the arrows of 209 and 211: 10 to the left, 20 to the right, 30 straight on.
     if (face.symbol == Symbol::arrow_right && (subtype == "10" || subtype == "-10")) face.symbol = Symbol::arrow_left;
     if (face.symbol == Symbol::arrow_right && subtype == "30") face.symbol = Symbol::arrow_up;
     if (face.symbol == Symbol::bend_left && subtype == "20") face.symbol = Symbol::bend_right;
-    // In some files the subtype says the limit: 274-55 is 50 km/h.
+    // Subtypes of some files hold the limit: 274-55 is 50 km/h.
     if (type == "274" && face.text.empty() && subtype.size() == 2 && subtype[0] == '5')
       face = {Style::prohibition, Symbol::text, number_text(10.0 * (subtype[1] - '0'))};
     return face;
@@ -201,7 +201,7 @@ SignFace sign_face(const road::Signal& signal) {
   if (is_one_of(country, {"se", "swe", "sweden"})) {
     const std::string number = type.size() == 1 ? type + subtype : type;
     const Entry* entry = find(swedish, number.substr(0, number.find('-')));
-    // A speed's number may be that of its variant: C31-5 is 50 km/h.
+    // Speeds may be given by the number of the variant: C31-5 is 50 km/h.
     if (entry && entry->number == "c31" && value > 0.0 && value < 15.0) value *= 10.0;
     SignFace face = entry ? face_of(*entry, signal, value) : unknown("se", number);
     face.yellow = true;

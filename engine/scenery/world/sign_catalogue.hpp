@@ -1,9 +1,10 @@
 #pragma once
-/// Which face a static signal of a road file wears.
+/// Faces of the static signals of a road file.
 ///
-/// Tables: the German StVO (also meant by the country "OpenDRIVE" and by none), the Swedish Vägmärkesförordning (letters as type, numbers as
-/// subtype), of the United States' MUTCD what stops and slows. Other countries' signs are told by what their names and units say, else they
-/// are blank boards: a wrong sign would be worse.
+/// Tables: the German StVO (also for the country "OpenDRIVE" and for signals without a country), the Swedish
+/// Vägmärkesförordning (letters as type, numbers as subtype), and of the United States' MUTCD the signs that stop and
+/// slow. Other countries' signs follow from their names and units, else they are blank boards: a wrong sign would be
+/// worse.
 
 #include <cstdint>
 #include <string>
@@ -56,7 +57,7 @@ struct SignFace {
   SignStyle style = SignStyle::blank;
   SignSymbol symbol = SignSymbol::none;
   std::string text;
-  bool yellow = false;  ///< Swedish: yellow where others are white.
+  bool yellow = false;  ///< True for Swedish signs: yellow where others are white.
 
   bool operator==(const SignFace&) const = default;
 };

@@ -15,7 +15,7 @@ using image::Color;
 using image::Image;
 
 constexpr Color blue{16, 72, 158}, white{250, 251, 252}, black{14, 15, 18};
-/// Signs are painted large and sent smaller.
+/// Signs are painted at twice the size that is sent.
 constexpr std::uint32_t width = 512, height = 208, sign_width_px = 256, sign_height_px = 104;
 
 Image blue_board() {
@@ -33,7 +33,7 @@ Image direction_sign(std::string_view route, const std::vector<SignLine>& lines)
   const double size = lines.size() > 2 ? 46.0 : 56.0, step = (height - 30.0) / static_cast<double>(lines.size());
   double baseline = 15.0 + step / 2 + size * 0.36;
   for (const SignLine& line : lines) {
-    // A long name is set smaller, so that it keeps apart from its distance.
+    // Long names are set smaller, so that they keep apart from their distance.
     constexpr double from = 106.0, to = width - 28.0;
     const std::string distance = std::to_string(line.distance_km);
     const double needed = bold.width_px(line.place + "n" + distance, size);

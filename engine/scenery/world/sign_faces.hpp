@@ -1,5 +1,5 @@
 #pragma once
-/// The faces of traffic signs, painted with readable text. sRGB, straight alpha.
+/// Faces of traffic signs, painted with readable text. sRGB, straight alpha.
 
 #include <string>
 #include <vector>
@@ -13,13 +13,13 @@ struct SignLine {
   int distance_km = 0;
 };
 
-/// A blue motorway sign with places and distances, 256 × 104.
+/// Blue motorway sign with places and distances, 256 × 104.
 image::Image direction_sign(std::string_view route, const std::vector<SignLine>& lines);
 
 /// "Rest area 1 000 m" with a P, 256 × 104.
 image::Image rest_area_sign(int distance_m);
 
-/// A speed display above a lane: red ring and number on black, 64 × 64.
+/// Speed display above a lane: red ring and number on black, 64 × 64.
 image::Image speed_display(int limit_kmh);
 
 }  // namespace septet::scenery

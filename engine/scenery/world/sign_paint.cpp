@@ -17,7 +17,7 @@ using image::Image;
 
 constexpr Color sign_white{248, 249, 250}, sign_black{16, 16, 18}, sign_red{190, 18, 28}, sign_blue{0, 76, 156},
     sign_yellow{250, 196, 8}, sign_grey{120, 122, 124};
-/// Painted at twice the size that is sent.
+/// Sizes: painted at twice the size that is sent.
 constexpr std::uint32_t side_px = 192, sent_px = 96;
 
 void shape(Image& image, const std::vector<glm::vec2>& outline, double shrink, Color color, glm::vec2 middle) {
@@ -36,7 +36,7 @@ void disc(Image& image, double share, Color color) {
   circle(image, side_px / 2.0, side_px / 2.0, share * side_px / 2.0, color);
 }
 
-/// Strokes in the picture's pixels around (96, y0), in units of `unit` pixels.
+/// Pen whose strokes are in the picture's pixels around (96, y0), in units of `unit` pixels.
 class Pen {
  public:
   Pen(Image& image, Color color, double x, double y, double unit)
@@ -202,10 +202,11 @@ std::vector<glm::vec2> sign_outline(SignStyle style) {
       return ring(24, 0.0f);
     case stop: {
       auto corners = ring(8, std::numbers::pi_v<float> / 8.0f);
-      for (glm::vec2& corner : corners) corner = 0.5f + (corner - 0.5f) * 1.08f;  // Its flat sides reach the edges.
+      // Reaches the edges with its flat sides.
+      for (glm::vec2& corner : corners) corner = 0.5f + (corner - 0.5f) * 1.08f;
       return corners;
     }
-    case warning:  // Its tips are cut off.
+    case warning:  // Triangle with its tips cut off.
       return {{0.54f, 0.03f}, {1.0f, 0.86f}, {0.96f, 0.93f}, {0.04f, 0.93f}, {0.0f, 0.86f}, {0.46f, 0.03f}};
     case yield:
       return {{0.96f, 0.07f}, {1.0f, 0.14f}, {0.54f, 0.97f}, {0.46f, 0.97f}, {0.0f, 0.14f}, {0.04f, 0.07f}};

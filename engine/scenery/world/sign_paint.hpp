@@ -1,5 +1,6 @@
 #pragma once
-/// Traffic signs as pictures and outlines. Symbols are drawn by strokes of our own: told apart at a distance, not copied from any table.
+/// Traffic signs as pictures and outlines. Symbols are drawn with our own strokes: distinguishable at a distance, not
+/// copied from any table.
 
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace septet::scenery {
 
-/// 96 × 96, sRGB; what lies outside the outline is not seen.
+/// Picture of a sign, 96 × 96, sRGB; the area outside the outline is not drawn.
 image::Image paint_sign(const SignFace& face);
 
 /// Corners in the picture, x to the right and y down in 0 … 1, clockwise as it is read.

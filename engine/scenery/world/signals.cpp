@@ -23,7 +23,8 @@ using geometry::MeshBuilder;
 using roadside::SignalForm;
 using roadside::StandingSignal;
 
-/// A sheet of a sign's shape that faces −x, from 0 to 1 in y and z around its middle: its picture as material 0, its back as material 1.
+/// Sheet of a sign's shape that faces −x, from 0 to 1 in y and z around its middle: its picture as material 0, its back
+/// as material 1.
 geometry::PolygonMesh sheet(const std::vector<glm::vec2>& outline) {
   MeshBuilder builder;
   const auto at = [](const glm::vec2& p, float x) { return glm::vec3(x, 0.5f - p.x, 0.5f - p.y); };
@@ -36,7 +37,7 @@ geometry::PolygonMesh sheet(const std::vector<glm::vec2>& outline) {
     for (const glm::vec2& corner : outline) rim.push_back(builder.vertex(at(corner, x)));
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const std::size_t next = (i + 1) % rim.size();
-      if (front)  // Counter-clockwise for who looks along x.
+      if (front)  // Counter-clockwise for a viewer who looks along x.
         builder.triangle(middle, rim[next], rim[i], {{glm::vec2(0.5f), outline[next], outline[i], {}}});
       else
         builder.triangle(middle, rim[i], rim[next]);
@@ -47,7 +48,7 @@ geometry::PolygonMesh sheet(const std::vector<glm::vec2>& outline) {
   return mesh;
 }
 
-/// What tells two faces apart.
+/// Key that distinguishes two faces.
 std::string key_of(const SignFace& face) {
   return fmt::format("sign {}-{}{}{}{}", static_cast<int>(face.style), static_cast<int>(face.symbol),
                      face.yellow ? "y" : "", face.text.empty() ? "" : " ", face.text);
@@ -106,8 +107,8 @@ class SignalWorks {
     place(world_.builder, "sign", shape, placement);
   }
 
-  /// A head of lamps: amber, as a light out of service. Those that somebody switches get their lenses in front of these by the
-  /// prototypes "traffic light" and "pedestrian light".
+  /// Places a head of lamps: amber lit, as a light out of service. Lenses of switched lights are put in front of these
+  /// by the prototypes "traffic light" and "pedestrian light".
   void add_light(const StandingSignal& standing) {
     const bool walkers = standing.form == SignalForm::pedestrian_light;
     Shape& shape = lights_[walkers];
@@ -138,7 +139,7 @@ class SignalWorks {
     add_lenses(walkers, height);
   }
 
-  /// What is drawn of a head whose lamps are known: lenses that are dark unless they are lit.
+  /// Adds the lenses of a head whose state is known: dark unless they are lit.
   void add_lenses(bool walkers, float height) {
     struct Lens {
       const char* name;
@@ -184,7 +185,7 @@ class SignalWorks {
     }
   }
 
-  /// Half a tube over the lens, seen from below and above.
+  /// Adds half a tube over the lens, seen from below and above.
   static void add_hood(MeshBuilder& builder, float z, float radius) {
     constexpr int sides = 6;
     for (int i = 0; i < sides; ++i) {
@@ -221,7 +222,7 @@ class SignalWorks {
   const WorldContext& world_;
   std::map<std::string, Shape> faces_;
   std::map<bool, Shape> lights_;
-  std::array<bool, 2> has_lenses_{};  ///< Of vehicles, of walkers.
+  std::array<bool, 2> has_lenses_{};  ///< For vehicles, for pedestrians.
   std::map<road::RoadIndex, Posts> posts_;
 };
 

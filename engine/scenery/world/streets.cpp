@@ -32,7 +32,7 @@ geometry::PolygonMesh town_house(TownHouseKind kind, std::size_t colour) {
   const roadside::TownHouseSize size = roadside::size_of(kind);
   MeshBuilder builder;
   add_house(builder, {size.length_m, size.depth_m, 0.0, 0.0}, look_of(kind, colour));
-  // Its door towards the street, on a step.
+  // Door towards the street, on a step.
   const auto front = static_cast<float>(-0.5 * size.depth_m);
   builder.material = index_of(Ground::roof_dark);
   builder.append(geometry::box({-0.5f, front - 0.06f, -0.2f}, {0.5f, front + 0.02f, 2.1f}), glm::mat4(1.0f), true);
@@ -43,7 +43,7 @@ geometry::PolygonMesh town_house(TownHouseKind kind, std::size_t colour) {
   return mesh;
 }
 
-/// Which of a house's windows are lit: so many choices, of which each house has one.
+/// Number of choices of a house's lit windows, of which each house has one.
 constexpr std::size_t lit_choices = 3;
 constexpr double share_of_lit_windows = 0.3;
 
@@ -57,7 +57,7 @@ geometry::PolygonMesh lit_windows(TownHouseKind kind, std::size_t choice, std::u
   return mesh;
 }
 
-/// A pole, its arm over the road, and a flat head whose lens looks down.
+/// Pole, its arm over the road, and a flat head whose lens faces down.
 geometry::PolygonMesh lamp() {
   constexpr auto height = static_cast<float>(street_lamp::height_m), arm = static_cast<float>(street_lamp::arm_m);
   MeshBuilder builder;

@@ -24,13 +24,13 @@ Color grey(double value, double warmth = 0.0) {
   return {byte_of(value + warmth), byte_of(value), byte_of(value - warmth)};
 }
 
-/// A soft bell around `middle`.
+/// Gaussian around `middle`.
 double bell(double x, double middle, double width) {
   const double d = (x - middle) / width;
   return std::exp(-d * d);
 }
 
-/// A square texture, pixel by pixel: `paint` gets the pixel and the place of its middle in [0, 1].
+/// Paints a square texture, pixel by pixel: `paint` gets the pixel and the place of its middle in [0, 1].
 template <class Paint>
 Image painted(std::uint32_t size, Paint paint) {
   Image image(size, size);
@@ -39,7 +39,8 @@ Image painted(std::uint32_t size, Paint paint) {
   return image;
 }
 
-/// Where something at `x` is drawn so that the texture tiles: also over the edges that it is within `reach` of.
+/// Positions at which an object at `x` is drawn so that the texture tiles: also beyond the edges that it is within
+/// `reach` of.
 std::vector<double> copies(double x, double size, double reach) {
   std::vector<double> result;
   for (const double shifted : {x - size, x, x + size})
@@ -80,7 +81,7 @@ Image plain_asphalt_texture(std::uint64_t seed) {
 }
 
 Image paving_texture(std::uint64_t seed) {
-  constexpr std::uint32_t slabs = 3;  // Of half a metre.
+  constexpr std::uint32_t slabs = 3;  // Slabs of half a metre.
   return painted(192, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
     const auto row = static_cast<std::uint32_t>(v * slabs);
     // Each row is laid half a slab further.
@@ -121,7 +122,7 @@ Image leaf_texture(std::uint64_t seed) {
   constexpr std::uint32_t size = 256;
   Image image(size, size, {70, 92, 40, 0});
   Random random(seed);
-  // Layer on layer of dabs; early ones are dark and deep, late ones bright and outside.
+  // Dabs in layers; early ones are dark and deep, late ones bright and outside.
   constexpr int dabs = 900;
   for (int i = 0; i < dabs; ++i) {
     const double x = random.uniform(0, size), y = random.uniform(0, size), turn = random.uniform(0, std::numbers::pi);
@@ -168,7 +169,7 @@ void paint_crown(Image& image, const Crown& crown, Random& random, int dabs, boo
                  reach = std::sqrt(random.uniform()) * (0.80 + 0.20 * std::sin(angle * 5 + depth * 3));
     double dx = reach * std::cos(angle), dy = reach * std::sin(angle);
     if (pointed) {
-      // A cone, evenly filled: as wide as it is far from the tip.
+      // Cone, evenly filled: as wide as it is far from the tip.
       dy = 2.0 * std::sqrt(random.uniform()) - 1.0;
       dx = random.uniform(-0.5, 0.5) * (1.0 + dy) * (0.88 + 0.12 * std::sin(dy * 22.0));
     }

@@ -1,6 +1,5 @@
 #pragma once
-/// The world's textures, painted by procedure. All tile in both directions unless said otherwise;
-/// sRGB.
+/// Textures of the world, painted procedurally. All tile in both directions unless said otherwise; sRGB.
 
 #include <cstdint>
 
@@ -8,11 +7,11 @@
 
 namespace septet::scenery {
 
-/// One lane across and 7.5 m along: aggregate, tyre polish in the wheel tracks, an oil-darkened
-/// middle, the seam of the paver at the edge.
+/// One lane across and 7.5 m along: aggregate, tyre polish in the wheel tracks, an oil-darkened middle, the seam of the
+/// paver at the edge.
 image::Image asphalt_texture(std::uint64_t seed);
 
-/// The same without tracks, 3.75 m a side: for where lanes cross.
+/// Asphalt without tracks, 3.75 m a side: for crossing lanes.
 image::Image plain_asphalt_texture(std::uint64_t seed);
 
 /// Concrete slabs of half a metre with their joints, 1.5 m a side.
@@ -34,7 +33,7 @@ inline constexpr std::uint32_t tree_pictures = 4;
 /// Whole trees side by side for far away: oak, birch, spruce, bush. Does not tile.
 image::Image tree_picture_texture(std::uint64_t seed);
 
-/// The edge of a wood from the side, tiling along.
+/// Edge of a wood from the side, tiling along.
 image::Image wood_edge_texture(std::uint64_t seed);
 
 /// Windows and doors of a house front on plaster; one storey, 4 m a side.

@@ -24,7 +24,7 @@ using Kind = roadside::TreeKind;
 using roadside::trunk_radius_m;
 constexpr int kind_count = roadside::tree_kind_count;
 constexpr float tree_near_m = 100.0f;
-/// A person's own tree is seen up to here, then the picture of its kind.
+/// Distance up to which a user's own tree is drawn, then the picture of its kind.
 constexpr float own_tree_m = 250.0f;
 
 std::string_view own_name(Kind kind) {
@@ -38,7 +38,7 @@ void add_trunk(MeshBuilder& builder, Ground bark, float radius, float height) {
   builder.append(geometry::lathe(profile, 6), glm::mat4(1.0f), true);
 }
 
-/// A hull of leaves, dented by noise, over a dark core that hides what lies behind.
+/// Adds a hull of leaves, dented by noise, over a dark core that hides the background.
 void add_crown(MeshBuilder& builder, Ground leaves, const glm::vec3& centre, const glm::vec3& radii,
                std::uint64_t seed) {
   geometry::PolygonMesh hull = geometry::icosphere(1);
@@ -57,7 +57,7 @@ void add_crown(MeshBuilder& builder, Ground leaves, const glm::vec3& centre, con
   builder.append(core, glm::mat4(1.0f), true);
 }
 
-/// Unit-height trees would lose their proportions, so each kind has its natural height.
+/// Natural height of each kind: trees of unit height would lose their proportions.
 float height_of(Kind kind) {
   switch (kind) {
     case Kind::oak:
@@ -122,7 +122,7 @@ geometry::PolygonMesh far_tree(Kind kind) {
   const float height = height_of(kind) * (kind == Kind::bush ? 1.0f : 1.06f);
   const float half = kind == Kind::oak ? 4.9f : kind == Kind::birch ? 3.4f : kind == Kind::spruce ? 4.0f : 2.0f;
   const float u0 = static_cast<float>(kind) / kind_count, u1 = u0 + 1.0f / kind_count;
-  // The bush's picture fills two thirds of its height.
+  // Picture of the bush fills two thirds of its height.
   const float top = kind == Kind::bush ? 0.33f : 0.0f;
   const geometry::CornerUvs uvs{{{u0, 1}, {u1, 1}, {u1, top}, {u0, top}}};
   builder.patch({-half, 0, -0.2f}, {half, 0, -0.2f}, {half, 0, height}, {-half, 0, height}, uvs);
@@ -130,7 +130,7 @@ geometry::PolygonMesh far_tree(Kind kind) {
   return builder.take();
 }
 
-/// The shapes of all kinds, and what is placed of them.
+/// Shapes of all kinds, and their placements.
 class TreePen {
  public:
   explicit TreePen(const WorldContext& world) : world_(world) {

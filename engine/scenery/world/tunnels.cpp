@@ -16,11 +16,11 @@ using geometry::MeshBuilder;
 
 using namespace roadside::tunnel_shape;
 
-/// Up and across: the inside of one tube from the foot of its outer wall over the ceiling to the
-/// foot of the wall in the middle. `edge` is the asphalt's edge.
+/// Point of the inside of one tube, up and across, from the foot of its outer wall over the ceiling to the foot of the
+/// wall in the middle. `edge_t` of tube_section: the asphalt's edge.
 struct TubePoint {
   double t_m, up_m;
-  Ground ground;  ///< Of the strip to the next point.
+  Ground ground;  ///< Ground of the strip to the next point.
 };
 std::array<TubePoint, 7> tube_section(double edge_t) {
   const double side = edge_t > 0 ? 1.0 : -1.0;
@@ -61,7 +61,7 @@ void add_tube(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
     }
 }
 
-/// Rows of lamps below the ceiling; signs and niches along the walls.
+/// Adds rows of lamps below the ceiling; signs and niches along the walls.
 void add_fittings(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), tile.middle_m());
   const auto quad = [&](double s0, double s1, double t0, double t1, double up, bool down) {
@@ -87,7 +87,7 @@ void add_fittings(MeshBuilder& builder, const WorldContext& world, const RoadTil
     }
 }
 
-/// The wall across the hill's face: openings for both tubes, wings along the cutting.
+/// Adds the wall across the hill's face: openings for both tubes, wings along the cutting.
 void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double mouth_s,
                 double outwards) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), mouth_s);
@@ -133,7 +133,7 @@ void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile&
                                    {u0, static_cast<float>(-high(t0) / 4)}}};
     builder.material = index_of(Ground::concrete);
     const glm::vec3 c2 = back(t1, high(t1)), d2 = back(t0, high(t0));
-    if (outwards < 0) {  // Seen by who drives towards greater s: left is left.
+    if (outwards < 0) {  // Seen by a driver towards greater s: left is left.
       builder.patch(a, b, c, d, uvs);
       builder.patch(d, c, c2, d2);
     } else {
@@ -143,7 +143,7 @@ void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile&
   }
 }
 
-/// The land behind a portal, where the coarse grid is left out.
+/// Adds the land behind a portal, where the coarse grid is left out.
 void add_cap(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double mouth_s, double outwards) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), mouth_s);
   constexpr int rows = 7, columns = 17;

@@ -25,11 +25,11 @@ namespace {
 
 using geometry::MeshBuilder;
 
-/// A column of the strip beside the road: distance from the asphalt and how its height is found.
+/// Column of the strip beside the road: distance from the asphalt, and rule for its height.
 struct Column {
   double out_m;
-  double fall_m;   ///< Below the asphalt's edge.
-  double of_land;  ///< 0: by the fall; 1: by the land, plus lift.
+  double fall_m;   ///< Depth below the asphalt's edge.
+  double of_land;  ///< Weight of the land plus lift; 0: by `fall_m` alone.
   double lift_m;
 };
 
@@ -43,10 +43,10 @@ constexpr std::array<Column, 8> near_columns{{{0, 0.0, 0, 0},
                                               {20, 0, 1, 0.35},
                                               {38, 0, 1, -1.2}}};
 constexpr std::array<Column, 4> far_columns{{{0, 0.0, 0, 0}, {4.5, 1.0, 0, 0}, {20, 0, 1, 0.35}, {38, 0, 1, -1.2}}};
-/// In a town lawn goes on from the pavement nearly level.
+/// Columns in a town, where lawn continues nearly level from the pavement.
 constexpr std::array<Column, 6> town_columns{
     {{0, 0.0, 0, 0}, {0.6, 0.03, 0, 0}, {4, 0.08, 0, 0}, {11, 0.15, 0, 0}, {20, 0, 1, 0.35}, {38, 0, 1, -1.2}}};
-/// Beside a tunnel's mouth the bank is fine further out, where the grid is left out.
+/// Columns beside a tunnel's mouth, where the bank is fine further out, as the grid is left out.
 constexpr std::array<Column, 11> mouth_columns{{{0, 0.0, 0, 0},
                                                 {0.7, 0.05, 0, 0},
                                                 {2.2, 0.25, 0.0, 0},
@@ -70,7 +70,7 @@ Vec3 column_point(const WorldContext& world, const RoadTile& tile, double s, dou
   const Vec2 p = Vec2(edge) + outwards(world, tile, s, side) * column.out_m;
   double z = edge.z - column.fall_m;
   if (column.of_land > 0.0) z = std::lerp(z, world.terrain.height_m(p) + column.lift_m, column.of_land);
-  // Where a ramp runs beside, the strip passes below its pavement.
+  // Beside a ramp the strip passes below its pavement.
   if (column.out_m > 0.0 && !is_limited) {
     const Nearest near = world.terrain.nearest(p);
     if (near.found && near.road != tile.road && near.outside_m < 0.6) z = std::min(z, near.edge_z_m - 0.4);
@@ -78,7 +78,7 @@ Vec3 column_point(const WorldContext& world, const RoadTile& tile, double s, dou
   return {p, z};
 }
 
-/// A lane so much higher is carried over the strip.
+/// Height from which a lane counts as carried over the strip.
 constexpr double overhead_m = road::least_rise_m;
 
 /// Reach of a strip outwards of a road's edge.
@@ -90,13 +90,13 @@ Free free_beside(const WorldContext& world, const RoadTile& tile, double s, doub
   const road::RoadNetwork& network = world.roads.network();
   const road::RoadPoint at = world.roads.at(tile.road, s, edge_t);
   const Vec2 edge(at.position_m), out = outwards(world, tile, s, side);
-  // Inside a bend the rows meet in its middle.
+  // Rows inside a bend meet in its middle.
   Free free;
   if (at.curvature_per_m * side > 1e-4) free.out_m = 0.85 / (at.curvature_per_m * side);
   const auto holding = [&](double out_m) -> std::optional<road::Location> {
     for (const road::Location& location : road::roads_holding(network, edge + out * out_m)) {
       const bool own = location.position.road == tile.road && std::abs(location.position.s_m - s) < over_itself_m;
-      // Below a deck the strip goes on.
+      // Strips continue below a deck.
       if (!own && road::evaluate(network, location.position).position_m.z < at.position_m.z + overhead_m)
         return location;
     }
@@ -136,7 +136,7 @@ double edge_t_m(const WorldContext& world, const RoadTile& tile, double s, doubl
   return side > 0 ? extent.left_t_m : extent.right_t_m;
 }
 
-/// For each station; from one to the next the strip's end moves no further than they lie apart.
+/// Reach at each station; between stations the strip's end moves no further than they lie apart.
 std::vector<Free> free_along(const WorldContext& world, const RoadTile& tile, const std::vector<double>& along,
                              double side, double most_m, bool among_roads) {
   std::vector<Free> result(along.size());
@@ -151,8 +151,8 @@ std::vector<Free> free_along(const WorldContext& world, const RoadTile& tile, co
   return result;
 }
 
-/// From the road's edge outwards. Towards another road the strip ends at that one's edge. Where earth would stand too steeply over a
-/// lower road it begins at the foot of a wall.
+/// Row of points from the road's edge outwards. Towards another road the strip ends at that one's edge. Where earth
+/// would stand too steeply over a lower road it begins at the foot of a wall.
 std::vector<Vec3> row_of(const WorldContext& world, const RoadTile& tile, double s, double side,
                          std::span<const Column> columns, const Free& free, bool among_roads) {
   const double edge_t = edge_t_m(world, tile, s, side);
@@ -167,7 +167,7 @@ std::vector<Vec3> row_of(const WorldContext& world, const RoadTile& tile, double
         if (columns[j].out_m >= out_m) column = mixed(columns[j - 1], columns[j], out_m);
       row.push_back(column_point(world, tile, s, edge_t, side, column, among_roads));
     } else {
-      // Down or up to the other road's edge.
+      // Slope to the other road's edge.
       const double share = free.out_m > 1e-6 ? out_m / free.out_m : 1.0;
       row.emplace_back(Vec2(edge) + out * out_m, std::lerp(edge.z, *free.z_m, share) - 0.012);
     }
@@ -194,7 +194,7 @@ bool is_among_roads(const WorldContext& world, const RoadTile& tile) {
          (meets(road.successor) && tile.s1_m > road.length_m - near_m);
 }
 
-/// The ground beside one side of a tile: a row of points for each station, from the road outwards.
+/// Ground beside one side of a tile: a row of points for each station, from the road outwards.
 struct Strip {
   std::vector<double> along;
   std::span<const Column> columns;
@@ -250,7 +250,7 @@ void draw_strip(const WorldContext& world, const RoadTile& tile, double side, St
   }
 }
 
-/// The walls along the road's edge where the ground beside it begins lower.
+/// Draws the walls along the road's edge where the ground beside it begins lower.
 void draw_retaining_wall(const WorldContext& world, const RoadTile& tile, double side, const Strip& strip,
                          MeshBuilder& builder, bool near) {
   constexpr double least_m = 0.05, texture_m = 4.0;
@@ -283,7 +283,7 @@ bool is_at_mouth(const WorldContext& world, const RoadTile& tile) {
   return false;
 }
 
-/// Both sides of a tile; finer in its steps, and further out, at a tunnel's mouth.
+/// Draws both sides of a tile; in finer steps, and further out, at a tunnel's mouth.
 void draw_sides(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m, bool near) {
   if (tile.in_tunnel || tile.on_bridge) return;
   const bool mouth = is_at_mouth(world, tile), among_roads = near && is_among_roads(world, tile);
@@ -301,7 +301,7 @@ void draw_sides(MeshBuilder& builder, const WorldContext& world, const RoadTile&
       return near ? covered_lanes(world, tile, strip.along, strip.rows, strip.among_roads) : std::vector<Covered>{};
     };
     std::vector<Covered> covered = covered_by();
-    if (!covered.empty() && !mouth && !among_roads) {  // It reaches another road all the same.
+    if (!covered.empty() && !mouth && !among_roads) {  // Reaches another road all the same.
       strip = strip_of(world, tile, side, along(true), columns, true);
       covered = covered_by();
     }

@@ -30,7 +30,7 @@ enum class Texture {
 
 struct WorldLook {
   const char* name;
-  glm::vec3 color;  ///< Linear; times the texture's mean.
+  glm::vec3 color;  ///< Linear factor of the texture's mean.
   Texture texture;
   float roughness = 0.9f;
   float metallic = 0.0f;
@@ -38,10 +38,11 @@ struct WorldLook {
   float retroreflection = 0.0f;
 };
 
-/// cd per lx and m²: glass beads in white paint (EN 1436, about class R4) and sheeting (EN 12899-1, class RA2).
+/// Coefficients of retroreflection, cd per lx and m²: glass beads in white paint (EN 1436, about class R4) and sheeting
+/// (EN 12899-1, class RA2).
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
-/// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
+/// Looks in the order of Ground. Linear means of the textures: asphalt 0.11, ground 0.55, concrete 0.56.
 constexpr std::array<WorldLook, 72> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},

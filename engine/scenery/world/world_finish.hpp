@@ -1,5 +1,5 @@
 #pragma once
-/// The finishes of the world: road, land, plants and buildings.
+/// Finishes of the world: road, land, plants and buildings.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ enum class Ground : std::uint32_t {
   asphalt_fresh,
   asphalt_old,
   asphalt_tunnel,
-  asphalt_plain,  ///< Of junctions, where lanes cross: the same whichever way it is driven.
+  asphalt_plain,  ///< Asphalt of junctions, where lanes cross: the same in every direction.
   cycle_path,
   paving,
   kerb_stone,
@@ -21,7 +21,7 @@ enum class Ground : std::uint32_t {
   crack,
   mark,
   mark_tunnel,
-  paint,  ///< As marks, for shapes that are no stripes.
+  paint,  ///< Paint as of marks, for shapes that are no stripes.
   concrete,
   concrete_dark,
   concrete_tunnel,
@@ -64,7 +64,7 @@ enum class Ground : std::uint32_t {
   roof_tiles,
   roof_dark,
   planks,
-  window_lit,  ///< A pane before a lit room: as dark as others by day.
+  window_lit,  ///< Pane before a lit room: as dark as others by day.
   far_asphalt,
   palette,
   // Colours of the palette, which are no materials of their own: see to_palette.
@@ -84,14 +84,15 @@ enum class Ground : std::uint32_t {
 
 constexpr std::uint32_t index_of(Ground ground) { return static_cast<std::uint32_t>(ground); }
 
-/// The colour of a ground for far away; `ground` itself where there is none.
+/// Colour of a ground for far away; `ground` itself where it has no such colour.
 Ground far_of(Ground ground);
 
 /// Gives all polygons of a palette's colour the one material `palette` and the texture coordinates
 /// of their colour in its bitmap, so that a mesh of many colours costs one draw.
 void to_palette(geometry::PolygonMesh& mesh);
 
-/// One material for each, in their order, with their bitmaps; those of junctions and towns only if the world has some.
+/// Adds one material for each, in their order, with their bitmaps; those of junctions and towns only if the world has
+/// some.
 Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, bool towns);
 
 }  // namespace septet::scenery

@@ -10,7 +10,7 @@
 namespace septet::scenery {
 namespace {
 
-// The motorway's 11 km take 110 squares, 173 km of lanes, 4,500 dashes and 10 MB on the wire.
+// Limits. For comparison, the motorway's 11 km take 110 squares, 173 km of lanes, 4,500 dashes and 10 MB on the wire.
 constexpr std::size_t most_squares = 1500, most_structures = 2000, most_signals = 20'000;
 constexpr double most_lane_m = 2e7, most_dashes = 5e5;
 
@@ -18,7 +18,7 @@ tl::unexpected<Error> too_large(std::string what) {
   return failure(std::move(what), "the road network", "cut out of it the part that is driven");
 }
 
-/// Of land, counted until it is too many.
+/// Squares of land, counted until there are too many.
 std::size_t count_squares(const RoadShape& roads) {
   constexpr double step_m = 1000.0;
   std::set<std::pair<std::int64_t, std::int64_t>> squares;

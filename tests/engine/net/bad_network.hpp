@@ -74,7 +74,7 @@ class BadNetwork {
   Random random_;
   double now_s_ = 0.0;
   std::uint64_t launches_ = 0;
-  std::map<std::pair<double, std::uint64_t>, Flight> in_flight_;  ///< By due time, then by order of sending.
+  std::map<std::pair<double, std::uint64_t>, Flight> in_flight_;  ///< Sorted by due time, then by order of sending.
   std::vector<Socket*> sockets_;
   std::map<Address, TrafficCount> sent_;
 };

@@ -82,7 +82,7 @@ TEST_CASE("a client is live for exactly half a second of silence and nobody ackn
   for (const std::uint64_t tick : {3, 4, 4, 4}) tracker.acknowledge(1, tick, 0.0);
   tracker.advance_to(0.5);
   CHECK(tracker.is_live(1));
-  // Were a tick remembered each time that it is acknowledged, the older ones would be forgotten for it.
+  // Repeated acknowledgements of one tick do not push out older ticks.
   tracker.join(2, 0.5);
   tracker.acknowledge(2, 3, 0.5);
   CHECK(tracker.baseline() == 3);

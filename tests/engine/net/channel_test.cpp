@@ -59,7 +59,7 @@ TEST_CASE("of transfers that fill the budget of a pump each has its turn") {
   site.run(0.1);
   for (std::size_t n = 0; n < 3; ++n) site.server->send(site.id_of(n), random_bytes(2 << 20, n), Reliability::reliable);
   site.run(0.150);
-  // Each is done only when the others have nearly come as far.
+  // Each transfer ends only when the others are nearly done.
   for (std::size_t n = 0; n < 3; ++n) {
     const std::size_t queued = site.server->info(site.id_of(n))->queued_bytes;
     CHECK((queued > 0 || site.received[n].size() == 1));

@@ -15,7 +15,7 @@ TEST_CASE(
   const auto look = [&](bool welcome = true) { return report.look(*site.clients[0], welcome, site.now_s); };
   CHECK_FALSE(look());
   site.run(0.2);
-  CHECK_FALSE(look(false));  // Connected, but not yet taken for a screen.
+  CHECK_FALSE(look(false));  // Connected, but not yet accepted as a screen.
   const auto connected = look();
   REQUIRE(connected);
   CHECK(connected->find("connected to the server at 10.0.0.1:4750") != std::string::npos);

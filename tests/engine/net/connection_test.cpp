@@ -38,7 +38,7 @@ TEST_CASE("a client that is not on the list learns that and no more and the oper
                                     [](const auto& event) { return event.kind == ServerEvent::Kind::refused; });
   REQUIRE(refused != site.server_events.end());
   CHECK(refused->reason.find(to_text(identity_of(200).public_key())) != std::string::npos);
-  // Without end, but rarely: at most every five seconds, and the operator is notified every half minute.
+  // Endless but rare attempts: one every five seconds at most, and a report to the operator every half minute.
   site.run(60.0, 0.01);
   const auto knocks = site.server->counters().not_allowed;
   site.run(60.0, 0.01);
@@ -81,7 +81,7 @@ TEST_CASE("a client says that nobody answers and goes on when somebody does") {
   Site site(1, {});
   site.server.reset();
   site.run(1.0);
-  CHECK(site.clients[0]->obstacle() == Obstacle::none);  // It has not tried for long.
+  CHECK(site.clients[0]->obstacle() == Obstacle::none);  // No long attempt yet.
   site.run(30.0, 0.01);
   CHECK(site.clients[0]->obstacle() == Obstacle::no_answer);
   const auto before = site.network.sent_by(client_address(0)).datagrams;
@@ -105,7 +105,7 @@ TEST_CASE("what speaks another version of the protocol is told which one is spok
   CHECK(answer->bytes.size() < hello.size());
   CHECK(answer->bytes[0] == hello[0]);
   CHECK(answer->bytes[1] == std::byte{1});
-  // And vice versa: the server is of another version.
+  // Vice versa: the server is of another version.
   site.server.reset();
   site.add_client(0, 100);
   for (int i = 0; i < 100; ++i) {
@@ -132,7 +132,7 @@ TEST_CASE(
   }
   CHECK(site.count(ServerEvent::Kind::connected) == 1);
   CHECK(site.count(ServerEvent::Kind::refused) == 1);
-  // Its machine has lost its power: it is silent.
+  // Power loss of its machine: silence.
   site.hung[0] = true;
   site.run(3.0);
   CHECK(site.clients[1]->state() == ClientState::connected);
@@ -140,7 +140,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a client that is heard once a second stays, however often another one with its key knocks") {
-  // Its program draws a picture for so long each time; the first pictures take longer.
+  // Drawing time of its program for each picture; the first pictures take longer.
   for (const double silence_s : {0.3, 0.6, 1.0, 1.5, 1.9}) {
     CAPTURE(silence_s);
     Site site(1, {});
@@ -157,7 +157,7 @@ TEST_CASE("a client that is heard once a second stays, however often another one
       CHECK(site.clients[1]->obstacle() == Obstacle::key_in_use);
     }
     CHECK(site.count(ServerEvent::Kind::connected) == 1);
-    // Gone for good, it makes room: within the time-out and the newcomer's next knock.
+    // A client that is gone for good makes room within the time-out and the newcomer's next knock.
     site.hung[0] = true;
     site.run(7.5);
     CHECK(site.clients[1]->state() == ClientState::connected);

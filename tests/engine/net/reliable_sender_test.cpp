@@ -77,7 +77,7 @@ TEST_CASE("acknowledgements that come out of order resend nothing") {
   for (std::uint64_t n = 0; n < 40; ++n) lane.enqueue(n);
   for (std::uint64_t ms = 0; ms < 60; ++ms) {
     const double now_s = 0.001 * static_cast<double>(ms);
-    // Of each two the second is known a millisecond before the first.
+    // Acknowledges the second of each pair a millisecond before the first.
     const std::uint64_t number = (ms - 10) ^ 1;
     if (ms >= 10 && number < lane.next_number) lane.acknowledge(number, number, now_s);
     lane.sender.advance_to(now_s);
@@ -195,7 +195,7 @@ TEST_CASE("a round trip is smoothed as RFC 6298 says and waited for as RFC 9002 
   CHECK(round_trip.smoothed_s() == doctest::Approx(0.1125));
   CHECK(round_trip.resend_s() == doctest::Approx(0.1125 + 4.0 * 0.0625));
   CHECK(round_trip.reordering_s() == doctest::Approx(1.125 * 0.2));
-  round_trip.add(0.05);  // Not the latest but the smoothed one is the longer.
+  round_trip.add(0.05);  // The smoothed round trip is longer than the latest one.
   CHECK(round_trip.reordering_s() == doctest::Approx(1.125 * (0.1125 - 0.0625 / 8.0)));
   RoundTrip quick;
   quick.add(1e-5);

@@ -11,7 +11,7 @@ namespace septet::net {
 namespace {
 
 TEST_CASE("clients whose clocks differ and drift know the server's clock within two milliseconds on a bad network") {
-  // A round trip of 1 ms; there and back unlike; drift of up to 200 ppm between two clocks.
+  // A round trip of 1 ms; unequal paths there and back; drift of up to 200 ppm between two clocks.
   const NetworkFaults quiet{.latency_s = 0.0005}, bad{.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020},
       worse{.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.040};
   for (const NetworkFaults& faults : {quiet, bad, worse}) {
@@ -73,11 +73,11 @@ TEST_CASE("the estimate of a clock is the middle of what all pings leave") {
   // An old ping counts for less and less: two clocks drift apart.
   for (int k = 1; k <= 10; ++k) clock.add(10.0 + k, 110.0105 + k, 10.020 + k);
   CHECK(clock.uncertainty_s() > 0.0025 + 0.0015);
-  // One that contradicts the others: a clock was set.
+  // A ping that contradicts the others: a clock was set.
   clock.add(30.0, 180.001, 30.002);
   CHECK(clock.pings() == 1);
   CHECK(clock.offset_s() == relative(150.0, 1e-6));
-  // Nor are times any better that no clock shows.
+  // Times that no clock shows are dropped, too.
   clock.add(std::nan(""), 181.0, 31.0);
   clock.add(31.0, 181.0, 30.9);
   CHECK(clock.pings() == 1);

@@ -54,8 +54,8 @@ TEST_CASE(
   receiver.receive_from(*in);
   while (auto received = receiver.next()) arrived.insert(received->tick);
   const auto& counters = receiver.counters();
-  // Both copies of a tick are lost with probability 0.0025: three of 1200 are expected, twelve are
-  // beyond belief.
+  // Both copies of a tick are lost with probability 0.0025: three of 1200 are expected, twelve are practically
+  // impossible.
   CHECK(arrived.size() >= ticks - 12);
   CHECK(arrived.size() + counters.lost + TickReceiver::window >= ticks);
   CHECK(counters.repaired > 20);

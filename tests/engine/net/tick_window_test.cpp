@@ -66,7 +66,7 @@ TEST_CASE("a tick is lost when it leaves the window and not before") {
   TickReceiver receiver = following();
   receiver.accept(recorder.datagrams[0]);
   receiver.accept(recorder.datagrams[TickReceiver::window]);
-  CHECK(receiver.counters().lost == 0);  // The first one left it whole.
+  CHECK(receiver.counters().lost == 0);  // The first tick left the window complete.
   for (std::size_t late = 1; late < TickReceiver::window; ++late) receiver.accept(recorder.datagrams[late]);
   CHECK(receiver.counters().ticks == TickReceiver::window + 1);
   TickReceiver without_second = following();

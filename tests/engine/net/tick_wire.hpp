@@ -1,6 +1,6 @@
 #pragma once
-// The tick lane's end without a network, for tests, the fuzzer and benchmarks: keys from numbers, and a socket that keeps what
-// it is given.
+// The tick lane's end without a network, for tests, the fuzzer and benchmarks: keys from numbers, and a socket that
+// keeps the datagrams given to it.
 
 #include <cstdint>
 #include <optional>

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t side_tiles = 57;  ///< 900 pixels in tiles of 16.
 
-/// Cost of a tile, 1 to 20: a patch in the picture's middle is dear, as glass before a simple room.
+/// Cost of a tile, 1 to 20: a patch in the picture's middle is expensive, as glass before a simple room.
 double cost_of(std::uint32_t tile) {
   const double x = (tile % side_tiles) / double(side_tiles) - 0.55, y = (tile / side_tiles) / double(side_tiles) - 0.6;
   return 1.0 + 19.0 * std::exp(-12.0 * (x * x + y * y));
@@ -67,7 +67,7 @@ Ended simulate(std::size_t frames, const std::vector<Simulated>& workers, Dealin
     for (std::size_t n = 0; n < workers.size(); ++n) {
       if (!states[n].number && now_s >= workers[n].joins_s) {
         states[n].number = schedule.add_worker(1);
-        if (ready_s > 0.0) {  // It makes ready before anything is dealt, as the film's workers do.
+        if (ready_s > 0.0) {  // Preparation before anything is dealt, as the film's workers do.
           states[n].frame = schedule.likely_first_frame(*states[n].number);
           if (states[n].frame) schedule.was_ready_after(*states[n].number, *states[n].frame, ready_s);
         }
@@ -81,17 +81,17 @@ Ended simulate(std::size_t frames, const std::vector<Simulated>& workers, Dealin
         if (other.run.frame == deal->shortened->run.frame)
           other.run.end = std::min(other.run.end, deal->shortened->run.end);
       }
-      // A tile that it traces though another has delivered it is given up.
+      // Tiles in its hands that another worker has delivered are abandoned.
       states[n].run = deal->run, states[n].next = deal->run.first;
       if (now_s < workers[n].dies_s) goes_on(n);
     }
     const auto next = std::min_element(states.begin(), states.end(),
                                        [](const State& a, const State& b) { return a.done_s < b.done_s; });
-    // An idle worker asks now and then.
+    // Idle workers ask at intervals.
     const double asks_s = 0.02 * all / speed / static_cast<double>(frames);
     if (next->done_s > now_s + asks_s) {
       now_s += asks_s;
-      if (now_s > 50.0 * all / speed) return {};  // It hangs.
+      if (now_s > 50.0 * all / speed) return {};  // Hang.
       continue;
     }
     now_s = next->done_s;
@@ -136,7 +136,7 @@ TEST_CASE("equal workers are used to 97 percent") {
 }
 
 TEST_CASE("workers that take long to make ready for a frame are used as well for a film") {
-  // As long as a fiftieth of a frame's time for an average worker.
+  // Preparation of a fiftieth of a frame's time for an average worker.
   const Ended film = simulate(40, mixed(15), Dealing::split, 4.0);
   MESSAGE("efficiency ", film.efficiency);
   CHECK(film.efficiency >= 0.9);
@@ -213,7 +213,7 @@ TEST_CASE("what a worker had begun that dies unnoticed is traced by others") {
     const Ended ended = simulate(2, workers, Dealing::split);
     CHECK(ended.efficiency > 0.4);
     CHECK(ended.missing == 0);
-    // All but one.
+    // All workers but one.
     workers[2].dies_s = dies_s;
     const Ended last = simulate(2, workers, Dealing::split);
     CAPTURE(last.twice);

@@ -1,4 +1,4 @@
-/// The clear coat that the rasteriser draws too (tests/engine/render/clear_coat_slow_test.cpp), by paths.
+/// Clear coat by paths; tests/engine/render/clear_coat_slow_test.cpp has the rasteriser's.
 
 #include <cmath>
 #include <utility>

@@ -15,14 +15,14 @@
 
 namespace septet::raytrace {
 
-/// The same radiance from all directions, and no sun.
+/// Sky of the same radiance in all directions, without a sun.
 inline std::shared_ptr<const instant::SkyLight> even_sky(float radiance) {
   instant::SkyLight light;
   light.table.radiance.assign(std::size_t{instant::SkyTable::columns} * instant::SkyTable::rows, glm::vec3(radiance));
   return std::make_shared<const instant::SkyLight>(light);
 }
 
-/// From a place along +x of the world, up is z.
+/// View from a place along +x of the world, up is z.
 inline instant::Instant instant_from(const Vec3& eye_m, double angle_rad, std::uint32_t side_px,
                                      std::shared_ptr<const instant::SkyLight> light) {
   instant::Instant instant;
@@ -52,7 +52,7 @@ inline scene::ResolvedScene cornell_box() {
     material.base_color = color;
     material.roughness = 1.0f;
     material.emission = emission;
-    material.two_sided = emission == glm::vec3(0.0f);  // As all rectangles there; some face away.
+    material.two_sided = emission == glm::vec3(0.0f);  // Same as all rectangles there; some face away.
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
   };

@@ -20,7 +20,7 @@ const instant::Exposure exposure = instant::exposure_of_scale(1.0f);
 
 double rmse(const TracedPicture& a, const TracedPicture& b) {
   double squares = 0.0;
-  // Below the lamp, whose edge outweighs all else.
+  // Below the lamp only, whose edge outweighs all else.
   for (std::size_t n = a.pixels.size() / 4; n < a.pixels.size(); ++n) {
     const glm::dvec3 off = glm::dvec3(a.pixels[n].radiance) - glm::dvec3(b.pixels[n].radiance);
     squares += glm::dot(off, off);
@@ -113,7 +113,7 @@ TEST_CASE("lamps that some samples met and others missed leave the dark around t
     pixel.radiance = glm::vec3(0.01f * (1.0f + 0.4f * (random.uniform() - 0.5f)));
     pixel.variance = 1e-4f * 0.16f / 12.0f;
   }
-  // Five lamps in a row, of one sample in 16 to three of four.
+  // Five lamps in a row, met by one sample in 16 to three of four.
   for (std::uint32_t n = 0; n < 5; ++n) {
     TracedPixel& lamp = picture.pixels[20 * 48 + 18 + 3 * n];
     const float share = 0.0625f + 0.17f * static_cast<float>(n);

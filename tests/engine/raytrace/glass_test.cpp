@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t pane_px = 96;
 
-/// Upright, half a metre before the eye at the origin, over the whole picture.
+/// Pane half a metre before the eye at the origin, upright, over the whole picture.
 ice::PaneShape upright_pane() {
   return ice::pane_between({0.0, -0.7, -0.7}, {0.0, 0.7, -0.7}, {0.0, -0.7, 0.7}, {0.0, 0.7, 0.7}, 0.0);
 }
@@ -47,7 +47,7 @@ TracedPicture seen(const std::vector<ice::IceBody>& glass, std::shared_ptr<const
 }  // namespace
 
 TEST_CASE("thick frost sends to either side the half of what falls on both, less what it keeps") {
-  const ice::IceBody thick = even_frost(20.0f);  // But for a few holes between the feathers.
+  const ice::IceBody thick = even_frost(20.0f);  // Complete but for a few holes between the feathers.
   CHECK(mean_of(seen({thick}, even_sky(1.0f))).radiance.x == relative(0.88, 0.004));
   for (const float ahead : {1.0f, -1.0f}) {
     auto sun = *even_sky(0.0f);
@@ -99,7 +99,7 @@ TEST_CASE("a star's cracks mirror the sky within the blow's reach, and beyond it
     }
   CHECK(beyond == 0);
   CHECK(changed > 40);
-  // Under an even sky nothing gives more than it gets.
+  // Under an even sky no surface reflects more than it receives.
   CHECK(mean_of(cracked).radiance.x <= mean_of(clear).radiance.x * 1.0001);
   CHECK(mean_of(cracked).radiance.x > 0.97);
 }

@@ -13,7 +13,7 @@
 namespace septet::raytrace {
 namespace {
 
-/// A row of cars on a road along x, every fifth with its main beam lit, every third away from the place that is lit.
+/// Row of cars on a road along x, every fifth with its main beam lit, every third facing away from the lit place.
 std::vector<instant::Headlight> cars(std::size_t count) {
   std::vector<instant::Headlight> headlights;
   for (std::size_t n = 0; n < count; ++n) {
@@ -56,7 +56,7 @@ TEST_CASE("each of many headlights is drawn as often as it is a share of their l
     }
     for (std::size_t n = 0; n < count; ++n)
       CHECK(std::abs(static_cast<float>(drawn[n]) - draws * strength(headlights[n]) / expected) < 2.0f);
-    CHECK(row.drawn(place_m, half_open, 1.0f, sum).strength > 0.0f);  // Where rounding leads past the end.
+    CHECK(row.drawn(place_m, half_open, 1.0f, sum).strength > 0.0f);  // Rounding leads past the end here.
   }
 }
 

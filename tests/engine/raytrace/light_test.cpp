@@ -32,12 +32,12 @@ void add_part(scene::ResolvedScene& scene, const std::array<glm::vec3, 4>& corne
   scene.materials.push_back(material);
 }
 
-/// At x, as wide as it is high, towards −x: the side from which it is looked at.
+/// Square at x, facing −x, from which side it is seen.
 std::array<glm::vec3, 4> wall(float x, float half_m) {
   return {glm::vec3(x, -half_m, -half_m), {x, -half_m, half_m}, {x, half_m, half_m}, {x, half_m, -half_m}};
 }
 
-/// A needle's view of one point of it, along a path in the plane of x and y.
+/// Needle view of one point of it, along a path in the plane of x and y.
 instant::Instant needle(const Vec3& at_m, double aside_rad, std::shared_ptr<const instant::SkyLight> light) {
   const Vec3 eye_m = at_m - 4.0 * Vec3(std::cos(aside_rad), std::sin(aside_rad), 0.0);
   instant::Instant instant = instant_from(eye_m, 1e-4, 8, std::move(light));
@@ -49,7 +49,7 @@ TraceSettings direct(std::uint32_t samples) {
   return {.samples = samples, .paths = {.longest = 2}, .filter = Filter::box};
 }
 
-/// Share of the hemisphere's cosines that a parallel rectangle takes of which one corner is straight ahead.
+/// Form factor of a parallel rectangle with one corner straight ahead: its share of the hemisphere's cosines.
 double of_corner(double a, double b) {
   const double p = std::sqrt(1.0 + a * a), q = std::sqrt(1.0 + b * b);
   return (a / p * std::atan(b / p) + b / q * std::atan(a / q)) / (2.0 * std::numbers::pi);
@@ -66,8 +66,7 @@ TEST_CASE("a lamp lights a wall by the rectangle's form factor however rough the
   scene::ResolvedScene scene;
   add_part(scene, wall(5.0f, 3.0f), white);
   scene.instances.push_back({.mesh = 1});
-  // It faces the wall at a distance of 1 m: beside the way of the eye, and so far aside that light comes and goes at
-  // 80°.
+  // Faces the wall at a distance of 1 m: beside the line of sight, and so far aside that light comes and goes at 80°.
   for (const float y0 : {0.2f, 5.5f}) {
     const float y1 = y0 + 1.3f, z0 = -0.5f, z1 = 0.8f;
     scene.meshes.resize(1);
@@ -92,7 +91,7 @@ TEST_CASE("lamps are drawn with the chances that are told and only such as may l
   std::vector<Lamp> lamps(21);
   for (std::size_t n = 0; n < lamps.size(); ++n) {
     const auto across = static_cast<float>(n);
-    // Over the surface, partly below it and below it, by turns.
+    // Above the surface, partly below it and below it, by turns.
     lamps[n].middle_m = {across - 7.0f, 1.0f, n % 3 == 0 ? 2.0f : n % 3 == 1 ? -0.1f : -0.3f};
     lamps[n].radius_m = 0.2f;
     lamps[n].axis = {0.0f, 0.0f, n % 2 ? -1.0f : 0.3f};
@@ -109,10 +108,10 @@ TEST_CASE("lamps are drawn with the chances that are told and only such as may l
     CHECK((weights.chance(n) > 0.0f) == (n % 3 != 2));
   }
   CHECK(weights.drawn(0.99999994f) == 19);
-  // In the air no side is dark.
+  // No side is dark in the air.
   LampRow(lamps).weigh({0.0f, 0.0f, 0.0f}, glm::vec3(0.0f), 0.0f, weights);
   for (std::size_t n = 0; n < lamps.size(); ++n) CHECK(weights.chance(n) > 0.0f);
-  // While the shutter is open it is where it is then.
+  // Position of a moving lamp at the ray's time.
   lamps.resize(1);
   lamps[0].way_m = {0.0f, 0.0f, -4.0f};
   LampRow(lamps).weigh({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, 1.0f, weights);
@@ -129,7 +128,7 @@ TEST_CASE(
   lamp.emission = glm::vec3(7.0f);
   scene::ResolvedScene scene;
   add_part(scene, wall(5.0f, 60.0f), white);
-  // Flat ones 1 m away, of which the further shine past the wall more than at it; and as many behind it.
+  // Flat lamps 1 m away, of which the further shine past the wall more than at it; and as many behind it.
   double share = 0.0;
   for (int n = 0; n < 60; ++n) {
     const float y0 = 0.3f + 0.9f * static_cast<float>(n), y1 = y0 + 0.3f, z = 0.1f;
@@ -190,7 +189,7 @@ TEST_CASE("rough metal under the sun shines as Walter's microfacets say") {
       const double aside = aside_deg * std::numbers::pi / 180.0;
       const PictureMean mean = mean_of(
           traced(scene, needle({5.0, 0.0, 0.0}, aside, std::make_shared<const instant::SkyLight>(sun)), direct(64)));
-      // By tangents, as the paper writes D and G; D's width is the square of the roughness.
+      // Written with tangents, as the paper has D and G; D's width is the square of the roughness.
       const glm::dvec3 l(sun.light_direction), v(-std::cos(aside), -std::sin(aside), 0.0), h = glm::normalize(l + v);
       const double a2 = std::pow(double(roughness), 4.0);
       const auto tangent2 = [](double cosine) { return 1.0 / (cosine * cosine) - 1.0; };
@@ -216,7 +215,7 @@ TEST_CASE("a mirror shows a lamp as bright as it is") {
   scene::ResolvedScene scene;
   add_part(scene, wall(5.0f, 3.0f), mirror);
   add_part(scene, {glm::vec3(1.0f, 1.0f, -2.0f), {1.0f, 6.0f, -2.0f}, {1.0f, 6.0f, 2.0f}, {1.0f, 1.0f, 2.0f}}, lamp);
-  // Its image fills the needle's view.
+  // Mirror image of the lamp, which fills the needle's view.
   const double aside = std::atan2(0.75, 1.0);
   const PictureMean mean = mean_of(traced(scene, needle({5.0, 0.0, 0.0}, aside, even_sky(0.0f)), direct(64)));
   const double fresnel_here = 0.8 + 0.2 * std::pow(1.0 - std::cos(aside), 5.0);

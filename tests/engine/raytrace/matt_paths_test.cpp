@@ -16,10 +16,10 @@ constexpr std::uint32_t compared_px = 48, samples = 16;
 
 struct Compared {
   double mean_together = 0.0, mean_alone = 0.0;
-  double share_same = 0.0;  ///< Of the pixels, whose radiance is the same within a thousandth.
+  double share_same = 0.0;  ///< Share of the pixels whose radiance is the same within a thousandth.
 };
 
-/// The scene as it is traced eight paths at once, beside each path by itself.
+/// Traces the scene eight paths at once, and each path by itself.
 Compared compared(const scene::ResolvedScene& scene, const TraceSettings& settings) {
   const instant::Instant instant = before_cornell_box(compared_px);
   const TracedPicture together = traced(scene, instant, settings), alone = traced(each_alone(scene), instant, settings);

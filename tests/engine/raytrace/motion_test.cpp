@@ -45,13 +45,13 @@ constexpr std::uint32_t side_px = 40;
 constexpr double angle_rad = 0.6, distance_m = 6.0;
 const double px_of_m = side_px / (2.0 * std::tan(0.5 * angle_rad)) / distance_m;
 
-/// How far the light of each column, a mean over its rows, is from a ramp between two columns of the picture.
+/// Largest deviation of the columns' light, means over their rows, from a ramp between two columns of the picture.
 double off_ramp(const TracedPicture& picture, double full_px, double dark_px) {
   double worst = 0.0;
   for (std::uint32_t x = 0; x < side_px; ++x) {
     double light = 0.0;
     for (std::uint32_t y = 0; y < side_px; ++y) light += picture.at(x, y).radiance.x / side_px;
-    // The mean of the ramp over the pixel.
+    // Mean of the ramp over the pixel.
     double expected = 0.0;
     for (int n = 0; n < 64; ++n)
       expected += std::clamp((dark_px - (x + (n + 0.5) / 64.0)) / (dark_px - full_px), 0.0, 1.0) / 64.0;
@@ -69,7 +69,7 @@ TEST_CASE("an edge that moves while the shutter is open is a linear ramp as long
   sheet.number = 5;
   sheet.tint = glm::vec4(1.0f);
   instant.parts = {sheet};
-  sheet.origin_m.y = -1.5;  // To the right.
+  sheet.origin_m.y = -1.5;  // Motion to the right.
   later.parts = {sheet};
   const TraceSettings settings{.samples = 64, .filter = Filter::box};
   CHECK(off_ramp(traced_until(scene, instant, later, settings), 0.5 * side_px, 0.5 * side_px + 1.5 * px_of_m) < 0.03);
@@ -99,35 +99,35 @@ TEST_CASE("a pixel's motion is the way of what it shows in the picture by the ca
   };
   constexpr std::uint32_t on_sheet = 10, in_sky = 30;
   const double px_of_slope = px_of_m * distance_m;
-  // The camera moves to the left and up: standing objects go to the right and down, the sky stays.
+  // Camera moves to the left and up: static objects go to the right and down, the sky stays.
   instant::Instant later = instant;
   later.views.front().projection.eye_m += Vec3(0.0, 1.0, 0.5);
   CHECK(motion(later, on_sheet).x == relative(px_of_m, 1e-4));
   CHECK(motion(later, on_sheet).y == relative(0.5 * px_of_m, 1e-4));
   CHECK(glm::length(motion(later, in_sky)) < 1e-3f);
   CHECK(motion(later, on_sheet, 2.5f).x == relative(2.5 * px_of_m, 1e-4));
-  // It turns to the left: the sky goes to the right, by tangents.
+  // Camera turns to the left: the sky goes to the right, by tangents.
   later = instant;
   later.views.front().projection = instant::symmetric_view({-distance_m, 0.0, 0.0}, 0.05, 0.0, angle_rad, angle_rad);
   const auto turned_by = [&](double px) { return px_of_slope * std::tan(std::atan(px / px_of_slope) + 0.05) - px; };
   CHECK(motion(later, in_sky).x > turned_by(10.0) - 1e-3);
   CHECK(motion(later, in_sky).x < turned_by(11.0) + 1e-3);
-  // The sheet goes to the right, which a camera that goes with it does not see.
+  // Sheet goes to the right, which a camera that goes with it does not see.
   later = instant;
   later.parts.front().origin_m.y = -1.5;
   CHECK(motion(later, on_sheet).x == relative(1.5 * px_of_m, 1e-4));
   CHECK(std::abs(motion(later, on_sheet).y) < 1e-3f);
   later.views.front().projection.eye_m.y = -1.5;
   CHECK(glm::length(motion(later, on_sheet)) < 1e-3f);
-  // It comes two thirds as far away: everything is half as far again from the middle.
+  // Sheet at two thirds of its distance: everything is half as far again from the middle.
   later = instant;
   later.parts.front().origin_m.x = -2.0;
   CHECK(motion(later, on_sheet).x > -5.0 - 1e-3);
   CHECK(motion(later, on_sheet).x < -4.5 + 1e-3);
-  // It is behind the camera then.
+  // Sheet behind the camera at the later time.
   later.parts.front().origin_m.x = -9.0;
   CHECK(motion(later, on_sheet) == glm::vec2(0.0f));
-  // It is not blurred.
+  // Motion without blur.
   later = instant;
   later.views.front().projection.eye_m.y += 1.0;
   const double sharp = 0.5 * side_px;
@@ -156,7 +156,7 @@ TEST_CASE("a ray meets what turns where it is at the ray's time") {
   auto geometry = Geometry::create();
   REQUIRE(geometry.has_value());
   geometry->add_mesh(scene.meshes[0].vertices, scene.meshes[0].indices, false);
-  // A quarter of a circle about z, stretched all the while.
+  // Quarter of a circle about z, stretched all the while.
   const glm::mat3 stretch(1.0f, 0, 0, 0, 2.0f, 0, 0, 0, 0.5f);
   const Stand from{glm::vec3(0.0f), stretch},
       to{glm::vec3(0, 0, 3), glm::mat3(glm::rotate(glm::mat4(1.0f), 1.2f, glm::vec3(0, 0, 1))) * stretch};
@@ -191,7 +191,7 @@ TEST_CASE("debris that turns over while the shutter is open has the normals of i
       to{{{1, 3, -2}, {-2, -3, -1}, {2.5, 0, 4}}};
   instant.loose = {loose(from)};
   later.loose = {loose(to)};
-  // It is also carried along; measured from there.
+  // Motion of its frame, which its vertices compensate.
   later.loose.front().mesh.origin_m = {0.0, 0.0, 1.0};
   for (scene::SurfaceVertex& vertex : later.loose.front().mesh.vertices) vertex.position_m.z -= 1.0f;
   const TracedPicture picture = traced_until(scene, instant, later, {.samples = 512});

@@ -28,7 +28,7 @@ std::vector<Photon> all_photons(const RayTracer& tracer) {
   return photons;
 }
 
-/// Square, in the plane of height z, seen from above or below.
+/// Adds a square in the plane of height z, visible from above or below.
 void add_level(scene::ResolvedScene& scene, float half_m, float z_m, bool looks_up,
                const scene::SurfaceMaterial& material) {
   scene::SurfaceMesh mesh;
@@ -67,7 +67,7 @@ ClearBody ball_of(float index, float absorption_per_m, float radius_m, const Vec
   return body;
 }
 
-/// A ball of radius 1 and the scene's second material, from within.
+/// Inside of a ball of radius 1, of the scene's second material.
 scene::SurfaceMesh shell(int splits) {
   scene::SurfaceMesh walls = ball(splits);
   for (std::size_t n = 0; n < walls.indices.size(); n += 3) std::swap(walls.indices[n], walls.indices[n + 1]);
@@ -76,7 +76,7 @@ scene::SurfaceMesh shell(int splits) {
   return walls;
 }
 
-/// Straight down.
+/// View straight down.
 instant::Instant under_sun(const Vec3& eye_m, double angle_rad, std::uint32_t side_px, float irradiance) {
   auto light = *even_sky(0.0f);
   light.light_direction = light.sun_direction = {0.0f, 0.0f, 1.0f};
@@ -91,7 +91,7 @@ double let_through(float index, double absorption_per_m, double radius_m) {
   constexpr int rings = 4000;
   double sum = 0.0;
   for (int n = 0; n < rings; ++n) {
-    const double square = (n + 0.5) / rings;  // Rings of one area.
+    const double square = (n + 0.5) / rings;  // Rings of equal area.
     const double reflected =
         light::fresnel(static_cast<float>(std::sqrt(1.0 - square)), static_cast<float>(1.0 / index));
     const double clear = std::exp(-absorption_per_m * radius_m * 2.0 * std::sqrt(1.0 - square / (index * index)));
@@ -146,7 +146,7 @@ TEST_CASE("a plane under a bare lamp has by its photons the light of the rectang
   for (float x = -1.0f; x <= 1.0f; x += 0.25f)
     for (float y = -1.0f; y <= 1.0f; y += 0.25f) {
       SurfacePoint point;
-      point.position_m = {x, y, -0.5f};  // From the eye.
+      point.position_m = {x, y, -0.5f};  // Relative to the eye.
       point.flat_normal = point.surface.normal = {0.0f, 0.0f, 1.0f};
       point.surface.diffuse = glm::vec3(0.6f);
       const double found = double(map.radiance(point, {0.0f, 0.0f, 1.0f}).x);
@@ -158,7 +158,7 @@ TEST_CASE("a plane under a bare lamp has by its photons the light of the rectang
       const double off = found / known - 1.0;
       CAPTURE(x);
       CAPTURE(y);
-      // For this many photons: 1/√n, and the curvature of the light over the disc.
+      // Tolerance for this many photons: 1/√n, and the curvature of the light over the disc.
       CHECK(std::abs(off) < 4.0 / std::sqrt(nearest - 1.0) + 0.01);
       squares += off * off, sum_known += known, sum_found += found, ++places;
     }
@@ -167,7 +167,7 @@ TEST_CASE("a plane under a bare lamp has by its photons the light of the rectang
 }
 
 TEST_CASE("a ball of glass sends on what it lets through, and where two stand in one beam no light is counted twice") {
-  // A lamp so far away that its light is parallel, all within a shell.
+  // Lamp so far away that its light is parallel, all within a shell.
   scene::ResolvedScene scene;
   const float away_m = 100.0f;
   add_level(scene, 0.5f, away_m, false, matt(0.0f, 30000.0f));
@@ -186,7 +186,7 @@ TEST_CASE("a ball of glass sends on what it lets through, and where two stand in
   const double beam = std::numbers::pi * 0.25 * 30000.0 / (double(away_m) * double(away_m));
   const double one = energy({ball_of(1.5f, 0.4f, 0.5f, {0.0, 0.0, 0.0})});
   CHECK(one / (beam * let_through(1.5f, 0.4, 0.5)) == relative(1.0, 0.01));
-  // One in the other's shadow, clear: all light on the first passes through both.
+  // Two clear balls, one in the other's shadow: all light on the first passes through both.
   const double both = energy({ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, 0.0}), ball_of(1.5f, 0.0f, 0.5f, {0.0, 0.0, -1.5})});
   CHECK(both / beam == relative(1.0, 0.015));
 }
@@ -199,7 +199,7 @@ TEST_CASE("under a ball of glass the sun makes a bright spot in a shadow, with t
   const auto instant = under_sun({0.0, 0.0, 40.0}, 2.0 * std::atan(0.5 * side_m / 41.2), side_px, 3.0f);
   TraceSettings settings{.samples = 16, .paths = {.longest = 6}, .filter = Filter::box};
   const TracedPicture open = traced(scene, instant, settings);
-  // It covers a part of its own spot: that part is visible through it.
+  // The ball covers a part of its own spot, which is visible through it.
   const std::vector<ClearBody> glass{ball_of(1.5f, 0.0f, 1.0f, {0.0, 0.0, 0.0})};
   const TracedPicture without = traced(scene, instant, settings, glass);
   settings.photons.caustic = 30000;
@@ -211,8 +211,7 @@ TEST_CASE("under a ball of glass the sun makes a bright spot in a shadow, with t
   for (const TracedPixel& pixel : with.pixels) brightest = std::max(brightest, pixel.radiance.x);
   CHECK(brightest > 5.0 * open_floor);
   CHECK(with.bad_samples == 0);
-  // Light from above, by the light of the floor's places: through two surfaces each, so the shadow's light is nearly
-  // there again.
+  // Sum over the photons, each through two surfaces: nearly all light of the shadow is there again.
   auto tracer = RayTracer::create(scene);
   REQUIRE(tracer.has_value());
   tracer->begin(instant, settings, glass);

@@ -43,7 +43,7 @@ TEST_CASE("the error falls with the root of the number of samples") {
     const TracedPicture a = traced(cornell_box(), before_cornell_box(64), cornell_settings(samples, 1)),
                         b = traced(cornell_box(), before_cornell_box(64), cornell_settings(samples, 2));
     double squares = 0.0;
-    // Below the lamp, whose few pixels at the edge would outweigh all others.
+    // Below the lamp only: its few pixels at the edge would outweigh all others.
     for (std::size_t n = a.pixels.size() / 4; n < a.pixels.size(); ++n) {
       const glm::dvec3 off = glm::dvec3(a.pixels[n].radiance) - glm::dvec3(b.pixels[n].radiance);
       squares += glm::dot(off, off);
@@ -63,7 +63,7 @@ TEST_CASE("a picture that is told its error has it and tells it") {
   const TracedPicture a = traced(cornell_box(), instant, settings);
   settings.seed = 2;
   const TracedPicture b = traced(cornell_box(), instant, settings);
-  // Its value with many more samples.
+  // Reference with many more samples.
   const TracedPicture reference = traced(cornell_box(), instant, cornell_settings(1024, 3));
   double told = 0.0, found = 0.0, against_reference = 0.0, samples = 0.0, most = 0.0;
   for (std::size_t n = 0; n < a.pixels.size(); ++n) {
@@ -124,13 +124,13 @@ TEST_CASE("within a ball that shines and reflects the light is the sum of a geom
 }
 
 TEST_CASE("through a ball of ice under an even sky goes what Fresnel and Beer and Lambert let through") {
-  // Along a chord: R + T² a (1 + R a + …), a = exp(−σ c), where each inner reflection meets the surface at the same
-  // angle.
+  // Transmission along a chord: R + T² a (1 + R a + …), a = exp(−σ c), where each inner reflection meets the surface at
+  // the same angle.
   const float index = 1.31f, absorption_per_m = 0.4f;
   ClearBody ice{.index = index, .absorption_per_m = glm::vec3(absorption_per_m)};
   const scene::SurfaceMesh shape = ball(6);
   for (const std::uint32_t n : shape.indices) ice.vertices.push_back(shape.vertices[n]);
-  // So far away that the rays of the picture are parallel.
+  // Distance at which the rays of the picture are parallel.
   const double away_m = 2000.0, off_m = 1.2;
   const instant::Instant instant =
       instant_from({-away_m, 0.0, 0.0}, 2.0 * std::atan(off_m / away_m), 64, even_sky(1.0f));

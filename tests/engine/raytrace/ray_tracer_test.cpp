@@ -173,7 +173,7 @@ TEST_CASE("where two levels of detail meet a share of the rays sees each and non
   for (scene::MeshPart& part : scene.meshes[1].parts) part.material = 1;
   scene.instances.push_back(scene.instances[0]);
   scene.instances[1].mesh = 1;
-  // At three quarters of the band.
+  // Three quarters of the fade band.
   const double eye_m = 8.0;
   scene.instances[0].visible_to_m = scene.instances[1].visible_from_m =
       static_cast<float>(eye_m) / (1.0f + 0.5f * instant::fade_half_band);
@@ -217,7 +217,7 @@ TEST_CASE("a part is seen where the mesh is that stands in for its own, and is w
   instant::PlacedMesh part;
   part.number = 77;
   instant.parts.push_back(part);
-  // The ball's upper half alone, in its second half's stead.
+  // Replaces its second half by the ball's upper half alone.
   auto halves = std::make_shared<instant::ReshapedParts>();
   scene::SurfaceMesh half = scene.meshes[0];
   for (scene::SurfaceVertex& vertex : half.vertices) vertex.position_m.z = std::max(vertex.position_m.z, 0.0f);
@@ -281,7 +281,7 @@ TEST_CASE("what the sun gives and what the sky gives add up whichever is looked 
     return mean_of(traced(scene, instant, {.samples = 64, .filter = Filter::box, .seed = seed}));
   };
   const PictureMean dark = mean(0.0f, 0), dim = mean(0.1f, 1);
-  // The whole view is filled by the ball, which gives back half of the sky wherever it is convex.
+  // The whole view is filled by the ball, which reflects half of the sky wherever it is convex.
   CHECK(std::abs(dim.radiance.x - dark.radiance.x - 0.05) < 4.0 * std::hypot(dark.sigma, dim.sigma) + 1e-4);
 }
 
@@ -331,7 +331,7 @@ TEST_CASE("a picture of sets of samples is that of all of them, whichever set is
   tracer->begin(before_cornell_box(16), cornell_settings(samples));
   const instant::PixelRectangle all{0, 0, 16, 16};
   const Bucket whole = tracer->trace(all);
-  for (const std::uint32_t count : {1u, 3u, 13u, 20u}) {  // Of 20 sets some are empty.
+  for (const std::uint32_t count : {1u, 3u, 13u, 20u}) {  // Some of 20 sets are empty.
     std::vector<Bucket> sets(count);
     for (std::uint32_t n = count; n-- > 0;) sets[n] = tracer->trace(all, sample_set(samples, n, count));
     CAPTURE(count);

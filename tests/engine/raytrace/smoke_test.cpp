@@ -47,7 +47,7 @@ TEST_CASE("a slab of smoke lets through what Beer and Lambert say") {
     for (const float aside : {0.0f, 0.37f, -1.21f})
       CHECK(std::exp(-smoke.optical_depth(along_x(aside, 0.4f * aside))) ==
             relative(std::exp(-extinction_per_m * 3.0f), 0.005));
-    // The same aslant, through as much more of it.
+    // Slanted ray, through proportionally more of it.
     Ray aslant = along_x();
     aslant.direction = glm::normalize(glm::vec3(1.0f, 0.25f, -0.1f));
     aslant.origin_m = glm::vec3(3.5f, 0.0f, 0.0f) - 6.0f * aslant.direction;
@@ -64,7 +64,7 @@ TEST_CASE("a puff takes its extinction area from the light in all however fine t
     const Smoke coarse(puffs, Vec3(0.0));
     CHECK(coarse.cell_m() > alone.cell_m());
     for (const Smoke* smoke : {&alone, &coarse}) {
-      // As many rays through every cell.
+      // Equal numbers of rays through every cell.
       double area = 0.0;
       const float step = smoke->cell_m() / 8.0f;
       for (float y = -6.0f; y < 6.0f; y += step)

@@ -11,7 +11,7 @@
 namespace septet::raytrace {
 namespace {
 
-/// Integral over the upper half of all directions, by the midpoints of equal solid angles.
+/// Integral over the upper hemisphere, by the midpoints of equal solid angles.
 template <class Function>
 double over_hemisphere(const Function& of, int rings = 2000, int spokes = 200) {
   double sum = 0.0;
@@ -79,7 +79,7 @@ TEST_CASE("directions are drawn with the density that they say and weighed with 
 TEST_CASE("an interface reflects as Fresnel says head-on and at Brewster's angle and beyond the critical one") {
   CHECK(light::fresnel(1.0f, 1.0f / 1.5f) == relative(0.04, 1e-5));
   CHECK(light::fresnel(1.0f, 1.0f / 1.31f) == relative(0.01801, 1e-3));
-  // There only light polarised across the plane is reflected: half of ((n² − 1)/(n² + 1))².
+  // Brewster's angle: only light polarised across the plane is reflected, half of ((n² − 1)/(n² + 1))².
   const float brewster = std::cos(std::atan(1.5f));
   CHECK(light::fresnel(brewster, 1.0f / 1.5f) == relative(0.5 * std::pow(1.25 / 3.25, 2), 1e-4));
   CHECK(light::fresnel(0.5f, 1.31f) == 1.0f);  // 60° from within ice; the critical angle is 49.8°.

@@ -11,7 +11,7 @@
 
 namespace septet::raytrace {
 
-/// A ball of radius 1, 20·4^splits triangles with the sphere's normals.
+/// Ball of radius 1 with 20·4^splits triangles and the sphere's normals.
 inline scene::SurfaceMesh ball(int splits) {
   const float g = 0.5f * (1.0f + std::sqrt(5.0f));
   std::vector<glm::vec3> points{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
@@ -53,8 +53,8 @@ inline scene::ResolvedScene ball_scene(const scene::SurfaceMaterial& material, i
   return scene;
 }
 
-/// The same to the eye, with a white image on lit surfaces: no surface is a plain matt colour, and each path is traced
-/// by itself.
+/// Same scene to the eye, with a white image on lit surfaces: no surface is a plain matt colour, and each path is
+/// traced by itself.
 inline scene::ResolvedScene each_alone(scene::ResolvedScene scene) {
   for (scene::SurfaceMaterial& material : scene.materials)
     if (material.emission == glm::vec3(0.0f))
@@ -76,7 +76,7 @@ inline TracedPicture traced(const scene::ResolvedScene& scene, const instant::In
 
 struct PictureMean {
   glm::dvec3 radiance{0.0};
-  double sigma = 0.0;  ///< Deviation of the mean's luminance.
+  double sigma = 0.0;  ///< Standard deviation of the mean's luminance.
 };
 inline PictureMean mean_of(const TracedPicture& picture) {
   PictureMean mean;

@@ -10,7 +10,7 @@
 
 namespace septet::raytrace {
 
-/// All photons of the instant begun last, by so many threads.
+/// Sends all photons of the instant begun last, on that many threads.
 inline void send_photons(RayTracer& tracer, unsigned threads) {
   const auto buckets = tracer.photon_buckets();
   std::vector<std::vector<Photon>> photons(buckets.size());
@@ -19,7 +19,7 @@ inline void send_photons(RayTracer& tracer, unsigned threads) {
   tracer.set_photons(photons);
 }
 
-/// All buckets of the instant begun last.
+/// Traces all buckets of the instant begun last.
 inline TracedPicture whole_picture(const RayTracer& tracer, std::uint32_t width, std::uint32_t height) {
   TracedPicture picture(width, height);
   constexpr std::uint32_t bucket_side_px = 16;

@@ -96,14 +96,14 @@ TEST_CASE("nothing is sent that was not subscribed to") {
   const auto& original = std::get<GeometryData>(wire.store.find(2)->data);
   CHECK(geometry.vertices_m == original.vertices_m);
   CHECK(geometry.polygons[0][0] == geometry::no_vertex);
-  CHECK(geometry.layers.size() == original.layers.size());  // announced, with their defaults
+  CHECK(geometry.layers.size() == original.layers.size());  // Announced, with their defaults.
   CHECK(geometry.layers.at(2).integers != original.layers.at(2).integers);
 
   const std::size_t before = end.bytes_to_client;
   wire.build.apply(FragmentSet{3, 0, ColorFragment{{1, 1, 1}}});
   wire.build.apply(LayerIntegersSet{2, 2, 0, {8}});
   REQUIRE(wire.settle(end));
-  CHECK(end.bytes_to_client - before < 16);  // only that it is complete up to the new revision
+  CHECK(end.bytes_to_client - before < 16);  // Notice of completeness up to the new revision only.
 }
 
 TEST_CASE("what changes often while it waits is sent once") {
@@ -221,7 +221,7 @@ TEST_CASE("a client that was cut off before it heard that it has everything hear
   Wire wire;
   fill(wire);
   auto& end = wire.add("left");
-  // Everything arrives but that word.
+  // Delivers all messages but that notice.
   for (int i = 0; i < 50; ++i) {
     wire.pump(end, 1u << 20, 0);
     for (; !end.to_server.empty(); end.to_server.pop_front())

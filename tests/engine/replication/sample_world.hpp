@@ -27,7 +27,7 @@ inline geometry::PolygonMesh strip(std::uint32_t length, std::uint32_t width, do
   return mesh;
 }
 
-/// About 420,000 vertices in 40 meshes, 6 images of 512², 4,000 placed objects.
+/// Builds about 420,000 vertices in 40 meshes, 6 images of 512², 4,000 placed objects.
 inline void build_sample_world(scene::SceneBuilder& build) {
   Random random(1);
   std::vector<scene::NodeId> materials, meshes;

@@ -121,7 +121,7 @@ TEST_CASE("a batch that comes again is taken once and one that is missing ends t
   CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().size() == 1);
   CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().empty());
   CHECK_FALSE(raw.server.receive(1, replication::encode(CommandBatch{3, 0, change})).has_value());
-  // It is told its received sequence.
+  // The client gets its received sequence.
   bool told = false;
   for (const Message& message : raw.hears())
     if (const auto* received = std::get_if<Received>(&message)) told = received->sequence == 1;

@@ -53,7 +53,7 @@ struct Wire {
     end.to_client.clear();
   }
 
-  /// One pump of each side of one end, and the delivery of at most `messages` each way.
+  /// Pumps each side of one end once, and delivers at most `messages` each way.
   void pump(End& end, std::size_t bytes = 1u << 20, std::size_t messages = ~std::size_t{0}) {
     if (end.connection == 0) return;
     ++end.pumps;
@@ -80,7 +80,7 @@ struct Wire {
     }
   }
 
-  /// Until the client is complete up to the store's revision; false after too many pumps.
+  /// Pumps until the client is complete up to the store's revision; false after too many pumps.
   bool settle(End& end, std::size_t bytes = 1u << 20) {
     for (int i = 0; i < 10000; ++i) {
       pump(end, bytes);

@@ -1,5 +1,5 @@
-// The land beside the roads as wheels find it: without a jump from the road into the fields, where it is drawn, and as
-// rough as a meadow.
+// Land beside the roads for wheels: without a jump from the road into the fields, at its drawn height, and as rough as
+// a meadow.
 #include "engine/roadside/ground_beside.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ const Terrain& land_beside_motorway() {
   return terrain;
 }
 
-/// Beside the right edge of the motorway.
+/// Point beside the right edge of the motorway.
 Vec2 beside(double s_m, double out_m) {
   const road::RoadExtent extent = road::road_extent(road::motorway().roads[0], s_m);
   return Vec2(road::evaluate(road::motorway(), {0, s_m, extent.right_t_m - out_m}).position_m);
@@ -61,7 +61,7 @@ TEST_CASE("far from the roads the ground is the drawn land with the unevenness o
     }
   }
   REQUIRE(count > 50);
-  // The integral of class E between 0.05 and 1 cycle a metre.
+  // Integral of class E between 0.05 and 1 cycle a metre.
   CHECK(std::sqrt(sum_m2 / count) == relative(std::sqrt(4096e-6 * 0.01 * 19.0), 0.35));
 }
 

@@ -263,7 +263,7 @@ TEST_CASE("a house is a wall all round, no nearer to a road than seventy-five me
     const Vec2 middle = 0.5 * (walls[i].from_m + walls[i + 2].from_m);
     CHECK(terrain.nearest(middle).outside_m > 40.0);
   }
-  // Of a farm the dwelling, barn and shed; of a church nave and tower.
+  // Sizes of a farm's dwelling, barn and shed; of a church's nave and tower.
   CHECK(sizes_dm.at({120, 80}) == sizes_dm.at({260, 110}));
   CHECK(sizes_dm.at({120, 80}) == sizes_dm.at({90, 60}));
   CHECK(sizes_dm.size() == (sizes_dm.contains({220, 100}) ? 5 : 3));

@@ -52,10 +52,10 @@ TEST_CASE("a road file's buildings, lamps, trees, poles and obstacles stand wher
   CHECK(objects[4].radius_m == doctest::Approx(0.1));
   const auto foot = [&](std::size_t i) { return objects[i].world_from_object.position_m; };
   CHECK(glm::length(foot(0) - roads.point(0, 20, 15)) < 1e-6);
-  // The lamp's arm reaches over the road, and no others are made up.
+  // Arm of the lamp over the road; no other lamps are generated.
   REQUIRE(street_lamps(roads).size() == 1);
   CHECK(glm::length(street_lamps(roads)[0].world_from_lamp * Vec3(6, 0, 0) - roads.point(0, 30, 0)) < 0.01);
-  // They are run against, and the tree is planted.
+  // Vehicles run against them, and the tree is planted.
   const Obstacles obstacles(network, 3);
   const auto hit = [&](std::size_t i, ObstacleKind kind) {
     return std::ranges::any_of(obstacles.near(Vec2(foot(i)), 8.0), [&](const Obstacle& o) { return o.kind == kind; });

@@ -26,7 +26,8 @@ road::RoadNetwork shipped(const std::string& path) {
   return road::read_or_fail({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
 }
 
-/// Of one lane over one stretch: the grid of EN 13201-3, three rows across the lane, places at most 3 m apart along it.
+/// Light of one lane over one stretch, on the grid of EN 13201-3: three rows across the lane, places at most 3 m apart
+/// along it.
 struct LaneLight {
   double mean_lux = 0.0, least_lux = 1e9;
   int places = 0;

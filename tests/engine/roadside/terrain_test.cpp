@@ -120,7 +120,7 @@ TEST_CASE("a bridge crosses a valley of fifteen metres that goes on across the r
   const auto& valley = motorway_land().valleys().front();
   CHECK(glm::distance(valley.middle_m, middle) < 1e-6);
   CHECK(valley.bottom_z_m == doctest::Approx(middle.z - 16.0));
-  // Its floor meanders, where it has left the bridge.
+  // Meanders of its floor, beyond the bridge.
   const Vec2 across(-valley.along.y, valley.along.x);
   for (const double away_m : {-300.0, 250.0}) {
     const auto height_at = [&](double along_m) {

@@ -72,7 +72,7 @@ TEST_CASE("tiles lie row by row and what pads them is not shown") {
   CHECK(green(image, 16, 0) == 2 * 40);
   CHECK(green(image, 0, 8) == 3 * 40);
   CHECK(green(image, 16, 8) == 5 * 40);
-  // Without a layer of alpha it is opaque; the other colours are black.
+  // Opaque without an alpha layer; the other colours are black.
   CHECK(image.rgba[0] == 0);
   CHECK(image.rgba[3] == 255);
   CHECK(image.srgb);

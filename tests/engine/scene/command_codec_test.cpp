@@ -36,9 +36,9 @@ TEST_CASE("the bytes of a transform are those of the specification") {
   const Bytes bytes = bytes_of(TransformSet{5, {{1.0, 0.0, 0.0}}});
   REQUIRE(bytes.size() == 1 + 1 + 24 + 1);
   CHECK(bytes[0] == std::byte{10});
-  CHECK(bytes[1] == std::byte{6});     // node + 1
-  CHECK(bytes[9] == std::byte{0x3f});  // the top of 1.0
-  CHECK(bytes[26] == std::byte{0});    // neither turned nor scaled
+  CHECK(bytes[1] == std::byte{6});     // Node + 1.
+  CHECK(bytes[9] == std::byte{0x3f});  // Highest byte of 1.0.
+  CHECK(bytes[26] == std::byte{0});    // Neither rotation nor scale.
 }
 
 TEST_CASE("a command that is cut anywhere is refused") {
@@ -86,7 +86,7 @@ TEST_CASE("numbers that are not finite are refused") {
 TEST_CASE("a claimed length beyond the limit is refused before it is allocated") {
   Bytes bytes;
   ByteWriter out(bytes);
-  out.put(std::uint8_t{18});  // vertices set
+  out.put(std::uint8_t{18});  // Opcode of "vertices set".
   out.put_varint(2), out.put_varint(0), out.put_varint(std::uint64_t{1} << 40);
   CHECK_FALSE(decode(bytes).has_value());
 }

@@ -36,7 +36,7 @@ TEST_CASE("a blender fades from its first to its second and adds and subtracts a
   CHECK(is(blended(BlendKind::add), {1.0f, 0.9f, 0.2f}));
   CHECK(is(blended(BlendKind::subtract), {0.6f, 0.0f, 0.2f}));
   CHECK(is(blended(BlendKind::multiply), {0.16f, 0.2f, 0.0f}));
-  CHECK(is(blended(BlendKind::divide), {4.0f, 0.8f, 0.0f}));  // By nothing gives nothing.
+  CHECK(is(blended(BlendKind::divide), {4.0f, 0.8f, 0.0f}));  // Division by 0 gives 0.
 }
 
 TEST_CASE("a clamp is a floor or a ceiling and a matrix turns colours row by row") {

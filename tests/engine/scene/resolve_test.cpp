@@ -101,7 +101,7 @@ TEST_CASE("materials reach the parts of a mesh by face index") {
   w.build.add_object("", {.geometry = geometry});
   const ResolvedScene scene = resolve(w.store);
   REQUIRE(scene.meshes.size() == 2);
-  REQUIRE(scene.meshes[0].parts.size() == 2);  // index 5 has no material of its own and wears that of 0
+  REQUIRE(scene.meshes[0].parts.size() == 2);  // Index 5 has no material of its own and takes that of 0.
   CHECK(scene.meshes[0].parts[0].index_count == 4 * 6);
   CHECK(scene.meshes[0].parts[1].index_count == 2 * 6);
   const SurfaceMaterial& first = scene.materials[scene.meshes[0].parts[0].material];

@@ -1,5 +1,5 @@
 #pragma once
-/// Commands and stores to test with.
+/// Commands and stores for tests.
 
 #include <stdexcept>
 #include <vector>
@@ -16,7 +16,7 @@ inline void must_apply(Store& store, const Command& command) {
   if (!done) throw std::runtime_error(describe(done.error()));
 }
 
-/// One of every fragment kind.
+/// Fragments, one of every kind.
 inline std::vector<Fragment> sample_fragments() {
   RampFragment ramp{RampKind::smooth, RampChannel::green, 1, {{0.25f, {0.0f, 0.5f, 1.0f}}, {0.75f, glm::vec3(1.0f)}}};
   MatrixFragment matrix;
@@ -40,7 +40,7 @@ inline std::vector<Fragment> sample_fragments() {
           OutputFragment{"color", 14, no_fragment}};
 }
 
-/// One of every command at least; applied in order they fill a store (the subscriptions apart).
+/// Commands, at least one of every kind; applied in order they fill a store (but for the subscriptions).
 inline std::vector<Command> sample_commands() {
   std::vector<Command> commands = {
       NodeIndexSubscribe{0b1111},

@@ -35,7 +35,7 @@ TEST_CASE("a polygon of four corners is cut along its shorter diagonal") {
   mesh.polygons = {{0, 1, 2, 3}};
   const SurfaceMesh surface = triangulate(mesh, same_material);
   REQUIRE(surface.indices.size() == 6);
-  // Each triangle has both ends of the short one and one of the long one.
+  // Each triangle has both ends of the short diagonal and one end of the long one.
   for (const std::size_t first : {0u, 3u}) {
     int of_short = 0;
     for (std::size_t k = 0; k < 3; ++k) of_short += surface.vertices[surface.indices[first + k]].position_m.x == 0.0f;

@@ -53,7 +53,7 @@ struct Group {
   glm::vec3 color{0.0f}, emission{0.0f};
   std::int32_t image = -1;
   Gloss gloss;
-  const ice::Look* ice = nullptr;  ///< It is a body of it.
+  const ice::Look* ice = nullptr;  ///< Look of a body of ice, if it is one.
 };
 
 std::string ply(const Group& group) {
@@ -143,7 +143,7 @@ std::string write_smoke(const PeerScene& peer, const std::filesystem::path& fold
   if (peer.instant.smoke.empty()) return "null";
   const Smoke smoke(peer.instant.smoke, instant::world_eye(peer.instant.views.front()));
   const glm::vec3 middle(peer.instant.smoke[0].position_m - instant::world_eye(peer.instant.views.front()));
-  const float half_m = 0.62f;  // Four deviations and no wall.
+  const float half_m = 0.62f;  // Four deviations, and no wall.
   constexpr int cells = 96;
   std::string bytes = "VOL\3";
   const auto put = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(value)); };

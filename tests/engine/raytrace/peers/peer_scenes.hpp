@@ -42,7 +42,7 @@ inline bool is_peer_scene(std::string_view name) {
 struct Gloss {
   float share = 0.0f;  ///< Share of its surface; 0: no gloss.
   float alpha = 1.0f;
-  float f0 = 0.04f;  ///< For a dielectric.
+  float f0 = 0.04f;  ///< Value of a dielectric.
   float metallic = 0.0f;
 };
 
@@ -50,7 +50,7 @@ inline float wetness(const scene::SurfaceMaterial& material, const Environment& 
   return material.wettable ? static_cast<float>(weather.road_wetness) * material.share_of_sky : 0.0f;
 }
 
-/// Mirrors World.
+/// Same formulas as World's.
 inline Gloss gloss_of(const scene::SurfaceMaterial& material, const Environment& weather) {
   if (const float wet = wetness(material, weather); wet > 0.0f)
     return {light::film_share * wet, light::film_roughness * light::film_roughness, light::water_reflectance, 0.0f};
@@ -69,7 +69,7 @@ inline void simplify(scene::ResolvedScene& scene, bool matt) {
       material.metallic = 0.0f;
       material.wettable = false;
     }
-    // As in World: a lamp under a roof lights others more brightly than it appears.
+    // Same as in World: a lamp under a roof lights others more brightly than it appears.
     material.emission *= glm::mix(instant::roofed_lamps_light_up, 1.0f, material.share_of_sky);
   }
   for (scene::SurfaceMesh& mesh : scene.meshes)
@@ -87,7 +87,7 @@ inline void simplify(scene::ResolvedScene& scene, bool matt) {
   }
 }
 
-/// Side by side before the eye, ten times as blue as clear ice is.
+/// Adds three bodies side by side before the eye, ten times as blue as clear ice.
 inline void add_ice(instant::Instant& instant) {
   const RigidTransform& car = instant.views.front().world_from_car;
   const Vec3 eye_m = instant::world_eye(instant.views.front());
@@ -101,7 +101,7 @@ inline void add_ice(instant::Instant& instant) {
   }
 }
 
-/// Side by side before the eye: car paint, chrome, a rim's half metal and a dark window, as on vehicles.
+/// Adds balls side by side before the eye: car paint, chrome, a rim's half metal and a dark window, as on vehicles.
 inline void add_balls(scene::ResolvedScene& scene, instant::Instant& instant) {
   struct Look {
     glm::vec3 color;

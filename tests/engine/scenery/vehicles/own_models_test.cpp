@@ -14,7 +14,7 @@
 namespace septet::scenery {
 namespace {
 
-/// A box of this size about `middle`, and a wheel in front on the left.
+/// Box of this size about `middle`, and a wheel in front on the left.
 gltf::Model box_on_a_wheel(const glm::vec3& size, const glm::vec3& middle) {
   gltf::Model model;
   model.looks = {{.name = "paint"}, {.name = "other"}};

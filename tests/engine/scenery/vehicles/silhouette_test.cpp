@@ -36,7 +36,7 @@ void fill(Outline& outline, glm::vec2 a, glm::vec2 b, glm::vec2 c) {
     }
 }
 
-/// From the side, as it is drawn at this distance.
+/// Outline from the side, as drawn at this distance.
 Outline outline_of(const VehicleModel& model, float distance_m) {
   Outline outline;
   for (const VehiclePart& part : vehicle_parts(model)) {

@@ -32,7 +32,7 @@ bool has_role(const VehicleParts& parts, scene::PartRole role, float distance_m)
   });
 }
 
-/// Drawn by the lines of a car.
+/// True for a body with a car's lines.
 bool has_car_lines(const VehicleModel& model) {
   return (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
           model.kind == ParticipantKind::ambulance) &&
@@ -51,7 +51,7 @@ geometry::PolygonMesh opaque_part(const VehicleParts& parts, std::string_view na
   return opaque;
 }
 
-/// Triangles of everything that is drawn at a distance.
+/// Triangles of all parts that are drawn at a distance.
 std::size_t triangles_at(const VehicleParts& parts, float distance_m) {
   std::size_t count = 0;
   for (const VehiclePart& part : parts)
@@ -89,7 +89,7 @@ TEST_CASE("the slope that debris meets at a vehicle's front lies close around wh
     const auto slope = front_slope(model.kind);
     if (!slope || !has_car_lines(model)) continue;
     CAPTURE(model.name);
-    // In side view: z over x, from the bonnet's edge at the front to where the roof begins.
+    // Side view: z over x, from the bonnet's edge at the front to the beginning of the roof.
     const double rise = (1.0 - slope->edge_height) * model.height_m, run = slope->roof_begins * model.length_m;
     double furthest_out_m = -1e9;
     for (const auto& vertex : shown_surface(car_body_cage(model, car_shape(model), 1), 1).vertices_m) {
@@ -121,7 +121,7 @@ TEST_CASE("every vehicle keeps within its triangle budgets and gets simpler with
 TEST_CASE("at each distance a vehicle is drawn in one level of detail, and its levels meet") {
   for (const VehicleModel& model : vehicle_models()) {
     CAPTURE(model.name);
-    // From where to where something is drawn, each range once.
+    // Distance ranges in which parts are drawn, each once.
     std::set<std::pair<float, float>> ranges;
     for (const VehiclePart& part : vehicle_parts(model))
       for (const Placement& place : part.places) ranges.insert({place.visible_from_m, place.visible_to_m});
@@ -160,7 +160,7 @@ TEST_CASE("cars have the lamps and wheels that move and light") {
   using enum scene::PartRole;
   for (const VehicleModel& model : vehicle_models()) {
     if (model.kind == ParticipantKind::pedestrian || model.kind == ParticipantKind::bicycle) continue;
-    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Its tractor has the lamps ahead.
+    if (model.name == "caravan" || model.name == "semitrailer") continue;  // Lamps ahead are on its tractor.
     CAPTURE(model.name);
     const VehicleParts parts = vehicle_parts(model);
     for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left, lamp_indicator_right,
@@ -228,7 +228,7 @@ TEST_CASE("through the side windows of a near bus or coach one sees out on the o
     const VehicleParts parts = vehicle_parts(model);
     const geometry::PolygonMesh opaque = opaque_part(parts, "body near");
     const geometry::Bounds people = geometry::bounds(opaque_part(parts, "people near"));
-    // Over the heads, along the middle of the windows.
+    // Path over the heads, along the middle of the windows.
     int open = 0, tried = 0;
     for (double x = -model.rear_overhang_m + 1.0; x < model.front_m() - 1.5; x += 0.03, ++tried)
       open += !surface_point(opaque, Face::left, {x, people.max_m.z + 0.15}).has_value();
@@ -263,7 +263,7 @@ TEST_CASE("vehicles of one outline share the parts that they have in common") {
         ++shared;
         break;
       }
-  CHECK(shared + 2 == taxi.size());  // But for the sign, near and middle.
+  CHECK(shared + 2 == taxi.size());  // Differs by the sign, near and middle.
 }
 
 TEST_CASE("the scene holds a prototype for every model of the catalogue") {
@@ -272,9 +272,9 @@ TEST_CASE("the scene holds a prototype for every model of the catalogue") {
   build_vehicles(builder);
   const scene::ResolvedScene scene = scene::resolve(store);
   CHECK(scene.instances.empty());
+  // Inside and shell of the driver's own model.
   CHECK(std::ranges::count_if(scene.prototypes, [](const auto& p) { return !p.name.starts_with("cockpit/"); }) ==
-        static_cast<std::ptrdiff_t>(vehicle_models().size()) +
-            2);  // Inside and shell of the one whose seat can be taken.
+        static_cast<std::ptrdiff_t>(vehicle_models().size()) + 2);
   for (const scene::Prototype& prototype : scene.prototypes) {
     CAPTURE(prototype.name);
     CHECK(prototype.parts.size() >= (prototype.name.starts_with("cockpit/") ? 1 : 3));

@@ -1,5 +1,5 @@
 #pragma once
-/// A drawn world, for tests: its triangles by the names of their objects.
+/// Triangles of a drawn world by the names of their objects, for tests.
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-/// Where ground that is drawn lies over lanes, for tests.
+/// Drawn ground over lanes, for tests.
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +20,14 @@
 
 namespace septet::scenery {
 
-/// A place on a lane that is driven or walked.
+/// Place on a lane that is driven or walked.
 struct LanePlace {
   road::RoadPosition position;
   Vec3 surface_m;
 };
 
-/// Every 2 m of every lane: its middle and 0.25 m inside of both edges. Not in tunnels, over which land lies.
+/// Places every 2 m of every lane: its middle and 0.25 m inside of both edges. Tunnels, over which land lies, are left
+/// out.
 inline std::vector<LanePlace> lane_places(const road::RoadNetwork& network) {
   constexpr double step_m = 2.0, inside_m = 0.25;
   std::vector<LanePlace> places;
@@ -56,7 +57,7 @@ inline std::vector<LanePlace> lane_places(const road::RoadNetwork& network) {
   return places;
 }
 
-/// How many of the places have drawn ground over them, and the worst one in words.
+/// Number of places with drawn ground over them, and the worst one in words.
 struct Buried {
   std::size_t places = 0, buried = 0;
   double most_m = 0.0;

@@ -33,7 +33,7 @@ Corner corner_of(const Vec3& p) { return {std::llround(p.x * 16.0), std::llround
 }  // namespace
 
 TEST_CASE("fields meet along their own borders and not along the squares of the land") {
-  // Edges between two things that grow, by how they lie to the grid.
+  // Edges between two ground covers, by their direction relative to the grid.
   std::map<std::pair<Corner, Corner>, std::set<std::string>> sides;
   for (const DrawnTriangle& triangle : drawn_triangles(country(), "land"))
     for (std::size_t k = 0; k < 3; ++k) {

@@ -44,7 +44,7 @@ Apart apart(const road::RoadNetwork& network, double step_m, double tolerated_m)
         for (const double share : {0.06, 0.5, 0.94}) {
           const Vec3 p =
               road::evaluate(network, {index, s, std::lerp(borders.inner_t_m, borders.outer_t_m, share)}).position_m;
-          // Where another road's lanes lie over these, both are found.
+          // Both surfaces are found where another road's lanes overlap these.
           if (road::roads_holding(network, Vec2(p)).size() > 1 && !road::is_drivable(lane.type)) continue;
           double least_m = 1.0;
           for (const double z : heights.at(Vec2(p))) least_m = std::min(least_m, std::abs(z - p.z));
@@ -78,7 +78,7 @@ TEST_CASE("a road is drawn where wheels find it, with its kerbs and where they a
   CHECK(kerb.most_m < 0.004);
   const Apart town = apart(third_party_road("fabriksgatan"), 2.3, 0.02);
   CHECK(town.places > 2000);
-  // The chord of a bend lies beside its edge: a hand's breadth of a kerb is found on the other side of it.
+  // The chord of a bend lies beside its edge: a narrow strip of a kerb is found on the other side of it.
   CHECK(town.wrong * 400 < town.places);
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("grass lies on no lane that is driven, in a junction neither") {
       const road::LaneType type =
           road::lane_type(network, location.position.road, location.lanes.lane_any_type, location.position.s_m);
       if (!road::is_drivable(type)) continue;
-      // Not within a hand's breadth of the lane's edge, where the strip begins.
+      // Excludes the beginning of the strip, close to the lane's edge.
       const road::RoadExtent extent = road::road_extent(road, location.position.s_m);
       const double inside = std::min(extent.left_t_m - location.position.t_m, location.position.t_m - extent.right_t_m);
       over += inside > 0.15 && middle.z > road::evaluate(network, location.position).position_m.z - 0.005;

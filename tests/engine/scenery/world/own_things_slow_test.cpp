@@ -1,4 +1,4 @@
-// A person's own trees, houses, lamps and posts stand where the generated ones would, each as its file has it.
+// User's own trees, houses, lamps and posts in place of the generated ones, each with the measures of its file.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@
 namespace septet::scenery {
 namespace {
 
-/// A glTF file: one triangle, a metre broad and a metre high, of a colour that is the thing's alone.
+/// glTF file of one triangle, a metre wide and a metre high, of a unique colour.
 std::string file_of(double red) {
   return fmt::format(
       R"({{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],)"
@@ -99,7 +99,7 @@ TEST_CASE("own trees, houses, lamps and posts stand in the place of the generate
     CHECK(together(replaced, {"cottage", "town-house", "town-block"}) == together(generated, {"town house"}));
     CHECK(together(replaced, {"street-lamp"}) == together(generated, {"street lamp"}));
     CHECK(together(replaced, {"tree", "building", "town house", "street lamp"}).empty());
-    // A renderer's view of them.
+    // View of a renderer.
     const scene::ResolvedScene scene = scene::resolve(store);
     for (const scene::Instance& instance : scene.instances)
       for (const scene::MeshPart& part : scene.meshes.at(instance.mesh).parts)

@@ -24,7 +24,7 @@ scene::Store road_with(const std::string& inside) {
   return store;
 }
 
-/// Area of the paint that looks up, and its bounds in the world, which are the road's here.
+/// Area of the paint that faces up, and its bounds in the world, which are the road's here.
 struct Paint {
   double m2 = 0.0, down_m2 = 0.0;
   Vec3 low_m{1e9}, high_m{-1e9};
@@ -100,7 +100,7 @@ TEST_CASE("barriers of a file stand along their repeats, as high as it says, and
     CHECK(low.x == relative(20.0, 0.01));
     CHECK(high.x == relative(60.0, 0.01));
   }
-  // One that is placed but once is as long as it is.
+  // An object without repeats is as long as its length.
   const auto [low, high] = barrier("fence", "", R"(length="10" height="2">)");
   CHECK(low.x == relative(45.0, 0.01));
   CHECK(high.x == relative(55.0, 0.01));

@@ -42,7 +42,7 @@ Encoded encoded(const scene::Store& store) {
   return result;
 }
 
-/// An object of the world, with the distances between which it is drawn.
+/// Object of the world, with the distances between which it is drawn.
 struct Drawn {
   const scene::Node* node;
   Vec3 position_m;
@@ -64,7 +64,7 @@ std::vector<Drawn> drawn(const scene::Store& store, std::string_view name) {
   return found;
 }
 
-/// The corners of its mesh's polygons in the world, three by three and, of a quad, twice.
+/// Corners of its mesh's polygons in the world, three by three and, of a quad, twice.
 std::vector<std::array<Vec3, 3>> triangles(const scene::Store& store, const Drawn& object) {
   std::vector<std::array<Vec3, 3>> found;
   const auto& data = std::get<scene::ObjectData>(object.node->data);
@@ -258,13 +258,13 @@ TEST_CASE("the strip beside the road lies below the pavement of a ramp that runs
       for (const Vec3& corner : corners) {
         const auto place = road::locate(motorway(), Vec2(corner), nullptr, 1.0);
         if (!place || place->lanes.outside_m > 0.0) continue;
-        // Within the pavement of some road, not at its own road's edge.
+        // Only places within the pavement of some road, not at its own road's edge.
         const road::RoadExtent extent = road::road_extent(motorway().roads[place->position.road], place->position.s_m);
         if (std::min(extent.left_t_m - place->position.t_m, place->position.t_m - extent.right_t_m) < 0.7) continue;
         ++beside;
         const double over_m = corner.z - road::evaluate(motorway(), place->position).position_m.z;
         above += over_m > 0.02;
-        shallow += over_m > -0.3 && over_m < -0.02;  // At a joint of two roads their edges meet.
+        shallow += over_m > -0.3 && over_m < -0.02;  // Edges of two roads meet at their joint.
       }
   CHECK(beside > 0);
   CHECK(above == 0);
