@@ -17,7 +17,7 @@ namespace septet::server {
 inline constexpr double state_kept_every_s = 10.0;
 
 /// The newest state that the session kept until `until_s` (simulated); the drive's start if it kept none until then.
-/// `model` and `traffic`: of the same drive, as made for it. Error: the state is damaged, forged, of another drive or another
+/// `model` and `traffic` are those of the same drive. Error: the state is damaged, forged, of another drive or another
 /// build, or another program moves the traffic.
 Expected<simulation::State> kept_state(const logging::SessionReader& session, const simulation::Model& model,
                                        double until_s, std::unique_ptr<traffic::TrafficEngine> traffic);

@@ -16,8 +16,8 @@ namespace septet::server {
 /// Empty for events of no interest to a person: storyboard elements that begin and end, glances, turns.
 std::optional<page::PageEvent> told_on_page(const logging::Event& event);
 
-/// The pairs of a detail: "tree speed_mps=4 note=has sneezed" is what=tree, speed_mps=4, note="has sneezed". A word without a name
-/// belongs to the value before it.
+/// The pairs of a detail: "tree speed_mps=4 note=has sneezed" is what=tree, speed_mps=4, note="has sneezed". A word
+/// without a name belongs to the value before it.
 std::vector<std::pair<std::string, std::string>> values_of(std::string_view detail);
 
 }  // namespace septet::server

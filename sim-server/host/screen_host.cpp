@@ -236,7 +236,8 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
         fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be screen \"{}\"", name, hello.screen),
         now_s);
   if (screen == screens_.end()) return refuse(client, fmt::format("the rig has no screen \"{}\"", hello.screen), now_s);
-  // A screen that was killed and started again is heard before its old connection times out: the new one takes its place.
+  // A screen that was killed and started again is heard before its old connection times out: the new connection takes
+  // its place.
   if (screen->client && *screen->client != client) {
     const net::ClientId old = *screen->client;
     on_disconnected(old, "replaced by a new connection", now_s);
