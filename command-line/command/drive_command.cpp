@@ -208,7 +208,7 @@ Expected<program::ChildProcess> start_server(program::ChildOptions server, const
 struct Ending {
   bool driven = false;  ///< There is something to look at.
   int status = logging::failed_status;
-  std::string text;         ///< The last line; empty where the server has said all.
+  std::string text;         ///< Last line; empty if the server has printed everything.
   bool again = false;       ///< The driver or the operator wants to begin again.
   bool unseen = false;      ///< No screen could be started.
   double begin_at_s = 0.0;  ///< At the newest state kept until this simulated time; 0: at the start.
@@ -367,7 +367,7 @@ Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, cons
   const auto folder = DriveFolder::prepare(options.out);
   if (!folder) return tl::unexpected(folder.error());
   options.out = folder->path();
-  // The drive before lay here and kept the state.
+  // The previous drive was in this folder and kept the state; it has been moved aside.
   if (options.begin_at_s > 0.0) options.begin_from = folder->aside() / "session.sqlite";
   auto ending = run_processes(options, rig_file, rig, page);
   if (!ending || !ending->driven) folder->undo();

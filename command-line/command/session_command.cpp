@@ -140,7 +140,7 @@ LeftOver make_anonymous(const std::vector<fs::path>& sessions) {
   return result;
 }
 
-/// The file that holds a session's data, where a folder has a link to it: with the link alone nothing would be forgotten.
+/// The file with a session's data, if the folder has a link to it: removing the link alone would forget nothing.
 fs::path holder_of(const fs::path& session) {
   std::error_code error;
   if (!fs::is_symlink(session, error)) return session;
