@@ -143,7 +143,8 @@ class Reader {
     if (scan_.line() == line_) scan_.skip_line();
   }
 
-  /// Names of nodes, which nothing here depends on: other signs in their line are passed over, up to a text or a remark.
+  /// Skips names of nodes, which nothing here depends on, with other characters in their line, up to a text or a
+  /// remark.
   void names_until_statement() {
     for (auto word = scan_.peek_identifier(); !word || !is_statement(*word); word = scan_.peek_identifier()) {
       if (scan_.take_name() || scan_.take(',')) continue;
