@@ -126,7 +126,8 @@ Expected<GameTelemetry> decode_telemetry(const TelemetryFormat& format, std::spa
     const double value = number == field.reverse   ? -1.0
                          : number == field.neutral ? 0.0
                                                    : number * field.scale + field.offset;
-    if (!(std::abs(value) <= largest)) return refused(format, "a datagram has a number that is none");
+    if (!(std::abs(value) <= largest))
+      return refused(format, "a datagram has a number that is not finite, or out of bounds");
     now.*field.quantity = value;
   }
   return now;

@@ -113,8 +113,8 @@ void check_session(Checked& checked) {
   if (!session->ended_cleanly())
     warn("its drive was interrupted", "expect the last tenth of a second to be missing");
   else if (whole && !whole->has_digest)
-    warn("it does not tell what was recorded, for it is of an earlier build",
-         "know that it can be read, and not whether it was altered");
+    warn("it has no digest of the recorded data, since an earlier build wrote it",
+         "use it, but do not rely on it being unaltered");
 }
 
 Checked check_file(const std::string& name) {

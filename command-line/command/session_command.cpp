@@ -236,7 +236,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   std::ranges::sort(theirs);
   theirs.erase(std::unique(theirs.begin(), theirs.end()), theirs.end());
   const auto name_unread = [&] {
-    for (const Error& why : unread) program::say("septet: it could not be read whose it is: " + describe(why));
+    for (const Error& why : unread) program::say("septet: a session's participant could not be read: " + describe(why));
   };
   if (theirs.empty()) {
     name_unread();
@@ -261,7 +261,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   rename_folders(result.done, options.participant);
   program::announce(fmt::format("{} of {} sessions {}; make pooled reports and tables anew", result.done.size(),
                                 found->size(),
-                                options.delete_data ? "deleted" : "tell no longer who drove, their data are kept"));
+                                options.delete_data ? "deleted" : "no longer name the driver; their data are kept"));
   name_unread();
   for (const Error& why : failed) program::say("septet: not done: " + describe(why));
   if (!unread.empty() || !failed.empty()) return program::failed_status;

@@ -116,7 +116,8 @@ void ScreenHost::send_unicast_to_the_deaf(double now_s) {
     // Its missing acknowledgements were counted against it; a new start lets it acknowledge.
     baselines_.leave(*screen.client);
     baselines_.join(*screen.client, now_s);
-    messages_.push_back(fmt::format("screen {} answers no tick of the group: it gets its own", screen.name));
+    messages_.push_back(
+        fmt::format("screen {} acknowledges no multicast tick: it gets its ticks by unicast", screen.name));
   }
 }
 
