@@ -32,7 +32,7 @@ constexpr int rest_after_rearming_ticks = 12;
 
 /// True for a change beyond the noise of an untouched device.
 bool is_moved(const DriverInput& now, const DriverInput& found) {
-  constexpr double clearly = 0.1;  // Of a pedal's travel; radians of the hand wheel.
+  constexpr double clearly = 0.1;  // Share of a pedal's travel; radians of the hand wheel.
   for (const auto control :
        {&DriverInput::steering_wheel_rad, &DriverInput::accelerator, &DriverInput::brake, &DriverInput::clutch})
     if (std::abs(now.*control - found.*control) > clearly) return true;

@@ -27,7 +27,7 @@ struct ServerOptions {
   std::string participant;              ///< The driver's code.
   std::vector<std::string> about;       ///< About the driver, each "KEY=VALUE" (logging/session/subject.hpp).
   bool log_samples_only = false;        ///< The log has no snapshots: it can be measured, not replayed.
-  std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
+  std::vector<std::string> parameters;  ///< Scenario parameters, each "NAME=VALUE".
   std::string traffic = "own";          ///< Engine of the traffic: own or sumo.
   std::filesystem::path begin_from;     ///< An earlier session of the same drive; empty: begin at the start.
   double begin_at_s = 0.0;              ///< The drive begins at the newest state kept until then.

@@ -28,7 +28,7 @@ struct Loop {
   ServeResult result = {};
   std::shared_ptr<const TakenSnapshot> newest = nullptr;
   std::string doing = "starting";  ///< For attendants.
-  Wishes wishes = {};              ///< Of all attendants, as last asked.
+  Wishes wishes = {};              ///< Wishes of all attendants, as last asked.
 
   bool is_paused() const { return wishes.stands_still; }
   void report(std::string what) {
