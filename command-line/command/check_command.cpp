@@ -54,7 +54,7 @@ void add_error(const Expected<Value>& result, Checked& checked) {
   checked.findings.push_back({Severity::error, line_in(result.error().where, checked.file), result.error()});
 }
 
-/// With the inputs of its drives, as `septet experiment` finds them.
+/// Checks an experiment with the inputs of its drives, as `septet experiment` finds them.
 void check_experiment(const std::string& text, Checked& checked) {
   const auto experiment = logging::read_experiment(text, checked.file);
   add_error(experiment, checked);

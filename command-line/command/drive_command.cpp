@@ -141,7 +141,7 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   else
     add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
   const auto add_chosen = [&](const char* option, const std::string& value) {
-    // As one word: a value may begin with a hyphen.
+    // One word, since a value may begin with a hyphen.
     if (!value.empty()) add({fmt::format("{}={}", option, value)});
   };
   add_chosen("--driver", options.driver);
@@ -349,7 +349,7 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   return done;
 }
 
-/// Of a drive without duration that no screen could show, only the programs' output is kept.
+/// Removes all but the programs' output of a drive without duration that no screen could show.
 void remove_undriven(const fs::path& folder) {
   {
     const auto session = logging::SessionReader::open(folder / "session.sqlite");

@@ -225,7 +225,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   const auto found = find_sessions(options.places);
   if (!found) return tl::unexpected(found.error());
   std::vector<fs::path> theirs;
-  std::vector<Error> unread;  // They may be the participant's, and must not keep others.
+  std::vector<Error> unread;  // Perhaps the participant's; the others are processed anyway.
   for (const fs::path& session : *found) {
     auto reader = logging::SessionReader::open(session);
     if (!reader)
