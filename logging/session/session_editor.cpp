@@ -15,7 +15,7 @@
 namespace septet::logging {
 namespace {
 
-/// As an SQL text.
+/// Quotes a text for SQL.
 std::string quoted(const std::string& text) {
   std::string sql = "'";
   for (const char c : text) sql += c == '\'' ? std::string("''") : std::string(1, c);
