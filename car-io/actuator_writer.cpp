@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of the device's own: 25 periods of the reports.
+/// The device's own watchdog: 25 periods of the reports.
 constexpr std::uint16_t watchdog_ms = 250;
 
 Clock::duration duration(double seconds) {
@@ -42,7 +42,7 @@ struct ActuatorWriter::State {
       if (error) problem = std::move(error);
     }
     lock.unlock();
-    // The last word is zero, also where a report has just failed.
+    // The last command is zero, even if a report has just failed.
     for (int tries = 0; tries < 2 && (tries == 0 || !device); ++tries) {
       next_try = {};
       write({});
@@ -74,7 +74,7 @@ struct ActuatorWriter::State {
       next_try = Clock::now() + duration(options.retry_s);
       auto opened = open();
       if (!opened) {
-        refusals = 0;  // It is away, which is another matter.
+        refusals = 0;  // The device is missing, which is no refusal.
         return std::nullopt;
       }
       device = std::move(*opened);
@@ -151,7 +151,7 @@ void ActuatorWriter::set(const Actuators& actuators) {
   if (!state_) return;
   const std::lock_guard lock(state_->mutex);
   const auto now = Clock::now();
-  // A whole program that was stopped may come here before the thread looks.
+  // A program that was stopped and continued may get here before its thread notices the silence.
   if (state_->options.sticky) state_->watch_silence(now);
   state_->newest = actuators;
   state_->set_at = now;

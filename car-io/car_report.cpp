@@ -69,7 +69,7 @@ std::array<std::byte, steering_report_bytes> encode_steering(double force, std::
   Bytes bytes;
   ByteWriter out(bytes);
   out.put(steering_report_id);
-  out.put(to_i16(-force));  // As the hand wheel of the input report: negative is to the left.
+  out.put(to_i16(-force));  // Sign of the input report's hand wheel: negative is to the left.
   out.put(sequence);
   return as_array<steering_report_bytes>(bytes);
 }

@@ -35,8 +35,8 @@ std::span<const DrivingKey> driving_keys() {
 KeyStates key_states(const std::function<bool(Key)>& is_down) {
   KeyStates states;
   for (const DrivingKey& key : driving_keys()) {
-    if (!key.held) continue;  // The window's own: a short press is to be there when the window asks for it.
-    // Both are asked: a window forgets a short press only when it is asked for it.
+    if (!key.held) continue;  // Handled by the window, which must find a short press itself.
+    // Both are queried, since a window forgets a short press only when queried for it.
     const bool first = is_down(key.keys[0]), second = is_down(key.keys[1]);
     states.*key.held = first || second;
   }

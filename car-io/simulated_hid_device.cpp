@@ -35,7 +35,7 @@ struct SimulatedHidPort::Socket {
 namespace {
 
 constexpr std::size_t kernel_queue = 63;
-constexpr std::size_t kept_reports = 4096;  // Of those written; the oldest are dropped when they are not taken.
+constexpr std::size_t kept_reports = 4096;  // Limit on written reports; the oldest are dropped if they are not taken.
 constexpr const char* where = "simulated HID device";
 
 tl::unexpected<Error> dead() { return failure("no such device", where, "plug it in; it is opened again by itself"); }

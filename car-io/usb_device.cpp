@@ -19,7 +19,7 @@ namespace septet::car_io {
 namespace {
 
 constexpr std::size_t reading_at_once = 8;  // Reports pending before the device must wait.
-constexpr unsigned timeout_ms = 250;        // Of a write or request: the device's own watchdog.
+constexpr unsigned timeout_ms = 250;        // Timeout of a write or request: the device's own watchdog.
 constexpr std::size_t largest_transfer = 1024;
 
 /// The interface of the device and how to speak with it.

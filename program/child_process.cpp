@@ -64,7 +64,7 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
   }
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // Dies with its parent, in any case.
-    if (::getppid() != parent) give_up(options.program, "whoever starts it ended first", 1);
+    if (::getppid() != parent) give_up(options.program, "the program that starts it ended first", 1);
     ::setpgid(0, 0);  // Ctrl-C reaches the parent only, which then ends the drive in order.
     ::dup2(output[1], STDOUT_FILENO);
     if (!log.empty()) {

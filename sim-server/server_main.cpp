@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
       ->check(number_between(0.0, 1e6));
   app.add_option("--seed", options.seed, "Seed of everything random")->check(seed_number());
   app.add_option("--driver", options.driver, "A simulated driver drives: plain, novice, experienced, tired or escort")
-      ->default_str("whom the rig names");
+      ->default_str("the rig's");
   app.add_option("--parameter", options.parameters, "Of the scenario, instead of its own value; as often as needed")
       ->type_name("NAME=VALUE")
       ->default_str("")
@@ -40,13 +40,13 @@ int main(int argc, char** argv) {
   app.add_option("--participant", options.participant, "The driver's code, for log, summary and report")
       ->default_str("none");
   app.add_option("--about", options.about,
-                 "What else is known of the driver: group=, condition=, order=, part=, note=, column.NAME=")
+                 "Facts about the driver: group=, condition=, order=, part=, note=, column.NAME=")
       ->type_name("KEY=VALUE")
       ->default_str("")
       ->allow_extra_args(false);
   app.add_flag("--log-samples-only", options.log_samples_only,
                "Log no snapshots: to be measured, not to be shown again");
-  app.add_option("--traffic", options.traffic, "Who moves the traffic: own or sumo");
+  app.add_option("--traffic", options.traffic, "Engine of the traffic: own or sumo");
   app.add_option("--wait-for-screens", options.wait_for_screens_s,
                  "Seconds to wait for the rig's screens and car, then drive without those that are missing")
       ->default_str("until all are there, or Enter or the line \"go\"")

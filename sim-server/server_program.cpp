@@ -30,7 +30,7 @@
 namespace septet::server {
 namespace {
 
-/// The machine's clock, for a drive that nobody watches.
+/// The machine's clock, for a drive without screens.
 class MachineClock final : public ServeClock {
  public:
   double now_s() const override { return program::monotonic_s(); }
@@ -79,14 +79,14 @@ Expected<std::unique_ptr<OperatorDesk>> open_desk(const ServerOptions& options, 
   return desk;
 }
 
-/// The list of attendants, in the order in which they begin, and what the program asks of two of them by name.
+/// The list of attendants, in the order in which they begin, and the two that the program uses directly.
 struct Attendance {
   Attendants list;
-  Screens* screens = nullptr;  ///< Null: nobody watches.
-  DriveLog* log = nullptr;     ///< Null: a session is shown again.
+  Screens* screens = nullptr;  ///< Null: no screens.
+  DriveLog* log = nullptr;     ///< Null: a replay.
 };
 
-/// Everybody who attends the drive. Error: what cannot be opened; nothing has begun.
+/// Opens all attendants of the drive. Error: one cannot be opened; no attendant has begun.
 Expected<Attendance> gather(const ServerOptions& options, const ServeOptions& serving, OpenedDrive& drive,
                             program::ProgressLine& line) {
   Attendance all;
@@ -142,7 +142,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   ServeResult result = all->screens ? serve(source, all->screens->host(), serving, all->list, *all->screens)
                                     : run_headless(source, serving.ticks, all->list, clock);
   std::for_each(all->list.rbegin(), all->list.rend(), [&](const auto& attendant) { attendant->close(result); });
-  // The log keeps how it ended; `septet drive` is told what to do next.
+  // The log keeps how the drive ended; this line tells `septet drive` whether to begin it again.
   program::announce(fmt::format("ended {} {}", name_of(result.begins_again ? logging::DriveEnd::restart : result.end),
                                 all->log ? all->log->session().ending(result) : std::string(text_of(result.end))));
   return result.end;

@@ -8,10 +8,10 @@
 namespace septet::server {
 
 /// Prints "ready PORT" to standard output once screens may connect, and at the end "ended NAME TEXT"
-/// (logging/session/drive_end.hpp), before it "begin_at SECONDS" where the operator wants it to begin again: at the
-/// newest state that it kept until then (simulated; 0: at its start). Progress and messages go to standard error. An
-/// error: nothing was driven, and nothing is left behind. Once the drive has begun, whatever ends it: the log is
-/// closed, summary and report are written, and the answer says why.
+/// (logging/session/drive_end.hpp), before it "begin_at SECONDS" if the operator wants the drive to begin again: at the
+/// newest state that it kept until then (simulated; 0: at its start). Progress and messages go to standard error.
+/// Error: nothing was driven, and nothing is left behind. Once the drive has begun, any end closes the log and writes
+/// summary and report, and is returned.
 ///
 /// A signal ends the program at once while it still reads its files, and the drive in order afterwards.
 Expected<logging::DriveEnd> run_server(ServerOptions options);

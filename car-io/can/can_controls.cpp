@@ -80,7 +80,7 @@ class CanControlsDevice final : public HidDevice {
   double steering_lock_rad_;
   CanControls controls_;
   DriverInput input_;
-  std::vector<bool> has_come_;  ///< Of the heard messages, since the sequence advanced.
+  std::vector<bool> has_come_;  ///< Heard messages that have come since the sequence advanced.
 };
 
 double share(double percent) { return std::clamp(percent / 100.0, 0.0, 1.0); }

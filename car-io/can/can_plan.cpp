@@ -94,7 +94,7 @@ dbc::Signal raw(const dbc::Signal& signal) {
           .selects = signal.selects};
 }
 
-/// With the selecting signal at a constant in the rig: the raw value that is sent.
+/// The selecting signal's raw value in a sent message, if the rig sets it to a constant.
 std::optional<double> held_selection(const SentMessage& sent, const dbc::Signal& selecting) {
   const auto found = std::ranges::find_if(sent.signals, [&](const SentSignal& of) { return of.signal.selects; });
   const double* constant = found == sent.signals.end() ? nullptr : std::get_if<double>(&found->carries);
@@ -134,7 +134,7 @@ Expected<std::vector<SentMessage>> by_selection(SentMessage sent, const std::str
   return all;
 }
 
-/// Likewise, so that each selected value has to beat for itself.
+/// Splits a heard message by selected values too, since each of them has to beat for itself.
 std::vector<HeardMessage> by_selection(const HeardMessage& heard) {
   std::vector<HeardMessage> all;
   for (const HeardSignal& of : heard.signals) {

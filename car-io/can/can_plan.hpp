@@ -60,8 +60,8 @@ struct SentSignal {
   dbc::Signal signal;
   std::variant<double, double Instruments::*, FrameCounter> carries;  ///< A number: a constant.
 };
-/// For a multiplexed message: with one selected value, which is among the signals as a constant. A plan has one per
-/// value.
+/// A sent message; if multiplexed, with one selected value, which is among the signals as a constant. A plan has one
+/// per value.
 struct SentMessage {
   dbc::Message message;
   double period_s = 0.1;
@@ -71,7 +71,7 @@ struct HeardSignal {
   dbc::Signal signal;
   double CanControls::*control = nullptr;
 };
-/// Likewise; signals present in every frame form an entry of their own.
+/// A heard message, split likewise; signals present in every frame form an entry of their own.
 struct HeardMessage {
   dbc::Message message;
   std::vector<HeardSignal> signals;

@@ -143,7 +143,8 @@ class Reader {
     if (scan_.line() == line_) scan_.skip_line();
   }
 
-  /// Names of nodes, which nothing here depends on: other signs in their line are passed over, up to a text or a remark.
+  /// Skips names of nodes, which nothing here depends on, with other characters in their line, up to a text or a
+  /// remark.
   void names_until_statement() {
     for (auto word = scan_.peek_identifier(); !word || !is_statement(*word); word = scan_.peek_identifier()) {
       if (scan_.take_name() || scan_.take(',')) continue;
@@ -174,7 +175,7 @@ class Reader {
                     std::string remedy = "correct it, or export the file again") {
     unread_.try_emplace(message, Error{std::move(what), fmt::format("{}:{}", name_, line_), std::move(remedy)});
   }
-  /// Both, since the intended one is unknown.
+  /// Leaves both unread, since the intended one is unknown.
   void leave_both_unread(std::size_t one, std::size_t other, const std::string& what) {
     leave_unread(one, what, "keep one of them");
     leave_unread(other, what, "keep one of them");
@@ -341,7 +342,7 @@ class Reader {
     end_statement();
   }
 
-  /// As in the file: an index, or a name in quotes.
+  /// Frame format as in the file: an index, or a name in quotes.
   struct FrameFormat {
     double index = 0.0;
     std::optional<std::string> name;
@@ -478,7 +479,7 @@ class Reader {
   std::map<std::size_t, FrameFormat> formats_;
   std::vector<std::string> frame_formats_;  ///< The names of VFrameFormat's values, where the file lists them.
   std::optional<FrameFormat> default_format_;
-  int line_ = 1;             ///< Of the statement's beginning.
+  int line_ = 1;             ///< Line of the statement's beginning.
   bool ignored_ = false;     ///< The signals that follow belong to no message.
   bool in_message_ = false;  ///< The statement before was a message, or a signal of one.
   bool is_nested_ = false;   ///< The signal that was read is selected and selects.

@@ -38,7 +38,7 @@ CanFrame frame_of(const SentMessage& sent, const Instruments& instruments, SentC
   return frame;
 }
 
-/// Without news of the car's motion: a pause, or a server that hangs.
+/// Instruments without news of the car's motion: a pause, or a server that hangs.
 constexpr Instruments resting{.ignition = 1.0};
 
 }  // namespace

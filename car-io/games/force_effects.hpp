@@ -30,7 +30,7 @@ struct ForceEffect {
 
 struct WheelPlace {
   double share = 0.0;        ///< −1 full right to 1 full left.
-  double speed_per_s = 0.0;  ///< Likewise, a second.
+  double speed_per_s = 0.0;  ///< Change of the share per second.
   double change_per_s2 = 0.0;
 };
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double silent_after_s = 0.2, falls_asleep_in_s = 0.2, wakes_in_s = 1.0, rearm_held_for_s = 1.0,
                  rests_for_s = 0.1;
 constexpr double fan_full_in_s = 1.0, vibration_full_in_s = 0.2, force_full_in_s = 0.05, dies_in_s = 0.09;
-constexpr double stop_within = 0.03;  // Of the wheel's travel, before its end.
+constexpr double stop_within = 0.03;  // Share of the wheel's travel before its end.
 
 bool carries(const TelemetryFormat& format, double GameTelemetry::*quantity) {
   return std::ranges::any_of(format.fields, [&](const TelemetryField& field) { return field.quantity == quantity; });

@@ -49,7 +49,8 @@ TelemetryFormat outgauge() {
            lamp(&T::anti_lock, 10)}};
 }
 
-/// Likewise OutSimPack: time, angular velocity, three angles, acceleration, velocity (floats), position (integers).
+/// OutSimPack of the same document: time, angular velocity, three angles, acceleration, velocity (floats), position
+/// (integers).
 TelemetryFormat outsim() { return {"outsim", 64, 68, 30001, {{.quantity = &T::vertical_mps2, .byte = 36}}}; }
 
 /// Floats in a row, as DiRT Rally sends them with extradata="3"; engine speeds are tenths, and reverse is gear 10 in
@@ -126,7 +127,8 @@ Expected<GameTelemetry> decode_telemetry(const TelemetryFormat& format, std::spa
     const double value = number == field.reverse   ? -1.0
                          : number == field.neutral ? 0.0
                                                    : number * field.scale + field.offset;
-    if (!(std::abs(value) <= largest)) return refused(format, "a datagram has a number that is none");
+    if (!(std::abs(value) <= largest))
+      return refused(format, "a datagram has a number that is not finite, or out of bounds");
     now.*field.quantity = value;
   }
   return now;
@@ -139,7 +141,7 @@ CarMotion motion_of(const GameTelemetry& now, const GameTelemetry& before, doubl
   motion.engine_load = std::clamp(now.accelerator, 0.0, 1.0);
   motion.cylinders = 4;
   motion.anti_lock_active = now.anti_lock > 0.5 && now.brake > 0.05;
-  // As for Septet's own roads: vertical acceleration beyond a road's, or a stop beyond brakes.
+  // Thresholds as for Septet's own roads: vertical acceleration beyond a road's, or a stop beyond brakes.
   constexpr double bump_from_mps2 = 8.0, bump_full_mps2 = 30.0, blow_from_mps2 = 25.0, blow_full_mps2 = 120.0;
   motion.bump =
       std::clamp((std::abs(now.vertical_mps2) - bump_from_mps2) / (bump_full_mps2 - bump_from_mps2), 0.0, 1.0);

@@ -34,7 +34,7 @@ class JoystickDevice final : public HidDevice {
   }
   Expected<void> write(std::span<const std::byte> report) override {
     const auto force = decode_steering(report);
-    if (!force) return {};  // Fan and shaker, which it has not.
+    if (!force) return {};  // A report for fan and shaker, which a joystick lacks.
     // Once: it goes on by itself for as long as a force is set.
     if (!std::exchange(has_feel_, true))
       if (auto felt = device_->set_feel(feel_); !felt) return tl::unexpected(felt.error());

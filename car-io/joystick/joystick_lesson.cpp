@@ -8,7 +8,7 @@
 namespace septet::car_io {
 namespace {
 
-constexpr double least_travel = 0.25;  // Of an axis' range.
+constexpr double least_travel = 0.25;  // Share of an axis' range.
 constexpr double least_dead_zone = 0.005, most_dead_zone = 0.2;
 
 }  // namespace

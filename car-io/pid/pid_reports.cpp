@@ -17,7 +17,7 @@ std::optional<PidReport> PidReport::of(const HidReportFields& device, HidReportK
     if (field.kind != kind || field.report_id == 0 || std::ranges::count(field.collections, collection) == 0) continue;
     if (report.id_ == 0) report.id_ = field.report_id;
     if (report.id_ != field.report_id) continue;
-    // Of several choices from one list the first is enough.
+    // The first of several choices from one list is enough.
     for (std::uint32_t i = 0; i < (field.is_array ? 1 : field.count); ++i) {
       Value value{.first_bit = field.first_bit + i * field.bits,
                   .bits = field.bits,

@@ -6,7 +6,7 @@ namespace septet::car_io {
 namespace {
 
 constexpr double lasts_s = 0.25;
-constexpr double from_the_right = 0.25;  // Of a turn: a force from there pushes to the left.
+constexpr double from_the_right = 0.25;  // Share of a turn: a force from there pushes to the left.
 
 }  // namespace
 
@@ -95,7 +95,7 @@ Expected<bool> PidWheel::set_condition(PidCondition kind, double share) {
   const PidReport& condition = *reports_.condition;
   Bytes report = condition.empty();
   condition.set(report, pid::block_index, static_cast<double>(*block));
-  condition.set(report, pid::parameter_offset, 0.0);  // Of the first axis, the only one of a wheel.
+  condition.set(report, pid::parameter_offset, 0.0);  // Offset of the first axis, the only one of a wheel.
   condition.set(report, pid::centre_offset, 0.0);
   for (const HidUsage side : {pid::positive_coefficient, pid::negative_coefficient})
     condition.set_share(report, side, share < 0.0 ? 0.0 : share);

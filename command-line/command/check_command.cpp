@@ -54,7 +54,7 @@ void add_error(const Expected<Value>& result, Checked& checked) {
   checked.findings.push_back({Severity::error, line_in(result.error().where, checked.file), result.error()});
 }
 
-/// With the inputs of its drives, as `septet experiment` finds them.
+/// Checks an experiment with the inputs of its drives, as `septet experiment` finds them.
 void check_experiment(const std::string& text, Checked& checked) {
   const auto experiment = logging::read_experiment(text, checked.file);
   add_error(experiment, checked);
@@ -113,8 +113,8 @@ void check_session(Checked& checked) {
   if (!session->ended_cleanly())
     warn("its drive was interrupted", "expect the last tenth of a second to be missing");
   else if (whole && !whole->has_digest)
-    warn("it does not tell what was recorded, for it is of an earlier build",
-         "know that it can be read, and not whether it was altered");
+    warn("it has no digest of the recorded data, since an earlier build wrote it",
+         "use it, but do not rely on it being unaltered");
 }
 
 Checked check_file(const std::string& name) {

@@ -31,7 +31,7 @@ Expected<void> check_vehicle(const std::string& name) {
   });
 }
 
-/// Where a fault is of what a rig names: the rig's file and key stand before it.
+/// Place of a fault in something that the rig names, preceded by the rig's file and key.
 std::string named_at(const std::filesystem::path& file, std::string_view key, std::string_view where) {
   constexpr std::string_view unnamed = "rig, ";
   if (where.empty() || where == "the rig") return fmt::format("{}, {}", file.string(), key);

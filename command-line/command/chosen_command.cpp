@@ -14,7 +14,7 @@ std::vector<std::string> command_of(const page::DriveChoice& choice, const Opera
   const bool has_keys = !options.keys.empty();
   std::vector<std::string> command{has_keys ? "septet-server" : "septet"};
   if (!has_keys) command.emplace_back("drive");
-  // As one word: a value may begin with a hyphen.
+  // One word, since a value may begin with a hyphen.
   const auto add = [&](const std::string& option, const std::string& value) {
     if (!value.empty()) command.push_back(fmt::format("--{}={}", option, value));
   };

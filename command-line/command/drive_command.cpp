@@ -141,7 +141,7 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   else
     add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
   const auto add_chosen = [&](const char* option, const std::string& value) {
-    // As one word: a value may begin with a hyphen.
+    // One word, since a value may begin with a hyphen.
     if (!value.empty()) add({fmt::format("{}={}", option, value)});
   };
   add_chosen("--driver", options.driver);
@@ -208,7 +208,7 @@ Expected<program::ChildProcess> start_server(program::ChildOptions server, const
 struct Ending {
   bool driven = false;  ///< There is something to look at.
   int status = logging::failed_status;
-  std::string text;         ///< The last line; empty where the server has said all.
+  std::string text;         ///< Last line; empty if the server has printed everything.
   bool again = false;       ///< The driver or the operator wants to begin again.
   bool unseen = false;      ///< No screen could be started.
   double begin_at_s = 0.0;  ///< At the newest state kept until this simulated time; 0: at the start.
@@ -349,7 +349,7 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   return done;
 }
 
-/// Of a drive without duration that no screen could show, only the programs' output is kept.
+/// Removes all but the programs' output of a drive without duration that no screen could show.
 void remove_undriven(const fs::path& folder) {
   {
     const auto session = logging::SessionReader::open(folder / "session.sqlite");
@@ -367,7 +367,7 @@ Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, cons
   const auto folder = DriveFolder::prepare(options.out);
   if (!folder) return tl::unexpected(folder.error());
   options.out = folder->path();
-  // The drive before lay here and kept the state.
+  // The previous drive was in this folder and kept the state; it has been moved aside.
   if (options.begin_at_s > 0.0) options.begin_from = folder->aside() / "session.sqlite";
   auto ending = run_processes(options, rig_file, rig, page);
   if (!ending || !ending->driven) folder->undo();

@@ -41,8 +41,8 @@ struct DriveOptions {
 /// Default length of an off-screen drive. One in a window, and a replay, last as for `--seconds 0`.
 inline constexpr double seconds_unless_told = 30.0;
 
-/// Runs the whole drive; returns the exit status (logging/session/drive_end.hpp). Prints progress to standard error, and at the
-/// end the results' places to standard output, with the reason of the end in the last line.
+/// Runs the whole drive; returns the exit status (logging/session/drive_end.hpp). Prints progress to standard error,
+/// and at the end the results' places to standard output, with the reason of the end in the last line.
 Expected<int> run_drive(DriveOptions options);
 
 }  // namespace septet::server

@@ -38,7 +38,7 @@ std::vector<MissingAnswers> missing_answers(const Study& study, const PlannedSub
     }
     for (std::size_t condition = 0; condition < study.experiment.conditions.size(); ++condition) {
       const auto is_of_it = [&](const PlannedDrive& drive) { return drive.condition == condition; };
-      // Not due while any of it is still to be driven.
+      // A condition's questionnaire is not due while any of its drives is still missing.
       const bool is_over =
           stand.is_finished || std::none_of(subject.drives.begin() + static_cast<std::ptrdiff_t>(stand.drive),
                                             subject.drives.end(), is_of_it);

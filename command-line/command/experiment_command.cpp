@@ -64,7 +64,7 @@ Expected<int> run_here(const ExperimentOptions& options, program::Machines* othe
 /// Last line of mpirun's first program, before its exit status: mpirun itself ends with 0 also if that one was killed.
 constexpr std::string_view last_words = "septet experiment has ended with status ";
 
-/// With programs that mpirun starts.
+/// Runs the experiment with programs that mpirun starts.
 Expected<int> run_by_ranks(const ExperimentOptions& options) {
   const auto mpirun = program::find_mpirun("--ranks");
   if (!mpirun) return tl::unexpected(mpirun.error());

@@ -43,7 +43,7 @@ Expected<void> check_part(const logging::ExperimentPart& part, const logging::Ex
                           const fs::path& rig) {
   const auto file = program::find_resource(part.scenario, "scenarios", ".xosc");
   if (!file) return tl::unexpected(file.error());
-  std::optional<std::string> road;  // Of the earlier conditions.
+  std::optional<std::string> road;  // Road of the earlier conditions.
   std::set<std::vector<std::string>> seen;
   for (const auto& condition : experiment.conditions) {
     const auto parameters = parameters_of(part, condition);

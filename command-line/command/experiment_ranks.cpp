@@ -50,7 +50,7 @@ bool is_below(const fs::path& name) {
 }
 
 tl::unexpected<Error> full(const fs::path& place) {
-  return failure("what another machine has driven cannot be written", place.string(),
+  return failure("a drive from another machine cannot be written", place.string(),
                  "free some space and give the command again: finished drives are kept");
 }
 
@@ -98,7 +98,7 @@ std::optional<std::uint64_t> ExperimentRanks::deal(const std::vector<std::string
 void ExperimentRanks::lose(int rank, const std::string& why, std::vector<Ended>& ended) {
   if (ranks_.erase(rank) == 0) return;
   machines_.note_loss();
-  messages_.push_back(fmt::format("septet: program {} {}; what it was driving is driven anew", rank, why));
+  messages_.push_back(fmt::format("septet: program {} {}; its drives are repeated", rank, why));
   std::erase_if(drives_, [&](const auto& drive) {
     if (drive.second.rank != rank) return false;
     clear_half_drive(drive.second.folder);
@@ -118,7 +118,7 @@ Expected<void> ExperimentRanks::obey(const Mail& mail, std::vector<Ended>& ended
     if (reader.ok() && is_same && rank.jobs > 0)
       ranks_[mail.from] = rank;
     else
-      messages_.push_back(fmt::format("septet: program {} is of another Septet and drives nothing", mail.from));
+      messages_.push_back(fmt::format("septet: program {} is another version of Septet and drives nothing", mail.from));
     return {};
   }
   const auto rank = ranks_.find(mail.from);

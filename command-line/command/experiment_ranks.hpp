@@ -22,8 +22,8 @@
 
 namespace septet::server {
 
-/// While a drive comes from another program it lies beside `folder`, where it will be whole. Removes what a stopped run has
-/// left there.
+/// Removes the part of a drive that a stopped run has left beside `folder`: a drive from another program is written
+/// there, and moved to `folder` once it is whole.
 void clear_half_drive(const std::filesystem::path& folder);
 
 /// The first program's view of the others. One thread.

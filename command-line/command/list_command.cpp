@@ -106,7 +106,7 @@ Expected<std::vector<ListEntry>> list_of(const std::string& kind, const std::vec
   for (const auto& entry : fs::directory_iterator(*data / place, ignored)) names.insert(entry.path().stem().string());
   for (const auto& name : names) {
     const auto file = program::find_resource(name, place, kind == "scenarios" ? ".xosc" : ".toml");
-    if (!file) continue;  // Something else that lies there.
+    if (!file) continue;  // Not a file of this kind.
     entries.push_back(described(name, kind, *file));
   }
   for (auto& [name, file] : own_files(kind, own_folders)) {

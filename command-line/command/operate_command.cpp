@@ -65,7 +65,7 @@ struct RunningDrive {
     while (auto line = process.read_line(0ms))
       if (!line->empty()) last_line = printable(*line);
   }
-  /// It serves the page itself from now on.
+  /// True once the drive serves the page itself.
   bool has_page() const {
     std::ifstream in(log);
     for (std::string line; std::getline(in, line);)

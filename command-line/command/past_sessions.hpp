@@ -25,7 +25,7 @@ inline constexpr std::size_t most_listed_sessions = 300;
 /// Sessions found so far, the newest first.
 struct FoundSessions {
   std::vector<page::PastSession> sessions;
-  std::vector<std::filesystem::path> folders;  ///< Theirs, in the same order.
+  std::vector<std::filesystem::path> folders;  ///< Folders of these sessions, in the same order.
   bool is_looking = false;                     ///< More may follow.
 };
 

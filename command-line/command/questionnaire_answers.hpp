@@ -17,7 +17,7 @@ namespace septet::server {
 
 /// Installed questionnaires, by name.
 Expected<std::vector<logging::Questionnaire>> find_questionnaires();
-/// In the page's form.
+/// Questionnaires in the page's form.
 std::vector<page::QuestionnaireChoice> choices_of(const std::vector<logging::Questionnaire>& questionnaires);
 
 /// Writes the answers into the session's file, in place of earlier ones of that name, and renews summary and report

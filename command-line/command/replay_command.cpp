@@ -205,9 +205,8 @@ Expected<int> run_verify(const std::filesystem::path& session, double from_s) {
           : "";
   fmt::print("{} ticks run again{}: every state hash agrees\n", verified->ticks, from);
   if (verified->goes_on) fmt::print("this drive goes on: what came since then was not run again\n");
-  fmt::print("{}\n", verified->scene_agrees
-                         ? "the scene is the one that was driven in"
-                         : "the scene is not compared: the session does not tell which one was driven in");
+  fmt::print("{}\n", verified->scene_agrees ? "the scene is the one that was driven in"
+                                            : "the scene is not compared: the session has no digest of it");
   return 0;
 }
 

@@ -18,7 +18,8 @@ Expected<int> write(const std::string& file, std::istream& in, std::ostream& out
           .and_then([&](const road::RoadNetwork& network) { return table(network, in, out); })
           .and_then([&]() -> Expected<void> {
             if (out.flush()) return {};
-            return failure("the table cannot be written", "standard output", "free space, or let who reads it read on");
+            return failure("the table cannot be written", "standard output",
+                           "free space, or keep the reading program running");
           });
   for (const road::Finding& warning : warnings) program::say("warning: " + describe(warning.error));
   if (!outcome) return tl::unexpected(outcome.error());

@@ -140,7 +140,7 @@ LeftOver make_anonymous(const std::vector<fs::path>& sessions) {
   return result;
 }
 
-/// The file that holds a session's data, where a folder has a link to it: with the link alone nothing would be forgotten.
+/// The file with a session's data, if the folder has a link to it: removing the link alone would forget nothing.
 fs::path holder_of(const fs::path& session) {
   std::error_code error;
   if (!fs::is_symlink(session, error)) return session;
@@ -225,7 +225,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   const auto found = find_sessions(options.places);
   if (!found) return tl::unexpected(found.error());
   std::vector<fs::path> theirs;
-  std::vector<Error> unread;  // They may be the participant's, and must not keep others.
+  std::vector<Error> unread;  // Perhaps the participant's; the others are processed anyway.
   for (const fs::path& session : *found) {
     auto reader = logging::SessionReader::open(session);
     if (!reader)
@@ -236,7 +236,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   std::ranges::sort(theirs);
   theirs.erase(std::unique(theirs.begin(), theirs.end()), theirs.end());
   const auto name_unread = [&] {
-    for (const Error& why : unread) program::say("septet: it could not be read whose it is: " + describe(why));
+    for (const Error& why : unread) program::say("septet: a session's participant could not be read: " + describe(why));
   };
   if (theirs.empty()) {
     name_unread();
@@ -261,7 +261,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   rename_folders(result.done, options.participant);
   program::announce(fmt::format("{} of {} sessions {}; make pooled reports and tables anew", result.done.size(),
                                 found->size(),
-                                options.delete_data ? "deleted" : "tell no longer who drove, their data are kept"));
+                                options.delete_data ? "deleted" : "no longer name the driver; their data are kept"));
   name_unread();
   for (const Error& why : failed) program::say("septet: not done: " + describe(why));
   if (!unread.empty() || !failed.empty()) return program::failed_status;

@@ -30,7 +30,7 @@ Expected<void> write_report(const fs::path& folder, const std::string& car, cons
                                              {name + ".svg", manoeuvre_svg(car, report)}});
 }
 
-/// Conditions that no test track has are driven, and said so.
+/// Warns of conditions that no test track has; they are driven nevertheless.
 void warn_of(const vehicle::ManoeuvreOptions& conditions, double steering_ratio) {
   const auto warn = [](const char* what, double value, const char* unit, double low, double high) {
     if (value != 0.0 && !(value >= low && value <= high))

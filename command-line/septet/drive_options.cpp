@@ -83,11 +83,11 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"whole", "samples"}));
   drive_command->add_option("--seed", options.drive.seed, "Seed of everything random")->check(seed_number());
   drive_command->add_option("--driver", options.drive.driver, "A simulated driver of septet list drivers drives")
-      ->default_str("whom the rig names");
+      ->default_str("the rig's");
   drive_command->add_flag("--start-now", options.drive.start_now,
                           "Do not wait until the driver presses a key or a pedal");
   drive_command->add_option("--traffic", options.drive.traffic,
-                            "Who moves the traffic: own, or sumo where the package sumo is installed");
+                            "Engine of the traffic: own, or sumo if the package sumo is installed");
   drive_command
       ->add_option("--page", options.drive.page_port, "Port of the operator's page on 127.0.0.1; 0: any free one")
       ->default_str("no page")
@@ -178,7 +178,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
   report_command->add_option("--title", options.report.title, "Of a pooled report")->default_str("A group of drives");
   report_command
       ->add_option("--brake-event", options.report.brake_event,
-                   "Measure brake reactions from these events of the log: KIND, or KIND:WHAT ITS DETAIL HOLDS")
+                   "Measure brake reactions from these events of the log: KIND, or KIND:PART OF THE DETAIL")
       ->default_str("none");
   report_command->callback([&] {
     options.work = [&] {

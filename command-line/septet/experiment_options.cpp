@@ -24,7 +24,7 @@ void add_experiment_commands(CLI::App& app, Options& options) {
       ->default_str("this machine");
   experiment->add_flag("--one-of-ranks", options.experiment.one_of_ranks)->group("");
   auto* next =
-      experiment->add_subcommand("next", "Who is next, what they drive, by which command, and what is missing");
+      experiment->add_subcommand("next", "Print the next participant, their drive, its command, and missing answers");
   next->add_option("file", options.experiment.file, "TOML file, or ambulance-24")->required();
   add_common(*next);
   experiment->callback([&, experiment, next] {

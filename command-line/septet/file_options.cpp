@@ -30,22 +30,21 @@ void add_file_commands(CLI::App& app, Options& options) {
   locate->add_option("file", options.road_file, "OpenDRIVE file")->required();
   locate->callback([&] { options.work = [&] { return run_road_locate(options.road_file, std::cin, std::cout); }; });
 
-  auto* rig_command = app.add_subcommand("rig", "What a rig of several machines needs");
+  auto* rig_command = app.add_subcommand("rig", "Preparation of a rig of several machines");
   rig_command->require_subcommand(1);
   auto* rig_keys =
       rig_command->add_subcommand("keys", "Make the keys of a rig's machines, one folder for each (rigs/EIGHT-PCS.md)");
   rig_keys->add_option("rig", options.rig_name, "Rig: a file or a name")->required();
-  rig_keys->add_option("--out", options.keys_out, "Folder for the folders; keys that are there stay")
-      ->capture_default_str();
+  rig_keys->add_option("--out", options.keys_out, "Parent of these folders; existing keys stay")->capture_default_str();
   rig_keys->callback([&] { options.work = [&] { return run_rig_keys(options.rig_name, options.keys_out); }; });
 
-  auto* list_command = app.add_subcommand("list", "What there is to choose from, a line each");
-  list_command->add_option("kind", options.kind, "What of")->required()->check(CLI::IsMember(listed_kinds()));
+  auto* list_command = app.add_subcommand("list", "List available names, one per line");
+  list_command->add_option("kind", options.kind, "Kind of names")->required()->check(CLI::IsMember(listed_kinds()));
   add_data_option(*list_command, options.list_data);
   list_command->callback([&] { options.work = [&] { return run_list(options.kind, options.list_data); }; });
 
-  auto* devices_command =
-      app.add_subcommand("devices", "What is connected that a rig may use, and what to do where it may not be opened");
+  auto* devices_command = app.add_subcommand(
+      "devices", "List connected devices that a rig may use, and remedies for those that cannot be opened");
   devices_command->callback([&] {
     options.work = []() -> Expected<int> {
       std::cout << car_io::device_table(car_io::list_devices("/sys", "/dev")) << std::flush;

@@ -6,7 +6,7 @@
 namespace septet::server {
 
 void add_session_commands(CLI::App& app, Options& options) {
-  auto* session = app.add_subcommand("session", "What is added to a session after the drive, and taken out of it");
+  auto* session = app.add_subcommand("session", "Additions to a session after the drive, and removals");
   session->require_subcommand(1);
 
   auto* answer = session->add_subcommand("answer", "A questionnaire: asks its items, or takes the answers from a file");
@@ -15,7 +15,7 @@ void add_session_commands(CLI::App& app, Options& options) {
       ->required();
   answer->add_option("--answers", options.answer.answers, "TOML file with ITEM = NUMBER; without it they are asked")
       ->default_str("");
-  answer->add_option("--as", options.answer.as, "What to call the answers: ssq-before, ssq-after")
+  answer->add_option("--as", options.answer.as, "Name of the answers: ssq-before, ssq-after")
       ->default_str("the questionnaire's id");
   answer->callback([&] { options.work = [&] { return run_session_answer(options.answer, std::cin, std::cout); }; });
 

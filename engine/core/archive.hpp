@@ -239,7 +239,7 @@ concept FixedMatrix = requires(T m) {
 template <class T>
 void require_number(StateReader& reader, T& value) {
   if (!std::isnan(value)) return;
-  reader.fail("a number in it is none");
+  reader.fail("a number in it is NaN");
   value = 0;
 }
 }  // namespace archive
@@ -263,7 +263,7 @@ void transfer(Archive& archive, V& value) {
     auto byte = static_cast<std::uint8_t>(value);
     if constexpr (Archive::reads) {
       archive.get(&byte, 1);
-      value = archive.require(byte <= 1, "a truth in it is none") && byte == 1;
+      value = archive.require(byte <= 1, "a boolean in it is neither 0 nor 1") && byte == 1;
     } else {
       archive.put(&byte, 1);
     }
@@ -357,16 +357,16 @@ void transfer(Archive& archive, V& value) {
   } else if constexpr (archive::FixedVector<T>) {
     for (int i = 0; i < static_cast<int>(T::length()); ++i) {
       transfer(archive, value[i]);
-      if constexpr (Archive::reads) archive.require(std::isfinite(value[i]), "a vector in it is endless");
+      if constexpr (Archive::reads) archive.require(std::isfinite(value[i]), "a vector in it is not finite");
     }
     if constexpr (Archive::reads && archive::Quaternion<T>) {
       const double square = value.w * value.w + value.x * value.x + value.y * value.y + value.z * value.z;
-      archive.require(std::abs(square - 1.0) < 1e-3, "an orientation in it is none");
+      archive.require(std::abs(square - 1.0) < 1e-3, "a quaternion in it is not of unit length");
     }
   } else if constexpr (archive::FixedMatrix<T>) {
     for (int i = 0; i < static_cast<int>(T::SizeAtCompileTime); ++i) {
       transfer(archive, value.data()[i]);
-      if constexpr (Archive::reads) archive.require(std::isfinite(value.data()[i]), "a matrix in it is endless");
+      if constexpr (Archive::reads) archive.require(std::isfinite(value.data()[i]), "a matrix in it is not finite");
     }
   } else {
     auto all = members(value);

@@ -1,7 +1,7 @@
 #pragma once
 /// The hash of simulation state, 64 bits: it tells two runs apart; it does not protect against forgery.
 ///
-/// As FNV-1a, but a word of 64 bits at a time, with the high half folded into the low one after each product, so that
+/// FNV-1a, but a word of 64 bits at a time, with the high half folded into the low one after each product, so that
 /// every bit of a word reaches every bit of the hash within two words. Each step is a bijection of the hash for a given
 /// word and of the word for a given hash: two states that differ in one word never hash alike. Bytes are padded to
 /// words with zeros and their number is hashed too. The same on every machine.

@@ -6,7 +6,7 @@
 
 namespace septet {
 
-extern const std::string_view version;   ///< As in CMakeLists.txt and CHANGELOG.md.
+extern const std::string_view version;   ///< Number in CMakeLists.txt and CHANGELOG.md.
 extern const std::string_view revision;  ///< Short git commit at configuration; empty outside a checkout.
 
 /// "0.1.0 (6409bab)".

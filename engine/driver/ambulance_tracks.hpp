@@ -36,7 +36,7 @@ double share_of_tracks(const TracksState& state, double ahead_s);
 /// Across the road; beyond the recorded path as at its end.
 double across_at(const TracksState& state, double x_m);
 
-/// Of the ambulance and the vehicles on the driver's path, the one that requires the most braking.
+/// The vehicle that requires the most braking: the ambulance, or one on the driver's path.
 std::optional<Obstacle> obstacle_in_tracks(const TracksState& state, const LaneScene& scene,
                                            const SpeedParameters& speed);
 

@@ -31,7 +31,7 @@ struct CarKnowledge {
 
 /// Two-point visual steering.
 struct SteeringParameters {
-  double natural_frequency_radps = 0.6;  ///< Of returning to the lane's middle.
+  double natural_frequency_radps = 0.6;  ///< Frequency of returning to the lane's middle.
   double damping = 0.9;
   double integral_per_s = 0.12;        ///< Weight of the lasting error against the present one.
   double near_distance_m = 10.0;       ///< Salvucci and Gray's near point…
@@ -42,7 +42,7 @@ struct SteeringParameters {
   double largest_rate_radps = 6.0;
   double peripheral_share = 0.6;  ///< Share of the road's changes that is acted upon while looking elsewhere.
   double position_noise_m = 0.19,
-         position_noise_s = 2.5;  ///< Of the perceived place in the lane: SD, correlation time.
+         position_noise_s = 2.5;  ///< SD and correlation time of the perceived place in the lane.
   double heading_noise_rad = 0.0018, heading_noise_s = 0.6;
 };
 
@@ -59,7 +59,7 @@ struct SpeedParameters {
   double distance_noise = 0.06,
          noise_s = 8.0;            ///< Relative SD of perceived distances, correlation time.
   double speed_noise = 0.015;      ///< Relative SD of the perceived own speed.
-  double largest_jerk_mps3 = 2.5;  ///< Of the desired acceleration, except in an emergency.
+  double largest_jerk_mps3 = 2.5;  ///< Limit on the desired acceleration's change, except in an emergency.
   double preview_s = 10.0;         ///< A leader farther ahead than this, over one's own speed, is ignored.
   double warned_gap_m = 3.0;       ///< Extra beyond the standstill gap to a leader with hazard lights.
   double warns_after_s = 6.0, warns_spread = 0.4;  ///< Own hazard lights behind it: median, and SD of its logarithm.

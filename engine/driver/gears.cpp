@@ -5,7 +5,7 @@
 namespace septet::driver {
 namespace {
 
-constexpr double bite_begins = 0.80, bite_ends = 0.20;  ///< Of the clutch pedal.
+constexpr double bite_begins = 0.80, bite_ends = 0.20;  ///< Positions of the clutch pedal.
 constexpr double walking_mps = 2.0;
 
 void enter(GearState& state, GearPhase phase) {

@@ -199,7 +199,7 @@ Expected<Rows> read_rows(const Container& container, std::int64_t accessor, std:
     for (std::size_t k = 0; k < rows.width; ++k) {
       const float number = number_at(layout->row(i) + k * step, layout->component, layout->normalised);
       if (!std::isfinite(number))
-        return failure(fmt::format("number {} of row {} is none", k, i), layout->where, export_anew);
+        return failure(fmt::format("number {} of row {} is not finite", k, i), layout->where, export_anew);
       rows.numbers.push_back(number);
     }
   return rows;

@@ -41,7 +41,7 @@ std::string ConnectionReport::text_of(Obstacle obstacle) const {
       return fmt::format(
           "the server at {} is another one than server.public says: copy that file from the server's keys", server);
     case Obstacle::other_version:
-      return fmt::format("what answers at {} speaks another version of Septet: run the same one on all machines",
+      return fmt::format("the program at {} speaks another version of Septet: run the same one on all machines",
                          server);
     case Obstacle::key_unknown:
       return fmt::format(

@@ -104,8 +104,8 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   return ground;
 }
 
-/// Sets a car whose wheels all lie far below the ground (a scenario that put it there, a road without a floor) onto it, and logs that:
-/// forces of that depth are beyond all bounds. True where it did.
+/// Sets a car whose wheels all lie far below the ground (a scenario that put it there, a road without a floor) onto it,
+/// and logs that: forces of that depth are beyond all bounds. Returns true if it did.
 bool set_on_ground(const Model& model, const vehicle::Ground& ground, State& state, std::vector<Event>& events) {
   constexpr double buried_m = 10.0;  // More than one level of a road below another.
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);

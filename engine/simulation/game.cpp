@@ -99,7 +99,7 @@ void count(const Model& model, const scenario::GameSettings& settings, const Par
                       fmt::format("level={} more_vehicles={} points={:.0f} survived_s={:.1f}", level, more,
                                   standing.points, standing.survived_s)});
   }
-  // Where the leader has come to the end of its road, there is no leader left to follow.
+  // A leader at the end of its road is gone: nobody is left to follow, and the game ends as survived.
   if (standing.away_s >= settings.lost_s)
     standing.end = GameEnd::lost;
   else if (standing.survived_s >= settings.seconds || !leader.active)

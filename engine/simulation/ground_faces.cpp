@@ -143,7 +143,7 @@ bool stays_before_face(const Model& model, const Vec3& centre_m, const road::Roa
   vehicle::WheelGround before = plane_at(model, stood, Vec2(centre_m));
   const double risen_m = ground.point_m.z - before.point_m.z;
   if (risen_m < least_face_m) return false;
-  // Where a bank meets level land the ground turns, and does not step.
+  // The ground turns where a bank meets level land, and does not step.
   if (risen_m < highest_strange_m && !edge_between(Rise(model, stood, before), foot_m, Vec2(centre_m))) return false;
   place = stood;
   if (const auto nearer = nearest_before_face(model, Vec2(centre_m), stood, before)) {
@@ -179,7 +179,7 @@ void append_faces(const Model& model, const State& state, const vehicle::Ground&
     const Rise rise(model, place, ground[i]);
     const auto edge = edge_between(rise, foot_m, foot_m + look_m * outwards);
     if (!edge) continue;
-    // Its direction, from a second path on either side of the first: one of them may begin beyond the face.
+    // Direction of the face, from a second path on either side of the first: one of them may begin beyond the face.
     const Vec2 left(-outwards.y, outwards.x);
     Vec2 along = left;
     for (const double side : {1.0, -1.0}) {
@@ -206,7 +206,7 @@ void append_faces(const Model& model, const State& state, const vehicle::Ground&
                          .high_m = floor_z_m + edge->height_m,
                          .open_from = false,
                          .open_to = false,
-                         .friction = 0.45});  // As of concrete.
+                         .friction = 0.45});  // Friction of concrete.
   }
 }
 

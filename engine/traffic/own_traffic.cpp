@@ -51,7 +51,7 @@ class OwnTraffic final : public TrafficEngine {
   }
 
  private:
-  /// Where more than `missing` are missing.
+  /// Remarks on the swarm's size (swarm_remark); with `missing` above 0 only if more vehicles than that are missing.
   void remark_on_swarm(std::size_t missing) {
     const std::size_t on_road = vehicles_on_road();
     if (on_road + missing >= parameters_.count && missing > 0) return;

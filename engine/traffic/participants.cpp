@@ -74,7 +74,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   participant.model = look_of(traffic.model[i], traffic.id[i]);
   participant.paint = traffic.paint[i];
   turn_about_up(world_from_line, turned, participant.world_from_vehicle.orientation);
-  // By a metre of the line of constant t: its turn, and the path's turn against it.
+  // Turn of the line, and turn of the path against it, by a metre of the line of constant t.
   const double line_turns = direction * line.curvature_per_m / path.tangent.stretch;
   const double path_turns = path.curvature_per_m;
   const double turns_per_m = line_turns + path_turns * pointed * pointed;

@@ -93,7 +93,7 @@ bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, double mean_
   const double speed = std::min(
       {0.85 * following.desired_speed_mps, idm_equilibrium_speed(following, std::max(3.0, mean_gap)), allowed});
   if (!clear_at(traffic, lane, x, traffic.length_m[i], speed, mean_gap)) return false;
-  // As fast as the one ahead allows: a vehicle that comes in does not have to brake at once.
+  // Speed that the one ahead allows, so that a vehicle that comes in does not have to brake at once.
   std::uint32_t hint = 0;
   const LaneEntry* ahead = neighbours(traffic, lane, x, -1, hint).ahead;
   traffic.speed_mps[i] = gap_to(traffic, lane, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
@@ -250,7 +250,7 @@ void recycle(const TrafficParameters& parameters, double middle, Random& random,
     const bool out = std::abs(ahead) > parameters.radius_m || traffic.x_m[i] > traffic.corridor.length_m - 20.0;
     if (!waits && !out) continue;
     if (!waits) {
-      // On with the same speed in the same lane at the other rim, where its neighbours have seen it.
+      // Enters with the same speed in the same lane at the other rim, where its neighbours have seen it.
       const int lane = traffic.lane[i];
       const double x = traffic.x_m[i] - std::copysign(2.0 * parameters.radius_m, ahead);
       const double speed = traffic.speed_mps[i];

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t car_warning_effect_id = 0x04000001;
 Bytes encode_car_warnings(const CarWarnings& warnings);
 /// Refuses anything that `encode_car_warnings` would not write; safe on hostile bytes.
 Expected<CarWarnings> decode_car_warnings(std::span<const std::byte> bytes);
-/// Those of a snapshot; all dark where it has none, or damaged ones.
+/// Warnings of a snapshot; all dark if it has none, or damaged ones.
 CarWarnings car_warnings_of(const Snapshot& snapshot);
 
 }  // namespace septet

@@ -16,7 +16,7 @@ enum class Lamp : std::uint16_t {
   beacon = 1 << 7,  ///< Emergency beacon switched on; its flashing is a function of simulated time.
   siren = 1 << 8,
   horn = 1 << 9,
-  signal_red = 1 << 10,  ///< Of a traffic light, here and below.
+  signal_red = 1 << 10,  ///< Lamps of a traffic light, here and below.
   signal_amber = 1 << 11,
   signal_green = 1 << 12,
   parking_brake = 1 << 13,  ///< The warning lamp among the instruments.

@@ -69,7 +69,8 @@ Expected<std::vector<TrafficLight>> decode_traffic_lights(std::span<const std::b
     light.world_from_light.orientation = orientation_from_angles(number(quanta_per_rad, most_heading), 0.0, 0.0);
   }
   if (!in.ok() || !in.at_end())
-    return failure("they are none, or damaged", "traffic light keyframe", "send what the same version of Septet wrote");
+    return failure("the bytes are of another kind, or damaged", "traffic light keyframe",
+                   "send what the same version of Septet wrote");
   return lights;
 }
 

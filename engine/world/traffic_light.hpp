@@ -34,7 +34,7 @@ inline constexpr std::size_t most_traffic_lights = 512;
 Bytes encode_traffic_lights(std::span<const TrafficLight> lights);
 /// Refuses anything that `encode_traffic_lights` would not write; safe on hostile bytes.
 Expected<std::vector<TrafficLight>> decode_traffic_lights(std::span<const std::byte> bytes);
-/// Those of a snapshot; empty where it has none, or damaged ones.
+/// Lights of a snapshot; empty if it has none, or damaged ones.
 std::vector<TrafficLight> traffic_lights_of(const Snapshot& snapshot);
 
 }  // namespace septet

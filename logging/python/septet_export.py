@@ -298,7 +298,7 @@ def main(arguments=None):
     tables.add_argument("--as", dest="form", choices=sorted(_WRITERS), default="csv")
     tables.add_argument("--every", type=_positive, default=12, help="interval in ticks of the participants' motion (12: ten times a second)")
     osi = commands.add_parser("osi", help="all participants at every tick as osi3.GroundTruth in a MCAP file")
-    osi.add_argument("--every", type=_positive, default=1, help="only each so many-th tick")
+    osi.add_argument("--every", type=_positive, default=1, help="interval in ticks of the ground truths (1: every tick)")
     for command, what in ((tables, "folder for the files"), (osi, "the .mcap file")):
         command.add_argument("session", help="session.sqlite of a drive")
         command.add_argument("--out", required=True, type=Path, help=what)

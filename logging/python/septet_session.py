@@ -103,7 +103,7 @@ class Session:
                 continue
             if table[column].dtype == object:
                 if not table[column].map(lambda value: value is None or isinstance(value, (int, float))).all():
-                    raise SessionError(f"{self.path}: the column {column} of {name} holds what is no number: use an unaltered copy")
+                    raise SessionError(f"{self.path}: the column {column} of {name} has a value that is not a number: use an unaltered copy")
                 table[column] = pandas.to_numeric(table[column])
         return table
 

@@ -37,7 +37,7 @@ def _found(path):
     except FileNotFoundError:
         return None
     if not stat.S_ISREG(found.st_mode):
-        raise SessionError(f"{path}: what lies beside the session is no file: delete it if nobody needs it")
+        raise SessionError(f"{path}: the session's journal or WAL is not a regular file: delete it if nobody needs it")
     return found
 
 

@@ -56,8 +56,7 @@ Expected<bool> has_hot_journal(const fs::path& database) {
   const auto found = found_at(journal);
   if (!found) return false;
   if (!S_ISREG(found->st_mode))
-    return failure("what lies beside the session in the place of its journal is no file", journal.string(),
-                   "delete it if nobody needs it");
+    return failure("the session's journal is not a regular file", journal.string(), "delete it if nobody needs it");
   if (is_magic(bytes_at(journal, -static_cast<off_t>(journal_magic.size()), journal_magic.size())))
     return failure(
         "this journal names another file, which would be deleted when the session is opened: it is not Septet's",
@@ -96,7 +95,7 @@ Expected<ReadWay> way_to_read(const fs::path& database) {
   const auto wal_found = found_at(wal), index_found = found_at(index);
   for (const auto& [found, path] : {std::pair(wal_found, wal), {index_found, index}})
     if (found && !S_ISREG(found->st_mode))
-      return failure("what lies beside the session in the place of its newest commits is no file", path.string(),
+      return failure("the session's WAL or its index is not a regular file", path.string(),
                      "delete it if nobody needs it");
   if (*is_hot) return ReadWay::copied;
   if (wal_found && index_found) return ReadWay::with_wal;

@@ -14,7 +14,7 @@ void add_to_hash(const InputRecord& record, StateHash& hash) {
   for (const bool is_on : {input.hazard_lights, input.horn, input.low_beam, input.high_beam, input.parking_brake})
     hash.add(is_on ? 1 : 0);
   hash.add(input.sequence);
-  if (input.head == Head{}) return;  // Sessions of before there were heads keep their hash.
+  if (input.head == Head{}) return;  // Keeps the hash of sessions from before head positions were input.
   for (const double value :
        {input.head.from_rest_m.x, input.head.from_rest_m.y, input.head.from_rest_m.z, input.head.turn_rad})
     hash.add(value);

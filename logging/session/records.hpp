@@ -102,9 +102,9 @@ struct Event {
   bool operator==(const Event&) const = default;
 };
 
-/// The kind of events that are input: what an operator changed while it was driven, before the event's tick.
+/// Kind of the events that are input: an operator's change during the drive, applied before the event's tick.
 inline constexpr std::string_view operator_command_kind = "operator_command";
-/// True of the command that moved the driver's car elsewhere.
+/// True for the command that moved the driver's car elsewhere.
 inline bool is_put(const Event& event) {
   return event.kind == operator_command_kind && event.detail.starts_with("put ");
 }

@@ -19,7 +19,7 @@ using document::Json;
 
 void add_text(const std::string& text, StateHash& hash) { hash.add_bytes(std::as_bytes(std::span(text))); }
 
-/// As stored by SQLite: one zero, and NULL for NaN.
+/// Value as stored by SQLite: one zero, and NULL for NaN.
 double as_kept(double value) { return std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value + 0.0; }
 
 struct Part {

@@ -15,7 +15,7 @@
 namespace septet::logging {
 namespace {
 
-/// As an SQL text.
+/// Quotes a text for SQL.
 std::string quoted(const std::string& text) {
   std::string sql = "'";
   for (const char c : text) sql += c == '\'' ? std::string("''") : std::string(1, c);
@@ -47,7 +47,7 @@ Expected<void> strip(const Database& database, const SessionInfo& info) {
   for (const auto& [key, value] : info.other)
     if (done && is_personal(key)) done = database.execute("DELETE FROM meta WHERE key = " + quoted(key));
   if (done) done = database.execute("UPDATE questionnaire SET reason = ''");
-  // An operator's words, at the drive's end, at a moment or to them, may name them.
+  // Texts of an operator may name the driver: notes, words to the driver, the reason of the end.
   for (const auto& [kind, words] : {std::pair("mark", " note="), {"word", " text="}, {"operator", " reason="}})
     if (done)
       done =

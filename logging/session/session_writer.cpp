@@ -182,7 +182,7 @@ void SessionWriter::State::write(const std::vector<Record>& batch) {
 
 void SessionWriter::State::commit() {
   if (has_failed) return;
-  // Also without new records: callers learn that the file is gone.
+  // Checked without new records too, so that callers learn that the file is gone.
   auto done = check_file();
   if (done && uncommitted > 0) done = database.execute("COMMIT");
   if (!done) return fail(std::move(done.error()));

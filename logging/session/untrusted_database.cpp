@@ -50,7 +50,8 @@ void distrust_schema(sqlite3* database) {
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, nullptr);
   sqlite3_exec(database, "PRAGMA cell_size_check=ON", nullptr, nullptr, nullptr);
-  // Where the file's statistics or a missing index make SQLite sort, it does so without a file of its own, which would be one that it attaches.
+  // Sorting, which the file's statistics or a missing index may cause, must not use a temporary file: SQLite attaches
+  // it.
   sqlite3_exec(database, "PRAGMA temp_store=MEMORY", nullptr, nullptr, nullptr);
   constexpr std::pair<int, int> limits[] = {{SQLITE_LIMIT_LENGTH, largest_value_bytes},
                                             {SQLITE_LIMIT_SQL_LENGTH, 100'000},

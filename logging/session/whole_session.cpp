@@ -55,7 +55,7 @@ Expected<void> check_names(const SessionReader& session) {
   return {};
 }
 
-/// 0, or of a drive that begins at a state which an earlier one had kept, that state's tick.
+/// First tick of the drive: 0 or, if it began at a state kept by an earlier drive, that state's tick.
 Expected<Tick> first_tick(const SessionReader& session) {
   const auto row = session.info().other.find(begun_at_row);
   if (row == session.info().other.end()) return Tick{0};

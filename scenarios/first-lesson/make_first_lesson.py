@@ -237,7 +237,7 @@ class Course:
 
 
 def crossroads(course, arms):
-    """`arms`: (road, contact, lane in, lane out, pose looking out of the junction) counter-clockwise. Answers the connections."""
+    """`arms`: (road, contact, lane in, lane out, pose looking out of the junction) counter-clockwise. Returns the connections."""
     connections, number = [], 80
     for i, (road, contact, lane_in, _, pose) in enumerate(arms):
         start = ahead(pose, 0, turn=math.pi)
@@ -257,7 +257,7 @@ def crossroads(course, arms):
 
 def roundabout(course, middle, arms):
     """`arms`: (road, contact, lane in, lane out) counter-clockwise, the first where the course comes from; middle: looking along it.
-    Answers the connections of each arm's junction."""
+    Returns the connections of each arm's junction."""
     heading, found = middle[2], []
     at = lambda angle: ahead((*middle[:2], angle), RING, turn=math.pi / 2)  # noqa: E731
     k, gap = 1 / RING, math.pi / 2 - 2 * BESIDE

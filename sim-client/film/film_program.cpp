@@ -48,7 +48,7 @@ std::string progress_text(const FilmMade& so_far, double elapsed_s) {
     text += fmt::format(" and {:.1f} in parts", so_far.share_of_next);
   else if (so_far.share_of_next > 0.0)
     text += fmt::format(" and {:.0f} % of the next", 100.0 * so_far.share_of_next);
-  if (so_far.bad_samples > 0) text += fmt::format(", {} samples without light that is a number", so_far.bad_samples);
+  if (so_far.bad_samples > 0) text += fmt::format(", {} samples with NaN or infinite light", so_far.bad_samples);
   if (so_far.workers > 1) text += fmt::format(" by {} programs", so_far.workers);
   const double drawn = done - static_cast<double>(so_far.kept) - so_far.kept_of_next;
   if (!(drawn > 1e-3)) return text;  // Rounding error is no basis for a time.
@@ -78,7 +78,7 @@ Expected<int> film_here(const FilmOptions& options, Machines* others) {
     return program::failed_status;
   }
   if (made->bad_samples > 0)
-    program::say(fmt::format("septet: {} samples had no light that is a number; they are black", made->bad_samples));
+    program::say(fmt::format("septet: the light of {} samples was NaN or infinite; they are black", made->bad_samples));
   std::string text =
       fmt::format("{}: {} pictures, {} a second", options.out.string(), made->frames, options.frames_per_second);
   if (made->kept > 0) text += fmt::format(", {} of them drawn before", made->kept);

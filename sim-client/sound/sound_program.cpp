@@ -67,7 +67,7 @@ Expected<int> run_sound(SoundOptions options) {
   }
   if (auto finished = file->finish(); !finished) return tl::unexpected(finished.error());
   if (made->bad_numbers > 0)
-    program::say(fmt::format("septet: {} numbers of the session are none; they are silent", made->bad_numbers));
+    program::say(fmt::format("septet: {} numbers of the session are not finite; they are silent", made->bad_numbers));
   program::announce(fmt::format("{}: {:.2f} s, {}", options.out.string(),
                                 static_cast<double>(made->blocks) / ticks_per_second,
                                 channels == 2 ? "stereo" : "5.1"));

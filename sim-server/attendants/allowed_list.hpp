@@ -1,5 +1,6 @@
 #pragma once
-/// The list of allowed clients while a drive goes on: a key that is taken off it is out at once.
+/// Updates of the list of allowed clients during a drive: a client whose key is removed from the file is disconnected
+/// at once.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,6 @@
 #pragma once
-/// The console of a drive: messages and progress on standard error, signals, and the words "go" and "rearm" on standard input.
+/// The console of a drive: messages and progress on standard error, signals, and the words "go" and "rearm" on standard
+/// input.
 
 #include "program/console.hpp"
 #include "program/go_word.hpp"
@@ -10,8 +11,8 @@ namespace septet::server {
 
 class Console final : public Attendant {
  public:
-  /// `line` and `live` outlive it. `live`: null where a session is shown again. `reads_go`: a drive with screens, which may begin without
-  /// those that are missing; without screens standard input is read for "rearm" alone.
+  /// `line` and `live` outlive the console. `live`: null for a replay. `reads_go`: the drive has screens and may begin
+  /// without the missing ones; without screens, standard input is read for "rearm" alone.
   Console(program::ProgressLine& line, LiveDrive* live, bool reads_go)
       : line_(line), live_(live), reads_go_(reads_go) {}
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The operator's desk (drive/operator_desk.hpp) at the loop: the page's wishes, and how the drive stands.
+/// The operator's desk (drive/operator_desk.hpp) as an attendant of the loop: passes on the page's requests, and shows
+/// the state of the drive.
 
 #include <memory>
 #include <utility>
@@ -13,7 +14,7 @@ namespace septet::server {
 
 class Desk final : public Attendant {
  public:
-  /// `log` and `host` outlive it. `host`: null without screens.
+  /// `log` and `host` outlive the desk. `host`: null without screens.
   Desk(std::unique_ptr<OperatorDesk> desk, DriveLog& log, ScreenHost* host)
       : desk_(std::move(desk)), log_(log), host_(host) {}
 

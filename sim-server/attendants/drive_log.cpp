@@ -35,7 +35,7 @@ void DriveLog::hear(const Message& message) {
 void DriveLog::close(ServeResult& result) {
   const std::vector<HostedScreen>& screens = screens_of(host_);
   const auto failed = [&](const Error& error) {
-    if (result.end == logging::DriveEnd::log_failed) return;  // That has been said.
+    if (result.end == logging::DriveEnd::log_failed) return;  // The loop has reported it.
     line_.message(fmt::format("septet-server: {}", describe(error)));
     if (exit_status(result.end) == logging::failed_status) return;
     result.end = logging::DriveEnd::log_failed;

@@ -14,15 +14,16 @@ namespace septet::server {
 
 class DriveLog final : public Attendant {
  public:
-  /// All outlive it. `host`: null without screens.
+  /// All arguments outlive the log. `host`: null without screens.
   DriveLog(const ServerOptions& options, const LoadedDrive& loaded, const scene::Store& store, LiveDrive& live,
            const ScreenHost* host, program::ProgressLine& line)
       : options_(options), loaded_(loaded), store_(store), live_(live), host_(host), line_(line) {}
 
-  /// Creates the session file, which must not be there yet. From here on `session` may be called.
+  /// Creates the session file, which must not exist yet. From here on `session` may be called.
   Expected<void> begin() override;
   void hear(const Message& message) override;
-  /// Closes the file and writes summary and report. A log that cannot be closed is the drive's end, unless something else was.
+  /// Closes the file and writes summary and report. A log that cannot be closed becomes the drive's end, unless the
+  /// drive has failed already.
   void close(ServeResult& result) override;
 
   SessionLog& session() { return *session_; }

@@ -11,7 +11,7 @@
 namespace septet::server {
 namespace {
 
-/// True where all screens of the rig, and its car, are this machine's own.
+/// True if all screens of the rig, and its car, run on this machine.
 bool is_one_machine(const rig::Rig& rig) {
   return rig.network.server_address == "127.0.0.1" && rig.car.machine.empty() &&
          std::ranges::all_of(rig.screens, [](const auto& screen) { return screen.machine.empty(); });

@@ -1,5 +1,5 @@
 #pragma once
-/// The server's end of both lanes: its key, the list of allowed clients, its sockets, and how ticks are sent.
+/// The server's end of both lanes: its key, the list of allowed clients, its sockets, and the transport of ticks.
 
 #include <filesystem>
 #include <vector>
@@ -19,12 +19,12 @@ struct LaneEndpoint {
   net::UdpSocket scene, tick;
 };
 
-/// `keys`: folder with server.key, made where it is missing, and allowed-clients. `any_port`: any free one instead of the rig's.
-/// Error: a file cannot be read, an address is not this machine's, or the port is taken.
+/// `keys`: folder with server.key, which is created if missing, and allowed-clients. `any_port`: any free port instead
+/// of the rig's. Error: a file cannot be read, an address is not this machine's, or the port is taken.
 Expected<LaneEndpoint> open_lane_endpoint(const std::filesystem::path& keys, const rig::Rig& rig, bool any_port);
 
-/// Chooses multicast if the rig wants it, or if it leaves the choice and the machine's own loopback carries it; `welcome` tells the
-/// screens.
+/// Chooses multicast if the rig requests it, or if the rig leaves the choice and this machine's loopback carries
+/// multicast; `welcome` tells the screens.
 Expected<void> choose_transport(const rig::Network& network, LaneEndpoint& endpoint, bool any_port,
                                 control::Welcome& welcome, program::ProgressLine& line);
 

@@ -12,7 +12,7 @@
 namespace septet::server {
 namespace {
 
-/// A picture is kept once a second, and of a drive that is shorter one: at a tick that is drawn in lockstep.
+/// Interval of the kept pictures: one second; in a shorter drive, the last tick that lockstep draws.
 std::uint32_t picture_every(const ServeOptions& serving, double tick_rate_hz) {
   const auto second = static_cast<std::uint64_t>(tick_rate_hz);
   const std::uint64_t ticks = serving.ticks;
@@ -32,8 +32,8 @@ ScreenHostOptions host_options(const ServerOptions& options, const ServeOptions&
                   .thumbnails = options.page_port.has_value()};
   host.max_datagram_bytes = rig.network.max_payload_bytes;
   host.limits.max_datagram_bytes = rig.network.max_payload_bytes;
-  // A screen that compiles its shaders is silent for a while and costs nobody anything: ticks do not wait for it in real
-  // time, and in lockstep it is waited for anyway.
+  // Compiling shaders keeps a screen silent for a while, at no cost: in real time ticks do not wait for it, and
+  // lockstep waits for it anyway.
   host.limits.timeout_s = serving.lockstep ? 60.0 : 5.0;
   host.least_playout_delay_s = rig.network.playout_delay_ticks / tick_rate_hz;
   for (const auto& screen : rig.screens) host.screens.push_back(screen.name);

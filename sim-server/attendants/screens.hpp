@@ -1,5 +1,5 @@
 #pragma once
-/// The screens of a drive: their lanes, and what they are told before the first tick.
+/// The screens of a drive: their lanes, and their settings and notices before the first tick.
 
 #include <memory>
 
@@ -13,11 +13,11 @@ namespace septet::server {
 
 class Screens final : public Attendant, public ServeClock {
  public:
-  /// Opens sockets and keys. `drive` and `line` outlive it. Error: as open_lane_endpoint.
+  /// Opens sockets and keys. `drive` and `line` outlive the screens. Error: as open_lane_endpoint.
   static Expected<std::unique_ptr<Screens>> open(const ServerOptions& options, const ServeOptions& serving,
                                                  const OpenedDrive& drive, program::ProgressLine& line);
 
-  /// Announces that screens may connect, and tells a person at the keyboard the keys.
+  /// Announces that screens may connect; prints the keyboard's keys if a keyboard drives.
   Expected<void> begin() override;
 
   /// The machine's clock; waiting ends when a screen sends.

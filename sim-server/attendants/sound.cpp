@@ -41,7 +41,7 @@ Expected<void> Sound::begin() {
 
 void Sound::after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double shaking_share) {
   sound_->add(tick, shaking_share);
-  // The shaker hangs on the same device, and what it plays on is nobody's any more.
+  // A shaker may be connected to the same device: without sound nothing controls it, so the actuators are cut.
   if (sound_->counts().lost > std::exchange(times_lost_, sound_->counts().lost) && live_)
     live_->cut_actuators("the sound has stopped");
 }

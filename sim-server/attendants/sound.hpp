@@ -1,6 +1,6 @@
 #pragma once
-/// The sound of a drive, or of a session that is shown again, as the rig's [sound] asks for it: each tick goes to a thread that plays
-/// (host/live_sound.hpp). Where the device is lost, actuators that may hang on it are cut.
+/// The sound of a drive or of a replay, as the rig's [sound] specifies: each tick goes to the thread that plays
+/// (host/live_sound.hpp). If the device is lost, the actuators are cut, since a shaker may be connected to it.
 
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,8 @@
 
 namespace septet::server {
 
-/// Sources of what is heard: the car and the road of the drive's `model` or, without one, of the `session`; echoes of the `store`.
+/// Sources of the sound: car and road from the drive's `model` or, without one, from the `session`; echoes from the
+/// `store`.
 struct SoundSources {
   const rig::Rig& rig;
   std::shared_ptr<const simulation::Model> model;
@@ -29,7 +30,7 @@ struct SoundSources {
 
 class Sound final : public Attendant {
  public:
-  /// `live` outlives it; null where a session is shown again.
+  /// `live` outlives the sound; null for a replay.
   Sound(SoundSources sources, LiveDrive* live) : sources_(std::move(sources)), live_(live) {}
 
   Expected<void> begin() override;

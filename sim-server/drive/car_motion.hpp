@@ -1,5 +1,5 @@
 #pragma once
-/// What the driver can feel of the car, from the simulation's state.
+/// Motion of the car as the driver feels it, from the simulation's state.
 
 #include "car-io/actuators.hpp"
 #include "engine/simulation/state.hpp"

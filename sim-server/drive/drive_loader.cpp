@@ -21,7 +21,7 @@ namespace septet::server {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where a text comes from, by role and the name that another file calls it by.
+/// Reads a file by its role and by the name that another file gives it.
 using ReadSource = std::function<Expected<logging::SourceFile>(const std::string& role, const std::string& name)>;
 
 /// The entity that the driver sits in: the one called "ego" or "Ego", else the first vehicle.
@@ -33,7 +33,7 @@ scenario::EntityIndex driver_entity(const scenario::Scenario& scenario) {
   return scenario::no_entity;
 }
 
-/// Of all that the simulation depends on: rig and lesson it does not.
+/// Hash of all files that the simulation depends on, and of the parameters; rig and lesson are left out.
 std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources,
                       std::vector<scenario::ParameterValue> parameters) {
   StateHash hash;
@@ -51,7 +51,7 @@ std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources,
   return hash.value();
 }
 
-/// `vehicle`: instead of the rig's, unless it is empty.
+/// `vehicle` replaces the rig's vehicle, unless it is empty.
 Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std::string& vehicle,
                            std::vector<scenario::ParameterValue> parameters) {
   LoadedDrive drive;
@@ -145,7 +145,7 @@ std::string LoadedDrive::vehicle_name() const {
 
 namespace {
 
-/// What is marked, where the scenario has that beside it.
+/// Adds the lesson, NAME.lesson.toml beside the scenario NAME.xosc, if there is one.
 Expected<void> add_lesson(const fs::path& scenario, LoadedDrive& drive) {
   const fs::path path = fs::path(scenario).replace_extension(".lesson.toml");
   std::error_code error;
@@ -203,7 +203,7 @@ Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std:
         return failure(fmt::format("the session holds no {} {}", role, name), where, altered);
       },
       seed == session.seeds.end() ? 1 : seed->second, {}, std::move(parameters));
-  // The fault is in the session's copy of a file; the file of that name on the disk may be right.
+  // Names the session first: the fault is in its copy of a file, and the file of that name on disk may be right.
   if (!drive && !drive.error().where.starts_with(where))
     return failure(drive.error().what, fmt::format("{}, its file {}", where, drive.error().where), altered);
   return drive;

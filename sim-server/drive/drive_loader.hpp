@@ -12,7 +12,7 @@
 
 namespace septet::server {
 
-/// What a drive is made from, as files on disk.
+/// Files on disk that a drive is loaded from, and its options.
 struct DriveFiles {
   std::string scenario;  ///< Path of the .xosc.
   std::string rig;       ///< Path of the .toml.
@@ -26,16 +26,16 @@ struct LoadedDrive {
   std::shared_ptr<const simulation::Model> model;
   rig::Rig rig;
   std::vector<logging::SourceFile> sources;          ///< Roles: scenario, road, rig, vehicle, catalog.
-  std::vector<scenario::ParameterValue> parameters;  ///< Those that were given from outside.
-  std::vector<std::string> warnings;                 ///< What the files hold that Septet does not do, by name and line.
+  std::vector<scenario::ParameterValue> parameters;  ///< Those given by the user.
+  std::vector<std::string> warnings;                 ///< Unsupported contents of the files, by name and line.
 
   const std::string& source(std::string_view role) const;
-  /// The name of the vehicle's file, without folder and ending.
+  /// Name of the vehicle's file, without folder and extension.
   std::string vehicle_name() const;
 };
 
 Expected<LoadedDrive> load_drive(const DriveFiles& files);
-/// Of a session again; `where` is its file, for who reads what it lacks.
+/// Loads the drive of a session again. `where`: the session's file, for errors.
 Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std::string& where);
 
 }  // namespace septet::server

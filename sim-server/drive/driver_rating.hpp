@@ -1,8 +1,9 @@
 #pragma once
-/// How the driver feels, asked by the operator each minute of driven time on one scale (MISC: scenarios/questionnaires/misc.toml).
+/// The driver's well-being, which the operator asks for each minute of driven time, on one scale (MISC:
+/// scenarios/questionnaires/misc.toml).
 ///
-/// Each answer is a row of the session's questionnaire, PREFIX.MINUTE with two digits at least ("misc.03"), and minutes without one have a row
-/// without a value, if there is an answer at all: who was never asked has none.
+/// Each answer is a row of the session's questionnaire, PREFIX.MINUTE with at least two digits ("misc.03"). If there is
+/// any answer, minutes without one have a row without a value; a driver who was never asked has no rows.
 
 #include <map>
 #include <string>
@@ -15,7 +16,7 @@ namespace septet::server {
 
 class DriverRating {
  public:
-  /// Of a questionnaire's first item. Error: it has none, or no label for each value.
+  /// Takes the scale of a questionnaire's first item. Error: there is no item, or a value without a label.
   static Expected<DriverRating> of(const logging::Questionnaire& questionnaire);
 
   const std::string& title() const { return title_; }
@@ -25,9 +26,9 @@ class DriverRating {
   /// The answers so far, by minute.
   const std::map<int, int>& answers() const { return answers_; }
 
-  /// The answer of the minute that goes on. Error: it has one, or the value is beyond the scale.
+  /// Records the answer for the current minute. Error: the minute has an answer, or the value is off the scale.
   Expected<logging::QuestionnaireRecord> answer(double simulated_s, int value);
-  /// The rows of the minutes without an answer, from the one after the drive began until the one in which it ended.
+  /// Rows of the minutes without an answer, from the one after the drive's beginning to the one of its end.
   std::vector<logging::QuestionnaireRecord> unanswered(double begun_s, double ended_s) const;
 
  private:

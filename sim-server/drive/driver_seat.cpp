@@ -15,13 +15,13 @@
 namespace septet::server {
 namespace {
 
-/// Output reports to a device here, within the seat's limits.
+/// Adds the thread that writes output reports to a device of this machine, within the seat's limits.
 void add_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarLayout& layout, bool sticky) {
   seat.devices.push_back(
       std::make_unique<DeviceActuators>(open, layout, seat.actuators.steering_most > 0.0, seat.is_real_time, sticky));
 }
 
-/// Fan and shaker beside a car whose controls come from a bus: the HID device that the rig names.
+/// Adds fan and shaker for a car whose controls come from a bus: the HID device that the rig names.
 Expected<void> add_actuators(DriverSeat& seat, const rig::Car& car) {
   const auto layout = car_io::find_car_layout(car.layout);
   if (!layout) return tl::unexpected(layout.error());
@@ -54,14 +54,14 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
       parameters->car.engine_radps_per_mps[gear] =
           powertrain.gear_ratio[gear] * powertrain.final_ratio / model->car.tyre.radius_m;
     auto person = std::make_unique<SimulatedPerson>(*parameters, seed, model);
-    // Its device is read as a real one is, and has nothing that moves.
+    // Septet reads this simulated device like a real one; it has no actuators.
     seat.car = std::make_unique<car_io::CarConnection>(person->opener(), car_io::CarConnectionOptions{});
     seat.devices.push_back(std::move(person));
     return seat;
   }
   if (car.source == rig::CarSource::keyboard) return seat;
   if (car.source == rig::CarSource::can) {
-    // A bus that is missing is noticed before the drive begins.
+    // Opening the bus now reports a missing one before the drive begins.
     if (const auto bus = controls(); !bus) return tl::unexpected(bus.error());
     seat.car = std::make_unique<car_io::CarConnection>(
         controls,
@@ -70,7 +70,7 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
       if (auto added = add_actuators(seat, car); !added) return tl::unexpected(std::move(added.error()));
     return seat;
   }
-  // A joystick is read as Septet's own car.
+  // Joysticks are read with the layout of Septet's own car.
   const bool is_joystick = car.source == rig::CarSource::joystick;
   const auto layout = car_io::find_car_layout(is_joystick ? "septet-car" : car.layout);
   if (!layout) return tl::unexpected(layout.error());
@@ -81,13 +81,13 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
   if (!car.machine.empty()) {
     seat.remote = std::make_shared<RemoteCar>();
     options.repeats = true;
-    options.retry_s = 0.0;  // Asking the relay costs nothing.
+    options.retry_s = 0.0;  // Polling the relay is free.
     seat.car = std::make_unique<car_io::CarConnection>(seat.remote->device.opener(), options);
     seat.devices.push_back(std::make_unique<FarActuators>(seat.remote));
     return seat;
   }
   const auto open = car_io::car_opener(car);
-  // A missing device is noticed before the drive begins; one that is lost during it is opened again.
+  // Opening the device now reports a missing one before the drive begins; a device lost during the drive is reopened.
   if (const auto device = open(); !device) {
     if (car.source == rig::CarSource::automatic) return DriverSeat{};
     Error error = device.error();

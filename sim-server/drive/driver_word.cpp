@@ -15,7 +15,7 @@
 namespace septet::server {
 namespace {
 
-/// Of a collision's detail; nothing where it has none.
+/// Closing speed in the detail of a collision; empty if the detail has none.
 std::optional<double> closing_speed_mps(std::string_view detail) {
   constexpr std::string_view key = "closing_speed_mps=";
   const auto at = detail.find(key);
@@ -33,7 +33,8 @@ std::string with_article(std::string what) {
   return (begins_with_vowel ? "an " : "a ") + what;
 }
 
-/// What was hit: somebody of the snapshot, or what stands beside the road, which the detail begins with.
+/// The struck object in words: a participant of the snapshot, or an object beside the road, which the detail begins
+/// with.
 std::string struck(const Snapshot& now, const simulation::Event& event) {
   if (event.participant) {
     const Participant* other = find_participant(now, *event.participant);
@@ -53,7 +54,7 @@ void DriverWord::take(const Snapshot& now, std::span<const simulation::Event> ev
   for (const simulation::Event& event : events) {
     if (event.kind != "collision") continue;
     const double mps = closing_speed_mps(event.detail).value_or(0.0);
-    // Of the blows of one crash the worst is told.
+    // Several blows of one crash: only the worst is shown.
     const bool is_told = !blow_.empty() && now_s_ - blow_at_s_ < blow_shown_s;
     if (mps < least_blow_mps || (is_told && mps < blow_mps_)) continue;
     blow_ = struck(now, event);

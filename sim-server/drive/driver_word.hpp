@@ -1,8 +1,8 @@
 #pragma once
-/// What has happened to the driver's car, in words for whoever drives it: what it hit and how fast, that it has left the road, that the engine
-/// has stalled; and what to press.
+/// Messages for the driver about the car: a collision and its speed, leaving the road, a stalled engine; and the keys
+/// to press.
 ///
-/// Fed each tick with what a tick tells, so that the same drive gives the same words. One thread.
+/// `take` is called for each tick, so that the same drive gives the same messages. One thread.
 
 #include <span>
 #include <string>
@@ -15,24 +15,25 @@ namespace septet::server {
 
 class DriverWord {
  public:
-  /// `by_keyboard`: Escape, R and V are at hand.
+  /// `by_keyboard`: the driver has the keys Escape, R and V.
   explicit DriverWord(bool by_keyboard = true) : by_keyboard_(by_keyboard) {}
 
   void take(const Snapshot& now, std::span<const simulation::Event> events);
-  /// A line each; empty: nothing that the driver does not see.
+  /// Messages, one per line; empty: nothing to report.
   std::string text() const;
 
-  /// A blow is told of from this speed on, for so long; off every lane and a stall once they have lasted.
+  /// A blow is shown from this speed on, for this long; driving off every lane and a stall are shown after this long.
   static constexpr double least_blow_mps = 2.0, blow_shown_s = 8.0, off_road_after_s = 4.0, stalled_after_s = 2.0;
 
  private:
   bool by_keyboard_, has_begun_ = false;
   std::string blow_;
   double blow_mps_ = 0.0, blow_at_s_ = 0.0;
-  double now_s_ = 0.0, on_lane_s_ = 0.0, runs_s_ = 0.0;  ///< When it was last on a lane, and its engine ran.
+  double now_s_ = 0.0, on_lane_s_ = 0.0, runs_s_ = 0.0;  ///< Last tick on a lane, and with a running engine.
 };
 
-/// Lines for the driver at a drive's own end: that it is over, and what to press. `is_lesson`: its mark is in the debrief.
+/// Lines for the driver at the natural end of a drive: it is over, and the keys to press. `is_lesson`: the debrief has
+/// the mark.
 std::string words_at_end(logging::DriveEnd end, bool is_lesson);
 
 }  // namespace septet::server

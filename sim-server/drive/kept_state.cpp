@@ -11,7 +11,7 @@ namespace septet::server {
 
 Expected<simulation::State> kept_state(const logging::SessionReader& session, const simulation::Model& model,
                                        double until_s, std::unique_ptr<traffic::TrafficEngine> traffic) {
-  // A tick's time in seconds, multiplied by the rate, may lie a rounding below the tick.
+  // Simulated time times the tick rate may be a rounding error below the tick.
   constexpr double rounding_ticks = 1e-6;
   const auto saved = session.saved_state(static_cast<Tick>(until_s * simulation::tick_rate_hz + rounding_ticks));
   if (!saved) return tl::unexpected(saved.error());

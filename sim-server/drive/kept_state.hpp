@@ -1,5 +1,5 @@
 #pragma once
-/// States that a drive's log keeps so that the drive can be run or begun again from there.
+/// States kept in a drive's log, from which the drive can be run or begun again.
 
 #include <memory>
 #include <optional>
@@ -12,12 +12,12 @@
 
 namespace septet::server {
 
-/// Simulated time between two kept states. The first one is at this time, or at the first tick of a drive that itself
-/// began at a kept state.
+/// Simulated time between two kept states. The first one is at this time or, if the drive itself began at a kept state,
+/// at its first tick.
 inline constexpr double state_kept_every_s = 10.0;
 
 /// The newest state that the session kept until `until_s` (simulated); the drive's start if it kept none until then.
-/// `model` and `traffic`: of the same drive, as made for it. Error: the state is damaged, forged, of another drive or another
+/// `model` and `traffic` are those of the same drive. Error: the state is damaged, forged, of another drive or another
 /// build, or another program moves the traffic.
 Expected<simulation::State> kept_state(const logging::SessionReader& session, const simulation::Model& model,
                                        double until_s, std::unique_ptr<traffic::TrafficEngine> traffic);

@@ -7,7 +7,7 @@
 namespace septet::server {
 namespace {
 
-constexpr std::size_t samples_a_job = 10;  // A second's.
+constexpr std::size_t samples_a_job = 10;  // One second's worth.
 constexpr std::size_t most_pictures = 20;  // One a second: longer than any fault takes to settle.
 
 }  // namespace

@@ -18,19 +18,21 @@
 namespace septet::server {
 namespace {
 
-/// For so long a screen's last controls are held. It sends them with every picture, and for two seconds after the last key.
+/// The last controls of a silent screen are held for this long. A screen sends them with every picture, and for two
+/// seconds after the last key.
 constexpr Tick silent_screen_ticks = 120;
 
 constexpr auto saved_state_ticks = static_cast<Tick>(state_kept_every_s * simulation::tick_rate_hz);
 
-/// The re-arm button, so that nobody does it in passing.
+/// The re-arm button must be held for this long, so that nobody presses it in passing.
 constexpr int rearm_held_for_ticks = 120;
-/// What writes to the actuators is re-armed by what is at rest, a word that may be lost on its way to a car on another machine.
+/// Actuators are re-armed by a command of rest. It is repeated, since one may be lost on its way to a car on another
+/// machine.
 constexpr int rest_after_rearming_ticks = 12;
 
-/// More than the trembling of a device that nobody touches.
+/// True for a change beyond the noise of an untouched device.
 bool is_moved(const DriverInput& now, const DriverInput& found) {
-  constexpr double clearly = 0.1;  // Of a pedal's travel; of the hand wheel radians.
+  constexpr double clearly = 0.1;  // Share of a pedal's travel; radians of the hand wheel.
   for (const auto control :
        {&DriverInput::steering_wheel_rad, &DriverInput::accelerator, &DriverInput::brake, &DriverInput::clutch})
     if (std::abs(now.*control - found.*control) > clearly) return true;
@@ -78,7 +80,7 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
     heard_tick_ = state_.tick;
   }
   record.input = held_;
-  // A window whose keys have all been let go is silent too, and holds nothing down.
+  // A window without pressed keys is silent too, and holds no accelerator.
   if (!seat_.car && heard_tick_ && state_.tick - *heard_tick_ > silent_screen_ticks && held_.accelerator > 0.0) {
     record.input = car_io::released(held_);
     if (state_.diagnostics.input_stale_ticks++ % silent_screen_ticks == 0)
@@ -169,18 +171,18 @@ std::string LiveDrive::alarm() const {
   return stop_is_pressed_ ? "Emergency stop" : "Emergency stop: released, waits to be re-armed";
 }
 
-/// What has stopped beside the simulation since the last tick.
+/// Cuts the actuators if the controls, the bus or a device has stopped since the last tick.
 void LiveDrive::watch_faults() {
   if (is_stale_) cut_actuators("the controls have stopped");
   if (seat_.is_bus_lost()) cut_actuators("the CAN bus is lost");
-  // It has said so itself.
+  // The device has reported the cut itself.
   if (!cut_why_ && resting_ticks_ == 0 && seat_.has_cut_itself()) {
     cut_why_ = "the simulation was silent";
     guard_.trip(true);
   }
 }
 
-/// What of the ground and of blows the shaker plays beside engine and wheels.
+/// Adds the vibrations of ground, bumps and blows that the shaker plays beside engine and wheels.
 void LiveDrive::feel(const Snapshot& before, car_io::CarMotion& motion) {
   constexpr double dies_in_s = 0.09, tick_s = 1.0 / simulation::tick_rate_hz;
   const Snapshot& now = newest_->snapshot();
@@ -199,7 +201,7 @@ void LiveDrive::move_actuators(const Snapshot& before) {
   watch_faults();
   constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
   if (!seat_.has_actuators()) {
-    guard_.pass({}, tick_s);  // What shakes by sound goes by it.
+    guard_.pass({}, tick_s);  // Ramps the share that limits a shaker driven by sound.
     return;
   }
   auto motion = car_motion(*model_, state_);
@@ -236,12 +238,12 @@ void LiveDrive::show_instruments(const DriverInput& input) {
   }
 }
 
-/// Where another program moves the traffic there is none to be kept.
+/// Keeps no state if another program moves the traffic.
 void LiveDrive::keep_state() {
   if (auto bytes = simulation::save_state(*model_, state_)) log_->record_state({state_.tick, std::move(*bytes)});
 }
 
-/// A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
+/// Ends the drive on a full disk: without its log, a drive is worthless for evaluation.
 std::optional<Error> LiveDrive::take_error() {
   auto error = log_ ? log_->take_error() : std::nullopt;
   if (error) end_ = logging::DriveEnd::log_failed;
@@ -255,7 +257,7 @@ Expected<void> LiveDrive::command(const simulation::OperatorCommand& command) {
 }
 
 void LiveDrive::stand_still() {
-  // Nobody takes ticks, and yet somebody may press the emergency stop.
+  // Controls are polled in a pause too, since somebody may press the emergency stop.
   if (seat_.car) watch_switches(seat_.car->poll(device_from_drive_s_ + state_.time_s()).switches);
   if (!seat_.has_actuators()) return;
   if (!is_stopped_) {

@@ -4,7 +4,7 @@
 
 namespace septet::server {
 namespace {
-constexpr double beyond_m = 10.0;  // A car's length and more: nobody is on the road any longer.
+constexpr double beyond_m = 10.0;  // More than a car's length: no part of a car is on the road any longer.
 }
 
 std::optional<logging::DriveEnd> natural_end(const simulation::Model& model, const simulation::State& state) {
@@ -18,7 +18,7 @@ std::optional<logging::DriveEnd> natural_end(const simulation::Model& model, con
 bool is_beyond_road_end(const road::RoadNetwork& roads, const road::RoadPosition& place, const Vec2& world_m) {
   const road::Road& road = roads.roads[place.road];
   constexpr double at_m =
-      0.01;  // A place beyond the end is told as the end of the geometry, which need not be the length to the last bit.
+      0.01;  // A place beyond the end is reported at the end of the geometry, whose length may differ in the last bits.
   const bool at_end = place.s_m >= road.length_m - at_m;
   if (!at_end && place.s_m > at_m) return false;
   const road::RoadLink& link = at_end ? road.successor : road.predecessor;

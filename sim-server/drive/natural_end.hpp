@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a drive has come to an end of its own.
+/// The natural end of a drive.
 
 #include <optional>
 
@@ -10,11 +10,12 @@
 
 namespace septet::server {
 
-/// The storyboard's StopTrigger has fired, or the driver's car is beyond the road's end. Nothing while the drive goes on.
+/// The game is over, the storyboard's StopTrigger has fired, or the driver's car is beyond the road's end. Empty: the
+/// drive goes on.
 std::optional<logging::DriveEnd> natural_end(const simulation::Model& model, const simulation::State& state);
 
-/// Whether the point lies more than 10 m beyond an end of the road, at which no other road goes on. `road` is the road
-/// position that `road::locate` found nearest to it.
+/// True if the point is more than 10 m beyond an end of the road without a successor. `road`: the nearest road
+/// position, as found by `road::locate`.
 bool is_beyond_road_end(const road::RoadNetwork& roads, const road::RoadPosition& road, const Vec2& world_m);
 
 }  // namespace septet::server

@@ -69,7 +69,7 @@ Expected<void> build_scene(const ServerOptions& options, OpenedDrive& drive, pro
   return {};
 }
 
-/// The seat that command line and rig ask for; `car` says in the end what it became.
+/// The seat requested by command line and rig; `car` is changed to the actual one.
 Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car,
                                  const std::shared_ptr<const simulation::Model>& model,
                                  const car_io::OpenHidDevice& can_controls, program::ProgressLine& line) {
@@ -123,7 +123,7 @@ Expected<void> open_live(const ServerOptions& options, OpenedDrive& drive, progr
   if (!loaded) return tl::unexpected(loaded.error());
   drive.loaded = std::move(*loaded);
   for (const auto& warning : drive.loaded.warnings) line.message("not used: " + warning);
-  // Also where nobody looks on: a whole log keeps the scene, so that the drive can be shown later.
+  // Needed without screens too: a complete log contains the scene, so that the drive can be replayed.
   if (!options.no_screens || !options.log_samples_only)
     if (auto built = build_scene(options, drive, line); !built) return built;
   auto seat = furnish_seat(options, drive, line);

@@ -1,5 +1,5 @@
 #pragma once
-/// A source of ticks with all that it stands on: a scenario to be driven, or a session to be shown again.
+/// A source of ticks with everything it depends on: a scenario to drive, or a session to replay.
 
 #include <memory>
 #include <optional>
@@ -17,16 +17,17 @@
 namespace septet::server {
 
 struct OpenedDrive {
-  LoadedDrive loaded;  ///< Of a session that is shown again the rig alone.
+  LoadedDrive loaded;  ///< For a replay, the rig alone.
   scene::Store store;
-  std::optional<logging::SessionReader> session;  ///< Nothing: it is driven.
+  std::optional<logging::SessionReader> session;  ///< Set for a replay.
   bool by_person = false;                         ///< A person drives, not a simulated driver.
-  std::shared_ptr<RemoteCar> remote_car;          ///< The driver's car, where it is on another machine.
+  std::shared_ptr<RemoteCar> remote_car;          ///< The driver's car, if it is on another machine.
   std::unique_ptr<TickSource> source;
-  LiveDrive* live = nullptr;  ///< The source, where it is driven.
+  LiveDrive* live = nullptr;  ///< The source, if it is a drive; null for a replay.
 };
 
-/// The drive or the session that the options name, whose files have been found (find_files). Error: what cannot be read or opened.
+/// Opens the drive or the session named by the options, whose files have been found (find_files). Error: a file or a
+/// device cannot be opened.
 Expected<std::unique_ptr<OpenedDrive>> open_drive(const ServerOptions& options, program::ProgressLine& line);
 
 }  // namespace septet::server

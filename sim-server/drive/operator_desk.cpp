@@ -22,7 +22,7 @@ namespace {
 
 constexpr double show_every_s = 0.1;
 
-/// The scale by which the driver is asked how he feels. A drive without it goes on: the page does not ask.
+/// The scale for the driver's well-being. Without it the drive goes on, and the page does not ask.
 std::optional<DriverRating> find_rating() {
   const auto file = program::find_resource("misc", "scenarios/questionnaires", ".toml");
   if (!file) return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<DriverRating> find_rating() {
   return rating ? std::optional(*rating) : std::nullopt;
 }
 
-/// The rules that this drive is marked by, if it is a lesson. They were judged when the drive was loaded.
+/// The rules for the marks, if the drive is a lesson. They were checked when the drive was loaded.
 std::unique_ptr<LessonWatch> find_lesson(const LoadedDrive& loaded) {
   const auto source = std::ranges::find(loaded.sources, logging::lesson_role, &logging::SourceFile::role);
   if (source == loaded.sources.end()) return nullptr;
@@ -117,7 +117,7 @@ void OperatorDesk::log_to(SessionLog& log) {
       });
 }
 
-/// What the screen ahead shows, for the stills of faults.
+/// Takes the newest picture of the screen ahead, for the stills of faults.
 void OperatorDesk::keep_still(const std::vector<HostedScreen>& screens) {
   if (!lesson_) return;
   const auto ahead = std::ranges::find(screens, rig::screen_ahead(loaded_.rig).name, &HostedScreen::name);
@@ -191,7 +191,7 @@ std::optional<logging::DriveEnd> OperatorDesk::end_requested() const {
   return restart_at_s_ ? logging::DriveEnd::restart : logging::DriveEnd::by_operator;
 }
 
-/// Nothing where it was done, else why not.
+/// Executes a request; returns the reason for a refusal.
 std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) {
   if (const auto* mark = std::get_if<page::Mark>(&wish.wish)) {
     note(wish, "mark", mark->note);
@@ -227,7 +227,7 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
   return std::nullopt;
 }
 
-/// It is let go, too, by a browser that is gone or hangs.
+/// Releases the brake by itself for a browser that is gone or hangs.
 std::optional<std::string> OperatorDesk::hold_brake(const page::OperatorWish& wish, bool held) {
   constexpr double silence_s = 1.0;
   const bool was_held = brake_until_s_.has_value();
@@ -255,7 +255,7 @@ std::optional<std::string> OperatorDesk::restart(const page::OperatorWish& wish,
 }
 
 std::optional<std::string> OperatorDesk::say(const page::OperatorWish& wish, const page::Say& word) {
-  // As long as a sentence takes to be read by somebody who drives.
+  // Time that a driving person needs to read a sentence.
   constexpr double least_s = 6.0, most_s = 15.0, a_character_s = 0.12;
   if (word.text.find_first_not_of(" \t\r\n") == std::string::npos) return "there is no word";
   word_ = word.text;

@@ -1,5 +1,5 @@
 #pragma once
-/// The operator's page at a drive: what is wished there is done between two ticks and logged, and the page is told how the drive stands.
+/// The operator's page of a drive: executes requests between two ticks and logs them, and shows the state of the drive.
 
 #include <functional>
 #include <memory>
@@ -25,30 +25,31 @@ namespace septet::server {
 
 class OperatorDesk {
  public:
-  /// Opens the page. `loaded` and `drive` outlive the desk. Error: the port cannot be had.
+  /// Opens the page. `loaded` and `drive` outlive the desk. Error: the port is not available.
   static Expected<std::unique_ptr<OperatorDesk>> open(const ServerOptions& options, const LoadedDrive& loaded,
                                                       LiveDrive& drive);
 
   const std::string& url() const { return page_->url(); }
-  /// `log` outlives the desk, which tells the page what is logged.
+  /// `log` outlives the desk; its events are shown on the page.
   void log_to(SessionLog& log);
-  /// Does what was wished since the last call, and ten times a second shows how things stand. `screens` may be empty.
+  /// Executes the requests since the last call, and updates the page ten times a second. `screens` may be empty.
   void attend(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what,
               const std::vector<HostedScreen>& screens, double now_s);
 
-  /// At which screens somebody on the page looks closely.
+  /// Names of the screens whose large picture is watched on the page.
   std::set<std::string> watched() const { return page_->watched(); }
-  /// What the student is to read now; empty: nothing.
+  /// Text for the student to read now; empty: none.
   std::string word() const { return now_s_ < word_until_s_ ? word_ : std::string(); }
-  /// Whether a word to the student can be heard.
+  /// True if a word to the student can be spoken aloud.
   bool speaks() const { return speaker_.is_there(); }
   bool is_paused() const { return is_paused_; }
-  /// Whether to drive without the screens that are missing.
+  /// True if the drive should begin without the missing screens.
   bool told_to_go() const { return told_to_go_; }
   std::optional<logging::DriveEnd> end_requested() const;
-  /// The drive is to begin again at the newest state kept until this simulated time; 0: at its start. Empty: no such wish.
+  /// The drive is to begin again at the newest state kept until this simulated time; 0: at its start. Empty: not
+  /// requested.
   const std::optional<double>& restart_at_s() const { return restart_at_s_; }
-  /// How the drive ended, as the last thing that is shown.
+  /// Shows the end of the drive, as the last state of the page.
   void show_end(const std::string& text, const std::vector<HostedScreen>& screens, double now_s);
 
  private:
@@ -74,26 +75,26 @@ class OperatorDesk {
   std::optional<std::string> rate(const page::OperatorWish& wish, int value);
 
   std::unique_ptr<page::OperatorPage> page_;
-  std::optional<DriverRating> rating_;  ///< None where its scale is not installed.
+  std::optional<DriverRating> rating_;  ///< Empty if the scale's file is not installed.
   Speaker speaker_;
   WayBack way_back_;
-  std::optional<double> brake_until_s_;  ///< By the clock of `attend`; nothing: the instructor does not brake.
-  std::string word_;                     ///< To the student, until then.
-  double word_until_s_ = -1e9;           ///< By the clock of `attend`.
-  double now_s_ = 0.0;                   ///< Of its newest call.
-  std::unique_ptr<LessonWatch> lesson_;  ///< Null where the drive is none.
-  std::shared_ptr<const std::string> seen_ahead_;  ///< The newest picture of the screen ahead that the lesson has.
+  std::optional<double> brake_until_s_;            ///< On the clock of `attend`; empty: the instructor does not brake.
+  std::string word_;                               ///< To the student, shown until the time below.
+  double word_until_s_ = -1e9;                     ///< On the clock of `attend`.
+  double now_s_ = 0.0;                             ///< Time of the newest `attend`.
+  std::unique_ptr<LessonWatch> lesson_;            ///< Null if the drive is not a lesson.
+  std::shared_ptr<const std::string> seen_ahead_;  ///< Newest picture of the screen ahead, handed to the lesson.
   const LoadedDrive& loaded_;
   LiveDrive& drive_;
   double begun_s_;                         ///< Simulated; not 0 where the drive began at a kept state.
-  std::optional<std::string> no_restart_;  ///< Why not (why_no_restart).
+  std::optional<std::string> no_restart_;  ///< Reason for the refusal of a restart (why_no_restart).
   std::optional<double> restart_at_s_;
   SessionLog* log_ = nullptr;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool is_paused_ = false, told_to_go_ = false, is_ended_ = false;
   std::optional<double> shown_s_;
   double since_s_ = 0.0, since_time_s_ = 0.0,
-         real_time_factor_ = 0.0;  ///< Of the second that is going on, and of the last one.
+         real_time_factor_ = 0.0;  ///< Beginning of the current second; factor of the last one.
 };
 
 }  // namespace septet::server

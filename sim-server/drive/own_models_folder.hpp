@@ -1,5 +1,5 @@
 #pragma once
-/// The folder of a person's own models: NAME.glb or NAME.gltf replaces what has that name (docs/own-models.md).
+/// A user's folder of models: NAME.glb or NAME.gltf replaces the model of that name (docs/own-models.md).
 
 #include <filesystem>
 #include <string>
@@ -12,11 +12,11 @@ namespace septet::server {
 
 struct OwnModelsFolder {
   scenery::OwnModels models;
-  std::vector<std::string> messages;  ///< What somebody should know of them: a size that differs, what was left out.
+  std::vector<std::string> messages;  ///< For the user: models of a different size, parts that were ignored.
 };
 
-/// Other files in the folder are passed over. Error: there is no such folder, a name that nothing has, two files of one name, a file that cannot
-/// be read, or is no glTF that is drawn.
+/// Skips other files. Error: there is no such folder, nothing is called like a file, two files have the same name, or a
+/// file cannot be read or contains no glTF that Septet draws.
 Expected<OwnModelsFolder> read_own_models(const std::filesystem::path& folder);
 
 }  // namespace septet::server

@@ -64,7 +64,8 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
   info.other.merge(who_is_who(*drive.model));
   logging::WriterOptions options;
   const bool real_time = !drive_options.lockstep && !drive_options.no_screens;
-  // Half a minute of a disk that stands still costs a driver nothing. A drive that is computed as fast as it goes has to wait anyway.
+  // Queue for half a minute of a blocked disk, so that the driver does not notice. Drives that run as fast as they can
+  // wait anyway.
   if (real_time) options.queue_bytes = std::size_t{256} << 20;
   auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
   if (!writer) return tl::unexpected(writer.error());
@@ -93,7 +94,7 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   game_ = snapshot.game;
   for (const auto& event : events)
     record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
-  // The leader is looked for only where a sample wants it: ten times a second.
+  // The search for the leader runs only for samples, ten times a second.
   const auto leader =
       logging::is_sample_due(tick_, simulation::tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
   auto observation = logging::observe(observer_, snapshot, leader);
@@ -140,7 +141,7 @@ logging::DriveOutcome SessionLog::outcome(const ServeResult& result, const std::
     const auto report = screen.report.value_or(control::ScreenReport{});
     seen.name = screen.name;
     seen.frames = std::max(screen.frames,
-                           report.frames);  // The host's count knows all lives, the screen's own loses none on the way.
+                           report.frames);  // The host counts across restarts; the screen loses none in transit.
     seen.frames_off_tick = report.frames_off_tick;
     seen.datagrams_lost = report.datagrams_lost;
     seen.datagrams_repaired = report.datagrams_repaired;
@@ -219,7 +220,7 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
     const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
     const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m, model.front_m(), model.width_m};
     if (!road::drivable_lanes_under(roads, place->position, body).contains(car.lane)) continue;
-    // The driver's station is that of the front axle; distances are between bumpers, along the driver's lane.
+    // The driver's station refers to the front axle; gaps are between bumpers, along the driver's lane.
     const double to_rear_axle =
         direction * road::length_along_lane_m(roads, {car.road, car.lane, car.road_s_m, 0.0}, place->position.s_m);
     const double own_front = own.front_m() - own.wheelbase_m;
@@ -239,7 +240,7 @@ Expected<std::vector<std::string>> write_standing(const LoadedDrive& drive, cons
   const auto debrief = logging::write_debrief(*session, options.out, screen);
   if (!debrief) return tl::unexpected(debrief.error());
   if (*debrief) lines.push_back(fmt::format("{}: {}", (options.out / "debrief.html").string(), **debrief));
-  // Who has left in the middle has no place.
+  // A game that was abandoned has no place.
   if (!game || game->end == GameEnd::none) return lines;
   const std::string played =
       fmt::format("{:.0f} points, level {}, {:.0f} s", game->points, game->level, game->survived_s);

@@ -1,5 +1,5 @@
 #pragma once
-/// What the server writes into the session file, tick by tick, and what it says of the drive at the end.
+/// The session file of a drive, written tick by tick, and the results at the end.
 
 #include <filesystem>
 #include <functional>
@@ -24,25 +24,26 @@
 
 namespace septet::server {
 
-/// The kind of the events that are operator's commands, and input like the driver's: their tick is that which they came before.
+/// Kind of events that are operator's commands. They are input like the driver's; their tick is the first one that they
+/// affect.
 inline constexpr std::string_view operator_command_event = logging::operator_command_kind;
 
 class SessionLog {
  public:
-  /// session.sqlite in the drive's folder.
-  /// `first`: the drive's first tick, not 0 where it begins at a kept state.
+  /// Creates session.sqlite in the drive's folder. `first`: the drive's first tick, not 0 if it begins at a kept state.
   static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options, Tick first = 0);
 
-  /// Whom to tell of each sample and each event beside the file, in its order; whom that takes no time.
+  /// Sets listeners for samples and events, called in the order of the file. They must be fast.
   void watch(std::function<void(const logging::Sample&)> sampled, std::function<void(const logging::Event&)> happened) {
     sampled_ = std::move(sampled);
     happened_ = std::move(happened);
   }
   void record_scene(const scene::Store& store);
   void record_input(logging::InputRecord input);
-  /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
+  /// Records the tick's snapshot and events, and at 10 Hz a sample with the events that it completes (lane changes,
+  /// glances).
   void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events);
-  /// Of an operator, applied before this tick.
+  /// Records an operator's command, applied before this tick.
   void record_command(Tick before, const simulation::OperatorCommand& command);
   void record_state(logging::StateRecord state) {
     if (samples_only_) return;
@@ -53,19 +54,20 @@ class SessionLog {
   void record_message(const std::string& kind, const std::string& text);
   void record_answer(logging::QuestionnaireRecord answer) { writer_.record(std::move(answer)); }
   std::optional<Error> take_error() { return writer_.take_error(); }
-  /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.
+  /// In real time: the disk has delayed the drive, with the total delay so far; again after each further tenth of a
+  /// second.
   std::optional<std::string> take_warning();
-  /// How the game stands, where the scenario is one.
+  /// State of the game, if the scenario is one.
   const std::optional<GameStanding>& game() const { return game_; }
   double waited_s() const { return writer_.waited_s(); }
 
-  /// What is known of the drive now that it has ended.
+  /// Outcome of the drive, after its end.
   logging::DriveOutcome outcome(const ServeResult& result, const std::vector<HostedScreen>& screens) const;
-  /// Closes the file; it says what became of the drive.
+  /// Closes the file, which contains the outcome.
   Expected<void> finish(const logging::DriveOutcome& outcome);
-  /// What whoever copies the closed file has to know; nothing where it lies alone.
+  /// Advice for copying the closed file; empty if it is a single file.
   std::optional<std::string> remark() const;
-  /// The end in a line: why, when, and what of the log whoever drove should know.
+  /// The end in one line: reason, time, and problems of the log.
   std::string ending(const ServeResult& result) const;
 
  private:
@@ -80,12 +82,12 @@ class SessionLog {
   std::function<void(const logging::Event&)> happened_;
   std::shared_ptr<const simulation::Model> model_;
   bool real_time_;
-  bool samples_only_;  ///< No snapshots, states or scene.
+  bool samples_only_;  ///< True: no snapshots, states or scene.
   double told_waited_s_ = 0.0;
   logging::DriveObserver observer_;
   StateHash inputs_hash_;
   logging::SessionDigest digest_;
-  std::uint32_t bad_numbers_ = 0;  ///< Of the last tick's diagnostics.
+  std::uint32_t bad_numbers_ = 0;  ///< From the last tick's diagnostics.
   std::optional<GameStanding> game_;
   Tick tick_ = 0;
   double simulated_time_s_ = 0.0;
@@ -94,12 +96,13 @@ class SessionLog {
 /// The nearest participant ahead in the driver's lane, within 250 m.
 std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads);
 
-/// What whoever drove reads at the end of a game or a lesson, a line each; debrief.html lies in the drive's folder then, and the game stands in
-/// best-list.json of the folder around that.
+/// Lines for the driver at the end of a game or a lesson; writes debrief.html into the drive's folder, and enters the
+/// game into best-list.json in the parent folder.
 Expected<std::vector<std::string>> write_standing(const LoadedDrive& drive, const ServerOptions& options,
                                                   const std::optional<GameStanding>& game);
 
-/// summary.json and report.html beside the session file. The summary is written also where the session cannot be read.
+/// Writes summary.json and report.html beside the session file. The summary is written even if the session cannot be
+/// read.
 Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options,
                              const logging::DriveOutcome& outcome);
 

@@ -29,7 +29,7 @@ std::optional<std::string> Speaker::attend() {
   if (!waiting_.empty()) {
     const Sentence next = std::move(waiting_.front());
     waiting_.pop_front();
-    // What begins with a hyphen is text, too.
+    // The "--" makes a text that begins with a hyphen no option.
     auto started = program::ChildProcess::start({.program = program_->string(),
                                                  .arguments = {"-v", next.language, "--", next.text},
                                                  .environment = {},

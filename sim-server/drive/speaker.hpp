@@ -1,5 +1,5 @@
 #pragma once
-/// Says sentences aloud by espeak-ng, where that is installed, on the sound device of this machine; one after the other. Nobody waits for it.
+/// Speaks sentences by espeak-ng, if installed, on this machine's sound device, one after the other, without blocking.
 
 #include <cstddef>
 #include <deque>
@@ -13,13 +13,13 @@ namespace septet::server {
 
 class Speaker {
  public:
-  /// `program`: espeak-ng, or what takes the same arguments; nothing: it is not installed, and nothing is said.
+  /// `program`: espeak-ng, or a program with the same arguments; empty: not installed, and nothing is spoken.
   explicit Speaker(std::optional<std::filesystem::path> program) : program_(std::move(program)) {}
 
   bool is_there() const { return program_.has_value(); }
-  /// `language`: "en", "de", "sv"; any other is English. What would wait behind `most_waiting` is left out.
+  /// `language`: "en", "de", "sv"; any other is spoken in English. Beyond `most_waiting`, sentences are dropped.
   void say(const std::string& text, const std::string& language);
-  /// Begins the next sentence once the last one is over. Answers, once, why nothing is heard.
+  /// Starts the next sentence after the last one. Returns, once, the reason if speaking fails.
   std::optional<std::string> attend();
 
   static constexpr std::size_t most_waiting = 4;

@@ -8,11 +8,11 @@
 namespace septet::server {
 namespace {
 
-/// An operator's command is told by the event that says who gave it.
+/// Commands of an operator are left out, since another event reports them with the operator's name.
 constexpr std::array unheard{std::string_view("scenario"),   std::string_view("mirror_glance"),
                              std::string_view("turn"),       std::string_view("fracture"),
                              std::string_view("visibility"), logging::operator_command_kind};
-/// Their detail is a sentence.
+/// Kinds whose detail is a sentence.
 constexpr std::array sentences{std::string_view("screen"), std::string_view("car"), std::string_view("traffic")};
 
 bool is_name(std::string_view word) {
@@ -28,7 +28,7 @@ std::vector<std::pair<std::string, std::string>> values_of(std::string_view deta
     const std::string_view word = detail.substr(0, detail.find(' '));
     detail.remove_prefix(std::min(word.size() + 1, detail.size()));
     const auto equals = word.find('=');
-    // What a person wrote may hold such signs too, and stands last.
+    // Text by a person comes last and may contain equals signs too.
     const bool is_free = !values.empty() && (values.back().first == "note" || values.back().first == "reason" ||
                                              values.back().first == "text");
     if (equals != word.npos && is_name(word.substr(0, equals)) && !is_free)

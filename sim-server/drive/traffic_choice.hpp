@@ -1,5 +1,5 @@
 #pragma once
-/// Who moves the traffic of a drive, chosen by name.
+/// The traffic engine of a drive, chosen by name.
 
 #include <memory>
 #include <string>
@@ -12,8 +12,8 @@ namespace septet::server {
 /// Error: no such engine.
 Expected<void> check_traffic(const std::string& name);
 
-/// "own": Septet's models; "sumo": SUMO as another process. `model` outlives the engine.
-/// Error: no such engine, or SUMO is not there.
+/// "own": Septet's models; "sumo": SUMO as another process. `model` outlives the engine. Error: no such engine, or SUMO
+/// is not installed.
 Expected<std::unique_ptr<traffic::TrafficEngine>> open_traffic(const std::string& name, const simulation::Model& model);
 
 }  // namespace septet::server

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the driver's car was in the last minutes, to be put back there.
+/// Past places of the driver's car, over the last minutes, to put it back there.
 
 #include <cstddef>
 #include <deque>
@@ -12,10 +12,10 @@ namespace septet::server {
 
 class WayBack {
  public:
-  /// Each sample of the drive, ascending. Those outside of every lane are no place to go back to.
+  /// Adds a sample of the drive, in ascending order. Samples outside every lane are skipped.
   void add(const logging::Sample& sample);
-  /// Where it was in a lane so many seconds ago, or just before that, as fast as it was; 0: where it was last, at rest. Nothing: it was in no
-  /// lane then, or nobody remembers.
+  /// The car's last place in a lane at or before that time, with its speed then; at 0 seconds, its last place in a
+  /// lane, at rest. Empty: no such place in the last 300 s.
   std::optional<simulation::PutCar> place(double seconds_ago, double now_s) const;
 
   static constexpr double reaches_s = 300.0;

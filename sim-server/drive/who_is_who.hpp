@@ -1,5 +1,5 @@
 #pragma once
-/// Of a session's numbers what they stand for: whoever reads it later, by another build or in another language, has the names beside them.
+/// Names for a session's numeric ids, so that later builds and other languages can resolve them.
 
 #include <map>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace septet::server {
 
-/// Rows of the session's meta table, as JSON (logging/FORMAT.md): `vehicle_models`, and `participant_names` of the driver and of everybody
-/// whom the scenario names.
+/// Rows of the session's meta table, as JSON (logging/FORMAT.md): `vehicle_models`, and `participant_names` of the
+/// driver and of the scenario's entities.
 std::map<std::string, std::string> who_is_who(const simulation::Model& model);
 
 }  // namespace septet::server

@@ -1,11 +1,11 @@
 #pragma once
-/// An attendant of a drive: a screen host's key list, the operator's desk, sound, log, console, … Each is one class in a file of its
-/// own; the server's loop (serve.hpp) holds a list of them and knows none of them by name.
+/// An attendant of a drive: the list of allowed clients, the operator's desk, sound, log, console, … Each is one class
+/// in a file of its own; the server's loop (serve.hpp) holds a list of them and knows none of them by name.
 ///
 ///     begin  →  (before_tick → wishes → after_tick) …  →  close
 ///
-/// `begin` and `after_tick` run in the order of the list, `close` in the opposite order: an attendant may use those before it. All calls
-/// come from the loop's thread, and none may wait for a device, a disk or a person.
+/// `begin` and `after_tick` run in the order of the list, `close` in the opposite order: an attendant may use those
+/// before it. All calls come from the loop's thread, and none may wait for a device, a disk or a person.
 
 #include <memory>
 #include <optional>
@@ -28,7 +28,8 @@ struct Moment {
   double now_s = 0.0;                           ///< By the loop's clock.
 };
 
-/// Wishes of an attendant for the next tick. The first end in the list's order holds; the others hold if anybody has them.
+/// Wishes of an attendant for the next tick. The first end in the list's order counts; of the others, any attendant's
+/// wish counts.
 struct Wishes {
   std::optional<logging::DriveEnd> end;
   bool stands_still = false;          ///< The world is to stand still.

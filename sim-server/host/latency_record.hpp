@@ -1,5 +1,6 @@
 #pragma once
-/// How long pictures took, as counts of half milliseconds: a drive of any length, p50 and p99 at its end.
+/// Latencies of pictures, as counts of half milliseconds: constant size for any length of drive, p50 and p99 at its
+/// end.
 
 #include <algorithm>
 #include <array>
@@ -12,14 +13,14 @@ namespace septet::server {
 
 class LatencyRecord {
  public:
-  /// What is longer than the last bin counts there; what is negative or no number does not count.
+  /// Longer times count in the last bin; negative ones and NaN do not count.
   void add(double seconds) {
     if (!(seconds >= 0.0)) return;
     ++bins_[static_cast<std::size_t>(std::min(seconds * bins_per_s, static_cast<double>(bins_.size() - 1)))];
     ++count_;
   }
   std::uint64_t count() const { return count_; }
-  /// The upper end of the bin below which that share lies, in milliseconds; nothing of nothing.
+  /// Upper end of the bin that contains this quantile, in milliseconds; empty without data.
   std::optional<double> quantile_ms(double share) const {
     if (count_ == 0) return std::nullopt;
     const auto rank =
@@ -32,7 +33,7 @@ class LatencyRecord {
 
  private:
   static constexpr double bins_per_s = 2000.0;
-  std::array<std::uint32_t, 4000> bins_{};  ///< To two seconds.
+  std::array<std::uint32_t, 4000> bins_{};  ///< Up to two seconds.
   std::uint64_t count_ = 0;
 };
 

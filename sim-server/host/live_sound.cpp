@@ -19,7 +19,7 @@
 namespace septet::server {
 namespace {
 
-// A block is a tick, 8.3 ms.
+// One block is one tick, 8.3 ms.
 constexpr std::size_t blocks_kept_ahead = 3;
 constexpr std::size_t most_waiting = 6;
 constexpr double silent_after_s = 0.1;
@@ -42,21 +42,22 @@ class StageOutput final : public SoundOutput {
 
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
-/// What there is to say of a missing device is said by us, once; ALSA and OpenAL print a page at every try. ALSA is loaded by OpenAL, not
-/// linked. Called before the thread that plays begins.
+/// Silences the libraries' own error output: Septet reports a missing device once, ALSA and OpenAL would print a page
+/// at every try. ALSA is loaded by OpenAL, not linked. Called before the thread that plays starts.
 void quiet_sound_libraries() {
   setenv("ALSOFT_LOGLEVEL", "0", 0);
-  void* alsa = dlopen("libasound.so.2", RTLD_NOW);  // Kept: the handler is its own.
+  void* alsa = dlopen("libasound.so.2", RTLD_NOW);  // Kept loaded: the handler belongs to it.
   using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
   if (void* set = alsa ? dlsym(alsa, "snd_lib_error_set_handler") : nullptr)
     reinterpret_cast<int (*)(Handler)>(set)(say_nothing);
 }
 
-/// OpenAL 1.19 plays six channels where its settings say so, and nothing else asks it to: they are read after those of the machine and of the
-/// user, before its first device. A user who has set ALSOFT_CONF knows better. It is a file in memory, so nothing is left behind.
+/// Requests six channels from OpenAL 1.19, by the only means it has: a settings file, read after those of the machine
+/// and of the user, before its first device is opened. The file is in memory, so that nothing is left behind. A user's
+/// own ALSOFT_CONF takes precedence.
 void ask_for_six_channels() {
   static constexpr std::string_view settings = "channels = surround51\n";
-  const int file = memfd_create("septet-alsoft.conf", 0);  // Kept: OpenAL opens it by its number.
+  const int file = memfd_create("septet-alsoft.conf", 0);  // Kept open: OpenAL opens it by its number.
   if (file < 0 || ::write(file, settings.data(), settings.size()) != static_cast<ssize_t>(settings.size())) return;
   setenv("ALSOFT_CONF", fmt::format("/proc/self/fd/{}", file).c_str(), 0);
 }
@@ -139,9 +140,9 @@ void SoundFeeder::feed(double now_s) {
   if (!waiting_.empty()) {
     HeardTick now{std::move(waiting_.front()), {}};
     waiting_.pop_front();
-    // What comes from a log has its participants as integers.
+    // Ticks from a log have their participants as integers.
     if (now.tick->snapshot().participants.empty()) now.decoded = from_wire(now.tick->wire());
-    // Behind a gap nothing is told from the step between two ticks.
+    // After a gap, no events are derived from the step between two ticks.
     const bool follows = before_.tick && now.snapshot().tick == before_.snapshot().tick + 1;
     const auto ground =
         roads_ ? audio::feel_ground(*roads_, now.snapshot(), place_, state_.car.wheelbase_m) : audio::GroundFeel{};
@@ -186,7 +187,7 @@ struct LiveSound::State {
     while (!stopping) {
       taken.swap(arrived);
       const double share = low_share;
-      // Opening a device may take seconds: nobody who adds a tick waits for it.
+      // Unlocked, since opening a device may take seconds and `add` must not wait.
       lock.unlock();
       for (auto& tick : taken) feeder->add(std::move(tick), now_s(), share);
       taken.clear();
@@ -206,7 +207,7 @@ struct LiveSound::State {
     changed.notify_all();
   }
 
-  std::optional<SoundFeeder> feeder;  ///< Of the thread alone.
+  std::optional<SoundFeeder> feeder;  ///< Used by the thread alone.
   mutable std::mutex mutex;
   std::condition_variable changed;
   bool stopping = false, has_ended = false;
@@ -214,11 +215,11 @@ struct LiveSound::State {
   double low_share = 1.0;
   std::deque<std::string> messages;
   SoundFeeder::Counts counts;
-  std::optional<double> playing_at_s;  ///< When the thread last came by while it had a device.
+  std::optional<double> playing_at_s;  ///< Time of the thread's newest cycle with a device.
 };
 
 LiveSound::LiveSound(SoundFeeder feeder) : state_(std::make_shared<State>(std::move(feeder))) {
-  // It keeps what it works on: where the device hangs it outlives this.
+  // The thread shares ownership of its state: if the device hangs, it outlives this object.
   std::thread([state = state_] { state->run(); }).detach();
 }
 

@@ -1,13 +1,14 @@
 #pragma once
-/// The drive's sound while it is driven: ticks in, blocks of sound to a device out, one each.
+/// The sound of a drive in real time: ticks in, blocks of sound to a device out, one block per tick.
 ///
-/// A tick that is late is heard as the one before; where none has come for 100 ms (a pause, a server that hangs) the sound fades. Ticks that
-/// come faster than the device plays are left out, which is not heard: what goes on from block to block is the synthesis' own. A device that
-/// is not there, is lost, or plays nothing any more although it says that it is there is told once and opened again every two seconds;
-/// the drive goes on without sound. A library or a driver that hangs, so that not even closing comes back, holds up nobody else: neither who
-/// is told that the sound is lost, nor the end of the drive.
+/// If a tick is late, the previous one is played again; without ticks for 100 ms (a pause, a server that hangs) the
+/// sound fades. Ticks faster than the device plays are dropped inaudibly, since the synthesis carries its own state
+/// from block to block. A device that is missing, lost, or claims to be there but plays nothing is reported once and
+/// reopened every two seconds; the drive goes on without sound. A library or a driver that hangs, even on close, delays
+/// neither the report that the sound is lost nor the end of the drive.
 ///
-/// `SoundFeeder` has no thread and no clock; `LiveSound` runs one in a thread of its own. OpenAL has one current context a process.
+/// `SoundFeeder` has no thread and no clock; `LiveSound` runs one in a thread of its own. OpenAL has one current
+/// context per process.
 
 #include <cstdint>
 #include <deque>
@@ -25,7 +26,7 @@
 
 namespace septet::server {
 
-/// What plays: an audio::SoundStage on a device, or a test.
+/// Output of sound: an audio::SoundStage on a device, or a test.
 class SoundOutput {
  public:
   virtual ~SoundOutput() = default;
@@ -41,15 +42,16 @@ OpenSoundOutput device_opener(const rig::Sound& sound);
 
 class SoundFeeder {
  public:
-  /// `roads`: what the ground is by; null: a good road without lines. They are kept alive by whoever gave them, or by the pointer.
+  /// `roads`: for vibrations and noise of the ground; null: a good road without lines. They must outlive the feeder
+  /// unless the pointer owns them.
   SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes,
               std::shared_ptr<const road::RoadNetwork> roads = nullptr);
 
-  /// `low_share`: of what shakes by the sound's low frequencies, from the next block on (OwnCar::low_share).
+  /// `low_share`: permitted share of the sound's low frequencies, from the next block on (OwnCar::low_share).
   void add(std::shared_ptr<const TakenSnapshot> tick, double now_s, double low_share = 1.0);
   /// Keeps the device fed; call it every few milliseconds.
   void pump(double now_s);
-  /// What a person should know since the last call.
+  /// Returns a message for a person since the last call.
   std::optional<std::string> take_message();
 
   struct Counts {
@@ -71,10 +73,10 @@ class SoundFeeder {
   std::optional<road::RoadPosition> place_;
   std::unique_ptr<SoundOutput> output_;
   std::unique_ptr<SoundOutput>
-      closing_;  ///< Lost; closed by the next pump, so that a close that hangs keeps nobody from hearing of the loss.
+      closing_;  ///< Lost; closed by the next pump, so that a close that hangs does not delay the report of the loss.
   std::optional<double> next_try_s_, came_s_;
   double low_share_ = 1.0;
-  double played_s_ = 0.0;  ///< When the device last took a block from its queue.
+  double played_s_ = 0.0;  ///< Time when the device last took a block from its queue.
   std::size_t ahead_ = 0;  ///< Blocks in its queue when it was last looked at.
   double checked_s_ = 0.0;
   std::deque<std::shared_ptr<const TakenSnapshot>> waiting_;
@@ -94,13 +96,13 @@ class SoundFeeder {
 class LiveSound {
  public:
   explicit LiveSound(SoundFeeder feeder);
-  /// Waits for the device to be closed, and where that hangs no longer than three seconds.
+  /// Waits until the device is closed, but at most three seconds if that hangs.
   ~LiveSound();
   LiveSound(const LiveSound&) = delete;
   LiveSound& operator=(const LiveSound&) = delete;
   void add(std::shared_ptr<const TakenSnapshot> tick, double low_share = 1.0);
   std::optional<std::string> take_message();
-  /// A device that plays and has let nobody go on for 250 ms counts as lost, too.
+  /// A device that blocks the thread for 250 ms counts as lost, too.
   SoundFeeder::Counts counts() const;
 
  private:

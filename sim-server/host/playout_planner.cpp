@@ -21,7 +21,7 @@ control::TickHeader PlayoutPlanner::header(double now_s, double simulated_time_s
     const double wanted_s = lateness_.at(now_s, least_s_ - 1.5 * tick_s_) + 1.5 * tick_s_;
     const double delay_s = std::clamp(wanted_s, least_s_, std::max(least_s_, largest_s));
     const double offset_s = delay_s + behind_.at(now_s, now_s - simulated_time_s);
-    // Half a tick of hysteresis: an offset that breathes would be seen as a shaking world.
+    // Half a tick of hysteresis: a fluctuating offset would be visible as a shaking world.
     if (!started_ || offset_s > current_s_ || offset_s < current_s_ - 0.5 * tick_s_) {
       next_s_ = offset_s;
       delay_s_ = delay_s;

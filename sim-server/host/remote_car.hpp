@@ -1,5 +1,5 @@
 #pragma once
-/// The driver's car on another machine, between the lane that brings its reports and the drive that reads them.
+/// The driver's car on another machine: between the lane that carries its reports and the drive that reads them.
 
 #include <optional>
 #include <utility>
@@ -9,12 +9,12 @@
 
 namespace septet::server {
 
-/// What the car's key is called in allowed-clients.
+/// Name of the car's key in allowed-clients.
 inline constexpr const char* car_client_name = "car";
 
 struct RemoteCar {
   car_io::RelayedDevice device;
-  std::optional<control::CarFeedback> feedback;  ///< The newest that has not been sent.
+  std::optional<control::CarFeedback> feedback;  ///< Newest feedback not yet sent.
 
   std::optional<control::CarFeedback> take_feedback() { return std::exchange(feedback, std::nullopt); }
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// A session as a source of ticks: what the screens get is what they got.
+/// A session as a source of ticks: screens receive exactly the ticks of the drive.
 
 #include "logging/session/session_reader.hpp"
 #include "sim-server/host/tick_source.hpp"

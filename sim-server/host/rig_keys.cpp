@@ -23,7 +23,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// The list with this key under this name; comments and other lines stay. Answers whether another key stood there.
+/// Puts the key under this name into the list; comments and other lines stay. Returns true if it replaced another key.
 bool put_client(std::string& list, const std::string& key, const std::string& name) {
   std::istringstream lines(list);
   std::string line, result;
@@ -116,7 +116,7 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
     said.push_back(fmt::format("{}: {}{}{}", folder.string(), fresh.empty() ? "nothing new" : "new keys of " + fresh,
                                kept.empty() ? "" : "; kept those of ", kept));
   }
-  // A list that names what the rig names no more is the operator's business: a key leaves it by hand.
+  // Names in the list that are no longer in the rig stay: removing a key is the operator's decision.
   if (list != text_of(list_file))
     if (auto put = document::write_text_file(list_file, list); !put) return tl::unexpected(put.error());
   return said;

@@ -35,13 +35,13 @@ std::string other_protocol(std::uint16_t theirs) {
       theirs, protocol_version);
 }
 
-/// Of a screen that comes and goes all day the first moments and the newest are kept.
+/// Keeps the earliest moments and the newest ones of a screen that reconnects all day.
 void remember(std::vector<double>& moments_s, double now_s) {
   if (moments_s.size() == most_moments) moments_s.erase(moments_s.begin() + most_moments / 2);
   moments_s.push_back(now_s);
 }
 
-/// Does lockstep wait for this screen no more at `tick`?
+/// True if lockstep need not wait for this screen at `tick`.
 bool keeps_up(const HostedScreen& screen, Tick tick) {
   if (screen.left_behind) return true;
   if (!screen.live()) return !screen.expected;
@@ -102,20 +102,22 @@ void ScreenHost::pump(double now_s) {
   if (options_.welcome.group_ip != 0) send_unicast_to_the_deaf(now_s);
 }
 
-/// A screen that speaks on its lane but answers no tick does not hear the group: a switch that has dropped it, a firewall.
+/// Sends ticks by unicast to a screen that speaks on its lane but acknowledges no tick: it does not receive the group,
+/// because of a switch or a firewall.
 void ScreenHost::send_unicast_to_the_deaf(double now_s) {
   for (HostedScreen& screen : screens_) {
     if (!screen.client || !screen.unanswered_since_s || unicast_.contains(*screen.client)) continue;
     const auto* info = lane_.info(*screen.client);
     if (!info) continue;
-    // One that is silent altogether hangs or has gone; its time counts from when it is heard again.
+    // A silent screen hangs or has gone; its time counts from when it is heard again.
     if (now_s - info->heard_s > hung_after_s) screen.unanswered_since_s = now_s;
     if (now_s - *screen.unanswered_since_s < deaf_after_s) continue;
     add_unicast(*screen.client, screen.tick_port);
-    // So far its silence told against it; from here on it can acknowledge.
+    // Its missing acknowledgements were counted against it; a new start lets it acknowledge.
     baselines_.leave(*screen.client);
     baselines_.join(*screen.client, now_s);
-    messages_.push_back(fmt::format("screen {} answers no tick of the group: it gets its own", screen.name));
+    messages_.push_back(
+        fmt::format("screen {} acknowledges no multicast tick: it gets its ticks by unicast", screen.name));
   }
 }
 
@@ -153,12 +155,12 @@ void ScreenHost::on_connected(const net::ServerEvent& event) {
 }
 
 void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
-  // What it sent before another connection took its place arrives after that.
+  // Messages from before another connection took its place arrive late, and are ignored.
   if (!clients_.contains(event.client)) return;
   baselines_.heard(event.client, now_s);
   switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
     case LaneMessage::scene:
-      // Screens only look: a change that one asks for is not made.
+      // Screens are read-only: a change that one requests is not made.
       if (const auto requests = scene_.receive(event.client, std::span(event.bytes).subspan(1)); !requests)
         lane_.disconnect(event.client, requests.error().what);
       break;
@@ -195,7 +197,7 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
            fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick,
                        now_s - screen->joined_s),
            now_s);
-    // Nobody has shown what was not sent.
+    // A screen cannot have shown a tick that was not sent.
     const Tick newest = sent_.empty() ? 0 : sent_.back()->snapshot().tick;
     if (const auto begun = std::ranges::find(begun_s_, presented->tick, &std::pair<Tick, double>::first);
         begun != begun_s_.end() && screen->has_presented && presented->tick > screen->presented)
@@ -218,7 +220,7 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     screen->thumbnail = std::make_shared<const std::string>(thumbnail->picture);
     screen->thumbnail_tick = thumbnail->tick;
   } else if (const auto* large = std::get_if<LargePicture>(&message)) {
-    // One that was on its way when the last one looked away is nobody's.
+    // A picture that arrives after the last viewer has left is dropped.
     if (screen->asked_to_look_s) screen->large_picture = std::make_shared<const std::string>(large->picture);
   } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
     screen->report = *report;
@@ -235,7 +237,8 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
         fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be screen \"{}\"", name, hello.screen),
         now_s);
   if (screen == screens_.end()) return refuse(client, fmt::format("the rig has no screen \"{}\"", hello.screen), now_s);
-  // A screen that was killed and started again is heard before its old connection times out: the new one takes its place.
+  // A screen that was killed and started again is heard before its old connection times out: the new connection takes
+  // its place.
   if (screen->client && *screen->client != client) {
     const net::ClientId old = *screen->client;
     on_disconnected(old, "replaced by a new connection", now_s);
@@ -285,12 +288,13 @@ void ScreenHost::tell(net::ClientId client, const std::string& text, double now_
   if (auto said = limits_[clients_.at(client)].take(printable(text), now_s)) messages_.push_back(std::move(*said));
 }
 
-/// What nobody with a key has sent, or not whole: an attack, a wrong server.public, another program on the port.
+/// Reports datagrams from senders without a key, and damaged ones: an attack, a wrong server.public, another program on
+/// the port.
 void ScreenHost::tell_of_strangers(double now_s) {
   if (now_s - told_s_ < strangers_told_every_s) return;
   told_s_ = now_s;
   const net::ChannelCounters now = lane_.counters();
-  // A connection that never was takes its counters with it.
+  // Counters of a connection that failed to open disappear with it.
   const auto rise = [](std::uint64_t after, std::uint64_t before) { return after > before ? after - before : 0; };
   const auto forged = rise(now.forged, told_.forged), malformed = rise(now.malformed, told_.malformed),
              cookies = rise(now.bad_cookies, told_.bad_cookies);
@@ -342,7 +346,7 @@ void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_
   publisher_.publish(taken->snapshot().tick, payload);
   for (HostedScreen& screen : screens_)
     if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
-  constexpr std::size_t most_begun = 480;  // Four seconds: whoever shows a tick later has gone and come back.
+  constexpr std::size_t most_begun = 480;  // Four seconds: a screen that shows a tick later has been away.
   if (!options_.welcome.lockstep) begun_s_.emplace_back(taken->snapshot().tick, now_s);
   if (begun_s_.size() > most_begun) begun_s_.pop_front();
   sent_.push_back(std::move(taken));

@@ -10,24 +10,25 @@ namespace {
 
 using logging::DriveEnd;
 
-/// Two texts that the driver reads, one below the other.
+/// Joins two texts for the driver, one below the other.
 std::string below(std::string above, const std::string& text) {
   if (!above.empty() && !text.empty()) above += '\n';
   return above += text;
 }
 
-/// The loop's parts share these. A part returns once `result.end` says why, or where it has nothing more to do.
+/// State shared by the loop's parts. A part returns once `result.end` has the reason, or when it has nothing more to
+/// do.
 struct Loop {
   TickSource& source;
   const Attendants& attendants;
   ServeClock& clock;
   std::uint64_t ticks;
   double started_s;
-  double source_begun_s = 0.0;  ///< Simulated: not 0 where the source begins later.
+  double source_begun_s = 0.0;  ///< Simulated time of the source's beginning.
   ServeResult result = {};
   std::shared_ptr<const TakenSnapshot> newest = nullptr;
   std::string doing = "starting";  ///< For attendants.
-  Wishes wishes = {};              ///< Of all attendants, as they last were.
+  Wishes wishes = {};              ///< Wishes of all attendants, as last asked.
 
   bool is_paused() const { return wishes.stands_still; }
   void report(std::string what) {
@@ -58,7 +59,7 @@ struct Loop {
       wishes.word_to_driver = below(std::move(wishes.word_to_driver), wish.word_to_driver);
     }
   }
-  /// The next tick; nothing at the end, with the reason in the result.
+  /// Takes the next tick; null at the end, with the reason in the result.
   std::shared_ptr<const TakenSnapshot> take_tick(const std::optional<DriverInput>& controls) {
     auto snapshot = source.next(controls);
     show_messages();
@@ -75,7 +76,7 @@ struct Loop {
     for (const auto& attendant : attendants) attendant->after_tick(newest, source.shaking_share());
     return std::move(*snapshot);
   }
-  /// True where somebody wants the drive to end or its log is lost; the result says so.
+  /// True if somebody wants the drive to end or its log is lost; the result has the reason.
   bool is_stopped(const std::optional<DriveEnd>& by_a_screen) {
     attend();
     if (auto error = source.take_error()) {
@@ -87,7 +88,7 @@ struct Loop {
     result.end = wishes.end ? *wishes.end : *by_a_screen;
     return true;
   }
-  /// True once all requested ticks are there; the result says so.
+  /// True once all requested ticks are there; the result has the reason.
   bool is_time_over() {
     if (ticks == 0 || result.ticks < ticks) return false;
     result.end = DriveEnd::time_over;
@@ -99,8 +100,8 @@ struct Loop {
 struct ScreenLoop : Loop {
   ScreenHost& host;
   const ServeOptions& options;
-  bool can_pause = false;  ///< The world goes on by the clock, and has begun.
-  std::string alarm = {};  ///< As the driver reads it, and what is said to him.
+  bool can_pause = false;  ///< The world follows the clock, and has begun.
+  std::string alarm = {};  ///< Text that the driver reads: alarms and messages.
 
   void show_alarm() {
     if (auto now = below(below(source.alarm(), source.word_to_driver()), wishes.word_to_driver); now != alarm) {
@@ -113,7 +114,7 @@ struct ScreenLoop : Loop {
     host.pump(clock.now_s());
     for (auto& text : host.take_messages()) tell(std::move(text));
   }
-  /// A pause of a world that cannot be paused, or has not begun, is a wish to leave.
+  /// A request to pause a world that cannot be paused, or has not begun, counts as a request to leave.
   bool is_stopped() {
     const bool leaves = !can_pause && host.pause_requested();
     return Loop::is_stopped(leaves ? std::optional(DriveEnd::escape) : host.end_requested());
@@ -121,7 +122,7 @@ struct ScreenLoop : Loop {
   bool is_paused() const { return Loop::is_paused() || (can_pause && host.pause_requested()); }
   bool is_over() { return is_stopped() || is_time_over(); }
 
-  /// Pumps until `satisfied`, out of patience or stopped; false in the latter cases. `every_s` runs `nudge` now and then.
+  /// Pumps until `satisfied`, out of patience or stopped; false in the latter cases. Runs `nudge` every `every_s`.
   template <class Condition, class Nudge>
   bool pump_until(Condition satisfied, double patience_s, double every_s, Nudge nudge) {
     const double begun_s = clock.now_s();
@@ -140,8 +141,8 @@ struct ScreenLoop : Loop {
   }
 };
 
-/// All who belong to the rig are there, or the operator or patience does without those who are not. Simulated time begins after that.
-/// In lockstep there is no drive where not one screen came.
+/// Waits until all screens of the rig, and its car, are there, or until the operator or the time limit does without the
+/// missing ones. Simulated time begins after that. In lockstep, a drive without any screen fails.
 bool wait_for_screens(ScreenLoop& loop) {
   const auto missing = [&] { return fmt::format("{}", fmt::join(loop.host.missing(), ", ")); };
   const double patience_s = loop.options.lockstep ? loop.options.patience_s : loop.options.wait_for_screens_s;
@@ -165,7 +166,8 @@ bool wait_for_screens(ScreenLoop& loop) {
   return true;
 }
 
-/// The world stands still, seen on all screens, for as long as the operator or the driver wants. What moves in the driver's seat rests.
+/// Keeps the world still, visibly on all screens, for as long as the operator or the driver wants. The actuators in the
+/// driver's seat rest.
 void stand_still(ScreenLoop& loop) {
   const control::Notice before = loop.host.notice();
   const auto say = [&] {
@@ -190,7 +192,7 @@ void stand_still(ScreenLoop& loop) {
       [&] {
         loop.show_messages();
         if (loop.newest) loop.host.repeat_newest();
-        loop.source.stand_still();  // The word that says so may be lost on its way to a car on another machine.
+        loop.source.stand_still();  // Repeated, since the message may be lost on its way to a car on another machine.
         say();
       });
   const double stood_s = loop.clock.now_s() - begun_s;
@@ -226,7 +228,7 @@ void run_lockstep(ScreenLoop& loop) {
   }
 }
 
-/// The world stands still at its first instant, seen on all screens, until the driver takes the controls.
+/// Keeps the world still at its first instant, visibly on all screens, until the driver takes the controls.
 void wait_for_driver(ScreenLoop& loop) {
   const auto first = loop.source.first();
   if (!first || loop.options.wait_for_driver.empty()) return;
@@ -249,7 +251,7 @@ void wait_for_driver(ScreenLoop& loop) {
                         say();
                         loop.report("waiting for the driver");
                       });
-  // Who has taken the controls has read the keys, in whichever window the first one was pressed.
+  // A driver who has taken the controls has read the keys, in any window.
   loop.host.give_notice({"", !is_ready && loop.host.notice().keys});
   loop.host.restart_shown_time();
   loop.started_s = loop.clock.now_s();
@@ -293,8 +295,8 @@ void run_real_time(ScreenLoop& loop) {
   }
 }
 
-/// A drive that has come to its own end stays on the screens, with what to press, until that or Escape is pressed, or it has been read. The
-/// end in the result stays, unless there is an error.
+/// Shows the natural end of a drive, with the keys to press, until R, Enter or Escape is pressed, all screens have
+/// left, or the time is over. The end in the result stays, unless there is an error.
 void show_end(ScreenLoop& loop) {
   const DriveEnd end = loop.result.end;
   if (!loop.options.words_at_end || loop.result.error || exit_status(end) != logging::finished_status) return;
@@ -324,7 +326,7 @@ ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& opti
   options.lockstep ? run_lockstep(loop) : run_real_time(loop);
   loop.result.wall_s = clock.now_s() - loop.started_s;
   if (!options.lockstep) show_end(loop);
-  // Whatever happened, the screens hear that it is over and say what they have seen.
+  // Screens are told of every kind of end, and send their reports.
   host.finish(loop.result.error ? loop.result.error->what : std::string(text_of(loop.result.end)));
   const double asked_s = clock.now_s();
   do {

@@ -1,9 +1,9 @@
 #pragma once
 /// The server's loop: one snapshot per tick from the source, to all screens.
 ///
-/// In lockstep simulated time is all there is: every n-th tick is sent and the next one is not taken before all live screens
-/// have shown it. In real time a tick is due every 1/rate seconds whatever the screens do. However it ends, the screens are told
-/// and the result says why.
+/// In lockstep there is only simulated time: every n-th tick is sent, and the next one is not taken before all live
+/// screens have shown it. In real time a tick is due every 1/rate seconds, regardless of the screens. At any end, the
+/// screens are told, and the result has the reason.
 
 #include <cstdint>
 #include <functional>
@@ -22,23 +22,23 @@ struct ServeOptions {
   bool lockstep = false;
   std::uint64_t draw_every_ticks = 8;  ///< In lockstep.
   std::uint64_t ticks = 0;             ///< 0: until stopped.
-  /// Lockstep waits so long for the screens to be ready, and fails where none came; and so long for each frame.
+  /// Lockstep: longest wait for the screens to be ready, which fails if none came; and for each frame.
   double patience_s = 60.0;
-  /// Real time waits so long for the screens, then drives without those that are missing.
+  /// Real time: longest wait for the screens; the drive then begins without the missing ones.
   double wait_for_screens_s = 0.0;
   bool can_go_without = false;  ///< An attendant may begin the drive without the screens that are missing.
-  /// Text for a driver for whom the world waits, in real time; empty: it begins at once.
+  /// Text for the driver while the world waits for him, in real time; empty: it begins at once.
   std::string wait_for_driver;
-  std::string about;  ///< Text below that: the drive in a line; empty: none.
-  /// Text for the driver at the drive's own end, in real time; the screens stay for `end_shown_s`, or until a key ends or begins
-  /// it again. Empty: they close at once.
+  std::string about;  ///< Text below that, the drive in one line; empty: none.
+  /// Text for the driver at the natural end of a drive, in real time; the screens stay for `end_shown_s`, or until a
+  /// key ends the drive or begins it again. Empty: they close at once.
   std::function<std::string(logging::DriveEnd)> words_at_end;
   double end_shown_s = 60.0;
   /// Lockstep: a screen that owes a frame (not its first) and is silent for this long is left behind.
   double longest_silence_s = 10.0;
 };
 
-/// The loop's time: the machine's, or that of a test.
+/// The loop's clock: the machine's, or a test's.
 class ServeClock {
  public:
   virtual ~ServeClock() = default;
@@ -49,20 +49,21 @@ class ServeClock {
 
 struct ServeResult {
   logging::DriveEnd end = logging::DriveEnd::failed;
-  std::optional<Error> error;  ///< Where the end is one.
+  std::optional<Error> error;  ///< Set if the end is an error.
   std::uint64_t ticks = 0;
   double simulated_s = 0.0;
-  double wall_s = 0.0;           ///< Without what it stood still.
+  double wall_s = 0.0;           ///< Without pauses.
   std::uint64_t late_ticks = 0;  ///< Real time: ticks that began more than a tick late.
   std::uint64_t state_hash = 0;
-  bool begins_again = false;  ///< It came to its own end, and the driver wants to drive it again.
+  bool begins_again = false;  ///< The drive ended naturally, and the driver wants to drive it again.
 };
 
-/// The attendants are told of each tick and each message, and what they wish is done; they have begun, and the caller closes them.
+/// Runs the drive. Attendants receive each tick and each message, and their wishes are executed; they have begun, and
+/// the caller closes them.
 ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const Attendants& attendants,
                   ServeClock& clock);
 
-/// The same without screens: there is nobody to wait for, and ticks follow each other as fast as they are computed.
+/// Runs the drive without screens: nothing to wait for, so ticks follow each other as fast as they are computed.
 ServeResult run_headless(TickSource& source, std::uint64_t ticks, const Attendants& attendants, ServeClock& clock);
 
 }  // namespace septet::server

@@ -1,5 +1,5 @@
 #pragma once
-/// Where snapshots come from: a drive being simulated, or a session being shown again. Everything after it is the same.
+/// A source of snapshots: a drive being simulated, or a session being replayed. Everything after it is the same.
 
 #include <memory>
 #include <optional>
@@ -16,27 +16,28 @@ namespace septet::server {
 class TickSource {
  public:
   virtual ~TickSource() = default;
-  /// The next tick's snapshot, or nothing at the end. `controls`: what a screen with keyboard or gamepad has sent.
+  /// Returns the next tick's snapshot; null at the end. `controls`: from a screen with keyboard or gamepad.
   virtual Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
-  /// What has gone wrong beside the ticks and ends the drive, also while it waits for its first one: a log that cannot be written. Once.
+  /// Returns, once, a fault beside the ticks that ends the drive, also during the wait for its first tick: a log that
+  /// cannot be written.
   virtual std::optional<Error> take_error() { return std::nullopt; }
-  /// Why `next` has given nothing, or there is an error.
+  /// Reason for the end, once `next` has returned null or an error.
   virtual logging::DriveEnd end() const = 0;
-  /// The world before the first tick, for whoever waits at it; null where nobody does.
+  /// The world before the first tick, shown while the drive waits; null if it does not wait.
   virtual std::shared_ptr<const TakenSnapshot> first() const { return nullptr; }
-  /// Whether the driver has taken the controls, `waited_s` after the world began to wait for that.
+  /// True once the driver has taken the controls; `waited_s`: time since the world began to wait.
   virtual bool driver_is_ready(const std::optional<DriverInput>& /*controls*/, double /*waited_s*/) { return true; }
-  /// The world stands still from here to the next tick: whatever moves in the driver's seat is to rest.
-  /// Called again and again meanwhile.
+  /// Tells the source that the world stands still until the next tick: all actuators in the driver's seat must rest.
+  /// Called repeatedly meanwhile.
   virtual void stand_still() {}
-  /// What the driver must read on the screen ahead as long as it holds: an emergency stop. Empty: nothing.
+  /// Alarm for the driver on the screen ahead, as long as it holds: an emergency stop. Empty: none.
   virtual std::string alarm() const { return {}; }
-  /// What has just happened to the driver's car, where a person drives it, and what to press; lines. Empty: nothing.
+  /// Messages about the driver's car, if a person drives it, and the keys to press; one per line. Empty: none.
   virtual std::string word_to_driver() const { return {}; }
-  /// How much of what shakes the driver may do so: the sound's low frequencies, on which a shaker may hang, go by it. 0: it is cut.
+  /// Permitted share of vibrations: applies to the sound's low frequencies, which may drive a shaker. 0: cut.
   virtual double shaking_share() const { return 1.0; }
   virtual double tick_rate_hz() const = 0;
-  /// What the operator should know since the last call.
+  /// Returns messages for the operator since the last call.
   virtual std::vector<std::string> take_messages() { return {}; }
 };
 

@@ -132,7 +132,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-/// In the form of an <img> source, with the type from its first bytes.
+/// The picture in the form of an <img> source, with the type from its first bytes.
 std::string picture_address(std::string_view picture) {
   const bool is_jpeg = picture.starts_with("\xff\xd8");
   return fmt::format("data:image/{};base64,{}", is_jpeg ? "jpeg" : "png", base64(picture));

@@ -43,7 +43,7 @@ struct Change {
 struct Rate {
   int value = 0;
 };
-/// Without a drive: starts this one.
+/// Starts this drive; valid while there is no drive.
 struct Start {
   DriveChoice choice;
 };

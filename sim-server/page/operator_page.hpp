@@ -39,7 +39,7 @@ class OperatorPage {
   /// Viewers get the last view, as far as it can be sent within a moment.
   ~OperatorPage();
 
-  /// With the token: its holder may command.
+  /// Address with the token, whose holder may command.
   const std::string& url() const { return url_; }
 
   void show(DriveView view);

@@ -19,7 +19,7 @@ struct RoadMap {
 /// Accurate to `tolerance_m`. `most_points` bounds the data for a browser: a network that needs more becomes coarser.
 RoadMap road_map(const road::RoadNetwork& network, double tolerance_m = 0.15, std::size_t most_points = 60000);
 
-/// Without the points that lie within `tolerance_m` of the line through the others (Ramer, Douglas and Peucker).
+/// Removes the points that lie within `tolerance_m` of the line through the others (Ramer, Douglas and Peucker).
 std::vector<Vec2> simplified(const std::vector<Vec2>& points_m, double tolerance_m);
 
 }  // namespace septet::page

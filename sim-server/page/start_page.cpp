@@ -80,7 +80,7 @@ struct StartPage::Shared {
   Choices choices;
   Helm helm;
   StartView view;
-  std::vector<fs::path> folders;  ///< Of view.sessions.
+  std::vector<fs::path> folders;  ///< Folders of view.sessions.
   std::deque<PastLook> looks;     ///< The newest last.
 
   std::unique_ptr<WebServer> server;  ///< Last: its thread is gone before the rest.

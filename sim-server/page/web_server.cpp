@@ -307,8 +307,9 @@ struct WebServer::Running {
     });
   }
 
-  /// With all places taken, the oldest connection without a whole request, or with its reply sent, is closed: idle
-  /// connections cannot keep out others, which send their request at once. If all are being served, the oldest of them.
+  /// If all places are taken, closes the oldest connection without a whole request, or with its reply sent: idle
+  /// connections cannot keep out others, which send their request at once. If all are being served, closes the oldest
+  /// of them.
   void make_room() {
     std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
     if (connections.size() < most_connections) return;
@@ -351,7 +352,7 @@ struct WebServer::Running {
       try {
         context.run();
         return;
-      } catch (const std::exception&) {  // Of one connection, which is gone with its handler.
+      } catch (const std::exception&) {  // A fault of one connection, which is gone with its handler.
       }
     }
   }
@@ -370,7 +371,7 @@ Expected<std::unique_ptr<WebServer>> WebServer::start(WebServerOptions options, 
   const auto listen_on = [&](std::size_t which, tcp protocol, int& file) {
     if (file < 0 || error) return;
     running->acceptors[which].assign(protocol, file, error);
-    if (!error) file = -1;  // It is the acceptor's now.
+    if (!error) file = -1;  // The acceptor owns it now.
   };
   listen_on(0, tcp::v4(), here->ipv4);
   listen_on(1, tcp::v6(), here->ipv6);
@@ -388,7 +389,7 @@ WebServer::WebServer(std::unique_ptr<Running> running) : running_(std::move(runn
 WebServer::~WebServer() {
   running_->context.stop();
   running_->thread.join();
-  // Also if a child program holds a copy of the socket: a browser hears at once that this server is gone.
+  // Browsers hear at once that this server is gone, even if a child program holds a copy of the socket.
   for (const auto& [id, browser] : running_->browsers) browser->hang_up();
 }
 

@@ -51,8 +51,8 @@ class SumoClient {
  public:
   virtual ~SumoClient() = default;
   virtual Expected<void> define_type(const SumoVehicleType& type) = 0;
-  /// It departs when SUMO finds room for it at that place, at its driver's desired speed or, if that is impossible, as
-  /// fast as SUMO lets it.
+  /// Adds a vehicle that departs when SUMO finds room for it at that place, at its driver's desired speed or, if that
+  /// is impossible, as fast as SUMO lets it.
   virtual Expected<void> add_vehicle(const SumoDeparture& departure) = 0;
   /// A vehicle that SUMO does not know, since it has left or was removed, is gone: no error.
   virtual Expected<void> remove_vehicle(ParticipantId id) = 0;

@@ -203,7 +203,7 @@ SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roa
       way.push_back(static_cast<std::size_t>(found - network.edges.begin()));
     }
   }
-  // As far as lanes lead from edge to edge: SUMO aborts on a route with a gap.
+  // The route ends where lanes no longer lead from edge to edge: SUMO aborts on a route with a gap.
   const std::size_t rounds = corridor.closed ? laps * way.size() : way.size() - here;
   for (std::size_t i = 0; i < rounds; ++i) {
     const std::size_t edge_now = way[(here + i) % way.size()];

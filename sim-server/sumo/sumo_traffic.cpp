@@ -121,7 +121,7 @@ bool SumoTraffic::set_out_again(Member& member, double middle_x_m) {
   return member.stay == Member::Stay::asked_for;
 }
 
-/// As in Septet's own swarm: out of the radius on one side, in again on the other; slower ones enter ahead.
+/// Recycles as Septet's own swarm does: out of the radius on one side, in again on the other; slower ones enter ahead.
 void SumoTraffic::recycle(Member& member, const road::RoadPosition& middle, double middle_speed_mps) {
   const auto& corridor = corridors_[member.corridor];
   if (corridor.corridor.closed && steps_ > setting_out_steps) return;
@@ -187,7 +187,7 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
   ++steps_;
   before_ = std::move(after_);
   after_.clear();
-  std::optional<road::Location> middle;  // Of the swarm: the first foreign vehicle.
+  std::optional<road::Location> middle;  // Middle of the swarm: the first foreign vehicle.
   if (!foreign.empty()) middle = road::locate(roads_, Vec2(foreign.front().world_from_vehicle.position_m));
   auto seen = vehicles->begin();
   for (Member& member : members_) {

@@ -97,7 +97,7 @@ TEST_CASE("the help of a drive has the keys and every default") {
   for (const auto& key : car_io::driving_keys()) CHECK(has(help, key.does));
   for (const char* words :
        {"--rig TEXT=desktop with a display, else seven-screens", "=out/latest", "--scenario TEXT=motorway-ambulance",
-        "--seed UINT=1", "--traffic TEXT=own", "--driver TEXT=whom the rig names", "--vehicle TEXT=the rig's",
+        "--seed UINT=1", "--traffic TEXT=own", "--driver TEXT=the rig's", "--vehicle TEXT=the rig's",
         "--parameter NAME=VALUE", "--participant TEXT=none"}) {
     CAPTURE(words);
     CHECK(has(help, words));

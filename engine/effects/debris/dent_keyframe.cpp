@@ -81,7 +81,8 @@ Expected<std::vector<DentedVehicle>> decode_dents(std::span<const std::byte> byt
     }
   }
   if (!in.ok() || !in.at_end())
-    return failure("they are none, or damaged", "dent keyframe", "send what the same version of Septet wrote");
+    return failure("the bytes are of another kind, or damaged", "dent keyframe",
+                   "send what the same version of Septet wrote");
   return vehicles;
 }
 

@@ -83,7 +83,8 @@ Expected<std::vector<Pane>> decode_glass(std::span<const std::byte> bytes) {
     }
   }
   if (!in.ok() || !in.at_end())
-    return failure("it is none, or damaged", "glass keyframe", "send what the same version of Septet wrote");
+    return failure("the bytes are of another kind, or damaged", "glass keyframe",
+                   "send what the same version of Septet wrote");
   return panes;
 }
 

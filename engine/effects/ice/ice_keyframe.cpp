@@ -131,7 +131,8 @@ Expected<StillIce> decode(std::span<const std::byte> bytes) {
     }
   }
   if (!reader.in.ok() || !reader.in.at_end())
-    return failure("it is none, or damaged", "ice keyframe", "send what the same version of Septet wrote");
+    return failure("the bytes are of another kind, or damaged", "ice keyframe",
+                   "send what the same version of Septet wrote");
   return ice;
 }
 

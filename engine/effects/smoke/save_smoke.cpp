@@ -24,10 +24,10 @@ namespace {
 
 void require_whole(const Grid& grid, StateReader& reader) {
   for (const int n : {grid.nx, grid.ny, grid.nz})
-    reader.require(n >= 1 && n <= max_cells_along, "the smoke's box in it is none");
+    reader.require(n >= 1 && n <= max_cells_along, "the smoke's grid in it is out of bounds");
   reader.require(
       std::int64_t{grid.nx} * grid.ny * grid.nz <= max_cells && std::isfinite(grid.cell_m) && grid.cell_m > 0.0,
-      "the smoke's box in it is none");
+      "the smoke's grid in it is out of bounds");
   if (reader.ok())
     reader.require(grid.wall.size() == static_cast<std::size_t>(grid.cells()),
                    "the smoke's walls in it are not its box's");

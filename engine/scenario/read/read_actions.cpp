@@ -238,7 +238,7 @@ ActionVariant read_effect_command(Reading& reading, const Element& element, Effe
     good = good && command.words.empty();
   }
   if (good) return effect;
-  element.error("it does not say what happens to whom",
+  element.error("its content names no entity, or is incomplete",
                 kind == EffectAction::Kind::spill
                     ? "write an entity's name, a part, and perhaps x, y (m) and one or two speeds (m/s)"
                     : "write an entity's name");
@@ -265,7 +265,7 @@ ActionVariant read_black_ice(const Element& element) {
   good = good && !id.empty() && lane != 0.0 && lane == std::trunc(lane) && s_m >= 0.0 && length_m > 0.0 &&
          length_m <= 255.0 && thickness_mm > 0.0 && thickness_mm < most_mm;
   if (!good) {
-    element.error("it does not say what lies under ice",
+    element.error("its content names no stretch of a lane, or is out of bounds",
                   "write a road's id, a lane, a station (m), a length (m, at most 255) and a thickness (mm)");
     return {};
   }
@@ -304,7 +304,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   const auto entity = find_entity(reading.scenario, content.substr(0, space));
   const std::string state = space == std::string::npos ? "" : content.substr(space + 1);
   if (!entity || (state != "on" && state != "off")) {
-    command.error("it does not say whose siren is on or off", "write an entity's name and on or off");
+    command.error("its content is not an entity and a state of its siren", "write an entity's name and on or off");
     return {};
   }
   return SirenAction{*entity, state == "on"};

@@ -57,7 +57,7 @@ void read_game(Reading& reading, const Element& command) {
           "write leader=ENTITY lanes=FIRST..LAST and what engine/scenario/model/game_settings.hpp names");
   }
   if (game.leader == no_entity || game.first_lane == 0 || game.lost_m < game.near_m)
-    return command.error("it does not say who leads in which lanes, or loses the leader where it is still near",
+    return command.error("leader or lanes are missing, or lost is below near",
                          "write leader=ENTITY lanes=FIRST..LAST, and lost=METRES not below near=METRES");
   reading.scenario.game = game;
 }

@@ -50,7 +50,7 @@ std::optional<std::size_t> find_broken_utf8(std::string_view text) {
 
 std::shared_ptr<XmlFile> parse_xml(std::string_view text, std::string name) {
   auto file = std::make_shared<XmlFile>(text, std::move(name));
-  // As a fragment, so that parts beside the root are seen.
+  // Parsed as a fragment, so that parts beside the root are seen.
   const auto result = file->document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
   const pugi::xml_node root = file->document.document_element();
   if (!result) {

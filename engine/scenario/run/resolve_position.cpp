@@ -217,7 +217,7 @@ std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& netwo
   return std::visit(
       [&](const auto& relative) -> std::string {
         if constexpr (requires { relative.entity; }) {
-          if (relative.entity == no_entity) return "it is relative to nobody";
+          if (relative.entity == no_entity) return "it is relative to no entity";
           const std::string& name = scenario.entities[relative.entity].name;
           const bool placed = state.entities[relative.entity].active;
           return placed ? fmt::format("so far from {} there is no lane", name)

@@ -133,7 +133,7 @@ class Step {
     const ElementStatus status = element(act.element).status;
     if (status == ElementStatus::complete || group.maximum_executions == 0 || event.maximum_executions == 0 ||
         (status == ElementStatus::running && element(group.element).status != ElementStatus::running))
-      return "what it belongs to is over";
+      return "its act or maneuver group is over";
     if (status == ElementStatus::standby) start_act(story, act);
     if (event.priority == EventPriority::overwrite) stop_others(maneuver, event);
     start_event(group, event);

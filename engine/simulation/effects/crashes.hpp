@@ -22,7 +22,7 @@ using MountedParts = std::map<ParticipantId, std::vector<debris::MountedPart>>;
 struct CrashMemory {
   /// Vehicles met by the driver's car since the effects' last step, in order of contact: for the next step.
   std::vector<ParticipantId> struck_by_driver;
-  std::vector<vehicle::HullTouch> struck_standing;  ///< Likewise, of obstacles beside the road.
+  std::vector<vehicle::HullTouch> struck_standing;  ///< Obstacles beside the road, likewise.
   MountedParts parts;
 };
 

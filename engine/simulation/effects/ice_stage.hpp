@@ -18,7 +18,7 @@ struct IceState {
   std::vector<BlackIce> black;    ///< One for each sheet of `still`, in its order.
   std::vector<ice::Pane> panes;   ///< Windscreens with frost or cracks.
   EffectKeyframe keyframe;        ///< Empty while there is no ice.
-  EffectKeyframe glass_keyframe;  ///< Likewise, of panes.
+  EffectKeyframe glass_keyframe;  ///< Keyframe of panes, likewise.
 };
 
 /// Lays slabs that the storyboard will spill on their roofs from the start, where they find room; in frost, icicles

@@ -88,7 +88,7 @@ ExperimentPart read_part(const toml::table& table, std::string_view file, std::s
   part.seconds = reader.get_double("seconds", 0.0, 0.0, 1e6);
   part.up_to_s = 60.0 * reader.get_double("up_to_min", 0.0, 0.0, 1e4);
   if ((part.seconds > 0.0) == (part.up_to_s > 0.0))
-    reader.report("seconds", "how long the part lasts is not clear",
+    reader.report("seconds", "the part has no duration, or two",
                   "give either seconds (once) or up_to_min (free play), more than 0");
   part.parameters = read_parameters(reader);
   reader.finish(experiments_document);

@@ -29,7 +29,7 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
 Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
                                                    const std::string& picture_folder);
 
-/// In a line: "mark 7.3 of 10, passed; worst: look into a mirror …", or "too short to be marked; worst: …".
+/// Marks in a line: "mark 7.3 of 10, passed; worst: look into a mirror …", or "too short to be marked; worst: …".
 std::string marks_in_a_line(const Lesson& lesson, const LessonMarks& marks);
 
 }  // namespace septet::logging

@@ -42,7 +42,7 @@ struct DriveSeen {
   std::vector<LaneChange> changes;
   std::vector<Glance> glances;
   bool head_is_known = false;
-  std::vector<double> put_s = {};                            ///< When an instructor put the car elsewhere.
+  std::vector<double> put_s = {};                            ///< Times at which an instructor put the car elsewhere.
   std::vector<std::pair<double, double>> instructor_s = {};  ///< Intervals of the instructor's braking.
 };
 
@@ -72,8 +72,8 @@ double blinked_s(const DriveSeen& drive, Lamp lamp, double time_s) {
   return time_s - first_lit_s;
 }
 
-/// When the car began to move towards the line that it crossed then: since when it has gone there at `aside_mps` or
-/// more.
+/// Time at which the car began to move towards the line that it crossed: it has moved there at `aside_mps` or more
+/// since.
 double began_to_move_s(const DriveSeen& drive, const LaneChange& change) {
   auto at = std::ranges::lower_bound(drive.samples, change.simulated_time_s, {}, &Sample::simulated_time_s);
   if (at != drive.samples.begin()) --at;  // The last sample in the lane that is left.

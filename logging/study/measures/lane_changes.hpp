@@ -6,8 +6,7 @@
 /// line is recognised by the jump of the lateral position from one edge of a lane to the other (more than half a lane
 /// width: a car moves less than that from sample to sample); where the lane's number changes without the jump, the road
 /// renumbered its lanes and nothing is counted. Samples off every lane (lane 0) break the sequence, and so does a gap
-/// of more than a second: a return to the road is not a lane change, nor is
-/// an operator's move of the car.
+/// of more than a second: a return to the road is not a lane change, nor is an operator's move of the car.
 
 #include <cstdint>
 #include <optional>
@@ -42,13 +41,13 @@ struct LaneChangeDetector {
 /// Takes the next sample; returns the lane change confirmed by this sample.
 std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sample);
 
-/// The car was put elsewhere: what it was in before has nothing to do with what it is in now.
+/// Restarts the detection after the car was put elsewhere: its lanes before and after are unrelated.
 void break_off(LaneChangeDetector& detector);
 
-/// Before which ticks an operator put the car elsewhere, ascending, from the log's events.
+/// Ticks before which an operator put the car elsewhere, ascending, from the log's events.
 std::vector<Tick> put_before_ticks(std::span<const Event> events);
 
-/// `put_before`: as put_before_ticks() tells them.
+/// `put_before`: as returned by put_before_ticks().
 std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings = {},
                                           std::span<const Tick> put_before = {});
 

@@ -22,7 +22,7 @@ LateralPositionStatistics compute_lateral_position_statistics(std::span<const Sa
                                                               std::span<const LaneChange> changes,
                                                               const LateralPositionSettings& settings) {
   LateralPositionStatistics result;
-  double sum_of_squares = 0.0;  // Of differences to the running mean (Welford 1962).
+  double sum_of_squares = 0.0;  // Squared differences to the running mean (Welford 1962).
   for (const Sample& sample : samples) {
     if (!is_in_lane(sample)) {
       ++result.excluded_off_lane;

@@ -63,7 +63,8 @@ std::optional<Values> tlc_of(const Sample& sample, const LateralMotion& motion, 
   return nearest;
 }
 
-/// Over the samples in turn, without those that have no value for another reason than that no line is approached.
+/// Statistics of one kind, over the samples in turn; an empty value means that no line is approached. The caller leaves
+/// out all other samples without a value, by `interrupt`.
 class Collector {
  public:
   explicit Collector(const TlcSettings& settings) : settings_(settings) {}

@@ -14,7 +14,7 @@ namespace {
 
 using document::escaped;
 
-constexpr double strip_width = 960.0, strip_left = 58.0, strip_right = 946.0;  ///< As a line chart's.
+constexpr double strip_width = 960.0, strip_left = 58.0, strip_right = 946.0;  ///< Same as a line chart's.
 constexpr double strip_head = 26.0, strip_row_height = 32.0, strip_foot = 40.0;
 constexpr std::size_t most_told_at_a_tick = 6;  ///< Events in the tip of one tick.
 

@@ -33,7 +33,7 @@ const PooledDrive* drive_of(const PooledSubject& subject, const std::string& lab
 /// Values of one measure by group, for subjects with a value.
 using ByGroup = std::vector<std::pair<std::string, std::vector<double>>>;
 
-/// Every measure of every drive with this label: first which, then by group.
+/// One measure of all drives with this label: its values by group.
 struct MeasureColumn {
   ListedMeasure measure;  ///< From any subject, for title, unit and definition.
   ByGroup values;

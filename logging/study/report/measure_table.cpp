@@ -70,7 +70,7 @@ std::string measure_table(const DriveMeasures& measures, const MeasureSettings& 
   rows.add("Time between glances", seconds(measures.between_glances_s),
            "Simulated time over the number of mirror glances.");
 
-  // Those above are said in people's units and at more length.
+  // Measures already in the rows above, in everyday units and in more detail.
   static const std::set<std::string, std::less<>> told{"duration_s",
                                                        "distance_m",
                                                        "speed_mean_mps",

@@ -34,7 +34,7 @@ Expected<void> take_answers(const Opened& session, PooledDrive& pooled) {
       pooled.playing_time = ObservedTime{answer.observed_s, !answer.censored};
       pooled.reason = answer.reason;
     } else if (answer.item == "drive_completed") {
-      // They dropped out of the drive: that is when they stopped.
+      // A drop-out is the moment at which the driver stopped.
       pooled.playing_time = ObservedTime{answer.observed_s, answer.censored};
       pooled.reason = answer.reason;
     } else if (answer.value) {

@@ -145,7 +145,7 @@ std::string text_of(const Event& event) {
 }  // namespace
 
 const std::vector<EventRow>& event_rows() {
-  // In the order of Row.
+  // Order as in Row.
   static const std::vector<EventRow> rows{
       {"marks", "⚑"},      {"operator", "●"},    {"ratings", "★"},       {"storyboard", ""},    {"game", "◆"},
       {"collisions", "✕"}, {"lane changes", ""}, {"mirror glances", ""}, {"traffic rules", ""}, {"other", ""}};

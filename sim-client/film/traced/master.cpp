@@ -215,7 +215,7 @@ void Master::welcome(int number, ByteReader& reader) {
   const auto hello = read_hello(reader);
   if (worker(number)) return;
   if (!hello) {
-    made_.notice = fmt::format("program {} of mpirun is another Septet; it does not help", number);
+    made_.notice = fmt::format("program {} of mpirun is another version of Septet; it is not used", number);
     send(number, message(Word::end));
     return;
   }

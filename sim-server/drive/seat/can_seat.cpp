@@ -10,7 +10,7 @@
 namespace septet::server {
 namespace {
 
-/// A cluster on the bus, by a thread that sends.
+/// An instrument cluster on the bus; a thread sends to it.
 class InstrumentCluster final : public SeatDevice {
  public:
   explicit InstrumentCluster(car_io::InstrumentSender sender) : thread_(std::move(sender)) {}

@@ -1,5 +1,5 @@
 #pragma once
-/// The rig's CAN bus, of instruments and controls: its DBC file read, its interface opened.
+/// The rig's CAN bus, for instruments and controls: the DBC file is read, the interface opened.
 
 #include <filesystem>
 #include <memory>
@@ -14,12 +14,12 @@ namespace septet::server {
 
 struct CanSeat {
   std::unique_ptr<SeatDevice> instruments;  ///< Null: the DBC file has none, or there is no bus.
-  car_io::OpenHidDevice controls;           ///< Of a rig whose car's source is its CAN bus.
-  std::optional<Error> notice;              ///< What of the DBC file is not read, which the rig does not use.
+  car_io::OpenHidDevice controls;           ///< Set if the source of the rig's car is the CAN bus.
+  std::optional<Error> notice;              ///< Parts of the DBC file that Septet cannot read and the rig does not use.
 };
 
-/// `rig_file`: beside it lies the DBC file. A rig without CAN is a seat without. Error: the file cannot be read or means nothing. An
-/// interface that is not there is told while the drive goes on without instruments.
+/// `rig_file`: the DBC file is in the same folder. A rig without CAN has an empty seat. Error: the file cannot be read
+/// or has errors. A missing interface is reported during the drive, which goes on without instruments.
 Expected<CanSeat> open_can_seat(const rig::Rig& rig, const std::filesystem::path& rig_file);
 
 }  // namespace septet::server

@@ -1,5 +1,5 @@
 #pragma once
-/// Fan, shaker and hand wheel of a HID device at this machine, by a thread that writes output reports.
+/// Fan, shaker and hand wheel of a HID device of this machine; a thread writes the output reports.
 
 #include "car-io/actuator_writer.hpp"
 #include "sim-server/drive/seat/seat_device.hpp"
@@ -8,8 +8,8 @@ namespace septet::server {
 
 class DeviceActuators final : public SeatDevice {
  public:
-  /// `is_real_time`: where time is simulated the clock on the wall tells nothing of a fault: what is written fades while a tick takes
-  /// long, and comes back by itself. `sticky`: in real time they wait for a pause once cut.
+  /// `is_real_time`: false where a slow tick is no fault: the output then fades during the tick and recovers by itself.
+  /// `sticky`: in real time, actuators wait for a pause once cut.
   DeviceActuators(const car_io::OpenHidDevice& open, const car_io::CarLayout& layout, bool has_steering_force,
                   bool is_real_time, bool sticky);
 

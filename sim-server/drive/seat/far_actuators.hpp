@@ -1,5 +1,5 @@
 #pragma once
-/// Fan, shaker and hand wheel of a car on another machine: its lane takes the newest word (host/remote_car.hpp).
+/// Fan, shaker and hand wheel of a car on another machine: the newest command goes to its lane (host/remote_car.hpp).
 
 #include <memory>
 #include <utility>

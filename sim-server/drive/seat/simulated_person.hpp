@@ -13,12 +13,12 @@ namespace septet::server {
 
 class SimulatedPerson final : public SeatDevice {
  public:
-  /// The driver keeps the model alive: the road in it is what they see.
+  /// The driver keeps the model alive, whose road they see.
   SimulatedPerson(const driver::DriverParameters& parameters, std::uint64_t seed,
                   std::shared_ptr<const simulation::Model> model)
       : model_(std::move(model)), car_(parameters, seed, model_->roads) {}
 
-  /// Its device, which is read as a real one is.
+  /// Opens its device, which is read like a real one.
   car_io::OpenHidDevice opener() const { return car_.opener(); }
 
   bool drives() const override { return true; }

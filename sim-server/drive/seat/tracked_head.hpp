@@ -1,5 +1,5 @@
 #pragma once
-/// The driver's head, by a tracker's datagrams.
+/// The driver's head position, from a tracker's datagrams.
 
 #include <utility>
 

@@ -213,7 +213,7 @@ TEST_CASE("a film says how far it is and how long the rest will take") {
   CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2, .share_of_next = 0.75, .kept_of_next = 0.5}, 16.0) ==
         "2 of 4 frames and 75 % of the next, 80 s left");
   CHECK(progress_text({.frames = 0, .planned = 4, .bad_samples = 3}, 1.0) ==
-        "0 of 4 frames, 3 samples without light that is a number");
+        "0 of 4 frames, 3 samples with NaN or infinite light");
   CHECK(progress_text({.frames = 4, .planned = 4, .encoding = true}, 20.0) ==
         "all 4 pictures are drawn; ffmpeg makes the film of them");
 }
