@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -11,6 +12,7 @@
 #include "engine/roadside/ground_beside.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/ground_faces.hpp"
+#include "engine/simulation/step_edges.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "engine/world/indicator.hpp"
 
@@ -27,10 +29,13 @@ constexpr std::array<const char*, vehicle::wheel_count> wheel_names{"front_left"
 void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const Model& model,
                State& state, std::vector<Event>& events) {
   std::optional<KerbTouch>& kerb = state.kerbs[wheel];
-  if (!ground.edge_m || glm::distance(centre_m, *ground.edge_m) > model.car.tyre.radius_m) return kerb.reset();
+  const auto nearest = std::ranges::min_element(ground.edges, {}, [&](const std::optional<vehicle::StepEdge>& edge) {
+    return edge ? glm::distance(centre_m, edge->point_m) : std::numeric_limits<double>::infinity();
+  });
+  if (!*nearest || glm::distance(centre_m, (*nearest)->point_m) > model.car.tyre.radius_m) return kerb.reset();
   if (kerb) return;
-  const Vec3 to_edge = *ground.edge_m - centre_m;
-  kerb = {ground.edge_m->z - ground.point_m.z,
+  const Vec3 to_edge = (*nearest)->point_m - centre_m;
+  kerb = {(*nearest)->point_m.z - ground.point_m.z,
           glm::dot(state.car.velocity_mps, to_edge) / std::max(glm::length(to_edge), 0.01)};
   events.push_back(
       {"kerb", std::nullopt,
@@ -88,8 +93,8 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
       state.kerbs[i].reset();
     } else if (outside_m) {
       if (!has_place || !stays_before_face(model, centres[i], stood, state.wheel_roads[i], wheel))
-        find_kerb(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i],
-                  wheel, way_m);
+        find_step_edges(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m,
+                        state.wheel_roads[i], wheel, way_m);
       note_kerb(i, centres[i], wheel, model, state, events);
     } else {
       // A world without land is level, as high as the road that the car was last on.

@@ -9,6 +9,7 @@
 
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/ground_beside.hpp"
+#include "engine/simulation/wheel_ground.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 /// First run number of faces, one for each corner of the hull, as the depth of one is independent of the others. Listed
 /// obstacles never have such a number.
 constexpr std::uint32_t first_face_run = 0x7fff'fff0u;
-constexpr double surface_reach_m = 60.0;
 /// The hull passes over lower faces (hull.cpp) and the wheels climb them.
 constexpr double least_face_m = 0.22;
 /// A rise beyond that to a road that is not joined is overhead.

@@ -19,6 +19,8 @@
 
 namespace septet::simulation {
 
+inline constexpr double surface_reach_m = 60.0;  ///< Distance from a road to which its surface extends.
+
 /// The road's weather, the same for all wheels of a tick.
 struct RoadWeather {
   double wetness = 0.0, snow_cover = 0.0, temperature_k = 288.15;
@@ -38,13 +40,6 @@ std::optional<double> find_wheel_ground(const road::RoadNetwork& roads, const ro
 /// null.
 void find_land(const road::RoadNetwork& roads, const roadside::Terrain& terrain, const RoadWeather& weather,
                const Vec3& centre_m, const road::RoadPosition* place, vehicle::WheelGround& wheel);
-
-/// Looks for a kerb or a step, a wheel's radius before and behind its centre, and before it a tick's travel farther:
-/// sets `wheel.edge_m`. `ahead`: the car's heading, level, unit length. Costs nothing where a road does not step
-/// (ground_faces.hpp), far from raised areas.
-void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m,
-               const Vec2& ahead, double radius_m, const road::RoadPosition& place, vehicle::WheelGround& wheel,
-               double way_m = 0.0);
 
 double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather);
 

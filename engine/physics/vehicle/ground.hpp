@@ -1,6 +1,6 @@
 #pragma once
 /// Ground under the wheels in the vehicle's terms: one plane and one friction coefficient under each wheel, and the
-/// edge of a step (a kerb) where one is near.
+/// edges of steps (kerbs) where they are near.
 ///
 /// The road's owner fills a `Ground` from `wheel_centres_m` (vehicle.hpp): at every sub-step where the road is rough
 /// (ISO 8608 class A excites a car at 130 km/h up to 100 Hz), once a tick where it is smooth. Friction belongs to the
@@ -17,14 +17,19 @@ namespace septet::vehicle {
 /// Wheels are counted front left, front right, rear left, rear right, here and in the snapshot.
 inline constexpr int wheel_count = 4;
 
+/// Top of a step of the ground.
+struct StepEdge {
+  Vec3 point_m{0.0};           ///< Where the wheel's path crosses it, world frame.
+  Vec3 across{1.0, 0.0, 0.0};  ///< Level unit vector square to the edge, world frame.
+};
+
 struct WheelGround {
   Vec3 point_m{0.0};           ///< A point of the surface near the contact, world frame.
   Vec3 normal{0.0, 0.0, 1.0};  ///< Unit length, world frame.
-  /// Top of a step that the wheel comes to or leaves, across its path, world frame. The wheel stands on the one it
-  /// presses deeper, plane or edge: so it meets a kerb before its centre is over it, and climbs it along its own
-  /// roundness (rigid ring enveloping: Zegelaar 1998, The dynamic response of tyres to brake torque variations and road
-  /// unevennesses, ch. 4).
-  std::optional<Vec3> edge_m;
+  /// Steps that the wheel comes to and leaves. The wheel stands on whatever it presses deepest, plane or edge: so it
+  /// meets a kerb before its centre is over it, and climbs it along its own roundness (rigid ring enveloping: Zegelaar
+  /// 1998, The dynamic response of tyres to brake torque variations and road unevennesses, ch. 4).
+  std::array<std::optional<StepEdge>, 2> edges;
   bool yields = false;              ///< Gives way before a rim does: debris.
   double friction = 0.9;            ///< Peak friction coefficient of this surface; dry asphalt is 0.9.
   double rolling_resistance = 1.0;  ///< Multiplies the tyre's rolling resistance: 1 asphalt, about 5 loose snow.

@@ -22,22 +22,39 @@ double spin_wheel(double spin_radps, double torque_nm, double brake_nm, double i
   return free_radps - taken_radps;
 }
 
-/// The plane that carries a wheel: its ground, or the one that touches an edge across the line from there to the
-/// wheel's centre (`edge_m` stays set).
-WheelGround carrying_plane(const WheelGround& ground, const Vec3& centre_m, const Vec3& forward) {
-  WheelGround result = ground;
-  result.edge_m.reset();
-  if (!ground.edge_m) return result;
-  const Vec3 to_centre = centre_m - *ground.edge_m;
-  const double ahead_m = glm::dot(to_centre, forward) / glm::length(forward);
-  const double up_m = glm::dot(to_centre, ground.normal);
+/// Surface that carries a wheel: its ground's plane, or the edge that it presses deepest.
+struct Carrier {
+  Vec3 normal{0.0};       ///< Unit length, world frame.
+  double height_m = 0.0;  ///< Height of the wheel's centre over it.
+  double leverage = 1.0;  ///< Change of that height by a motion along the normal.
+  bool is_edge = false;
+};
+
+/// The wheel is a disc: its distance from an edge is measured within its own plane, and the force on it is the gradient
+/// of that distance, so that an edge oblique to the wheel pushes it aside and gives no energy.
+std::optional<Carrier> carried_by(const StepEdge& edge, const Vec3& plane_normal, const Vec3& centre_m,
+                                  const Vec3& forward) {
+  constexpr double least_cosine = 0.35;  // A wheel that heads along an edge rubs it with its side.
+  const Vec3 to_centre = centre_m - edge.point_m;
+  const double up_m = std::max(0.0, glm::dot(to_centre, plane_normal));  // Below the edge stands the step's face.
+  const double heading_across = glm::dot(edge.across, forward);
+  const double cosine = std::copysign(std::max(std::abs(heading_across), least_cosine), heading_across);
+  const double ahead_m = glm::dot(to_centre, edge.across) / cosine;
   const double distance_m = std::hypot(ahead_m, up_m);
-  constexpr double least_up_m = 0.05;  // A higher edge than the hub is a wall: the hull meets it.
-  if (up_m < least_up_m || distance_m >= glm::dot(ground.normal, centre_m - ground.point_m)) return result;
-  result.normal = glm::normalize(up_m * ground.normal + ahead_m / glm::length(forward) * forward);
-  result.point_m = centre_m - distance_m * result.normal;
-  result.edge_m = ground.edge_m;
-  return result;
+  if (!(distance_m > 1e-6)) return std::nullopt;  // A hub on the edge is pushed nowhere.
+  const Vec3 gradient = (up_m * plane_normal + ahead_m / cosine * edge.across) / distance_m;
+  const double leverage = glm::length(gradient);
+  return Carrier{gradient / leverage, distance_m, leverage, true};
+}
+
+Carrier carrier_of(const WheelGround& ground, const Vec3& centre_m, const Vec3& forward) {
+  Carrier carrier{ground.normal, glm::dot(ground.normal, centre_m - ground.point_m)};
+  for (const auto& edge : ground.edges) {
+    if (!edge) continue;
+    const auto on_edge = carried_by(*edge, ground.normal, centre_m, forward);
+    if (on_edge && on_edge->height_m < carrier.height_m) carrier = *on_edge;
+  }
+  return carrier;
 }
 
 /// Where a wheel stands over the plane that carries it.
@@ -47,6 +64,7 @@ struct WheelContact {
   double deflection_m = 0.0;  ///< Of the tyre; negative in the air.
   Vec3 across{0.0};           ///< Along the ground, where the wheel heads; not unit length.
   double across_size = 0.0;
+  double leverage = 1.0;  ///< As the carrier's.
   bool on_edge = false;
   bool touching = false;  ///< False in the air, or where the wheel lies on its side or above the car.
 };
@@ -55,20 +73,23 @@ WheelContact find_contact(const WheelSurroundings& around, int index, const Whee
   const VehicleParameters& parameters = around.parameters;
   const RigidTransform& world_from_body = around.state.world_from_body;
   const Vec3& axis = place.spin_axis;
-  const WheelGround met = carrying_plane(around.ground, world_from_body * place.centre_m,
-                                         world_from_body.orientation * glm::cross(axis, Vec3(0.0, 0.0, 1.0)));
+  const Vec3 centre_m = world_from_body * place.centre_m;
+  const Vec3 forward = world_from_body.orientation * glm::cross(axis, Vec3(0.0, 0.0, 1.0));
+  const Carrier met = carrier_of(around.ground, centre_m, forward / glm::length(forward));
   WheelContact contact;
   contact.normal = glm::conjugate(world_from_body.orientation) * met.normal;
   const Vec3 measured_m =
       parameters.as_published ? published_measured_m(parameters, index, place.centre_m) : place.centre_m;
-  contact.height_m = glm::dot(met.normal, world_from_body * measured_m - met.point_m);
+  contact.height_m = met.height_m + glm::dot(contact.normal, measured_m - place.centre_m);
   // From 0.6 of the radius on the rim would be flat; the force stays at its value there.
   const double radius_m = parameters.tyre.radius_m;
   contact.deflection_m = std::min(radius_m - contact.height_m, 0.6 * radius_m);
   contact.across = glm::cross(axis, contact.normal);
   contact.across_size = glm::length(contact.across);
-  contact.on_edge = met.edge_m.has_value();
-  contact.touching = contact.deflection_m > 0.0 && contact.normal.z > 0.3 && contact.across_size > 0.3;
+  contact.leverage = met.leverage;
+  contact.on_edge = met.is_edge;
+  contact.touching =
+      contact.deflection_m > 0.0 && contact.normal.z > (met.is_edge ? -0.3 : 0.3) && contact.across_size > 0.3;
   return contact;
 }
 
@@ -102,8 +123,9 @@ Vec3 patch_velocity_mps(const WheelSurroundings& around, int index, const WheelC
 /// Radial force of the tyre, which never pulls.
 double radial_load_n(const TyreParameters& tyre, const WheelGround& ground, const WheelContact& contact, double out_mps,
                      const WheelState& wheel) {
-  double load_n = std::max(0.0, radial_force_n(tyre, wheel.damage, contact.deflection_m, ground.yields) -
-                                    tyre.vertical_damping_nspm * out_mps);
+  double load_n =
+      contact.leverage * std::max(0.0, radial_force_n(tyre, wheel.damage, contact.deflection_m, ground.yields) -
+                                           tyre.vertical_damping_nspm * contact.leverage * out_mps);
   // A wheel whose hub lies under the ground has not been driven there: it is lifted out slowly, not thrown.
   constexpr double most_out_mps = 1.0;
   if (contact.height_m < 0.0) load_n *= std::clamp(1.0 - out_mps / most_out_mps, 0.0, 1.0);

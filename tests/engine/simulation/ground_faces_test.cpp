@@ -49,13 +49,14 @@ struct Drive {
   std::uint32_t bad_numbers = 0;
 };
 
-Drive drive_over(const Model& model, double speed_mps, double heading_rad, double seconds = 4.0,
-                 double before_m = 6.0) {
+Drive drive_over(const Model& model, double speed_mps, double heading_rad, double seconds = 4.0, double before_m = 6.0,
+                 double steering_wheel_rad = 0.0) {
   State state;
   const RigidTransform start{Vec3(40.0 - before_m * std::cos(heading_rad), -before_m * std::sin(heading_rad), 0.0),
                              glm::angleAxis(heading_rad, Vec3(0.0, 0.0, 1.0))};
   state.car = vehicle::standstill(model.car, start, speed_mps);
   state.input.selector = GearSelector::neutral;
+  state.input.steering_wheel_rad = steering_wheel_rad;
   Drive drive;
   drive.start_j = vehicle::mechanical_energy_j(model.car, state.car);
   const double start_z_m = state.car.world_from_body.position_m.z;
@@ -96,6 +97,41 @@ TEST_CASE("over no step of a road does the ground give the car energy") {
         CHECK(drive.most_gain_j < 1500.0 + 0.25 * (drive.start_j + fallen_j));
         CHECK(drive.most_rise_m < 1.2);  // 0.24 m at 45 m/s lifts one side, 0.9 m.
       }
+  }
+}
+
+TEST_CASE("over no ridge or trench however narrow and oblique does the ground give the car energy") {
+  struct Comb {
+    double step_m, tooth_m;
+    int teeth;
+  };
+  for (const Comb& comb : {Comb{0.2, 0.15, 1},
+                           {0.1, 0.15, 20},
+                           {0.2, 0.3, 20},
+                           {-0.1, 0.3, 1},
+                           {-0.3, 0.6, 1},
+                           {-0.3, 0.3, 20},
+                           {-1.0, 0.3, 1},
+                           {-1.0, 0.6, 20}}) {
+    CAPTURE(comb.step_m);
+    CAPTURE(comb.tooth_m);
+    std::string records = road::elevation(0.0);
+    for (int i = 0; i < 2 * comb.teeth; ++i)
+      records += road::elevation(i % 2 == 0 ? comb.step_m : 0.0, 40.0 + comb.tooth_m * i);
+    road::SmallRoad road{.length_m = 200.0};
+    road.profiles = "<elevationProfile>" + records + "</elevationProfile>";
+    road.sections = road::lane_section(road::lane(1, 100.0), road::lane(-1, 100.0));
+    const Model model = model_on(road.xml());
+    for (const double speed_mps : {3.0, 10.0, 45.0})
+      for (const double heading_rad : {0.0, 0.4, 1.0, 1.2})
+        for (const double steering_wheel_rad : {0.0, 2.0}) {
+          CAPTURE(speed_mps);
+          CAPTURE(heading_rad);
+          CAPTURE(steering_wheel_rad);
+          const Drive drive = drive_over(model, speed_mps, heading_rad, 4.0, 9.0, steering_wheel_rad);
+          CHECK(drive.bad_numbers == 0);
+          CHECK(drive.most_over_start_j < 1.0);
+        }
   }
 }
 

@@ -36,9 +36,9 @@ Climb climb(double speed_mps, double accelerator) {
       for (int wheel = 0; wheel < wheel_count; ++wheel) {
         const double x_m = centres[wheel].x;
         ground[wheel].point_m = {x_m, centres[wheel].y, x_m > step_x_m ? step_m : 0.0};
-        ground[wheel].edge_m.reset();
+        ground[wheel].edges[0].reset();
         if (std::abs(x_m - step_x_m) < car.tyre.radius_m)
-          ground[wheel].edge_m = Vec3(step_x_m, centres[wheel].y, step_m);
+          ground[wheel].edges[0] = {.point_m = Vec3(step_x_m, centres[wheel].y, step_m)};
       }
     }
     advance_vehicle(car, input, ground, 0.001, state);

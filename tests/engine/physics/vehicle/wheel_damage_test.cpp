@@ -37,10 +37,12 @@ void roll_over(const VehicleParameters& car, const Step& step, double time_s, Ve
         const bool meets = wheel % 2 == 0 ? step.left : step.right;
         const bool inside = meets && centre.x > step.from_m && centre.x < step.to_m;
         ground[wheel].point_m = {centre.x, centre.y, inside ? step.height_m : 0.0};
-        ground[wheel].edge_m.reset();
-        for (const double edge_m : {step.from_m, step.to_m})
-          if (meets && std::abs(centre.x - edge_m) < car.tyre.radius_m)
-            ground[wheel].edge_m = Vec3(edge_m, centre.y, std::max(step.height_m, 0.0));
+        ground[wheel].edges = {};
+        for (std::size_t edge = 0; edge < 2; ++edge) {
+          const double edge_x_m = edge == 0 ? step.from_m : step.to_m;
+          if (meets && std::abs(centre.x - edge_x_m) < car.tyre.radius_m)
+            ground[wheel].edges[edge] = {.point_m = Vec3(edge_x_m, centre.y, std::max(step.height_m, 0.0))};
+        }
       }
     }
     advance_vehicle(car, input, ground, 1.0 / 960.0, state);

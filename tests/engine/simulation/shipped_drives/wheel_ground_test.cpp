@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "engine/simulation/server_step.hpp"
+#include "engine/simulation/step_edges.hpp"
 #include "tests/engine/road/road_files.hpp"
 #include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
@@ -77,6 +78,17 @@ TEST_CASE("far from every road there is no surface to find") {
   CHECK_FALSE(find_wheel_ground(roads, nullptr, {}, {50.0, 500.0, 0.3}, false, place, wheel).has_value());
 }
 
+namespace {
+
+/// The edge before a wheel or, where there is none, behind it.
+std::optional<Vec3> place_of_edge(const vehicle::WheelGround& wheel) {
+  for (const auto& edge : wheel.edges)
+    if (edge) return edge->point_m;
+  return std::nullopt;
+}
+
+}  // namespace
+
 TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the road there is none") {
   const road::SmallRoad with_kerb{
       .length_m = 200.0,
@@ -88,8 +100,8 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
     vehicle::WheelGround wheel;
     road::RoadPosition place;
     REQUIRE(find_wheel_ground(roads, nullptr, {}, centre_m, false, place, wheel).has_value());
-    find_kerb(roads, nullptr, centre_m, ahead, 0.32, place, wheel);
-    return wheel.edge_m;
+    find_step_edges(roads, nullptr, centre_m, ahead, 0.32, place, wheel);
+    return place_of_edge(wheel);
   };
   CHECK_FALSE(edge({50.0, -2.0, 0.3}, {0.0, -1.0}).has_value());
   const auto before = edge({50.0, -3.3, 0.3}, {0.0, -1.0});
@@ -130,8 +142,8 @@ TEST_CASE("an island and a kerb stone that are objects are met as kerbs and pain
     vehicle::WheelGround wheel;
     road::RoadPosition place;
     REQUIRE(find_wheel_ground(roads, &raised, {}, {x_m, y_m, 0.3}, false, place, wheel).has_value());
-    find_kerb(roads, &raised, {x_m, y_m, 0.3}, ahead, 0.32, place, wheel);
-    return Met{wheel.point_m.z, wheel.edge_m};
+    find_step_edges(roads, &raised, {x_m, y_m, 0.3}, ahead, 0.32, place, wheel);
+    return Met{wheel.point_m.z, place_of_edge(wheel)};
   };
   const Vec2 along(1.0, 0.0), left(0.0, 1.0);
   CHECK(met(52.0, 1.0, along).height_m == doctest::Approx(0.12));
