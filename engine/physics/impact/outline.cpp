@@ -123,14 +123,12 @@ Meeting nearest(const Outline& first, const Outline& second) {
     meeting.place.point_m = pair.on_first + (first.round_m + 0.5 * meeting.gap_m) * meeting.place.normal + origin;
     return meeting;
   }
-  // The cores overlap: the middle lies between the corners that have sunk in farthest.
   meeting.place.normal = axis.normal;
   meeting.gap_m = axis.gap - round;
   const double front = glm::dot(a.centre, axis.normal) + a.reach(axis.normal) + first.round_m;
   const Vec2 on_axis = (front + 0.5 * meeting.gap_m) * axis.normal;
   const Vec2 tangent = left_of(axis.normal);
   meeting.place.point_m = on_axis + 0.5 * glm::dot(a.centre + b.centre, tangent) * tangent + origin;
-  meeting.place.point_m = engaged_point_m(first, second, meeting.place, -0.5 * meeting.gap_m);
   return meeting;
 }
 
@@ -138,8 +136,9 @@ std::optional<Meeting> contact_of(const Outline& first, const Outline& second) {
   const Vec2 between = second.centre_m - first.centre_m;
   const double reach_m = glm::length(first.half_m) + glm::length(second.half_m);
   if (glm::dot(between, between) > reach_m * reach_m) return std::nullopt;
-  const Meeting meeting = nearest(first, second);
+  Meeting meeting = nearest(first, second);
   if (meeting.gap_m > 0.0) return std::nullopt;
+  meeting.place.point_m = engaged_point_m(first, second, meeting.place, -0.5 * meeting.gap_m);
   return meeting;
 }
 

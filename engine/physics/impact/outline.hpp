@@ -27,12 +27,12 @@ Outline wall_outline(const Vec2& from_m, const Vec2& to_m, double radius_m);
 
 /// The outlines as they lie: the nearest two surfaces, or the deepest.
 struct Meeting {
-  Place place;         ///< Middle of the gap, or of the overlap.
+  Place place;         ///< Between the two surfaces; of sides that lie along each other, at any point of them.
   double gap_m = 0.0;  ///< Along the normal; negative: they overlap.
 };
 Meeting nearest(const Outline& first, const Outline& second);
 
-/// The outlines' contact: `nearest` where they overlap.
+/// The outlines' contact, where they overlap: `nearest`, in the middle of the stretch on which they do.
 std::optional<Meeting> contact_of(const Outline& first, const Outline& second);
 
 /// Middle of the stretch along the tangent on which the two meet once each has sunk into the other by `depth_m` along
