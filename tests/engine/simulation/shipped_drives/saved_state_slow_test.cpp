@@ -197,7 +197,8 @@ TEST_CASE("two states that are the same but for what only a later tick will show
   CHECK(differs_with(state.car.wheels[1].force_n.y, 1234.5));  // Bends the suspension in the next step.
   CHECK(differs_with(state.touching, std::vector<ParticipantId>{9999}));
   CHECK(differs_with(state.kerbs[2], KerbTouch{0.1, 1.0}));
-  CHECK(differs_with(state.effects.crashes.struck_by_driver, std::vector<ParticipantId>{9999}));
+  CHECK(differs_with(state.effects.crashes.struck_by_driver, std::vector<StruckVehicle>{{.vehicle = 9999}}));
+  CHECK(differs_with(state.impacts, std::vector<CarImpact>{{.vehicle = 9999}}));
   CHECK(differs_with(state.effects.random, Random(77)));
   scenario::EntityState& lorry = state.scenario.entities.back();
   CHECK(differs_with(lorry.acceleration_mps2, -1.5));
