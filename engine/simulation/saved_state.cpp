@@ -150,6 +150,25 @@ void restore_effects(const Model& model, StateReader& reader, EffectsState& stat
       reader.require(static_cast<int>(part.part) < debris::part_count, wrong);
 }
 
+/// A pulse that can be advanced, and ends.
+void require_sound(const CarImpact& running, StateReader& reader) {
+  constexpr double longest_s = 10.0;
+  const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  const impact::Pulse& pulse = running.pulse;
+  reader.require(within(pulse.compression_s, 0.0, longest_s) && within(pulse.restitution_s, 0.0, longest_s) &&
+                     within(pulse.age_s, 0.0, longest_s) && within(running.due_s, 0.0, longest_s) &&
+                     within(pulse.restitution, 0.0, 1.0) && positive(pulse.impulse.stopped_mps) &&
+                     positive(running.struck.mass_kg) && positive(running.struck.yaw_inertia_kgm2) &&
+                     pulse.curve.count >= 1 && pulse.curve.count <= pulse.curve.pieces.size(),
+                 wrong);
+  for (std::size_t i = 0; reader.ok() && i < pulse.curve.count; ++i)
+    reader.require(positive(pulse.curve.pieces[i].steepness_ps2) &&
+                       within(pulse.curve.pieces[i].deceleration_mps2, 0.0, 1e9) &&
+                       within(pulse.curve.pieces[i].depth_m, 0.0, 1e3),
+                   wrong);
+}
+
 void restore_car(const Model& model, StateReader& reader, State& state) {
   transfer(reader, state);
   const auto gears = static_cast<int>(model.car.powertrain.gear_ratio.size());
@@ -158,10 +177,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   for (const auto& place : state.wheel_roads) road::require_on_roads(reader, model.roads, place);
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
-  for (const CarImpact& running : state.impacts)
-    reader.require(running.pulse.curve.count >= 1 && running.pulse.curve.count <= running.pulse.curve.pieces.size() &&
-                       running.pulse.impulse.stopped_mps > 0.0 && running.due_s >= 0.0,
-                   wrong);
+  for (const CarImpact& running : state.impacts) require_sound(running, reader);
   reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
   reader.require(state.examiner.has_value() != model.yield_lines.empty(), wrong);
   if (state.examiner && state.examiner->front) road::require_on_roads(reader, model.roads, *state.examiner->front);
