@@ -10,6 +10,7 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/ground_beside.hpp"
+#include "engine/simulation/car_impacts.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/ground_faces.hpp"
 #include "engine/simulation/step_edges.hpp"
@@ -216,6 +217,7 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   for (int i = 0; i < car_steps; ++i) {
     vehicle::advance_vehicle(parameters, state.input, ground, tick_s / car_steps, state.car);
     vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
+    advance_impacts(model, tick_s / car_steps, state);
     for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel)
       squeeze_m[wheel] = std::max(squeeze_m[wheel], state.car.wheels[wheel].squeeze_m);
   }

@@ -11,6 +11,7 @@
 #include "engine/core/version.hpp"
 #include "engine/effects/debris/save_debris.hpp"
 #include "engine/effects/smoke/save_smoke.hpp"
+#include "engine/physics/impact/impact_members.hpp"
 #include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/road/position_members.hpp"
 #include "engine/scenario/run/save_scenario.hpp"
@@ -49,6 +50,9 @@ SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(panes, keyframe, glass
 SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
 SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
 SEPTET_MEMBERS(DentState, vehicles, keyframe)
+SEPTET_MEMBERS(StruckVehicle, vehicle, point_m, normal, velocity_mps, angular_velocity_radps, closing_speed_mps, car_kg,
+               vehicle_kg)
+SEPTET_MEMBERS(CarImpact, vehicle, pulse, struck, due_s)
 SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(GameState, standing, next_move_s, random)
@@ -62,11 +66,11 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 // are only shown; keyframes follow from debris, and the rest caches where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, a game, and an
-// examiner are hashed where there are any.
-SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull, wheel_roads, kerbs, strikes, car_road),
-                     kept(off_road_ticks), left_out(scenario, traffic, effects), kept(game, examiner, input),
-                     hashed(diagnostics, touching))
+// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, a game,
+// and an examiner are hashed where there are any.
+SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts),
+                     hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
+                     left_out(scenario, traffic, effects), kept(game, examiner, input), hashed(diagnostics, touching))
 
 namespace {
 
@@ -146,6 +150,25 @@ void restore_effects(const Model& model, StateReader& reader, EffectsState& stat
       reader.require(static_cast<int>(part.part) < debris::part_count, wrong);
 }
 
+/// A pulse that can be advanced, and ends.
+void require_sound(const CarImpact& running, StateReader& reader) {
+  constexpr double longest_s = 10.0;
+  const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  const impact::Pulse& pulse = running.pulse;
+  reader.require(within(pulse.compression_s, 0.0, longest_s) && within(pulse.restitution_s, 0.0, longest_s) &&
+                     within(pulse.age_s, 0.0, longest_s) && within(running.due_s, 0.0, longest_s) &&
+                     within(pulse.restitution, 0.0, 1.0) && positive(pulse.impulse.stopped_mps) &&
+                     positive(running.struck.mass_kg) && positive(running.struck.yaw_inertia_kgm2) &&
+                     pulse.curve.count >= 1 && pulse.curve.count <= pulse.curve.pieces.size(),
+                 wrong);
+  for (std::size_t i = 0; reader.ok() && i < pulse.curve.count; ++i)
+    reader.require(positive(pulse.curve.pieces[i].steepness_ps2) &&
+                       within(pulse.curve.pieces[i].deceleration_mps2, 0.0, 1e9) &&
+                       within(pulse.curve.pieces[i].depth_m, 0.0, 1e3),
+                   wrong);
+}
+
 void restore_car(const Model& model, StateReader& reader, State& state) {
   transfer(reader, state);
   const auto gears = static_cast<int>(model.car.powertrain.gear_ratio.size());
@@ -154,6 +177,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   for (const auto& place : state.wheel_roads) road::require_on_roads(reader, model.roads, place);
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
+  for (const CarImpact& running : state.impacts) require_sound(running, reader);
   reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
   reader.require(state.examiner.has_value() != model.yield_lines.empty(), wrong);
   if (state.examiner && state.examiner->front) road::require_on_roads(reader, model.roads, *state.examiner->front);
@@ -175,6 +199,8 @@ std::uint64_t hash_state(const State& state) {
   if (state.game) hash_members(hash, *state.game);
   if (state.examiner) hash_members(hash, *state.examiner);
   if (state.faults.any()) hash_members(hash, state.faults);
+  if (!state.impacts.empty())
+    for (const CarImpact& running : state.impacts) hash_members(hash, running);
   return hash.value();
 }
 

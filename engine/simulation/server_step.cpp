@@ -133,7 +133,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   auto participants = participants_now(model, state, car.participant, std::move(old.participants));
   run_effects(model, participants, state, car, events);
   participants.front() = car.participant;  // The lowest id; the effects may have pushed it.
-  find_collisions(car.participant, participants, state, events);
+  find_collisions(model, car.participant, participants, state, events);
   advance_game(model, car.participant, state, events);
   advance_examiner(model, participants, car.participant, state, events);
   look_ahead(model, participants, state.effects, state.scenario);

@@ -13,6 +13,7 @@
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/simulation/car_faults.hpp"
+#include "engine/simulation/car_impact_state.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
 #include "engine/simulation/examiner_state.hpp"
 #include "engine/simulation/game_state.hpp"
@@ -40,6 +41,7 @@ struct State {
   vehicle::VehicleState car;
   CarFaults faults;  ///< Hashed where there is one.
   vehicle::HullState hull;
+  std::vector<CarImpact> impacts;  ///< Running, in the order of their touches. Hashed where there is one.
   /// Each wheel's last position, where the next search begins.
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};
   std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;      ///< One event a touch.

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/physics/impact/restitution.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::simulation {
@@ -22,6 +23,12 @@ debris::Box body_box(const Participant& participant) {
   box.velocity_mps = participant.velocity_mps + glm::cross(participant.angular_velocity_radps, arm);
   box.angular_velocity_radps = participant.angular_velocity_radps;
   return box;
+}
+
+impact::Outline outline_of(const debris::Box& box) {
+  const Vec2 forward(box.world_from_box.orientation * Vec3(1.0, 0.0, 0.0));
+  return impact::box_outline(Vec2(box.world_from_box.position_m), glm::normalize(forward), Vec2(box.half_size_m),
+                             impact::vehicle_corner_m());
 }
 
 }  // namespace septet::simulation

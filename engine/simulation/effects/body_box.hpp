@@ -2,6 +2,7 @@
 /// A vehicle's body as a box, for contacts.
 
 #include "engine/effects/debris/debris_state.hpp"
+#include "engine/physics/impact/outline.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::simulation {
@@ -9,5 +10,8 @@ namespace septet::simulation {
 /// A vehicle's body as a box, from its ground clearance to its roof; bonnet and windscreen of cars and vans are one
 /// slope. World frame.
 debris::Box body_box(const Participant& participant);
+
+/// A body's outline in plan, with the corners of a vehicle.
+impact::Outline outline_of(const debris::Box& box);
 
 }  // namespace septet::simulation

@@ -2,9 +2,9 @@
 /// Crashes for the effects: the pair in contact, the normal, and the parts broken off.
 ///
 /// Vehicles are boxes. The first tick of a contact is the crash; broken-off parts are remembered, so that no car loses
-/// the same bumper twice. The driver's car takes the impact of another vehicle here (a plastic one along the normal),
-/// and that of obstacles beside the road in vehicle::advance_hull; all other participants are moved by traffic or by
-/// the storyboard.
+/// the same bumper twice. The driver's car takes the impact of another vehicle in simulation/car_impacts, and that of
+/// obstacles beside the road in vehicle::advance_hull; all other participants are moved by traffic or by the
+/// storyboard.
 
 #include <map>
 #include <vector>
@@ -19,9 +19,20 @@ namespace septet::simulation {
 /// Parts that each crashed vehicle still carries.
 using MountedParts = std::map<ParticipantId, std::vector<debris::MountedPart>>;
 
+/// An impact of the driver's car with another vehicle, as it was at the touch: world frame.
+struct StruckVehicle {
+  ParticipantId vehicle = 0;
+  Vec3 point_m{0.0};
+  Vec3 normal{1.0, 0.0, 0.0};  ///< Unit length, level, from the other one to the driver's car.
+  Vec3 velocity_mps{0.0};      ///< Of the driver's car, at its origin.
+  Vec3 angular_velocity_radps{0.0};
+  double closing_speed_mps = 0.0;  ///< Along the normal, of the surfaces.
+  double car_kg = 0.0, vehicle_kg = 0.0;
+};
+
 struct CrashMemory {
   /// Vehicles met by the driver's car since the effects' last step, in order of contact: for the next step.
-  std::vector<ParticipantId> struck_by_driver;
+  std::vector<StruckVehicle> struck_by_driver;
   std::vector<vehicle::HullTouch> struck_standing;  ///< Obstacles beside the road, likewise.
   MountedParts parts;
 };
@@ -37,20 +48,20 @@ struct ShakenGlass {
 struct CrashOutcome {
   int crashes = 0;
   int pieces = 0;
-  Vec3 impulse_on_driver_ns{0.0};
+  Vec3 impulse_on_driver_ns{0.0};  ///< Of parts that broke off.
   std::vector<ShakenGlass> glass;
   std::vector<MadeDent> dents;
 };
 
-/// Contact of two boxes as rectangles on the ground: overlap, place, and normal (shortest, from b to a).
+/// Contact of two boxes as outlines on the ground (impact::contact_of): overlap, place, and normal (from b to a).
 struct BoxContact {
   Vec3 point_m{0.0};
   Vec3 normal{1.0, 0.0, 0.0};
   double depth_m = 0.0;
 };
+/// Middle of the heights that both boxes have.
+double contact_height_m(const debris::Box& a, const debris::Box& b);
 std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b);
-
-double vehicle_mass_kg(const Participant& participant);
 
 /// Computes the crashes of the driver's car that `memory` names.
 CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,

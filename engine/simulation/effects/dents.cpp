@@ -131,13 +131,12 @@ std::optional<DentingShape> denting_shape(ObstacleKind kind) {
 
 }  // namespace
 
-std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const Vec3& normal,
-                                     double closing_mps) {
+std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const StruckVehicle& struck) {
   std::vector<MadeDent> made;
-  const double first_kg = vehicle_mass_kg(first), second_kg = vehicle_mass_kg(second), both_kg = first_kg + second_kg;
-  const double first_m = debris::residual_crush_m(closing_mps * second_kg / both_kg),
-               second_m = debris::residual_crush_m(closing_mps * first_kg / both_kg);
-  const Vec2 away(normal);
+  const double closing_mps = struck.closing_speed_mps, both_kg = struck.car_kg + struck.vehicle_kg;
+  const double first_m = debris::residual_crush_m(closing_mps * struck.vehicle_kg / both_kg),
+               second_m = debris::residual_crush_m(closing_mps * struck.car_kg / both_kg);
+  const Vec2 away(struck.normal);
   if (!(glm::length(away) > 0.5)) return made;
   const Vec2 inwards = glm::normalize(away);
   const Vec2 in_m = (first_m + second_m) * inwards;

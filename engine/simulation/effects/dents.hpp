@@ -21,10 +21,11 @@ struct MadeDent {
   debris::Dent dent;
 };
 
-/// Dents of two vehicles that close at `closing_mps` along `normal` (level, of unit length, from the second to the
-/// first): none in people and two-wheelers, nor at speeds too low to leave one.
-std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const Vec3& normal,
-                                     double closing_mps);
+struct StruckVehicle;
+
+/// Dents of the driver's car, `first`, and of the vehicle that it struck: none in people and two-wheelers, nor at speeds
+/// too low to leave one.
+std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const StruckVehicle& struck);
 /// Dents of a vehicle that meets an obstacle beside the road; none from a yielding one.
 std::vector<MadeDent> dents_of_touch(const Participant& vehicle, const vehicle::HullTouch& touch);
 

@@ -13,6 +13,7 @@
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/engine/simulation/placed_participant.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;
@@ -140,12 +141,10 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   state.random = Random(1, 2);
   std::vector<Participant> participants{vehicle_on_lane(1, "volvo-s80", 900.0, -5, 22.0),
                                         vehicle_on_lane(7, "saloon", 904.4, -5, 2.0)};
-  state.crashes.struck_by_driver = {7};
+  state.crashes.struck_by_driver = {struck(participants[0], participants[1])};
   const EffectsReport report = run(participants, state, 2, 2);
   CHECK(report.crashes.crashes == 1);
   CHECK(report.crashes.pieces > 2);
-  const Vec3 forward = participants[0].world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
-  CHECK(glm::dot(report.impulse_on_driver_ns, forward) < -5000.0);
   REQUIRE(state.crashes.parts.contains(1));
   // Of each car whose windscreen is still in it the glass has starred.
   for (const ParticipantId id : {1u, 7u}) {
@@ -158,33 +157,13 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   };
   CHECK(state.crashes.parts[1].size() < all_parts(0).size());
   // It hits the same car once more: loads and lying debris of both are unchanged.
-  state.crashes.struck_by_driver = {7};
+  state.crashes.struck_by_driver = {struck(participants[0], participants[1])};
   CHECK(run(participants, state, 4, 2).crashes.crashes == 1);
   double thrown = 0.0;
   for (const debris::Piece& piece : state.debris.pieces) thrown += elastic::total_mass_kg(piece.body);
   for (const debris::Shard& shard : state.debris.shards) thrown += shard.mass_kg;
   CHECK(thrown + mass_kg(state.crashes.parts[1]) + mass_kg(state.crashes.parts[7]) ==
         relative(mass_kg(all_parts(0)) + mass_kg(all_parts(1)), 0.02));
-}
-
-TEST_CASE("in a blow a car takes the momentum that the two masses share and nothing where they part") {
-  // Closing at 20 m/s, plastic: the impulse is that of the reduced mass. A lorry's rear is 4.25 m behind its origin, a
-  // car's front 3.72 m ahead.
-  for (const auto& [model, ahead_m, other_kg] :
-       {std::tuple{"saloon", 4.4, 1'500.0}, std::tuple{"lorry", 7.8, 16'000.0}}) {
-    for (const double other_mps : {2.0, 23.0}) {
-      EffectsState state;
-      state.random = Random(1, 2);
-      std::vector<Participant> participants{vehicle_on_lane(1, "volvo-s80", 900.0, -5, 22.0),
-                                            vehicle_on_lane(7, model, 900.0 + ahead_m, -5, other_mps)};
-      state.crashes.struck_by_driver = {7};
-      const EffectsReport report = run(participants, state, 2, 2);
-      const Vec3 forward = participants[0].world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
-      const double reduced_kg = 1'500.0 * other_kg / (1'500.0 + other_kg);
-      const double expected_ns = other_mps < 22.0 ? -20.0 * reduced_kg : 0.0;
-      CHECK(std::abs(glm::dot(report.impulse_on_driver_ns, forward) - expected_ns) < 0.03 * 20.0 * reduced_kg);
-    }
-  }
 }
 
 TEST_CASE("two boxes touch where they are nearest and part along the shorter way") {
@@ -195,7 +174,7 @@ TEST_CASE("two boxes touch where they are nearest and part along the shorter way
   REQUIRE(ahead);
   CHECK(glm::length(ahead->normal - Vec3(-1.0, 0.0, 0.0)) < 1e-12);
   CHECK(ahead->depth_m == doctest::Approx(0.1));
-  CHECK(ahead->point_m.x == doctest::Approx(2.0));
+  CHECK(ahead->point_m.x == doctest::Approx(1.95));
   b.world_from_box.position_m = {0.5, -1.9, 0.0};
   const auto beside = contact_of(a, b);
   REQUIRE(beside);
@@ -204,10 +183,10 @@ TEST_CASE("two boxes touch where they are nearest and part along the shorter way
   CHECK_FALSE(contact_of(a, b));
   b.world_from_box.position_m = {0.0, 0.0, 1.6};
   CHECK_FALSE(contact_of(a, b));
-  // Turned by 45 degrees it reaches farther: 2.12 m to its corner.
-  b.world_from_box = {{4.0, 0.0, 0.0}, orientation_from_angles(0.7853981633974483, 0.0, 0.0)};
+  // Turned by 45 degrees it reaches farther: 2.0 m to its rounded corner.
+  b.world_from_box = {{3.95, 0.0, 0.0}, orientation_from_angles(0.7853981633974483, 0.0, 0.0)};
   CHECK(contact_of(a, b));
-  b.world_from_box.position_m.x = 4.2;
+  b.world_from_box.position_m.x = 4.05;
   CHECK_FALSE(contact_of(a, b));
 }
 

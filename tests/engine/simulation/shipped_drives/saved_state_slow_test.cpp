@@ -13,8 +13,10 @@
 #include "engine/core/random.hpp"
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
+#include "engine/physics/impact/pulse.hpp"
 #include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "engine/world/vehicle_body.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "tests/checkout.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
@@ -197,7 +199,8 @@ TEST_CASE("two states that are the same but for what only a later tick will show
   CHECK(differs_with(state.car.wheels[1].force_n.y, 1234.5));  // Bends the suspension in the next step.
   CHECK(differs_with(state.touching, std::vector<ParticipantId>{9999}));
   CHECK(differs_with(state.kerbs[2], KerbTouch{0.1, 1.0}));
-  CHECK(differs_with(state.effects.crashes.struck_by_driver, std::vector<ParticipantId>{9999}));
+  CHECK(differs_with(state.effects.crashes.struck_by_driver, std::vector<StruckVehicle>{{.vehicle = 9999}}));
+  CHECK(differs_with(state.impacts, std::vector<CarImpact>{{.vehicle = 9999}}));
   CHECK(differs_with(state.effects.random, Random(77)));
   scenario::EntityState& lorry = state.scenario.entities.back();
   CHECK(differs_with(lorry.acceleration_mps2, -1.5));
@@ -225,6 +228,14 @@ TEST_CASE("a state that was changed with care is refused or is one that can be d
   Drive drive = begin("winter-lorry", 1);
   const DriverInput input{.accelerator = 0.3};
   while (drive.state.tick < 700) drive.step(input);
+  // In the middle of impacts, too: enough of them for changes to meet one.
+  const impact::Body car{1752.0, 2900.0, {0.0, 0.0}, {10.0, 0.0}}, other{1500.0, 2500.0, {4.0, 0.5}, {0.0, 0.0}};
+  const auto impulse = impact::impulse_at(car, other, {{2.0, 0.0}, {1.0, 0.0}}, {});
+  REQUIRE(impulse.has_value());
+  const impact::CrushCurve curve =
+      impact::crush_curve({car.mass_kg, passenger_car_crush()}, {other.mass_kg, passenger_car_crush()});
+  for (ParticipantId id = 7; id < 27; ++id)
+    drive.state.impacts.push_back({id, impact::pulse_of(*impulse, {1.0, 0.0}, curve, 0.1), other});
   const Bytes bytes = *save_state(*drive.loaded.model, drive.state);
   Random random(5);
   int accepted = 0;
