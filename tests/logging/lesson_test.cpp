@@ -17,6 +17,7 @@
 #include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::logging {
 namespace {
@@ -57,7 +58,7 @@ Lesson lesson_of(const std::string& measure, double bound, double tolerance) {
       read_lesson("title = \"T\"\naim = \"A\"\n[[task]]\nid = \"a\"\nsays = \"Do it\"\nmeasure = \"" + measure +
                       "\"\nbound = " + std::to_string(bound) + "\ntolerance = " + std::to_string(tolerance) + "\n",
                   "x.lesson.toml");
-  REQUIRE_MESSAGE(lesson.has_value(), (lesson ? "" : describe(lesson.error())));
+  REQUIRE_MESSAGE(lesson.has_value(), why_not(lesson));
   return *lesson;
 }
 
@@ -305,7 +306,7 @@ TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
     const auto text = read_regular_file(path);
     REQUIRE(text.has_value());
     const auto lesson = read_lesson(*text, path);
-    CHECK_MESSAGE(lesson.has_value(), (lesson ? "" : describe(lesson.error())));
+    CHECK_MESSAGE(lesson.has_value(), why_not(lesson));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "logging/session/session_reader.hpp"
 #include "logging/session/session_writer.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::logging {
 
@@ -57,13 +58,13 @@ inline SessionInfo example_info() {
 /// The writer, or the end of the test with the reason.
 inline SessionWriter must_create(const std::filesystem::path& path, const WriterOptions& options = {}) {
   auto writer = SessionWriter::create(path, example_info(), options);
-  REQUIRE_MESSAGE(writer.has_value(), (writer ? "" : describe(writer.error())));
+  REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
   return std::move(*writer);
 }
 
 inline SessionReader must_open(const std::filesystem::path& path) {
   auto reader = SessionReader::open(path);
-  REQUIRE_MESSAGE(reader.has_value(), (reader ? "" : describe(reader.error())));
+  REQUIRE_MESSAGE(reader.has_value(), why_not(reader));
   return std::move(*reader);
 }
 
@@ -71,10 +72,10 @@ inline SessionReader must_open(const std::filesystem::path& path) {
 inline std::vector<Tick> all_ticks(const SessionReader& reader) {
   std::vector<Tick> ticks;
   auto cursor = reader.snapshots();
-  REQUIRE_MESSAGE(cursor.has_value(), (cursor ? "" : describe(cursor.error())));
+  REQUIRE_MESSAGE(cursor.has_value(), why_not(cursor));
   for (;;) {
     const auto snapshot = cursor->next();
-    REQUIRE_MESSAGE(snapshot.has_value(), (snapshot ? "" : describe(snapshot.error())));
+    REQUIRE_MESSAGE(snapshot.has_value(), why_not(snapshot));
     if (!*snapshot) return ticks;
     ticks.push_back((*snapshot)->tick);
   }

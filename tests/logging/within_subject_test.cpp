@@ -11,6 +11,7 @@
 #include "logging/study/report/summary.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::logging {
 namespace {
@@ -47,7 +48,7 @@ fs::path write_part(const fs::path& folder, const OneDrive& drive) {
 
 GroupReport report_of(const std::vector<fs::path>& sessions) {
   auto subjects = pool_sessions(sessions, {});
-  REQUIRE_MESSAGE(subjects.has_value(), (subjects ? "" : describe(subjects.error())));
+  REQUIRE_MESSAGE(subjects.has_value(), why_not(subjects));
   GroupReport report;
   report.subjects = std::move(*subjects);
   return report;

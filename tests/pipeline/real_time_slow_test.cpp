@@ -5,6 +5,7 @@
 #include "logging/session/session_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
 #include "tests/pipeline/x_display.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::pipeline {
 namespace {
@@ -49,7 +50,7 @@ TEST_CASE(
     CHECK(log->ended_cleanly());
     scene::Store world;
     const auto restored = logging::restore_scene(*log, world);
-    INFO((restored ? "" : describe(restored.error())));
+    INFO(why_not(restored));
     CHECK(restored.has_value());
     CHECK(log->scene_edits().value().size() > 50'000);  // Ten kilometres of motorway.
     auto snapshots = log->snapshots().value();

@@ -31,6 +31,7 @@
 #include "tests/rig-vm/guest.hpp"
 #include "tests/rig-vm/virtual_can.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::rig_vm {
 namespace {
@@ -87,7 +88,7 @@ CanFrame await(CanBus& bus) {
 
 dbc::Database cluster() {
   auto database = dbc::read_dbc(text_of("/source/rigs/cluster.dbc"), "cluster.dbc");
-  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE_MESSAGE(database.has_value(), why_not(database));
   return *database;
 }
 
@@ -119,7 +120,7 @@ TEST_SUITE_BEGIN("can");
 TEST_CASE("classic and FD frames of both lengths of identifier pass the kernel in both directions") {
   const VirtualCan interface("vcan0");
   auto bus = open_socket_can("vcan0", true);
-  REQUIRE_MESSAGE(bus.has_value(), (bus ? "" : describe(bus.error())));
+  REQUIRE_MESSAGE(bus.has_value(), why_not(bus));
   Peer peer("vcan0");
   CanFrame classic{0x1ABCDEF, true, false, 8, {}}, fd{0x7FF, false, true, 64, {}};
   for (std::size_t i = 0; i < 64; ++i) fd.data[i] = static_cast<std::byte>(i * 3);

@@ -23,6 +23,7 @@
 #include "engine/net/tick_receiver.hpp"
 #include "engine/net/udp_socket.hpp"
 #include "tests/rig-vm/guest.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::rig_vm {
 namespace {
@@ -46,7 +47,7 @@ net::UdpSocket socket_of_screen() {
     changed.wait(lock, [&] { return has_cable; });
     command("/tools/ip addr add 10.9.0.2/24 dev cable1 && /tools/ip link set cable1 up");
     auto opened = net::UdpSocket::open_group(group, screen_ip);
-    REQUIRE_MESSAGE(opened.has_value(), (opened ? "" : describe(opened.error())));
+    REQUIRE_MESSAGE(opened.has_value(), why_not(opened));
     socket = std::make_unique<net::UdpSocket>(std::move(*opened));
   });
   {

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/sim-server/shipped_drive.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::server {
 namespace {
@@ -23,7 +24,7 @@ logging::SessionInfo session_of(const LoadedDrive& drive) {
 TEST_CASE("a session's drive is loaded from the session, and a fault in what it holds is said to be of the session") {
   const LoadedDrive driven = shipped_drive("first-lesson", "desktop");
   const auto again = load_drive(session_of(driven), "s.sqlite");
-  REQUIRE_MESSAGE(again.has_value(), describe(again.error()));
+  REQUIRE_MESSAGE(again.has_value(), why_not(again));
   CHECK(again->model->sources_hash == driven.model->sources_hash);
   for (const char* role : {"rig", "scenario", "road", "vehicle"}) {
     auto session = session_of(driven);

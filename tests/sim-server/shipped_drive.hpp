@@ -7,6 +7,7 @@
 
 #include "sim-server/drive/drive_loader.hpp"
 #include "tests/checkout.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::server {
 
@@ -14,7 +15,7 @@ inline LoadedDrive shipped_drive(const std::string& scenario, const std::string&
   const std::string root = source_folder();
   auto drive = load_drive(
       DriveFiles{root + "/scenarios/" + scenario + "/" + scenario + ".xosc", root + "/rigs/" + rig + ".toml", seed});
-  REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));
+  REQUIRE_MESSAGE(drive.has_value(), why_not(drive));
   return std::move(*drive);
 }
 

@@ -20,6 +20,7 @@
 #include "sim-server/sumo/sumo_client.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/road/road_text.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::server {
 namespace {
@@ -78,7 +79,7 @@ std::shared_ptr<const simulation::Model> own_road(const std::filesystem::path& f
   const auto rig = program::find_resource("desktop", "rigs", ".toml");
   REQUIRE(rig.has_value());
   auto drive = load_drive(DriveFiles{(folder / "road.xosc").string(), rig->string(), 1});
-  REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));
+  REQUIRE_MESSAGE(drive.has_value(), why_not(drive));
   return drive->model;
 }
 
@@ -92,10 +93,10 @@ struct Ride {
   explicit Ride(const std::string& engine, std::shared_ptr<const simulation::Model> of = motorway())
       : model(std::move(of)) {
     auto traffic = open_traffic(engine, *model);
-    INFO((traffic ? "" : describe(traffic.error())));
+    INFO(why_not(traffic));
     REQUIRE(traffic.has_value());
     auto begun = simulation::initial_state(*model, std::move(*traffic));
-    INFO((begun ? "" : describe(begun.error())));
+    INFO(why_not(begun));
     REQUIRE(begun.has_value());
     state = std::move(*begun);
     input.accelerator = 0.3;

@@ -24,13 +24,14 @@
 #include "tests/car-io/can/simulated_can_bus.hpp"
 #include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::car_io {
 namespace {
 
 dbc::Database cluster() {
   auto database = dbc::read_dbc(shipped_text("rigs/cluster.dbc"), "cluster.dbc");
-  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE_MESSAGE(database.has_value(), why_not(database));
   return *database;
 }
 
@@ -244,7 +245,7 @@ TEST_CASE("the rig gives other signals their quantities and constants") {
   rig::Can can{.dbc = "own.dbc",
                .signals = {{"DASH.v", "speed_kmh"}, {"DASH.alive", "", 165.0}, {"DASH.n", "counter"}}};
   const auto plan = plan_can(*database, can);
-  REQUIRE_MESSAGE(plan.has_value(), (plan ? "" : describe(plan.error())));
+  REQUIRE_MESSAGE(plan.has_value(), why_not(plan));
   CHECK(plan->needs_fd);
   SimulatedCanBus bus;
   InstrumentSender sender(bus.opener(), *plan);
@@ -275,7 +276,7 @@ TEST_CASE("a multiplexed message is sent once for each selected value with that 
   REQUIRE(database.has_value());
   rig::Can can{.dbc = "own.dbc", .signals = {{"DASH.own", "counter"}}};
   const auto plan = plan_can(*database, can);
-  REQUIRE_MESSAGE(plan.has_value(), (plan ? "" : describe(plan.error())));
+  REQUIRE_MESSAGE(plan.has_value(), why_not(plan));
   const auto frames_of = [](const CanPlan& sent) {
     SimulatedCanBus bus;
     InstrumentSender sender(bus.opener(), sent);

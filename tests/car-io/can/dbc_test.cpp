@@ -13,6 +13,7 @@
 
 #include "car-io/can/signal_codec.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::car_io::dbc {
 namespace {
@@ -21,7 +22,7 @@ constexpr const char* head = "VERSION \"\"\nNS_ :\nBS_:\nBU_: A\n";
 
 Database reference() {
   auto database = read_dbc(shipped_text("tests/car-io/can/reference.dbc"), "reference.dbc");
-  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE_MESSAGE(database.has_value(), why_not(database));
   return *database;
 }
 
@@ -180,7 +181,7 @@ TEST_CASE("a message with a fault is left unread with its line, and every other 
   for (const auto& fault : faults) {
     CAPTURE(std::string(fault.first));
     const auto database = read_dbc(std::string(head) + fault.first + sound, "bad.dbc");
-    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE_MESSAGE(database.has_value(), why_not(database));
     REQUIRE(database->messages.size() == 1);
     CHECK(database->messages[0].name == "SOUND");
     CHECK(database->messages[0].signals.size() == 1);
@@ -196,7 +197,7 @@ TEST_CASE("a message of more signals than any frame carries is left unread and t
   std::string many = "BO_ 7 A: 8 X\n";
   for (int i = 0; i < 1100; ++i) many += fmt::format(" SG_ s{} m{} : 8|8@1+ (1,0) [0|0] \"\" X\n", i, i);
   const auto database = read_dbc(head + many + "BO_ 8 B: 8 X\n", "many.dbc");
-  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE_MESSAGE(database.has_value(), why_not(database));
   REQUIRE(database->messages.size() == 1);
   CHECK(database->messages[0].name == "B");
   REQUIRE(database->unread.size() == 1);
@@ -208,7 +209,7 @@ TEST_CASE("nodes with signs of other alphabets and hyphens are passed over") {
       "VERSION \"\"\nBS_:\nBU_: Gerät Rear-ECU\nBO_ 7 A: 8 Gerät\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" Gerät, Rear-ECU;\n"
       " SG_ t : 8|8@1+ (1,0) [0|0] \"\" Rear-ECU // a remark: BO_\nBO_ 8 B: 8 Rear-ECU\n",
       "nodes.dbc");
-  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE_MESSAGE(database.has_value(), why_not(database));
   CHECK(database->unread.empty());
   REQUIRE(database->messages.size() == 2);
   CHECK(database->messages[0].signals.size() == 2);
@@ -227,7 +228,7 @@ TEST_CASE("what makers' files do with names, senders, remarks and ends of statem
                                      "BA_ \"GenMsgCycleTime\" BO_ 2009 50\n"
                                      "VAL_ 2009 a 1 \"a\" 0 \"b\"",
                                  "makers.dbc");
-  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE_MESSAGE(database.has_value(), why_not(database));
   CHECK(database->unread.empty());
   REQUIRE(database->messages.size() == 2);
   CHECK(database->messages[0].name == "2017_5");
@@ -243,7 +244,7 @@ TEST_CASE("CAN FD is what the file's own list of frame formats calls so, by inde
       "\"StandardCAN\",\"ExtendedCAN\",\"StandardCAN_FD\",\"ExtendedCAN_FD\";\n";
   const auto is_fd = [](const std::string& text) {
     const auto database = read_dbc(head + text, "fd.dbc");
-    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE_MESSAGE(database.has_value(), why_not(database));
     return std::pair(database->messages[0].is_fd, database->messages[1].is_fd);
   };
   CHECK(is_fd(list) == std::pair(false, false));
@@ -275,7 +276,7 @@ TEST_CASE("messages that no frame carries are read over with a notice, and the o
   const auto database = read_dbc(head + read + long_one + nested + ranges +
                                      "SG_MUL_VAL_ 7 t s 3-3;\nSG_MUL_VAL_ 9 w v 0-0;\nSG_MUL_VAL_ 10 y x 0-0, 4-5;\n",
                                  "large.dbc");
-  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  REQUIRE_MESSAGE(database.has_value(), why_not(database));
   REQUIRE(database->messages.size() == 1);
   CHECK(database->messages[0].signals.size() == 2);
   REQUIRE(database->unread.size() == 3);

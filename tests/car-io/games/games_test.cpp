@@ -19,6 +19,7 @@
 #include "engine/core/bytes.hpp"
 #include "engine/core/random.hpp"
 #include "tests/relative.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -143,7 +144,7 @@ TEST_CASE("any other format is a TOML file, whose mistakes are told by their pla
       "[fields.speed_mps]\nbyte = 2\ntype = \"u16\"\nscale = 0.01\n"
       "[fields.indicator_left]\nbyte = 7\ntype = \"u8\"\nbit = 3\n",
       "mine.toml");
-  REQUIRE_MESSAGE(own.has_value(), (own ? "" : describe(own.error())));
+  REQUIRE_MESSAGE(own.has_value(), why_not(own));
   const auto read = decode_telemetry(
       *own, Datagram(8).put(2, std::uint8_t{0x0a}).put(3, std::uint8_t{0x28}).put(7, std::uint8_t{8}).bytes(), {});
   REQUIRE(read);

@@ -22,6 +22,7 @@
 #include "tests/checkout.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -162,7 +163,7 @@ TEST_CASE("a car with another serial number is told apart") {
   REQUIRE_FALSE(device.has_value());
   CHECK(device.error().what == "a device of this kind is plugged in, but with another serial number");
   const auto any = open_hid_device({});
-  CHECK_MESSAGE(any.has_value(), (any ? "" : describe(any.error())));
+  CHECK_MESSAGE(any.has_value(), why_not(any));
 }
 
 TEST_CASE("a closed terminal stops fan and shaker as Ctrl-C does, also where the program was stopped") {

@@ -14,6 +14,7 @@
 #include "car-io/joystick/joystick_lesson.hpp"
 #include "engine/rig/rig.hpp"
 #include "tests/relative.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -86,7 +87,7 @@ TEST_CASE("a joystick is learnt and what is learnt is a rig's table that drives 
       "name = \"r\"\neye_point_m = [1, 0, 1]\n[car]\nsource = \"joystick\"\n" + joystick_toml(controls) +
       "[[screen]]\nname = \"a\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
   const auto rig = rig::read_rig(rig_text, "learnt.toml");
-  REQUIRE_MESSAGE(rig.has_value(), (rig ? "" : describe(rig.error())));
+  REQUIRE_MESSAGE(rig.has_value(), why_not(rig));
   REQUIRE(rig->car.joystick.size() == 5);
   CarConnection car(joystick_opener(wheel.opener(), rig->car.joystick, 7.85),
                     {.calibration = {.steering_lock_rad = 7.85}});

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/why_not.hpp"
+
 namespace septet::car_io {
 namespace {
 
@@ -43,7 +45,7 @@ TEST_CASE("a recording finds ends centre and direction and names what nobody mov
 TEST_CASE("what calibrate prints is what a rig reads") {
   const auto calibration = calibration_of(moved_car(), {}).calibration;
   const auto rig = rig::read_rig(rig_with(calibration_toml(calibration)), "printed");
-  REQUIRE_MESSAGE(rig.has_value(), describe(rig.error()));
+  REQUIRE_MESSAGE(rig.has_value(), why_not(rig));
   CHECK(rig->car.calibration.steering.centre == doctest::Approx(0.05));
   CHECK(rig->car.calibration.brake.inverted);
   CHECK(rig->car.calibration.brake.max == doctest::Approx(0.8));

@@ -12,6 +12,7 @@
 #include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::server {
 namespace {
@@ -62,7 +63,7 @@ std::uint64_t drive_with(const Commands& commands, Tick ticks, const std::filesy
                                                                                   : text);
       REQUIRE(command.has_value());
       const auto done = (*live)->command(*command);
-      REQUIRE_MESSAGE(done.has_value(), describe(done.error()));
+      REQUIRE_MESSAGE(done.has_value(), why_not(done));
     }
     REQUIRE((*live)->next(std::nullopt).has_value());
   }
@@ -91,9 +92,9 @@ TEST_CASE("a drive with an operator's commands is verified from its start and fr
   CHECK(hash != drive_with({}, 1260, plain.path()));
   const auto session = changed.path() / "session.sqlite";
   const auto whole = run_verify(session, 0.0);
-  REQUIRE_MESSAGE(whole.has_value(), describe(whole.error()));
+  REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
   const auto part = run_verify(session, 10.2);
-  REQUIRE_MESSAGE(part.has_value(), describe(part.error()));
+  REQUIRE_MESSAGE(part.has_value(), why_not(part));
   const auto reader = logging::SessionReader::open(session);
   REQUIRE(reader.has_value());
   const auto events = reader->events();
@@ -126,9 +127,9 @@ TEST_CASE(
   CHECK(hash != drive_with({}, 1300, plain.path()));
   const auto session = changed.path() / "session.sqlite";
   const auto whole = run_verify(session, 0.0);
-  REQUIRE_MESSAGE(whole.has_value(), describe(whole.error()));
+  REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
   const auto part = run_verify(session, 10.2);
-  REQUIRE_MESSAGE(part.has_value(), describe(part.error()));
+  REQUIRE_MESSAGE(part.has_value(), why_not(part));
   const auto reader = logging::SessionReader::open(session);
   REQUIRE(reader.has_value());
   const auto inputs = reader->inputs();

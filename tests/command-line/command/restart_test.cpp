@@ -19,6 +19,7 @@
 #include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::server {
 namespace {
@@ -86,7 +87,7 @@ void change(const std::filesystem::path& session, const std::string& sql) {
 TEST_CASE("a drive that begins at a kept state goes on as the earlier one did, and its session is whole and verified") {
   const EarlierDrive earlier;
   auto state = state_of(earlier.session, earlier.loaded, 10.9);
-  REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+  REQUIRE_MESSAGE(state.has_value(), why_not(state));
   REQUIRE(state->tick == kept_tick);
   const TemporaryFolder folder;
   const auto hashes = drive_from(earlier.loaded, std::move(*state), folder.path());
@@ -97,11 +98,11 @@ TEST_CASE("a drive that begins at a kept state goes on as the earlier one did, a
   const auto reader = logging::SessionReader::open(session);
   REQUIRE(reader.has_value());
   const auto whole = logging::read_whole(*reader, {});
-  REQUIRE_MESSAGE(whole.has_value(), describe(whole.error()));
+  REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
   CHECK(whole->snapshots == last_tick - kept_tick + 1);
   for (const double from_s : {0.0, 10.2}) {
     const auto verified = run_verify(session, from_s);
-    CHECK_MESSAGE(verified.has_value(), describe(verified.error()));
+    CHECK_MESSAGE(verified.has_value(), why_not(verified));
   }
   // The limit was posted before: marks need it.
   const auto noted = limits_noted(*reader), before = limits_noted(*logging::SessionReader::open(earlier.session));
@@ -113,7 +114,7 @@ TEST_CASE("a drive that begins at a kept state goes on as the earlier one did, a
 
   // The session holds its first state too, so the drive can begin there again.
   const auto again = state_of(session, earlier.loaded, 10.0);
-  REQUIRE_MESSAGE(again.has_value(), describe(again.error()));
+  REQUIRE_MESSAGE(again.has_value(), why_not(again));
   CHECK(again->tick == kept_tick);
   change(session, "DELETE FROM saved_states");
   const auto without = logging::SessionReader::open(session).and_then(
@@ -126,7 +127,7 @@ TEST_CASE(
     "before the first kept state a drive begins at its start; a state of another drive or a forged one is refused") {
   const EarlierDrive earlier;
   const auto start = state_of(earlier.session, earlier.loaded, 9.99);
-  REQUIRE_MESSAGE(start.has_value(), describe(start.error()));
+  REQUIRE_MESSAGE(start.has_value(), why_not(start));
   CHECK(start->tick == 0);
   const auto refusal = [&](const LoadedDrive& loaded) {
     const auto state = state_of(earlier.session, loaded, 20.0);

@@ -12,6 +12,7 @@
 
 #include "logging/session/session_reader.hpp"
 #include "tests/logging/session_fixture.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::server {
 namespace {
@@ -54,7 +55,7 @@ TEST_CASE(
       if (damage == Damage::empty) std::ofstream(bad).flush();
       if (damage == Damage::foreign) std::ofstream(bad) << "Dear reader, this is no session at all, and never was one";
       const auto done = run_session_forget({"P07", {folder / "data"}, delete_data});
-      REQUIRE_MESSAGE(done.has_value(), (done ? "" : describe(done.error())));
+      REQUIRE_MESSAGE(done.has_value(), why_not(done));
       CHECK(*done == 1);
       if (delete_data)
         CHECK_FALSE(fs::exists(theirs));
@@ -115,7 +116,7 @@ TEST_CASE("one of their own sessions that cannot be changed does not keep the ot
   fs::create_directories(held.string() + ".part");  // Where its copy is to be written.
   std::ofstream(fs::path(held.string() + ".part") / "x") << "x";
   const auto done = run_session_forget({"P07", {folder.path()}, false});
-  REQUIRE_MESSAGE(done.has_value(), (done ? "" : describe(done.error())));
+  REQUIRE_MESSAGE(done.has_value(), why_not(done));
   CHECK(*done == 1);
   CHECK(participant_of(first) == "");
   CHECK(participant_of(held) == "P07");

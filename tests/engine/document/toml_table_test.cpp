@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 #include <toml++/toml.h>
 
+#include "tests/why_not.hpp"
+
 using namespace septet;
 using namespace septet::document;
 
@@ -34,7 +36,7 @@ TEST_CASE("what only looks like a key of many parts is read") {
                      "'''\n" + dotted(16) + " = 1\nnumbers = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, " +
                      "11.5, 12.5, 13.5, 14.5, 15.5, 16.5, 17.5, 18.5]\n",
                  "good.toml");
-  REQUIRE_MESSAGE(table.has_value(), describe(table.error()));
+  REQUIRE_MESSAGE(table.has_value(), why_not(table));
   CHECK(table->size() == 5);
   CHECK((*table)["numbers"].as_array()->size() == 18);
 }
@@ -64,7 +66,7 @@ TEST_CASE("arrays over many lines are not taken for names of tables") {
   const auto table = parse_toml(
       "a = [\n[+1, 2],\n  [\n[+3], {b = [\n[+4]]}]]\n[\"b\"]\n['c']\n[-]\n[ d ]\nx = [\n{y = 1},\n{y = 2}\n]\n[[e]]\n",
       "good.toml");
-  REQUIRE_MESSAGE(table.has_value(), describe(table.error()));
+  REQUIRE_MESSAGE(table.has_value(), why_not(table));
   CHECK(table->size() == 6);
 }
 

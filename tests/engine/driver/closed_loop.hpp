@@ -18,6 +18,7 @@
 #include "logging/session/records.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::driver {
 
@@ -44,7 +45,7 @@ inline const scenario::Scenario& one_car() {
         R"(<TeleportAction><Position><LanePosition roadId="1" laneId="-3" s="100"/></Position></TeleportAction>)"
         R"(</PrivateAction></Private></Actions></Init></Storyboard></OpenSCENARIO>)",
         "one car", scenario::files_in("."));
-    REQUIRE_MESSAGE(read.has_value(), describe(read.error()));
+    REQUIRE_MESSAGE(read.has_value(), why_not(read));
     return *read;
   }();
   return scenario;
@@ -88,7 +89,7 @@ class ClosedLoop {
     model_.driver_entity = 0;
     model_.car = car;
     auto started = simulation::initial_state(model_, std::make_unique<StagedTraffic>(others));
-    REQUIRE_MESSAGE(started.has_value(), describe(started.error()));
+    REQUIRE_MESSAGE(started.has_value(), why_not(started));
     state_ = std::move(*started);
     const auto place = road::evaluate_lane(motorway(), {0, lane, s_m, 0.0});
     state_.car = vehicle::standstill(car, road::world_from_lane(place), speed_mps);

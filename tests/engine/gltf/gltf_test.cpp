@@ -16,6 +16,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/image/png.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::gltf {
 namespace {
@@ -194,7 +195,7 @@ TEST_CASE("a texture lies by the coordinates that it names, scaled, turned and m
                                  R"("materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0{}}}}}}}],)"
                                  R"("textures":[{{"source":0}}],"images":[{{"uri":"data:image/png;base64,{}"}}],)",
                                  texture, base64(png_bytes))});
-    REQUIRE_MESSAGE(model.has_value(), (model ? "" : describe(model.error())));
+    REQUIRE_MESSAGE(model.has_value(), why_not(model));
     REQUIRE(model->parts[0].mesh.corner_uvs.size() == 1);
     return model->parts[0].mesh.corner_uvs[0];
   };
@@ -238,7 +239,7 @@ TEST_CASE("rows that a sparse accessor names are written over the others, or ove
   };
   const auto places = [](const File& file) {
     const auto model = read(file);
-    REQUIRE_MESSAGE(model.has_value(), (model ? "" : describe(model.error())));
+    REQUIRE_MESSAGE(model.has_value(), why_not(model));
     return model->parts.at(0).mesh.vertices_m;
   };
 #define SPARSE(count, indices, values) \

@@ -7,6 +7,7 @@
 #include "engine/render/renderer.hpp"
 #include "engine/render/window.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::render {
 
@@ -19,7 +20,7 @@ TEST_CASE("frames are presented into a window") {
   REQUIRE(window.has_value());
   Expected<Renderer> renderer =
       Renderer::create({320, 200, DevicePreference::software, true, Antialiasing::automatic, &*window});
-  REQUIRE_MESSAGE(renderer.has_value(), describe(renderer.error()));
+  REQUIRE_MESSAGE(renderer.has_value(), why_not(renderer));
   const ReferenceScene reference = reference_scene({{}, false, 0});
   REQUIRE(renderer->upload(reference.scene).has_value());
   FrameInput input;

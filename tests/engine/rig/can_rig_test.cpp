@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/why_not.hpp"
+
 namespace septet::rig {
 namespace {
 
@@ -18,7 +20,7 @@ TEST_CASE("a rig names its CAN bus and what foreign signals carry") {
   const auto rig = read_rig(with("[car]\nsource = \"can\"\n[can]\ninterface = \"can0\"\ndbc = "
                                  "\"own.dbc\"\n[can.signals]\n\"A.v\" = \"speed_kmh\"\n\"A.w\" = 7\n"),
                             "r");
-  REQUIRE_MESSAGE(rig.has_value(), (rig ? "" : describe(rig.error())));
+  REQUIRE_MESSAGE(rig.has_value(), why_not(rig));
   CHECK(rig->car.source == CarSource::can);
   CHECK((rig->can->interface == "can0" && rig->can->dbc == "own.dbc"));
   REQUIRE(rig->can->signals.size() == 2);
@@ -43,7 +45,7 @@ TEST_CASE("a CAN bus that cannot be is refused with its place") {
 
 TEST_CASE("a car that is no HID device is named by its endpoints and hidraw has none") {
   const auto rig = read_rig(with("[car]\nsource = \"hid\"\n[car.usb]\ninterface = 2\nin = 0x83\nout = 4\n"), "r");
-  REQUIRE_MESSAGE(rig.has_value(), (rig ? "" : describe(rig.error())));
+  REQUIRE_MESSAGE(rig.has_value(), why_not(rig));
   REQUIRE(rig->car.usb.has_value());
   CHECK((rig->car.usb->interface == 2 && rig->car.usb->in == 0x83 && rig->car.usb->out == 4));
   CHECK(rig->car.access == HidAccess::automatic);
@@ -61,7 +63,7 @@ TEST_CASE("a joystick's controls are axes with two ends or buttons and nothing e
   const std::string car = "[car]\nsource = \"joystick\"\n";
   const auto rig = read_rig(
       with(car + "[car.joystick]\nbrake = { axis = 5, at_zero = 255, at_one = 0 }\nhorn = { button = 288 }\n"), "r");
-  REQUIRE_MESSAGE(rig.has_value(), (rig ? "" : describe(rig.error())));
+  REQUIRE_MESSAGE(rig.has_value(), why_not(rig));
   REQUIRE(rig->car.joystick.size() == 2);
   CHECK(
       (rig->car.joystick[0].name == "brake" && rig->car.joystick[0].is_axis && rig->car.joystick[0].at_zero == 255.0));

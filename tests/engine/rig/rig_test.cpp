@@ -7,6 +7,7 @@
 #include "tests/engine/rig/upper_right.hpp"
 #include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::rig {
 namespace {
@@ -29,7 +30,7 @@ upper_left_m = [2, 1, 2]
 
 TEST_CASE("seven screens cover 220 by 30 degrees ahead and 60 by 30 behind") {
   const auto rig = read_rig(shipped("seven-screens"), "seven-screens.toml");
-  REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+  REQUIRE_MESSAGE(rig, why_not(rig));
   REQUIRE(rig->screens.size() == 7);
   const auto left_edge = [&](int i) {
     return azimuth_deg(from_eye(*rig, rig->screens[i].views[0].window.lower_left_m));
@@ -101,7 +102,7 @@ TEST_CASE("the screen ahead is the one that the driver looks straight through") 
 TEST_CASE("every shipped rig is read") {
   for (const char* name : {"seven-screens", "three-monitors", "desktop"}) {
     const auto rig = read_rig(shipped(name), name);
-    CHECK_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+    CHECK_MESSAGE(rig, why_not(rig));
     if (rig) CHECK(rig->name == name);
   }
 }
@@ -185,7 +186,7 @@ TEST_CASE("the keyboard that drives is the named screen's or those at the server
       "0]\nupper_left_m = [2, 1, 2]\n";
   const auto driving = [&](const std::string& car) {
     const auto rig = read_rig(screens + "[car]\n" + car, "my.toml");
-    REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+    REQUIRE_MESSAGE(rig, why_not(rig));
     return driving_screens(*rig);
   };
   using Names = std::set<std::string>;

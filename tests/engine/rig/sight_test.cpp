@@ -10,6 +10,7 @@
 #include "engine/rig/rig.hpp"
 #include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::rig {
 namespace {
@@ -18,7 +19,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 Rig shipped_rig(const std::string& name) {
   auto rig = read_rig(shipped_text("rigs/" + name + ".toml"), name);
-  REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+  REQUIRE_MESSAGE(rig, why_not(rig));
   return *rig;
 }
 
@@ -127,7 +128,7 @@ TEST_CASE("the window of a desktop, which does not reach the mirrors, has each o
 
 TEST_CASE("a mirror's zone is around its glass unless the rig says where") {
   const auto usual = read_rig(std::string(plain_screen) + one_mirror, "one.toml");
-  REQUIRE_MESSAGE(usual, describe(usual ? Error{} : usual.error()));
+  REQUIRE_MESSAGE(usual, why_not(usual));
   const double heading_rad = std::atan2(0.8, 0.65);
   CHECK(usual->mirrors[0].from_rad == doctest::Approx(heading_rad - 15 * degree));
   CHECK(usual->mirrors[0].to_rad == doctest::Approx(heading_rad + 15 * degree));
@@ -143,7 +144,7 @@ TEST_CASE("a head tracker's axes are read with their signs") {
       read_rig(std::string(plain_screen) +
                    "[head]\nport = 4243\nforward = \"z\"\nturn_left = \"-roll\"\nreach_m = [0.1, 0.2, 0]\n",
                "one.toml");
-  REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+  REQUIRE_MESSAGE(rig, why_not(rig));
   REQUIRE(rig->head);
   CHECK(rig->head->port == 4243);
   CHECK(rig->head->listen == "127.0.0.1");

@@ -7,6 +7,7 @@
 #include "engine/scenario/run/entity_distance.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -196,7 +197,7 @@ TEST_CASE("what is behind on the next road is behind in either direction of driv
       road::read_opendrive(road::roads_text(straight("p", 0.0, 100.0, road::link_to_road("successor", "q", "start")) +
                                             straight("q", 100.0, 200.0, road::link_to_road("predecessor", "p", "end"))),
                            "two.xodr");
-  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  REQUIRE_MESSAGE(network.has_value(), why_not(network));
   const road::LanePosition on_p{0, 1, 30.0, 0.0}, on_q{1, 1, 50.0, 0.0};
   CHECK(road_distance_m(*network, on_p, true, on_q) == doctest::Approx(120.0));
   CHECK(road_distance_m(*network, on_p, false, on_q) == doctest::Approx(-120.0));

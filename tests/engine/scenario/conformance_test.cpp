@@ -20,6 +20,7 @@
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
 #include "tests/conformance/conformance_data.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -41,10 +42,10 @@ Loaded load(const std::string& name) {
   Loaded loaded;
   auto scenario =
       read_scenario(content(folder / (name + ".xosc")), name + ".xosc", files_in(folder.string()), &loaded.warnings);
-  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
   loaded.scenario = std::move(*scenario);
   auto network = road::read_opendrive(content(folder / loaded.scenario.road_file), loaded.scenario.road_file);
-  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  REQUIRE_MESSAGE(network.has_value(), why_not(network));
   loaded.network = std::move(*network);
   return loaded;
 }
@@ -129,7 +130,7 @@ double misfit(const TraceRow& row, const State& state, const State& next, double
 std::map<std::string, std::vector<State>> run(const Loaded& loaded, double end_s) {
   StepResult result;
   auto started = start_scenario(loaded.scenario, loaded.network, no_entity, result);
-  REQUIRE_MESSAGE(started.has_value(), describe(started.error()));
+  REQUIRE_MESSAGE(started.has_value(), why_not(started));
   ScenarioState state = std::move(*started);
   std::map<std::string, std::vector<State>> states;
   for (int step = 0;; ++step) {
@@ -211,7 +212,7 @@ EventTimes events_of_trace(const std::string& name) {
 EventTimes events_of_run(const Loaded& loaded, double end_s) {
   StepResult at_start;
   auto state = start_scenario(loaded.scenario, loaded.network, no_entity, at_start);
-  REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+  REQUIRE_MESSAGE(state.has_value(), why_not(state));
   EventTimes times;
   std::set<ElementIndex> started;
   const auto add = [&](const StepResult& result) {
@@ -374,7 +375,7 @@ TEST_CASE("every scenario of the conformance set loads and names what it does no
     }
     StepResult result;
     auto state = start_scenario(loaded.scenario, loaded.network, no_entity, result);
-    REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+    REQUIRE_MESSAGE(state.has_value(), why_not(state));
     for (int step = 0; step < 1000; ++step) advance_scenario(loaded.scenario, loaded.network, 0.01, *state);
   }
 }

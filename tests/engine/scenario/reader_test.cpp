@@ -12,6 +12,7 @@
 #include "engine/scenario/model/expression.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -68,7 +69,7 @@ TEST_CASE("what is not supported is named with its line") {
                                      trigger_text(of_entity_text("A", "<OffroadCondition duration=\"1\"/>")))));
   std::vector<Finding> warnings;
   const auto scenario = read_scenario(text, "test.xosc", files_in("."), &warnings);
-  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
   CHECK(warnings.size() == 2);
   CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <AssignControllerAction>"));
   CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <OffroadCondition>"));
@@ -136,7 +137,7 @@ TEST_CASE("a parameter's later value sees what was given from outside to an earl
   std::string text = scenario_text(private_text("A", place_text(-1, 10)), "", declared);
   text.replace(text.find("10.000000"), 9, "$t");
   const auto given = read_scenario(text, "test.xosc", files_in("."), nullptr, {{"s", "7"}});
-  REQUIRE_MESSAGE(given.has_value(), describe(given.error()));
+  REQUIRE_MESSAGE(given.has_value(), why_not(given));
   CHECK(std::get<LaneCoordinates>(std::get<TeleportAction>(given->init.at(0).what).position).s_m == 14.0);
 }
 
@@ -162,7 +163,7 @@ TEST_CASE("a parameter from outside that is not declared not of its type or not 
       R"(<ParameterDeclaration name="on" parameterType="boolean" value="true"/></ParameterDeclarations>)");
   const auto error_of = [&](const std::string& given) {
     const auto parameter = parse_parameter(given);
-    REQUIRE_MESSAGE(parameter.has_value(), describe(parameter.error()));
+    REQUIRE_MESSAGE(parameter.has_value(), why_not(parameter));
     const auto scenario = read_scenario(text, "test.xosc", files_in("."), nullptr, {*parameter});
     return scenario ? std::string() : describe(scenario.error());
   };
@@ -226,7 +227,7 @@ TEST_CASE("a catalog entry takes its parameters from the reference") {
   text.replace(text.find("<CatalogLocations/>"), 19,
                R"(<CatalogLocations><VehicleCatalog><Directory path="catalogs"/></VehicleCatalog></CatalogLocations>)");
   const auto scenario = read_scenario(text, "test.xosc", files);
-  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
   const Entity& car = scenario->entities.at(2);
   CHECK(car.performance.max_speed_mps == 55.0);
   CHECK(vehicle_models()[car.model].name == "hatchback");

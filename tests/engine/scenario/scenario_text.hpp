@@ -9,6 +9,7 @@
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
 #include "tests/engine/road/road_text.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::scenario {
 
@@ -24,7 +25,7 @@ inline std::string road_text(const std::string& shape = "<line/>", const std::st
 
 inline road::RoadNetwork test_road(const std::string& text = road_text()) {
   auto network = road::read_opendrive(text, "test.xodr");
-  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  REQUIRE_MESSAGE(network.has_value(), why_not(network));
   return std::move(*network);
 }
 
@@ -102,7 +103,7 @@ inline std::string story_text(const std::string& events) {
 
 inline Scenario read_or_stop(const std::string& text) {
   auto scenario = read_scenario(text, "test.xosc", files_in("."));
-  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
   return std::move(*scenario);
 }
 
@@ -117,7 +118,7 @@ struct Drive {
   explicit Drive(const std::string& text, road::RoadNetwork roads = test_road())
       : scenario(read_or_stop(text)), network(std::move(roads)) {
     auto started = start_scenario(scenario, network, no_entity, start);
-    REQUIRE_MESSAGE(started.has_value(), describe(started.error()));
+    REQUIRE_MESSAGE(started.has_value(), why_not(started));
     state = std::move(*started);
   }
   void run_until(double time_s) {

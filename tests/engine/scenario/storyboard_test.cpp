@@ -10,6 +10,7 @@
 #include "tests/checkout.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -255,12 +256,12 @@ TEST_CASE("the ambulance of the motorway changes lanes and speed with its beacon
     return std::string{std::istreambuf_iterator<char>(in), {}};
   };
   const auto scenario = read_scenario(content("behind-ambulance.xosc"), "behind-ambulance.xosc", files_in(folder));
-  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
   const auto network = road::read_opendrive(content(scenario->road_file), scenario->road_file);
-  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  REQUIRE_MESSAGE(network.has_value(), why_not(network));
   StepResult result;
   auto state = start_scenario(*scenario, *network, no_entity, result);
-  REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+  REQUIRE_MESSAGE(state.has_value(), why_not(state));
   REQUIRE(result.swarms.size() == 1);
   CHECK(result.swarms[0].vehicle_count == 200);
   CHECK(result.swarms[0].central == find_entity(*scenario, "ego"));

@@ -10,6 +10,7 @@
 #include "engine/scenario/run/path.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -83,7 +84,7 @@ road::RoadNetwork fork() {
       "<junction id=\"J\" name=\"J\">" + road::connection("0", "A", "S") + road::connection("1", "A", "T") +
       "</junction>");
   auto network = road::read_opendrive(text, "fork.xodr");
-  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  REQUIRE_MESSAGE(network.has_value(), why_not(network));
   return std::move(*network);
 }
 std::string lane_text(const std::string& road, double s) {
@@ -105,7 +106,7 @@ std::string road_after(const std::string& init, double seconds) {
   const road::RoadNetwork network = fork();
   StepResult result;
   auto state = start_scenario(scenario, network, no_entity, result);
-  REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+  REQUIRE_MESSAGE(state.has_value(), why_not(state));
   while (state->time_s < seconds) advance_scenario(scenario, network, 0.01, *state);
   REQUIRE(state->entities[0].on_road);
   return network.roads[state->entities[0].lane.road].id;
@@ -325,7 +326,7 @@ TEST_CASE("a place on a route is so far from its first waypoint") {
     const road::RoadNetwork network = fork();
     StepResult result;
     const auto state = start_scenario(scenario, network, no_entity, result);
-    REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+    REQUIRE_MESSAGE(state.has_value(), why_not(state));
     return state->entities[0];
   };
   const EntityState in_turn = place("<FromLaneCoordinates pathS=\"110\" laneId=\"-1\"/>");

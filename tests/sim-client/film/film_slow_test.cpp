@@ -26,6 +26,7 @@
 #include "tests/logging/session_fixture.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/why_not.hpp"
 
 #if defined(__has_feature)
 #define SEPTET_WITH_ASAN __has_feature(address_sanitizer)
@@ -122,12 +123,12 @@ TEST_CASE("a film begun in the middle shows frame by frame what the whole film s
                         .samples = 2};
     const auto goes_on = [](const FilmMade&) { return true; };
     const auto whole = make_film(options, goes_on);
-    REQUIRE_MESSAGE(whole.has_value(), (whole ? "" : describe(whole.error())));
+    REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
     REQUIRE(whole->frames == 25);
     options.out = folder / (name + "-end");
     options.from_s = 0.6;
     const auto end = make_film(options, goes_on);
-    REQUIRE_MESSAGE(end.has_value(), (end ? "" : describe(end.error())));
+    REQUIRE_MESSAGE(end.has_value(), why_not(end));
     CHECK(end->frames == 10);
     CHECK(end->bad_samples == 0);
     CHECK(std::distance(fs::directory_iterator(options.out), {}) == 11);  // And film.json; the preview is gone.
@@ -156,7 +157,7 @@ TEST_CASE("a traced film of a thousand frames takes no more memory at its end th
     if (so_far.frames >= 990) late_mib = resident_mib();
     return true;
   });
-  REQUIRE_MESSAGE(made.has_value(), (made ? "" : describe(made.error())));
+  REQUIRE_MESSAGE(made.has_value(), why_not(made));
   CHECK(made->frames >= 1000);
   MESSAGE("after 100 frames ", early_mib, " MiB, after 990 ", late_mib);
   REQUIRE(early_mib > 0.0);
@@ -275,7 +276,7 @@ TEST_CASE("a film that was stopped goes on where it was and is the film that was
     if (so_far.frames == 7 && beside.empty()) beside = refusal_of(options);
     return true;
   });
-  REQUIRE_MESSAGE(resumed.has_value(), (resumed ? "" : describe(resumed.error())));
+  REQUIRE_MESSAGE(resumed.has_value(), why_not(resumed));
   CHECK(has(beside, "another program draws"));
   CHECK(resumed->frames == 11);
   CHECK(resumed->kept == 4);
@@ -356,7 +357,7 @@ TEST_CASE("a click in a film's sound is heard within a frame of its picture, by 
   for (const char* name : {"film.mp4", "film.mkv"}) {
     const auto made =
         encode_film(*find_ffmpeg(), pictures, folder / "sound.wav", 25.0, folder / name, [] { return true; });
-    REQUIRE_MESSAGE(made.has_value(), (made ? "" : describe(made.error())));
+    REQUIRE_MESSAGE(made.has_value(), why_not(made));
     const fs::path raw = folder / (std::string(name) + ".raw");
     printed_by("ffmpeg -v error -i \"" + (folder / name).string() + "\" -f s16le -ac 1 -ar 48000 \"" + raw.string() +
                "\"");

@@ -15,6 +15,7 @@
 #include "engine/audio/signal.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/relative.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::sound {
 namespace {
@@ -81,7 +82,7 @@ TEST_CASE(
                               {.from_s = 0.6, .speed = 2.0, .frames = 10},
                               {.from_s = 1.9, .speed = 1.0, .frames = 10}};  // Beyond the session's end.
   const auto written = write_cut_track(*session, cuts, 25.0, file, [] { return true; });
-  REQUIRE_MESSAGE(written.has_value(), (written ? "" : describe(written.error())));
+  REQUIRE_MESSAGE(written.has_value(), why_not(written));
   const auto samples = samples_of(file);
   CHECK(samples.size() == 75u * 48000u / 25u);
   constexpr double well_within_a_frame_s = 0.012;

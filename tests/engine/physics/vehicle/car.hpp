@@ -8,6 +8,7 @@
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::vehicle {
 
@@ -15,7 +16,7 @@ inline std::string vehicle_text(const std::string& name) { return shipped_text("
 
 inline VehicleParameters read_car(const std::string& name) {
   const auto parameters = read_vehicle(vehicle_text(name), name);
-  REQUIRE_MESSAGE(parameters.has_value(), describe(parameters.error()));
+  REQUIRE_MESSAGE(parameters.has_value(), why_not(parameters));
   return *parameters;
 }
 

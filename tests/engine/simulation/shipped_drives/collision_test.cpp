@@ -9,6 +9,7 @@
 #include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::simulation {
 
@@ -78,7 +79,7 @@ TEST_CASE(
   const auto bytes = save_state(*drive.model, *state);
   REQUIRE(bytes.has_value());
   auto again = restore_state(*drive.model, traffic::own_traffic(drive.model->roads, 1), *bytes, "test");
-  REQUIRE_MESSAGE(again.has_value(), describe(again.error()));
+  REQUIRE_MESSAGE(again.has_value(), why_not(again));
   CHECK(hash_state(*again) == hash_state(*state));
   std::vector<Event> others;
   while (!state->impacts.empty()) {

@@ -20,6 +20,7 @@
 #include "sim-server/drive/driver_seat.hpp"
 #include "tests/checkout.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -93,7 +94,7 @@ void check_that_it_goes_on(const std::string& scenario, std::uint64_t seed, cons
   INFO(scenario << " seed " << seed << " tick " << saved.at);
   const server::LoadedDrive fresh = server::shipped_drive(scenario, "seven-screens", seed);
   auto state = restored(*fresh.model, saved.bytes);
-  REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+  REQUIRE_MESSAGE(state.has_value(), why_not(state));
   CHECK(*save_state(*fresh.model, *state) == saved.bytes);
   CHECK(hash_state(*state) == saved.hash);
   std::vector<Event> events;
