@@ -126,8 +126,7 @@ class Reader {
 
   /// Past its `;`; where that is missing, up to the line that begins another statement, or to the end.
   void end_statement() {
-    while (!scan_.take(';')) {
-      const int line = scan_.line();
+    for (int line = line_; !scan_.take(';'); line = scan_.line()) {
       if (scan_.at_end()) return;
       const auto word = scan_.peek_identifier();
       if (scan_.line() > line && word && is_statement(*word)) return;

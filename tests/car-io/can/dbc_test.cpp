@@ -237,6 +237,23 @@ TEST_CASE("what makers' files do with names, senders, remarks and ends of statem
   CHECK(database->messages[1].period_s == 0.05);
 }
 
+TEST_CASE("a statement without its semicolon ends before the next line's statement") {
+  for (const char* open :
+       {"BA_ \"GenMsgCycleTime\" BO_ 7 50", "CM_ BO_ 7 \"a text\"", "BA_DEF_DEF_ \"VFrameFormat\" 1",
+        "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"a\",\"b\"", "VAL_ 7 s 1 \"a\"", "SIG_VALTYPE_ 7 s : 0"}) {
+    CAPTURE(std::string(open));
+    const auto database =
+        read_dbc(std::string(head) + "BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n" + open +
+                     "\nBO_ 8 B: 8 X\n SG_ t : 0|8@1+ (1,0) [0|0] \"\" X\nBA_ \"GenMsgCycleTime\" BO_ 8 20;\n",
+                 "open.dbc");
+    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    CHECK(database->unread.empty());
+    REQUIRE(database->messages.size() == 2);
+    CHECK(database->messages[1].signals.size() == 1);
+    CHECK(database->messages[1].period_s == 0.02);
+  }
+}
+
 TEST_CASE("CAN FD is what the file's own list of frame formats calls so, by index, by name and by default") {
   const std::string list =
       "BO_ 7 A: 8 X\nBO_ 8 B: 8 X\nBA_DEF_ BO_ \"VFrameFormat\" ENUM "
