@@ -63,6 +63,15 @@ bool is_length(std::uint64_t bytes) {
   return bytes <= 8 || std::ranges::find(of_fd, bytes) != of_fd.end();
 }
 
+/// Name of the message that `line` begins, where it is of a BO_'s form but for its first word; empty for another line.
+std::optional<std::string_view> message_begun_by(std::string_view line) {
+  if (line.find_first_of("|@([\"") != std::string_view::npos) return std::nullopt;  // A signal has them.
+  Scanner scan(line.substr(std::min(line.find_first_of(" \t"), line.size())));
+  scan.take_unsigned();
+  const auto name = scan.take_name();
+  return name && scan.take(':') && scan.take_unsigned() ? name : std::nullopt;
+}
+
 /// True if all bits of the signal lie in its message. Motorola's sit in rows from bit 7 down, byte after byte.
 bool fits(const Signal& signal, std::uint8_t bytes) {
   const int begin =
@@ -89,9 +98,11 @@ class Reader {
   void statement() {
     line_ = scan_.line();
     if (scan_.peek() == '/') return scan_.skip_line();  // A person's remark; the format itself has CM_.
+    Scanner from_word = scan_;
     const auto word = scan_.take_identifier();
     const bool follows_message = std::exchange(in_message_, word == "BO_" || word == "SG_");
     if (!word || !is_statement(*word)) {
+      if (const auto name = message_begun_by(from_word.rest_of_line())) return lose_message(*name);
       if (follows_message) return leave_line_unread();
       refuse(word ? fmt::format("\"{}\" begins no statement of a DBC file", printable(std::string(word->substr(0, 40))))
                   : fmt::format("a statement begins with \"{}\"", printable(std::string(1, scan_.peek()))));
@@ -108,6 +119,7 @@ class Reader {
     } else if (*word == "BO_") {
       message();
     } else if (*word == "SG_") {
+      if (!follows_message && !database_.messages.empty()) lose_signals();
       signal();
     } else if (*word == "BA_") {
       attribute();
@@ -143,16 +155,35 @@ class Reader {
   }
 
   /// Skips names of nodes, which nothing here depends on, with other characters in their line, up to a text or a
-  /// remark.
+  /// remark, or a line that is a message's but for its first word.
   void names_until_statement() {
+    int line = line_;
     for (auto word = scan_.peek_identifier(); !word || !is_statement(*word); word = scan_.peek_identifier()) {
+      if (scan_.line() > line && message_begun_by(scan_.rest_of_line())) return;
+      line = scan_.line();
       if (scan_.take_name() || scan_.take(',')) continue;
       if (scan_.peek() == '"' || scan_.peek() == '/' || scan_.line() != line_ || !scan_.skip_word()) return;
     }
   }
 
-  /// A line among a message's that begins no statement: a part of that message, or a next one's beginning. Signals that
-  /// follow belong to neither for certain.
+  /// A message whose first word is damaged: one section with the signals that follow, all unread.
+  void lose_message(std::string_view name) {
+    ignored_ = false;
+    in_message_ = true;
+    if (Message* lost = add_message(name))
+      leave_unread(database_.messages.size() - 1,
+                   fmt::format("the line of the message {} does not begin with BO_", lost->name));
+    skip_rest_of_line();
+  }
+
+  /// Signals behind a statement that is no message: what it was before a damage is unknown.
+  void lose_signals() {
+    ignored_ = false;
+    if (add_message({})) leave_unread(database_.messages.size() - 1, "a SG_ stands behind no BO_");
+  }
+
+  /// A line among a message's that begins no statement nor, but for its first word, a message: a part of that message,
+  /// most likely. Signals that follow belong to it for certain no more.
   void leave_line_unread() {
     if (!ignored_)
       leave_unread(database_.messages.size() - 1,
@@ -181,6 +212,17 @@ class Reader {
   }
   bool is_unread(std::size_t message) const { return unread_.contains(message); }
 
+  /// None, and the file is refused, where it has too many.
+  Message* add_message(std::string_view name) {
+    if (database_.messages.size() == most_messages) {
+      refuse(fmt::format("the file has more than {} messages", most_messages), "split it");
+      return nullptr;
+    }
+    Message& message = database_.messages.emplace_back();
+    message.name = name;
+    return &message;
+  }
+
   static constexpr const char* form_of_message = "a BO_ is not of the form BO_ ID NAME: BYTES SENDER";
 
   void message() {
@@ -190,10 +232,10 @@ class Reader {
     const auto bytes = has_colon ? scan_.take_unsigned() : std::nullopt;
     ignored_ = id && std::ranges::find(independent_signals, *id) != independent_signals.end();
     if (ignored_) return skip_rest_of_line();
-    if (database_.messages.size() == most_messages) return refuse("the file has more than 10000 messages", "split it");
     const std::size_t place = database_.messages.size();
-    Message& message = database_.messages.emplace_back();
-    if (name) message.name = *name;
+    Message* const added = add_message(name.value_or(std::string_view()));
+    if (!added) return;
+    Message& message = *added;
     if (!id || !name || !has_colon || !bytes) {
       leave_unread(place, form_of_message);
       return skip_rest_of_line();

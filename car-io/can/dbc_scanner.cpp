@@ -108,6 +108,12 @@ bool Scanner::skip_word() {
   return true;
 }
 
+std::string_view Scanner::rest_of_line() {
+  skip_space();
+  const std::string_view rest = text_.substr(place_);
+  return rest.substr(0, rest.find('\n'));
+}
+
 void Scanner::skip_line() {
   const std::size_t end = text_.find('\n', place_);
   advance(end == std::string_view::npos ? text_.size() - place_ : end - place_);

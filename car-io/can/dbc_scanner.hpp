@@ -29,6 +29,8 @@ class Scanner {
   std::optional<std::string> take_string();
   /// Skips one word of any kind; false at the end, or at a quoted text without an end.
   bool skip_word();
+  /// From the next non-space character to the end of its line, without taking it.
+  std::string_view rest_of_line();
   /// Skips to the end of the line.
   void skip_line();
 
