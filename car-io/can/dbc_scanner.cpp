@@ -58,6 +58,10 @@ std::optional<std::string_view> Scanner::take_name() {
   return found;
 }
 
+std::optional<std::string_view> Scanner::take_name_in(int line) {
+  return !at_end() && line_ == line ? take_name() : std::nullopt;
+}
+
 std::optional<std::string_view> Scanner::take_identifier() {
   const auto found = peek_identifier();
   if (found) advance(found->size());
