@@ -12,18 +12,20 @@ HERE = pathlib.Path(__file__).parent
 
 
 def screen(name, from_deg, to_deg, height_deg, width_px, distance_m=2.4, rise_m=0.0, height_px=None, extra=""):
-    """One screen from azimuth from_deg (left, larger) to to_deg, its middle distance_m away."""
+    """One screen from azimuth from_deg (left, larger) to to_deg, its middle distance_m away. Its height is height_deg, or that of height_px
+    square pixels."""
     middle = math.radians((from_deg + to_deg) / 2)
     half = math.radians((from_deg - to_deg) / 2)
     edge_m = distance_m / math.cos(half)
-    half_height_m = edge_m * math.tan(math.radians(height_deg / 2))
+    half_width_m = distance_m * math.tan(half)
+    half_height_m = half_width_m * height_px / width_px if height_px else edge_m * math.tan(math.radians(height_deg / 2))
 
     def corner(azimuth, up):
         return [EYE[0] + edge_m * math.cos(azimuth), EYE[1] + edge_m * math.sin(azimuth), EYE[2] + up + rise_m]
 
     left, right = middle + half, middle - half
     corners = [corner(left, -half_height_m), corner(right, -half_height_m), corner(left, half_height_m)]
-    pixels_high = height_px or round(width_px * half_height_m / (distance_m * math.tan(half)))
+    pixels_high = height_px or round(width_px * half_height_m / half_width_m)
     lines = [f'name = "{name}"', f"width_px = {width_px}", f"height_px = {pixels_high}"]
     for key, point in zip(("lower_left_m", "lower_right_m", "upper_left_m"), corners):
         lines.append(f"{key} = [{', '.join(f'{value:.6f}' for value in point)}]")
@@ -93,9 +95,10 @@ write("seven-screens", "# Seven projection screens around a complete car: 220 x 
       "# (Lebram, Engstrom and Gustavsson 2006, section 3.2.) The mirrors are the car's own. Made by make_rigs.py.", seven)
 
 MONITOR = (1920, 1080)
+# Down to the dials, and up to most of the inside mirror.
 desk = [("left", ""), ("middle", "instruments = true\n"), ("right", "")]  # They see the mirrors where they are.
 three = "[car]\nsource = \"automatic\"\n\n" + SOUND + MIRRORS + "".join(
-    screen(name, 90 - 60 * i, 30 - 60 * i, 34, MONITOR[0], 0.8, rise_m=-0.1, height_px=MONITOR[1], extra=f"monitor = {i}\nshow_interior = true\n{more}")
+    screen(name, 90 - 60 * i, 30 - 60 * i, None, MONITOR[0], 0.8, rise_m=-0.085, height_px=MONITOR[1], extra=f"monitor = {i}\nshow_interior = true\n{more}")
     for i, (name, more) in enumerate(desk))
 write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measure your own and change the corners. Made by make_rigs.py.", three)
 

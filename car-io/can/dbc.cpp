@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <set>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
+#include "car-io/can/dbc_draft.hpp"
 #include "car-io/can/dbc_scanner.hpp"
+#include "car-io/can/dbc_signal.hpp"
 #include "engine/core/printable.hpp"
 
 namespace septet::car_io::dbc {
 namespace {
 
-constexpr std::size_t largest_file = 8u << 20, most_messages = 10'000, most_signals = 1024;
+constexpr std::size_t largest_file = 8u << 20, most_signals = 1024;
 constexpr std::uint64_t extended_flag = 1ull << 31;
 /// Vector's pseudo messages for signals without a message, today's and an older one.
 constexpr std::array<std::uint64_t, 2> independent_signals{0xC0000000, 0x40000000};
@@ -63,11 +67,13 @@ bool is_length(std::uint64_t bytes) {
   return bytes <= 8 || std::ranges::find(of_fd, bytes) != of_fd.end();
 }
 
-/// True if all bits of the signal lie in its message. Motorola's sit in rows from bit 7 down, byte after byte.
-bool fits(const Signal& signal, std::uint8_t bytes) {
-  const int begin =
-      signal.order == ByteOrder::intel ? signal.start_bit : signal.start_bit / 8 * 8 + 7 - signal.start_bit % 8;
-  return begin + signal.bits <= 8 * bytes;
+/// Name of the message that `line` begins, where it is of a BO_'s form but for its first word; empty for another line.
+std::optional<std::string_view> message_begun_by(std::string_view line) {
+  if (line.find_first_of("|@([\"") != std::string_view::npos) return std::nullopt;  // A signal has them.
+  Scanner scan(line.substr(std::min(line.find_first_of(" \t"), line.size())));
+  scan.take_unsigned();
+  const auto name = scan.take_name();
+  return name && scan.take(':') && scan.take_unsigned() ? name : std::nullopt;
 }
 
 class Reader {
@@ -76,9 +82,8 @@ class Reader {
 
   Expected<Database> read() {
     while (error_.what.empty() && !scan_.at_end()) statement();
-    if (error_.what.empty()) finish();
     if (!error_.what.empty()) return tl::unexpected(std::move(error_));
-    return std::move(database_);
+    return std::move(draft_).finish();
   }
 
  private:
@@ -89,9 +94,11 @@ class Reader {
   void statement() {
     line_ = scan_.line();
     if (scan_.peek() == '/') return scan_.skip_line();  // A person's remark; the format itself has CM_.
+    Scanner from_word = scan_;
     const auto word = scan_.take_identifier();
     const bool follows_message = std::exchange(in_message_, word == "BO_" || word == "SG_");
     if (!word || !is_statement(*word)) {
+      if (const auto name = message_begun_by(from_word.rest_of_line())) return lose_message(*name);
       if (follows_message) return leave_line_unread();
       refuse(word ? fmt::format("\"{}\" begins no statement of a DBC file", printable(std::string(word->substr(0, 40))))
                   : fmt::format("a statement begins with \"{}\"", printable(std::string(1, scan_.peek()))));
@@ -108,6 +115,7 @@ class Reader {
     } else if (*word == "BO_") {
       message();
     } else if (*word == "SG_") {
+      if (!follows_message && draft_.size() > 0) lose_signals();
       signal();
     } else if (*word == "BA_") {
       attribute();
@@ -126,8 +134,7 @@ class Reader {
 
   /// Past its `;`; where that is missing, up to the line that begins another statement, or to the end.
   void end_statement() {
-    while (!scan_.take(';')) {
-      const int line = scan_.line();
+    for (int line = line_; !scan_.take(';'); line = scan_.line()) {
       if (scan_.at_end()) return;
       const auto word = scan_.peek_identifier();
       if (scan_.line() > line && word && is_statement(*word)) return;
@@ -135,29 +142,44 @@ class Reader {
     }
   }
 
-  std::optional<std::string_view> take_name_in_line() {
-    return !scan_.at_end() && scan_.line() == line_ ? scan_.take_name() : std::nullopt;
-  }
-
   void skip_rest_of_line() {
     if (scan_.line() == line_) scan_.skip_line();
   }
 
   /// Skips names of nodes, which nothing here depends on, with other characters in their line, up to a text or a
-  /// remark.
+  /// remark, or a line that is a message's but for its first word.
   void names_until_statement() {
+    int line = line_;
     for (auto word = scan_.peek_identifier(); !word || !is_statement(*word); word = scan_.peek_identifier()) {
+      if (scan_.line() > line && message_begun_by(scan_.rest_of_line())) return;
+      line = scan_.line();
       if (scan_.take_name() || scan_.take(',')) continue;
       if (scan_.peek() == '"' || scan_.peek() == '/' || scan_.line() != line_ || !scan_.skip_word()) return;
     }
   }
 
-  /// A line among a message's that begins no statement: a part of that message, or a next one's beginning. Signals that
-  /// follow belong to neither for certain.
+  /// A message whose first word is damaged: one section with the signals that follow, all unread.
+  void lose_message(std::string_view name) {
+    ignored_ = false;
+    in_message_ = true;
+    if (const auto place = add_message(name))
+      leave_unread(*place, fmt::format("the line of the message {} does not begin with BO_", name));
+    skip_rest_of_line();
+  }
+
+  /// Signals behind a statement that is no message: what it was before a damage is unknown.
+  void lose_signals() {
+    ignored_ = false;
+    if (const auto place = add_message({})) leave_unread(*place, "a SG_ stands behind no BO_");
+  }
+
+  /// A line among a message's that begins no statement nor, but for its first word, a message: a part of that message,
+  /// most likely. Signals that follow may be another one's.
   void leave_line_unread() {
-    if (!ignored_)
-      leave_unread(database_.messages.size() - 1,
-                   fmt::format("a line of {}, or after it, begins no statement", database_.messages.back().name));
+    if (!ignored_) {
+      const std::size_t last = draft_.size() - 1;
+      leave_unread(last, fmt::format("a line of {}, or after it, begins no statement", draft_[last].name));
+    }
     ignored_ = in_message_ = true;
     skip_rest_of_line();
   }
@@ -170,31 +192,36 @@ class Reader {
       scan_.take_identifier();
   }
 
-  /// A message with a fault, or that is no frame of ours, refuses the file only for a rig that names it.
   void leave_unread(std::size_t message, std::string what,
                     std::string remedy = "correct it, or export the file again") {
-    unread_.try_emplace(message, Error{std::move(what), fmt::format("{}:{}", name_, line_), std::move(remedy)});
+    draft_.leave_unread(message, {std::move(what), fmt::format("{}:{}", name_, line_), std::move(remedy)});
   }
   /// Leaves both unread, since the intended one is unknown.
   void leave_both_unread(std::size_t one, std::size_t other, const std::string& what) {
     leave_unread(one, what, "keep one of them");
     leave_unread(other, what, "keep one of them");
   }
-  bool is_unread(std::size_t message) const { return unread_.contains(message); }
+
+  /// Empty, and the file is refused, where it has too many.
+  std::optional<std::size_t> add_message(std::string_view name) {
+    const auto place = draft_.add(name);
+    if (!place) refuse(fmt::format("the file has more than {} messages", Draft::most_messages), "split it");
+    return place;
+  }
 
   static constexpr const char* form_of_message = "a BO_ is not of the form BO_ ID NAME: BYTES SENDER";
 
   void message() {
     const auto id = scan_.take_unsigned();
-    const auto name = take_name_in_line();
+    const auto name = scan_.take_name_in(line_);
     const bool has_colon = name && scan_.take(':');
     const auto bytes = has_colon ? scan_.take_unsigned() : std::nullopt;
     ignored_ = id && std::ranges::find(independent_signals, *id) != independent_signals.end();
     if (ignored_) return skip_rest_of_line();
-    if (database_.messages.size() == most_messages) return refuse("the file has more than 10000 messages", "split it");
-    const std::size_t place = database_.messages.size();
-    Message& message = database_.messages.emplace_back();
-    if (name) message.name = *name;
+    const auto added = add_message(name.value_or(std::string_view()));
+    if (!added) return;
+    const std::size_t place = *added;
+    Message& message = draft_[place];
     if (!id || !name || !has_colon || !bytes) {
       leave_unread(place, form_of_message);
       return skip_rest_of_line();
@@ -216,24 +243,27 @@ class Reader {
     if (!is_length(*bytes))
       leave_unread(place, fmt::format("{} has {} bytes, which no frame has", *name, *bytes),
                    "use a message of 0 to 8, 12, 16, 20, 24, 32, 48 or 64 bytes");
-    if (const auto [other, is_new] = names_.emplace(message.name, place); !is_new)
-      leave_both_unread(place, other->second, fmt::format("two messages are called {}", message.name));
-    if (const auto [other, is_new] = numbers_.emplace(*id, place); !is_new)
-      leave_both_unread(place, other->second, fmt::format("two messages have the identifier {}", *id));
+    if (const auto other = draft_.take_name(place))
+      leave_both_unread(place, *other, fmt::format("two messages are called {}", message.name));
+    if (const auto other = draft_.take_number(place, *id))
+      leave_both_unread(place, *other, fmt::format("two messages have the identifier {}", *id));
   }
 
   void signal() {
-    if (database_.messages.empty() && !ignored_) return refuse("a SG_ stands before the first BO_");
-    Signal signal;
-    const auto fault = read_signal(signal);
+    if (draft_.size() == 0 && !ignored_) return refuse("a SG_ stands before the first BO_");
+    auto [signal, is_nested, fault] = take_signal(scan_, line_);
+    if (fault)
+      skip_rest_of_line();
+    else
+      names_until_statement();  // Its receivers.
     if (ignored_) return;
-    Message& message = database_.messages.back();
-    const std::size_t place = database_.messages.size() - 1;
+    const std::size_t place = draft_.size() - 1;
+    Message& message = draft_[place];
     if (message.signals.size() == most_signals)
       return leave_unread(place, fmt::format("{} has more than {} signals", message.name, most_signals));
     if (fault)
       leave_unread(place, *fault);
-    else if (is_nested_ ||
+    else if (is_nested ||
              (signal.selects && std::ranges::find(message.signals, true, &Signal::selects) != message.signals.end()))
       leave_unread(place, fmt::format("{} of {} is one of several selecting signals", signal.name, message.name),
                    simple);
@@ -247,78 +277,8 @@ class Reader {
     message.signals.push_back(std::move(signal));
   }
 
-  /// The fault, if it has one; the rest of its line is skipped then.
-  std::optional<std::string> read_signal(Signal& signal) {
-    const auto faulty = [&](std::string what) {
-      skip_rest_of_line();
-      return std::optional(std::move(what));
-    };
-    const auto name = take_name_in_line();
-    if (!name) return faulty("a SG_ has no name");
-    signal.name = *name;
-    const auto multiplex = scan_.take_identifier();
-    is_nested_ = multiplex && multiplex->size() > 2 && multiplex->ends_with('M');
-    if (is_nested_) signal.selects = true;
-    if (multiplex && !read_multiplex(is_nested_ ? multiplex->substr(0, multiplex->size() - 1) : *multiplex, signal))
-      return faulty(fmt::format("{} is multiplexed by {}, which is neither M nor mNUMBER", *name, *multiplex));
-    if (!read_place(signal) || !read_scale(signal))
-      return faulty(fmt::format("the signal {} is not of the form {}", *name, form));
-    names_until_statement();  // Its receivers.
-    return std::nullopt;
-  }
-
-  static constexpr const char* form = "SG_ NAME : START|BITS@ORDER SIGN (SCALE,OFFSET) [LOW|HIGH] \"UNIT\" RECEIVERS";
-
   static constexpr const char* simple =
       "use a message that one signal M selects by mNUMBER; extended multiplexing is not read";
-
-  static bool read_multiplex(std::string_view text, Signal& signal) {
-    if (text == "M") return signal.selects = true;
-    Scanner number(text.substr(1));
-    signal.selected_by = number.take_unsigned();
-    return text.starts_with('m') && signal.selected_by && number.at_end();
-  }
-
-  bool read_place(Signal& signal) {
-    if (!scan_.take(':')) return false;
-    const auto start = scan_.take_unsigned();
-    if (!start || *start > 65535 || !scan_.take('|')) return false;
-    const auto bits = scan_.take_unsigned();
-    if (!bits || *bits < 1 || *bits > 64 || !scan_.take('@')) return false;
-    const auto order = scan_.take_unsigned();
-    if (!order || *order > 1) return false;
-    signal.start_bit = static_cast<std::uint16_t>(*start);
-    signal.bits = static_cast<std::uint8_t>(*bits);
-    signal.order = *order == 1 ? ByteOrder::intel : ByteOrder::motorola;
-    if (scan_.take('-'))
-      signal.number = Number::signed_whole;
-    else if (!scan_.take('+'))
-      return false;
-    return true;
-  }
-
-  bool read_scale(Signal& signal) {
-    const auto pair = [&](char open, char between, char close, double& first, double& second) {
-      if (!scan_.take(open)) return false;
-      const auto a = scan_.take_number();
-      if (!a || !scan_.take(between)) return false;
-      const auto b = scan_.take_number();
-      if (!b || !scan_.take(close)) return false;
-      first = *a;
-      second = *b;
-      return true;
-    };
-    if (!pair('(', ',', ')', signal.scale, signal.offset) || !pair('[', '|', ']', signal.low, signal.high))
-      return false;
-    const Scanner before = scan_;
-    auto unit = scan_.take_string();
-    if (!unit || scan_.line() != before.line()) {  // An end that is missing is not looked for in other statements.
-      scan_ = before;
-      return false;
-    }
-    signal.unit = std::move(*unit);
-    return true;
-  }
 
   /// BA_ "NAME" BO_ ID VALUE; the attributes of everything else are skipped.
   void attribute() {
@@ -330,30 +290,16 @@ class Reader {
       const auto id = scan_.take_unsigned();
       const auto name_of_value = *name == frame_format ? scan_.take_string() : std::nullopt;
       const auto value = name_of_value ? std::optional(0.0) : scan_.take_number();
-      const auto found = id ? numbers_.find(*id) : numbers_.end();
-      if (found == numbers_.end()) return end_statement();
+      const auto message = find(id);
+      if (!message) return end_statement();
       if (!value)
-        leave_unread(found->second, fmt::format("BA_ \"{}\" BO_ {} is not followed by a number", *name, *id));
+        leave_unread(*message, fmt::format("BA_ \"{}\" BO_ {} is not followed by a number", *name, *id));
       else if (*name == frame_format)
-        formats_[found->second] = FrameFormat{*value, name_of_value};
+        draft_.set_format(*message, {*value, name_of_value});
       else
-        set_period(found->second, *value);
+        set_period(*message, *value);
     }
     end_statement();
-  }
-
-  /// Frame format as in the file: an index, or a name in quotes.
-  struct FrameFormat {
-    double index = 0.0;
-    std::optional<std::string> name;
-  };
-
-  bool is_fd(const FrameFormat& format) const {
-    if (format.name) return format.name->ends_with("_FD");
-    for (std::size_t i = 0; i < frame_formats_.size(); ++i)
-      if (format.index == static_cast<double>(i)) return frame_formats_[i].ends_with("_FD");
-    constexpr double standard_fd = 14.0, extended_fd = 15.0;
-    return format.index == standard_fd || format.index == extended_fd;
   }
 
   /// BA_DEF_ BO_ "NAME" ENUM "NAME OF 0","NAME OF 1",…;
@@ -366,11 +312,12 @@ class Reader {
       const auto kind = scan_.peek_identifier();
       if (name && *name == frame_format && kind && *kind == "ENUM") {
         scan_.take_identifier();
-        frame_formats_.clear();
-        for (auto value = scan_.take_string(); value && frame_formats_.size() < most_formats;) {
-          frame_formats_.push_back(std::move(*value));
+        std::vector<std::string> formats;
+        for (auto value = scan_.take_string(); value && formats.size() < most_formats;) {
+          formats.push_back(std::move(*value));
           value = scan_.take(',') ? scan_.take_string() : std::nullopt;
         }
+        draft_.set_format_names(std::move(formats));
       }
     }
     end_statement();
@@ -384,39 +331,35 @@ class Reader {
     const auto first = scan_.take_unsigned();
     const bool has_range = scan_.take('-');
     const auto last = scan_.take_unsigned();
-    if (const auto found = id ? numbers_.find(*id) : numbers_.end(); found != numbers_.end()) {
-      const Message& message = database_.messages[found->second];
+    if (const auto place = find(id)) {
+      const Message& message = draft_[*place];
       if (!name || !selecting || !first || !has_range || !last) {
-        leave_unread(found->second, "a SG_MUL_VAL_ is not of the form SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST;");
+        leave_unread(*place, "a SG_MUL_VAL_ is not of the form SG_MUL_VAL_ ID SIGNAL SELECTING FIRST-LAST;");
         return end_statement();
       }
       const Signal *signal = find_signal(message, *name), *by = find_signal(message, *selecting);
       if (signal && (scan_.peek() == ',' || *first != *last || signal->selected_by != first || !by || !by->selects))
-        leave_unread(found->second, fmt::format("{} of {} is selected by more than one value", *name, message.name),
-                     simple);
+        leave_unread(*place, fmt::format("{} of {} is selected by more than one value", *name, message.name), simple);
     }
     end_statement();
   }
 
-  void set_period(std::size_t place, double value) {
-    constexpr double longest_ms = 600'000.0;
-    Message& message = database_.messages[place];
-    if (value < 0.0 || value > longest_ms)
-      leave_unread(place, fmt::format("{} is sent every {} ms", message.name, value), "use 0 to 600000 ms");
-    else if (value > 0.0)
-      message.period_s = value / 1000.0;
+  void set_period(std::size_t place, double period_ms) {
+    if (period_ms < 0.0 || period_ms > Draft::longest_period_ms)
+      leave_unread(place, fmt::format("{} is sent every {} ms", draft_[place].name, period_ms), "use 0 to 600000 ms");
     else
-      periodless_.insert(message.name);
+      draft_.set_period(place, period_ms);
   }
 
   void default_of_attribute() {
     const auto name = scan_.take_string();
     if (!name) return refuse("BA_DEF_DEF_ names no attribute");
     if (*name == frame_format) {
-      default_format_ = FrameFormat{0.0, scan_.take_string()};
-      if (!default_format_->name) default_format_->index = scan_.take_number().value_or(0.0);
+      FrameFormat format{0.0, scan_.take_string()};
+      if (!format.name) format.index = scan_.take_number().value_or(0.0);
+      draft_.set_default_format(std::move(format));
     }
-    if (*name == cycle_time) default_period_ms_ = scan_.take_number().value_or(0.0);
+    if (*name == cycle_time) draft_.set_default_period(scan_.take_number().value_or(0.0));
     end_statement();
   }
 
@@ -427,63 +370,30 @@ class Reader {
     scan_.take(':');
     const auto type = scan_.take_unsigned();
     end_statement();
-    const auto message = id ? numbers_.find(*id) : numbers_.end();
-    if (message == numbers_.end() || type == 0u || is_unread(message->second)) return;
+    const auto message = find(id);
+    if (!message || type == 0u || draft_.is_unread(*message)) return;
     if (!name || !type || *type > 2)
-      return leave_unread(message->second, "a SIG_VALTYPE_ is not of the form SIG_VALTYPE_ ID SIGNAL : 0, 1 or 2;");
-    auto& signals = database_.messages[message->second].signals;
+      return leave_unread(*message, "a SIG_VALTYPE_ is not of the form SIG_VALTYPE_ ID SIGNAL : 0, 1 or 2;");
+    auto& signals = draft_[*message].signals;
     const auto signal = std::ranges::find(signals, *name, &Signal::name);
     if (signal == signals.end()) return;
     if (signal->bits != 32 * *type)
-      return leave_unread(message->second, fmt::format("{} is a float of {} bits", *name, signal->bits),
-                          "use 32 or 64 bits");
+      return leave_unread(*message, fmt::format("{} is a float of {} bits", *name, signal->bits), "use 32 or 64 bits");
     signal->number = *type == 1 ? Number::float32 : Number::float64;
   }
 
-  void finish() {
-    for (std::size_t i = 0; i < database_.messages.size(); ++i) {
-      const auto own = formats_.find(i);
-      if (own != formats_.end() || default_format_)
-        database_.messages[i].is_fd |= is_fd(own != formats_.end() ? own->second : *default_format_);
-    }
-    set_default_period();
-    std::vector<Message> read;
-    for (std::size_t i = 0; i < database_.messages.size(); ++i) {
-      Message& message = database_.messages[i];
-      const auto unread = unread_.find(i);
-      if (unread == unread_.end()) {
-        read.push_back(std::move(message));
-        continue;
-      }
-      database_.unread.push_back({message.name, {}, std::move(unread->second)});
-      for (const Signal& signal : message.signals) database_.unread.back().signals.push_back(signal.name);
-    }
-    database_.messages = std::move(read);
-  }
-
-  void set_default_period() {
-    if (!(default_period_ms_ > 0.0 && default_period_ms_ <= 600'000.0)) return;
-    for (Message& message : database_.messages)
-      if (!message.period_s && !periodless_.contains(message.name)) message.period_s = default_period_ms_ / 1000.0;
+  std::optional<std::size_t> find(std::optional<std::uint64_t> number) const {
+    return number ? draft_.find(*number) : std::nullopt;
   }
 
   static constexpr const char *cycle_time = "GenMsgCycleTime", *frame_format = "VFrameFormat";
 
   Scanner scan_;
   std::string name_;
-  Database database_;
-  std::map<std::uint64_t, std::size_t> numbers_;  ///< Messages by their identifier as the file writes it.
-  std::map<std::string, std::size_t> names_;
-  std::set<std::string> periodless_;
-  std::map<std::size_t, Error> unread_;  ///< Reason, by the message's place in the database, likewise the next.
-  std::map<std::size_t, FrameFormat> formats_;
-  std::vector<std::string> frame_formats_;  ///< The names of VFrameFormat's values, where the file lists them.
-  std::optional<FrameFormat> default_format_;
+  Draft draft_;
   int line_ = 1;             ///< Line of the statement's beginning.
   bool ignored_ = false;     ///< The signals that follow belong to no message.
   bool in_message_ = false;  ///< The statement before was a message, or a signal of one.
-  bool is_nested_ = false;   ///< The signal that was read is selected and selects.
-  double default_period_ms_ = 0.0;
   Error error_;
 };
 

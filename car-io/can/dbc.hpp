@@ -6,8 +6,9 @@
 /// 15). Skipped: everything else in the format (comments, value tables, nodes, environment variables), a byte-order
 /// mark, remarks that begin with `//`, a missing sender and a missing `;` before the next line's statement. Names may
 /// begin with a digit. Makers' files have faults in messages that a rig does not need: a faulty message is left unread,
-/// with its reason and line, and the others are read; likewise one with a line after it that begins no statement. The
-/// file is untrusted: the outcome is a database whose signals all lie within their messages, or an Error with the line.
+/// with its reason and line, and the others are read. Likewise one whose line does not begin with BO_, together with its
+/// signals; signals behind another statement; and one with any other line after it that begins no statement. The file is
+/// untrusted: the outcome is a database whose signals all lie within their messages, or an Error with the line.
 
 #include <cstdint>
 #include <optional>

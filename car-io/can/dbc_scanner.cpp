@@ -58,6 +58,10 @@ std::optional<std::string_view> Scanner::take_name() {
   return found;
 }
 
+std::optional<std::string_view> Scanner::take_name_in(int line) {
+  return !at_end() && line_ == line ? take_name() : std::nullopt;
+}
+
 std::optional<std::string_view> Scanner::take_identifier() {
   const auto found = peek_identifier();
   if (found) advance(found->size());
@@ -106,6 +110,12 @@ bool Scanner::skip_word() {
   if (text_[place_] == '"') return take_string().has_value();
   advance(1);
   return true;
+}
+
+std::string_view Scanner::rest_of_line() {
+  skip_space();
+  const std::string_view rest = text_.substr(place_);
+  return rest.substr(0, rest.find('\n'));
 }
 
 void Scanner::skip_line() {

@@ -1,5 +1,5 @@
 #pragma once
-/// Tokens of a DBC file, in sequence, with their lines. For dbc.cpp.
+/// Tokens of a DBC file, in sequence, with their lines. For dbc.cpp and dbc_signal.cpp.
 
 #include <cstdint>
 #include <optional>
@@ -22,6 +22,8 @@ class Scanner {
   std::optional<std::string_view> peek_identifier();
   /// An identifier that may begin with a digit, as in real files' messages and signals; or empty.
   std::optional<std::string_view> take_name();
+  /// Likewise, where it stands in that line.
+  std::optional<std::string_view> take_name_in(int line);
   /// A finite number, or empty.
   std::optional<double> take_number();
   std::optional<std::uint64_t> take_unsigned();
@@ -29,6 +31,8 @@ class Scanner {
   std::optional<std::string> take_string();
   /// Skips one word of any kind; false at the end, or at a quoted text without an end.
   bool skip_word();
+  /// From the next non-space character to the end of its line, without taking it.
+  std::string_view rest_of_line();
   /// Skips to the end of the line.
   void skip_line();
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -199,12 +200,12 @@ class Reader {
     if (mesh < 0 || static_cast<std::uint64_t>(mesh) >= meshes.size())
       return failure(fmt::format("its mesh is none of the file's {}", meshes.size()), node_place(node), export_anew);
     for (const Json& primitive : list_of(meshes[static_cast<std::size_t>(mesh)], "primitives"))
-      if (auto added = add_primitive(primitive, node, model_from_node, growing); !added) return added;
+      if (auto added = add_primitive(primitive, mesh, node, model_from_node, growing); !added) return added;
     return {};
   }
 
-  Expected<void> add_primitive(const Json& primitive, std::int64_t node, const glm::mat4& model_from_node,
-                               Growing& growing) {
+  Expected<void> add_primitive(const Json& primitive, std::int64_t mesh, std::int64_t node,
+                               const glm::mat4& model_from_node, Growing& growing) {
     constexpr std::int64_t triangle_list = 4, triangle_fan = 6;
     const std::int64_t mode = index_in(primitive, "mode", triangle_list);
     if (mode < triangle_list || mode > triangle_fan) return {};  // Points and lines are not drawn.
@@ -241,9 +242,11 @@ class Reader {
     const std::int64_t material = index_in(primitive, "material", static_cast<std::int64_t>(model_.looks.size()) - 1);
     if (material < 0 || static_cast<std::uint64_t>(material) >= model_.looks.size())
       return failure("its material is none of the file's", node_place(node), export_anew);
-    const PictureMapping& mapping = model_.looks[static_cast<std::size_t>(material)].mapping;
-    const auto uvs = optional_rows(fmt::format("TEXCOORD_{}", mapping.uv_set).c_str(), 2, 2);
+    const Look& look = model_.looks[static_cast<std::size_t>(material)];
+    const std::string uv_set = fmt::format("TEXCOORD_{}", look.mapping.uv_set);
+    const auto uvs = optional_rows(uv_set.c_str(), 2, 2);
     if (!uvs) return tl::unexpected(uvs.error());
+    if (look.picture >= 0 && !triangles.empty() && !attributes.contains(uv_set)) unmapped_[material].insert(mesh);
     return add_triangles(triangles, *positions, *normals, *uvs, look_of(static_cast<std::size_t>(material), *colours),
                          node, model_from_node, growing);
   }
@@ -319,7 +322,27 @@ class Reader {
     return {uvs[0] - whole, uvs[1] - whole, uvs[2] - whole, glm::vec2(0.0f)};
   }
 
+  /// The mesh's name, or its number where it has none.
+  std::string mesh_name(std::int64_t mesh) const {
+    const std::string name =
+        printable(text_in(list_of(*container_.json, "meshes")[static_cast<std::size_t>(mesh)], "name"), 80);
+    return name.empty() ? fmt::format("mesh {}", mesh) : fmt::format("mesh \"{}\"", name);
+  }
+
+  /// One sentence a material, however many meshes it is.
+  void report_unmapped() {
+    for (const auto& [material, meshes] : unmapped_) {
+      const Look& look = model_.looks[static_cast<std::size_t>(material)];
+      model_.left_out.push_back(
+          fmt::format("material \"{}\" lays its picture by TEXCOORD_{}, which {}{} does not have: one colour of the "
+                      "picture is seen there",
+                      look.name, look.mapping.uv_set, mesh_name(*meshes.begin()),
+                      meshes.size() > 1 ? fmt::format(", one of {} such meshes,", meshes.size()) : ""));
+    }
+  }
+
   void finish() {
+    report_unmapped();
     for (Growing& growing : growing_) {
       Part& part = growing.part;
       if (part.mesh.polygons.empty()) continue;
@@ -341,6 +364,7 @@ class Reader {
   std::vector<Growing> growing_;
   std::vector<bool> visited_;
   std::map<std::array<int, 4>, std::uint32_t> coloured_;
+  std::map<std::int64_t, std::set<std::int64_t>> unmapped_;  ///< Meshes without their material's texture coordinates.
   std::size_t triangles_ = 0, vertices_ = 0;
   bool bounded_ = false;
 };

@@ -1,11 +1,34 @@
 #include "engine/rig/rig_doubts.hpp"
 
+#include <cmath>
+#include <optional>
 #include <string>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 namespace septet::rig {
+namespace {
+
+/// Circles are ovals by the same share.
+constexpr double most_off_square = 0.05;
+
+/// Empty where the pixels are square, as nearly as corners are measured.
+std::optional<Error> doubt_of_pixels(const Screen& screen, std::string_view file) {
+  const Window& window = screen.views.front().window;
+  const double width_m = glm::distance(window.lower_left_m, window.lower_right_m),
+               height_m = glm::distance(window.lower_left_m, window.upper_left_m);
+  const double pixel_aspect = (width_m / screen.width_px) / (height_m / screen.height_px);
+  if (std::abs(pixel_aspect - 1.0) <= most_off_square) return std::nullopt;
+  return Error{
+      fmt::format("the pixels of the screen {} are {:.2f} times as wide as high: {} × {} pixels on {:.3f} m × {:.3f} m",
+                  screen.name, pixel_aspect, screen.width_px, screen.height_px, width_m, height_m),
+      std::string(file),
+      fmt::format("measure its corners again ({:.3f} m of height would fit), or give it {} × {:.0f} pixels",
+                  height_m * pixel_aspect, screen.width_px, screen.height_px / pixel_aspect)};
+}
+
+}  // namespace
 
 std::vector<Error> doubts_of(const Rig& rig, std::string_view file) {
   std::vector<Error> doubts;
@@ -20,6 +43,9 @@ std::vector<Error> doubts_of(const Rig& rig, std::string_view file) {
       doubts.push_back({fmt::format("the upper edge of the screen {} lies below its lower edge", screen.name),
                         std::string(file),
                         "exchange upper_left_m and lower_left_m, unless its monitor or projector stands on its head"});
+    // An instruments' panel takes the shape of its window, whatever its corners are.
+    else if (const auto doubt = screen.only_instruments ? std::nullopt : doubt_of_pixels(screen, file))
+      doubts.push_back(*doubt);
   }
   return doubts;
 }

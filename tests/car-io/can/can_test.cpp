@@ -317,6 +317,19 @@ TEST_CASE("a message that cannot be read refuses the rig that uses it and no oth
   CHECK(called.error().what == "engine_rpm of LONG cannot be used: LONG has 1785 bytes, which no frame has");
 }
 
+TEST_CASE("a rig that names a message whose BO_ is damaged is refused with its line and any other is not") {
+  const auto database = dbc::read_dbc(
+      "BS_:\nBO_ 5 DASH: 8 X\n SG_ speed_kmh : 0|8@1+ (1,0) [0|0] \"\" X\n"
+      "BX_ 6 LOST: 8 X\n SG_ part : 0|8@1+ (1,0) [0|0] \"\" X\n",
+      "own.dbc");
+  REQUIRE(database.has_value());
+  CHECK(plan_can(*database, {}).value().sent.size() == 1);
+  const auto named = plan_can(*database, {.signals = {{"LOST.part", "engine_rpm"}}});
+  REQUIRE_FALSE(named.has_value());
+  CHECK(named.error().what == "the line of the message LOST does not begin with BO_");
+  CHECK(named.error().where == "own.dbc:4");
+}
+
 TEST_CASE("multiplexed signals that nothing can select are refused") {
   const auto refusal = [](const char* selecting) {
     const auto database = dbc::read_dbc(

@@ -170,8 +170,6 @@ TEST_CASE("a message with a fault is left unread with its line, and every other 
       {"BO_ 7 A: 8 X\nHello;\n", "a line of A, or after it, begins no statement"},
       {"BO_ 7 A: 8 X\n SG s : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ t : 0|8@1+ (1,0) [0|0] \"\" X\n",
        "a line of A, or after it, begins no statement"},
-      {"BO_ 7 A: 8 X\nBO 8 B: 8 X\n SG_ t : 0|8@1+ (1,0) [0|0] \"\" X\n",
-       "a line of A, or after it, begins no statement"},
       {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\"\" X\n", "a line of A, or after it, begins no statement"},
       {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"km X\n", "the signal s is not of the form"},
       {"\nBO_ 7 A: 8.5 X\n", "a BO_ is not of the form"},
@@ -190,6 +188,48 @@ TEST_CASE("a message with a fault is left unread with its line, and every other 
       CHECK_MESSAGE(unread.why.what.starts_with(fault.second), unread.why.what);
       CHECK(unread.why.where == "bad.dbc:6");
     }
+  }
+}
+
+TEST_CASE("a message whose BO_ is damaged is left unread with its signals and the one before is read") {
+  const std::string before = "BO_ 7 A: 8 X\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" X\n";
+  const std::string signals = " SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ t : 8|8@1+ (1,0) [0|0] \"\" X\n";
+  const std::string behind = "BO_ 9 C: 8 X\n SG_ c : 0|8@1+ (1,0) [0|0] \"\" X\nBA_ \"GenMsgCycleTime\" BO_ 8 20;\n";
+  for (const char* damaged :
+       {"BX_ 8 B: 8 ECU", "BO 8 B: 8 ECU", "BO_8 B: 8 ECU", "B\x01_ 8 B: 8 ECU", "# 8 B : 8", "8 B: 8 ECU"}) {
+    CAPTURE(std::string(damaged));
+    const auto database = read_dbc(head + before + damaged + "\n" + signals + behind, "bad.dbc");
+    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE(database->messages.size() == 2);
+    CHECK((database->messages[0].name == "A" && database->messages[0].signals.size() == 1));
+    CHECK((database->messages[1].name == "C" && database->messages[1].signals.size() == 1));
+    REQUIRE(database->unread.size() == 1);
+    CHECK(database->unread[0].name == "B");
+    CHECK(database->unread[0].signals == std::vector<std::string>{"s", "t"});
+    const auto notice = notice_of(*database);
+    REQUIRE(notice.has_value());
+    CHECK(notice->what == "a message is not read: the line of the message B does not begin with BO_");
+    CHECK(notice->where == "bad.dbc:7");
+  }
+  const auto first = read_dbc(head + ("BX_ 8 B: 8 ECU\n" + signals) + behind, "bad.dbc");
+  REQUIRE_MESSAGE(first.has_value(), (first ? "" : describe(first.error())));
+  CHECK((first->messages.size() == 1 && first->messages[0].name == "C"));
+  CHECK((first->unread.size() == 1 && first->unread[0].why.where == "bad.dbc:5"));
+}
+
+TEST_CASE("signals behind another statement than a message are no message's") {
+  for (const char* other : {"BU_ 8 B: 8 ECU", "EV_ 8 B: 8 ECU", "VAL_ 8 B: 8 ECU"}) {
+    CAPTURE(std::string(other));
+    const auto database = read_dbc(std::string(head) + "BO_ 7 A: 8 X\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" X\n" + other +
+                                       "\n SG_ s : 8|8@1+ (1,0) [0|0] \"\" X\n SG_ t : 16|8@1+ (1,0) [0|0] \"\" X\n",
+                                   "bad.dbc");
+    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE(database->messages.size() == 1);
+    CHECK(database->messages[0].signals.size() == 1);
+    REQUIRE(database->unread.size() == 1);
+    CHECK(database->unread[0].why.what == "a SG_ stands behind no BO_");
+    CHECK(database->unread[0].why.where == "bad.dbc:8");
+    CHECK(database->unread[0].signals == std::vector<std::string>{"s", "t"});
   }
 }
 
@@ -236,6 +276,23 @@ TEST_CASE("what makers' files do with names, senders, remarks and ends of statem
   CHECK(database->messages[0].signals[0].name == "0_COUNTER");
   CHECK(database->messages[1].signals.size() == 1);
   CHECK(database->messages[1].period_s == 0.05);
+}
+
+TEST_CASE("a statement without its semicolon ends before the next line's statement") {
+  for (const char* open :
+       {"BA_ \"GenMsgCycleTime\" BO_ 7 50", "CM_ BO_ 7 \"a text\"", "BA_DEF_DEF_ \"VFrameFormat\" 1",
+        "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"a\",\"b\"", "VAL_ 7 s 1 \"a\"", "SIG_VALTYPE_ 7 s : 0"}) {
+    CAPTURE(std::string(open));
+    const auto database =
+        read_dbc(std::string(head) + "BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n" + open +
+                     "\nBO_ 8 B: 8 X\n SG_ t : 0|8@1+ (1,0) [0|0] \"\" X\nBA_ \"GenMsgCycleTime\" BO_ 8 20;\n",
+                 "open.dbc");
+    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    CHECK(database->unread.empty());
+    REQUIRE(database->messages.size() == 2);
+    CHECK(database->messages[1].signals.size() == 1);
+    CHECK(database->messages[1].period_s == 0.02);
+  }
 }
 
 TEST_CASE("CAN FD is what the file's own list of frame formats calls so, by index, by name and by default") {

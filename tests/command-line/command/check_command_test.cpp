@@ -42,6 +42,8 @@ TEST_CASE("every shipped file that check knows passes it as what it is") {
   const std::pair<const char*, const char*> shipped[] = {
       {"vehicles/volvo-s80.toml", "vehicle"},
       {"rigs/desktop.toml", "rig"},
+      {"rigs/three-monitors.toml", "rig"},
+      {"rigs/seven-screens.toml", "rig"},
       {"scenarios/first-lesson/first-lesson.lesson.toml", "lesson"},
       {"scenarios/questionnaires/ssq.toml", "questionnaire"},
       {"scenarios/experiments/ambulance-24.toml", "experiment"},
@@ -64,7 +66,8 @@ TEST_CASE("a rig is checked with the files that it names and for screens that no
   fs::create_directories(folder);
   const auto rig_with = [&](const std::string& car, const std::string& rest, const std::string& corners) {
     std::ofstream(folder / "rig.toml") << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[car]\n" + car +
-                                              "\n[[screen]]\nname = \"a\"\n" + corners + rest;
+                                              "\n[[screen]]\nname = \"a\"\nwidth_px = 640\nheight_px = 320\n" +
+                                              corners + rest;
     return check({(folder / "rig.toml").string()});
   };
   const std::string upright = "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
@@ -92,6 +95,8 @@ TEST_CASE("a rig is checked with the files that it names and for screens that no
        "shows its back");
   says(rig_with("", "", "lower_left_m = [2, -1, 1]\nlower_right_m = [2, 1, 1]\nupper_left_m = [2, -1, 0]\n"), 0,
        "lies below its lower edge");
+  says(rig_with("", "", "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 2]\n"), 0,
+       "the pixels of the screen a are 0.50 times as wide as high");
   for (const char* address : {"10.7.0.300", "10.7.0", "10.7.0.3.1", "10..0.3", "1000"})
     says(rig_with("", std::string("[network]\nserver_address = \"") + address + "\"\n", upright), 1, address);
   says(rig_with("", "[network]\nserver_address = \"lab-server\"\n", upright), 0, "0 errors");

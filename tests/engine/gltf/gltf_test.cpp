@@ -218,6 +218,43 @@ TEST_CASE("a texture lies by the coordinates that it names, scaled, turned and m
   CHECK(std::abs(far[0].x) < 64.0f);
 }
 
+TEST_CASE("a picture whose texture coordinates a mesh does not have is told once a material with its meshes") {
+  const Bytes png = image::encode_png(image::Image(1, 1, {10, 20, 30, 255}));
+  const std::string png_bytes(reinterpret_cast<const char*>(png.data()), png.size());
+  const auto left_out = [&](const char* texture, const char* nodes, const char* scene_nodes) {
+    std::string text =
+        File{.positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25f, 0, 0.75f, 0, 0.25f, 1}),
+             .nodes = nodes,
+             .scene_nodes = scene_nodes,
+             .primitives = R"([{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]},)"
+                           R"({"name":"wheel\nhub","primitives":[{"attributes":{"POSITION":0},"material":0},)"
+                           R"({"attributes":{"POSITION":0},"material":0}]},)"
+                           R"({"primitives":[{"attributes":{"POSITION":0},"material":1}])",
+             .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                          R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC2"}])",
+             .more = fmt::format(
+                 R"("materials":[{{"name":"paint","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0{}}}}}}},)"
+                 R"({{"name":"plain one"}}],)"
+                 R"("textures":[{{"source":0}}],"images":[{{"uri":"data:image/png;base64,{}"}}],)",
+                 texture, base64(png_bytes))}
+            .text();
+    const auto model = read(text);
+    REQUIRE_MESSAGE(model.has_value(), (model ? "" : describe(model.error())));
+    return model->left_out;
+  };
+  using Sentences = std::vector<std::string>;
+  constexpr const char* all = R"([{"mesh":0},{"mesh":1},{"mesh":2}])";
+  CHECK(left_out("", all, "[0,2]") == Sentences{});
+  CHECK(left_out("", all, "[0,1,2]") ==
+        Sentences{
+            "material \"paint\" lays its picture by TEXCOORD_0, which mesh \"wheel\\x0ahub\" does not have: one colour "
+            "of the picture is seen there"});
+  CHECK(
+      left_out(R"(,"texCoord":3)", all, "[1,0,2]") ==
+      Sentences{"material \"paint\" lays its picture by TEXCOORD_3, which mesh 0, one of 2 such meshes, does not have: "
+                "one colour of the picture is seen there"});
+}
+
 TEST_CASE("what is required and not done is refused by its name") {
   for (const char* extension : {"KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit", "KHR_materials_clearcoat",
                                 "KHR_node_visibility", "EXT_meshopt_compression"}) {
