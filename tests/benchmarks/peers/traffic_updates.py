@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Septet's traffic beside SUMO's, in one run on one machine: vehicle updates per CPU second.
 
-    tests/benchmarks/peers/traffic_updates.py [--bench build/release/septet-bench] [--steps 400]
+    tests/benchmarks/peers/traffic_updates.py [--bench build/release/septet-bench] [--steps 3000]
 
 1,000 vehicles on a ring of 10 km with five lanes of 3.75 m (20 per km and lane), steps of 0.1 s, IDM with Septet's mix of
 drivers in both; SUMO with its default lane changes. SUMO's figure is the CPU time of a long run less that of a short one, so
@@ -110,7 +110,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
     parser.add_argument("--bench", default=os.path.join(root, "build/release/septet-bench"))
-    parser.add_argument("--steps", type=int, default=400, help="steps of SUMO that are timed")
+    parser.add_argument("--steps", type=int, default=3000, help="steps of SUMO that are timed")
     options = parser.parse_args()
     ours = statistics.median(entry["items_per_second"] for entry in septet(options.bench, "traffic_update/1000$"))
     theirs = sumo_updates(options.steps)
