@@ -41,6 +41,7 @@ def brought_words(root):
 def refusals(root):
     """The keys of sentences by which a wish of the operator is refused, as the sources have them."""
     for file, sentence in (("sim-server/drive/operator_desk.cpp", r'return "([a-z][^"=]* [^"=]*)";'),
+                           ("sim-server/page/messages.cpp", r'no_message\("([^"]+)"\)'),
                            ("engine/simulation/operator_command.cpp", r'failure\((?:[\w.]+ \? )?"([^"]+)"(?: : "([^"]+)")?')):
         found = re.findall(sentence, (root / file).read_text(encoding="utf-8"))
         assert found, file
