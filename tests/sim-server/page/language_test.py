@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The page's files of a language: each has every key once, with the same {names} in its text, and the page asks for no other.
 
-Every word that Septet's own lessons and things bring onto it is told likewise, and every refusal of a wish.
+Every word that Septet's own lessons and things bring onto it is told likewise, every refusal of a wish, and why there is no sound.
 
     language_test.py FOLDER_OF_THE_PAGE ROOT
 """
@@ -48,6 +48,19 @@ def refusals(root):
         yield from (f"said.{text}" for match in found for text in ([match] if isinstance(match, str) else match) if text)
 
 
+def sound_words(root):
+    """The keys of device, fault and remedy where there is no sound, as the sources have them."""
+    stage = (root / "engine/audio/sound_stage.cpp").read_text(encoding="utf-8")
+    failures = re.findall(r'failure\(\s*"([^"]+)",[^"]*"([^"]+)"[^"]*,\s*"([^"]+)"\)', stage)
+    live = (root / "sim-server/host/live_sound.cpp").read_text(encoding="utf-8")
+    lost = re.findall(r'lose\(now_s, "([^"]+)"\)', live)
+    remedies = re.findall(r'describe\(Error\{why, [^"]*"([^"]+)"\}\)', live)
+    assert len(failures) == stage.count("failure(") and lost and remedies
+    # Memory is no device of a drive, and a package's name is one in every language.
+    words = [word for what, where, remedy in failures if "into memory" not in what for word in (what, where, remedy)]
+    return [f"said.{word}" for word in [*words, *lost, *remedies] if word != "libopenal1"]
+
+
 def names_in(text):
     return sorted(set(re.findall(r"\{(\w+)\}", text)))
 
@@ -66,7 +79,7 @@ def main():
                 mistakes.append(f"{code}: {key} is empty")
             if names_in(texts[key]) != names_in(english[key]):
                 mistakes.append(f"{code}: {key} has the names {names_in(texts[key])}, English has {names_in(english[key])}")
-    mistakes += [f"the page is told of {key}" for key in [*brought_words(root), *refusals(root)] if key not in english]
+    mistakes += [f"the page is told of {key}" for key in [*brought_words(root), *refusals(root), *sound_words(root)] if key not in english]
     asked = set()
     areas = {key.split(".")[0] for key in english} - {made.rstrip(".") for made in MADE}
     for file in folder.iterdir():
