@@ -243,7 +243,7 @@ TEST_CASE("a device that lets nobody go on counts as lost while it hangs") {
   while (live.counts().lost != 0) std::this_thread::yield();
 }
 
-// Behind the case above, for OpenAL reads its settings once.
+// Comes after the case of 5.1 channels: OpenAL reads its settings once.
 TEST_CASE("the page is told device, fault and remedy apart, so that it can say them in its language") {
   SoundFeeder deviceless(device_opener({.device = "no such device"}), {}, {});
   deviceless.pump(0.0);
