@@ -98,8 +98,8 @@ class RunningScreen {
     }
     start();
   }
-  /// True if it has died three times and never shown a picture.
-  bool is_hopeless() const { return !has_shown_ && deaths_ >= 3; }
+  /// True if it has died in each of its first tries and never shown a picture.
+  bool is_hopeless() const { return !has_shown_ && deaths_ >= first_tries; }
   bool is_running() { return process_ && !process_->poll(); }
   const program::ChildOptions& options() const { return options_; }
 
@@ -115,6 +115,8 @@ class RunningScreen {
     program::say(describe(process.error()));
   }
 
+  /// With the pauses between them more than a second: a display may come a moment late.
+  static constexpr int first_tries = 4;
   std::string name_;
   program::ChildOptions options_;
   std::optional<program::ChildProcess> process_;

@@ -1,14 +1,15 @@
 #include "command-line/command/session_command.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iostream>
+#include <map>
 #include <set>
 #include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "command-line/command/drive_deletion.hpp"
 #include "command-line/command/experiment_study.hpp"
 #include "command-line/command/renewed_results.hpp"
 #include "engine/core/printable.hpp"
@@ -67,7 +68,7 @@ void leave_person_out(document::Json& summary) {
 }
 
 /// Renames folders named after the participant, as an experiment's are, to a neutral name.
-void rename_folders(const std::vector<fs::path>& sessions, const std::string& participant) {
+void rename_folders(const std::set<fs::path>& sessions, const std::string& participant) {
   std::error_code ignored;
   for (const fs::path& session : sessions)
     for (fs::path folder = session.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
@@ -78,39 +79,6 @@ void rename_folders(const std::vector<fs::path>& sessions, const std::string& pa
       fs::rename(folder, other, ignored);
       program::announce(fmt::format("{}: renamed, for it was called by the participant", other.string()));
     }
-}
-
-/// Sessions that could not be processed, and the reasons.
-struct LeftOver {
-  std::vector<fs::path> done;
-  std::vector<Error> why;
-};
-
-/// First all are moved out of sight, then deleted: after a kill in between, a visible session is whole.
-LeftOver delete_drives(const std::vector<fs::path>& sessions) {
-  const auto hidden = [](const fs::path& session) { return fs::path(session.string() + ".forgotten"); };
-  LeftOver result;
-  std::error_code error;
-  for (const fs::path& session : sessions) {
-    if (auto ended = logging::check_has_ended(session); !ended) {
-      result.why.push_back(std::move(ended.error()));
-      continue;
-    }
-    fs::rename(session, hidden(session), error);
-    if (error)
-      result.why.push_back({error.message(), session.string(), "make its folder one that can be written"});
-    else
-      result.done.push_back(session);
-  }
-  for (const fs::path& session : result.done) {
-    fs::remove(hidden(session), error);
-    for (const char* beside : {"-wal", "-shm", "-journal"}) fs::remove(session.string() + beside, error);
-    for (const char* beside : {"summary.json", "report.html", "debrief.html", "panorama.png"})
-      fs::remove(session.parent_path() / beside, error);
-    fs::remove_all(session.parent_path() / "screens", error);
-    fs::remove(session.parent_path(), error);  // Only if it is empty.
-  }
-  return result;
 }
 
 /// The session comes last: as long as it names the driver, the whole can be repeated.
@@ -138,14 +106,6 @@ LeftOver make_anonymous(const std::vector<fs::path>& sessions) {
       result.why.push_back(std::move(done.error()));
   }
   return result;
-}
-
-/// The file with a session's data, if the folder has a link to it: removing the link alone would forget nothing.
-fs::path holder_of(const fs::path& session) {
-  std::error_code error;
-  if (!fs::is_symlink(session, error)) return session;
-  auto file = fs::canonical(session, error);
-  return error ? session : file;
 }
 
 }  // namespace
@@ -222,49 +182,72 @@ Expected<int> run_session_stop(const StopOptions& options) {
 Expected<int> run_session_forget(const ForgetOptions& options) {
   if (options.participant.empty())
     return failure("it names nobody", "the participant's code", "give the code that their drives were recorded with");
-  const auto found = find_sessions(options.places);
+  auto found = find_sessions(options.places);
   if (!found) return tl::unexpected(found.error());
-  std::vector<fs::path> theirs;
+  const Links links = links_in(options.places);
+  // A folder that is a link is not looked through, so that no folder is counted twice: what lies behind it is told.
+  for (const auto& [link, target] : links)
+    if (std::error_code error; fs::is_directory(target, error) && !lies_in(target, options.places))
+      if (const auto behind = find_sessions({target})) found->insert(found->end(), behind->begin(), behind->end());
+  std::map<fs::path, std::set<fs::path>> theirs;  // Each with the names under which it was found.
+  std::set<fs::path> outside;
   std::vector<Error> unread;  // Perhaps the participant's; the others are processed anyway.
   for (const fs::path& session : *found) {
     auto reader = logging::SessionReader::open(session);
-    if (!reader)
+    if (!reader) {
       unread.push_back(std::move(reader.error()));
-    else if (reader->info().participant == options.participant)
-      theirs.push_back(holder_of(session));
+      continue;
+    }
+    if (reader->info().participant != options.participant) continue;
+    const fs::path held = holder_of(session);
+    std::error_code error;
+    const fs::path whole = fs::canonical(held, error);
+    if (lies_in(whole, options.places))
+      theirs[held].insert({held, session});
+    else
+      outside.insert(whole);
   }
-  std::ranges::sort(theirs);
-  theirs.erase(std::unique(theirs.begin(), theirs.end()), theirs.end());
-  const auto name_unread = [&] {
+  const auto name_left = [&] {
     for (const Error& why : unread) program::say("septet: a session's participant could not be read: " + describe(why));
+    for (const fs::path& session : outside)
+      program::say("septet: not done: " +
+                   describe({"a link leads to this session, which lies in none of the places given", session.string(),
+                             fmt::format("give {} too", session.parent_path().string())}));
   };
   if (theirs.empty()) {
-    name_unread();
+    name_left();
+    if (!outside.empty()) return program::failed_status;
     return failure(fmt::format("none of {} sessions {}is of {}", found->size() - unread.size(),
                                unread.empty() ? "" : "that can be read ", printable(options.participant, 60)),
                    options.places.front().string(), "check the code and the folders");
   }
   // First of all: after a kill from here on, the experiment still does not drive them again.
   std::set<fs::path> experiments;
-  for (const fs::path& session : theirs)
-    if (auto experiment = experiment_of(session, options.participant)) experiments.insert(std::move(*experiment));
+  for (const auto& [held, names] : theirs)
+    for (const fs::path& session : names)
+      if (auto experiment = experiment_of(session, options.participant)) experiments.insert(std::move(*experiment));
   for (const fs::path& experiment : experiments)
     if (auto noted = note_forgotten(experiment, options.participant); !noted) return tl::unexpected(noted.error());
-  const LeftOver result = options.delete_data ? delete_drives(theirs) : make_anonymous(theirs);
+  std::vector<fs::path> sessions;
+  for (const auto& [held, names] : theirs) sessions.push_back(held);
+  const LeftOver result = options.delete_data ? delete_drives(sessions) : make_anonymous(sessions);
   std::vector<Error> failed = result.why;
-  std::set<fs::path> lists;
-  for (const fs::path& session : result.done)
+  if (options.delete_data)
+    for (Error& left : remove_links_to_nothing(links)) failed.push_back(std::move(left));
+  std::set<fs::path> lists, done;
+  for (const fs::path& session : result.done) done.insert(theirs[session].begin(), theirs[session].end());
+  for (const fs::path& session : done)
     lists.insert(fs::absolute(session).parent_path().parent_path() / "best-list.json");
   for (const fs::path& list : lists)
     if (auto gone = logging::forget_in_best_list(list, options.participant); !gone)
       failed.push_back(std::move(gone.error()));
-  rename_folders(result.done, options.participant);
+  rename_folders(done, options.participant);
   program::announce(fmt::format("{} of {} sessions {}; make pooled reports and tables anew", result.done.size(),
                                 found->size(),
                                 options.delete_data ? "deleted" : "no longer name the driver; their data are kept"));
-  name_unread();
+  name_left();
   for (const Error& why : failed) program::say("septet: not done: " + describe(why));
-  if (!unread.empty() || !failed.empty()) return program::failed_status;
+  if (!unread.empty() || !outside.empty() || !failed.empty()) return program::failed_status;
   return 0;
 }
 

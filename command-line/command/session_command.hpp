@@ -33,8 +33,9 @@ struct ForgetOptions {
   std::vector<std::filesystem::path> places;  ///< Sessions, and folders with sessions anywhere below.
   bool delete_data = false;
 };
-/// Removes a participant from sessions and the files beside them, or deletes their drives. After a failure or a kill it
-/// can be repeated.
+/// Removes a participant from sessions and the files beside them, or deletes their drives, with the links among the
+/// places that led to them. A session outside the places, to which a link leads, is left and named. After a failure or a
+/// kill it can be repeated.
 Expected<int> run_session_forget(const ForgetOptions& options);
 
 /// Sessions of these paths: files as given, for folders every session.sqlite below, sorted.

@@ -201,10 +201,7 @@ TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect) {
   const auto [found, fresh] = decoded_.try_emplace({effect->id, effect->tick});
   Decoded& entry = found->second;
   if (fresh) {
-    if (auto keyframe = debris::decode(effect->data))
-      entry.keyframe = std::move(*keyframe);
-    else
-      ++refused_;
+    if (auto keyframe = debris::decode(effect->data)) entry.keyframe = std::move(*keyframe);
   }
   entry.used = true;
   return {entry.keyframe ? &*entry.keyframe : nullptr, effect->tick};

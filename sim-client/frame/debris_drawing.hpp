@@ -74,8 +74,6 @@ class DebrisDrawing {
   /// All debris of the moments, ready for a frame.
   DrawnDebris draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene,
                    double temperature_k = 268.15);
-  /// Keyframes that could not be read.
-  std::uint32_t refused() const { return refused_; }
   /// Pairs of keyframes with computed normals so far.
   std::uint32_t prepared() const { return prepared_; }
 
@@ -94,7 +92,7 @@ class DebrisDrawing {
 
   std::map<Key, Decoded> decoded_;   ///< Cache: each keyframe is read once.
   std::map<WayKey, Prepared> ways_;  ///< Cache: each pair is prepared once.
-  std::uint32_t refused_ = 0, prepared_ = 0;
+  std::uint32_t prepared_ = 0;
 };
 
 }  // namespace septet::frame

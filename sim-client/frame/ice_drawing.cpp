@@ -136,7 +136,6 @@ void IceDrawing::show(const Snapshot& instant, const scene::ResolvedScene& scene
     standing_.clear();
     auto read = ice::decode(effect->data);
     if (!read) {
-      ++refused_;
       ice_ = ice::StillIce{};
       return;
     }

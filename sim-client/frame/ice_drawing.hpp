@@ -24,8 +24,6 @@ class IceDrawing {
  public:
   void show(const Snapshot& instant, const scene::ResolvedScene& scene);
   void add_to(instant::FrameInput& frame) const;
-  /// Keyframes that could not be read.
-  std::uint32_t refused() const { return refused_; }
 
  private:
   struct Standing {
@@ -38,7 +36,6 @@ class IceDrawing {
   std::vector<Standing> standing_;
   std::vector<ice::IceBody> slabs_;
   std::vector<instant::DynamicMesh> shadows_;  ///< Shadow meshes of the slabs.
-  std::uint32_t refused_ = 0;
 };
 
 }  // namespace septet::frame

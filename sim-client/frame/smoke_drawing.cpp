@@ -14,10 +14,7 @@ std::vector<instant::SmokePuff> SmokeDrawing::draw(std::span<const EffectKeyfram
       entry.tick = effect.tick;
       auto keyframe = smoke::decode(effect.data);
       entry.readable = keyframe.has_value();
-      if (entry.readable)
-        entry.keyframe = std::move(*keyframe);
-      else
-        ++refused_;
+      if (entry.readable) entry.keyframe = std::move(*keyframe);
     }
     if (entry.readable) smoke::add_puffs(entry.keyframe, simulated_time_s, puffs);
   }

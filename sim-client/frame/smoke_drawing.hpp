@@ -15,8 +15,6 @@ class SmokeDrawing {
  public:
   /// All puffs of a snapshot at a simulated time.
   std::vector<instant::SmokePuff> draw(std::span<const EffectKeyframe> effects, double simulated_time_s);
-  /// Keyframes that could not be read.
-  std::uint32_t refused() const { return refused_; }
 
  private:
   struct Decoded {
@@ -25,7 +23,6 @@ class SmokeDrawing {
     smoke::Keyframe keyframe;
   };
   std::map<std::uint32_t, Decoded> decoded_;  ///< Cache by effect: each keyframe is read once.
-  std::uint32_t refused_ = 0;
 };
 
 }  // namespace septet::frame

@@ -50,7 +50,6 @@ const instant::SootField& SootDrawing::draw(std::span<const EffectKeyframe> effe
   } else if (soot->tick != tick_) {
     tick_ = soot->tick;
     const auto keyframe = smoke::decode_soot(soot->data);
-    if (!keyframe) ++refused_;
     field_ = keyframe ? soot_field(*keyframe) : instant::SootField{};
   }
   return field_;

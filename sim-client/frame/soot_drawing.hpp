@@ -18,13 +18,10 @@ class SootDrawing {
   const instant::SootField& draw(std::span<const EffectKeyframe> effects);
   /// Last field drawn.
   const instant::SootField& field() const { return field_; }
-  /// Keyframes that could not be read.
-  std::uint32_t refused() const { return refused_; }
 
  private:
   Tick tick_ = 0;
   instant::SootField field_;  ///< Field of the keyframe of that tick: each is read once.
-  std::uint32_t refused_ = 0;
 };
 
 }  // namespace septet::frame

@@ -41,6 +41,11 @@ class Session {
         lane_socket_(std::move(lane_socket)),
         tick_socket_(std::move(tick_socket)),
         link_(lane_socket_, tick_socket_, open_group, std::move(link)) {}
+  /// However it ends, the server is told: it would let no other one with this key in before it has missed this one for
+  /// seconds.
+  ~Session() { link_.close(); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
   Expected<void> run();
 

@@ -288,8 +288,6 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
     if (event.kind == "traffic")
       messages_.push_back("the road holds another number of vehicles than the swarm was asked for: " + event.detail);
   word_.take(newest_->snapshot(), events);
-  if (told_)
-    for (const auto& event : events) told_(event, state_.time_s());
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));
     end_ = logging::DriveEnd::traffic_lost;

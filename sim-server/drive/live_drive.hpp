@@ -2,7 +2,6 @@
 /// A drive being simulated: the car's device, the simulation and the session log, tick by tick.
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,8 +71,6 @@ class LiveDrive final : public TickSource {
   /// Reason for the cut; empty while they run.
   const std::optional<std::string>& actuators_cut() const { return cut_why_; }
   bool has_actuators() const { return seat_.has_actuators() || seat_.shakes_by_sound; }
-  /// Sets a listener for events, beside the log; called with the simulated time.
-  void watch_events(std::function<void(const simulation::Event&, double)> told) { told_ = std::move(told); }
 
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
   std::optional<Error> take_error() override;
@@ -109,7 +106,6 @@ class LiveDrive final : public TickSource {
   DriverInput held_;                       ///< The last controls from a screen, which arrive less often than ticks.
   std::optional<Tick> heard_tick_;         ///< Tick at which they arrived.
   std::vector<simulation::Event> events_;  ///< Since the last tick, to be logged with the next one.
-  std::function<void(const simulation::Event&, double)> told_;
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;

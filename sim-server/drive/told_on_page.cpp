@@ -20,6 +20,25 @@ bool is_name(std::string_view word) {
          std::ranges::all_of(word, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
 }
 
+/// What the sound tells (host/live_sound.hpp), taken apart: "no sound: DEVICE: WHY; REMEDY", "sound: DEVICE". Empty for
+/// another sentence.
+std::optional<page::PageEvent> told_of_sound(const logging::Event& event) {
+  constexpr std::string_view none = "no sound: ", some = "sound: ";
+  const std::string_view text = event.detail;
+  if (text.starts_with(some))
+    return page::PageEvent{
+        event.simulated_time_s, "sound", {{"device", std::string(text.substr(some.size()))}}, event.detail};
+  // A device may have any name; the remedy may have a semicolon too.
+  const auto remedy = text.find("; "), why = text.substr(0, remedy).rfind(": ");
+  if (!text.starts_with(none) || remedy == text.npos || why < none.size()) return std::nullopt;
+  return page::PageEvent{event.simulated_time_s,
+                         "no_sound",
+                         {{"device", std::string(text.substr(none.size(), why - none.size()))},
+                          {"why", std::string(text.substr(why + 2, remedy - why - 2))},
+                          {"remedy", std::string(text.substr(remedy + 2))}},
+                         event.detail};
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> values_of(std::string_view detail) {
@@ -45,6 +64,7 @@ std::vector<std::pair<std::string, std::string>> values_of(std::string_view deta
 
 std::optional<page::PageEvent> told_on_page(const logging::Event& event) {
   if (std::ranges::find(unheard, event.kind) != unheard.end()) return std::nullopt;
+  if (auto sound = event.kind == "screen" ? told_of_sound(event) : std::nullopt) return sound;
   if (std::ranges::find(sentences, event.kind) != sentences.end())
     return page::PageEvent{event.simulated_time_s, "message", {}, event.detail};
   page::PageEvent told{

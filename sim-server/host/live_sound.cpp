@@ -131,7 +131,7 @@ bool SoundFeeder::is_open(double now_s) {
 void SoundFeeder::lose(double now_s, const std::string& why) {
   counts_.starved += output_->starved();
   ++counts_.lost;
-  tell(fmt::format("no sound: {} {}; it is opened again by itself", output_->name(), why));
+  tell("no sound: " + describe(Error{why, output_->name(), "it is opened again by itself"}));
   closing_ = std::move(output_);
   next_try_s_ = now_s + retry_s;
 }
@@ -166,11 +166,11 @@ void SoundFeeder::pump(double now_s) {
   if (!is_open(now_s)) return waiting_.clear();
   if (now_s - checked_s_ > check_every_s) {
     checked_s_ = now_s;
-    if (!output_->is_connected()) return lose(now_s, "was disconnected");
+    if (!output_->is_connected()) return lose(now_s, "it was disconnected");
   }
   std::size_t ahead = output_->blocks_ahead();
   if (ahead < ahead_ || ahead == 0) played_s_ = now_s;
-  if (now_s - played_s_ > stalled_after_s) return lose(now_s, "plays nothing any more");
+  if (now_s - played_s_ > stalled_after_s) return lose(now_s, "it plays nothing any more");
   for (; ahead < blocks_kept_ahead; ++ahead) feed(now_s);
   ahead_ = ahead;
 }

@@ -91,9 +91,6 @@ class ScreenHost {
   /// Sets the clients that may connect. A connected client that is no longer in the list is disconnected at once.
   void set_allowed(std::vector<net::AllowedClient> allowed) { lane_.set_allowed(std::move(allowed)); }
 
-  /// Sends a command that the store has taken.
-  void scene_changed(const scene::Command& command) { scene_.applied(command); }
-
   /// Sends one tick to all screens, as a difference to a tick that all live screens hold. `now_s`: time when the tick
   /// began, by reading the driver's controls.
   void publish(std::shared_ptr<const TakenSnapshot> taken, double now_s);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
 #include "engine/document/json.hpp"
+#include "sim-server/page/web_server.hpp"
 
 namespace septet::page {
 namespace {
@@ -143,11 +145,13 @@ std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 }  // namespace
 
 Expected<BrowserMessage> read_browser_message(std::string_view text) {
+  if (text.size() > most_message_bytes) return no_message("the message is too long, and nothing was done");
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) return no_message("this is no message");
+  if (json.is_discarded() || !json.is_object()) return no_message("this is no message, and nothing was done");
   BrowserMessage message;
   const auto id = json.find("id");
-  if (id == json.end() || !id->is_number_unsigned()) return no_message("the message has no number");
+  if (id == json.end() || !id->is_number_unsigned())
+    return no_message("the message has no number, and nothing was done");
   message.id = id->get<std::uint64_t>();
   const std::string wish = text_member(json, "do", 40);
   const auto flag = [&](const char* name) {
@@ -197,8 +201,23 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
   else if (wish == "answer")
     message.wish = answer_of(json);
   else
-    return no_message("nobody knows this message");
+    return no_message("no such wish is known, and nothing was done");
   return message;
+}
+
+std::string refusal_text(std::string_view message, const Error& why) {
+  std::uint64_t number = 0;
+  bool is_number = false;
+  // Read member by member: the number is found although what comes behind it is cut or spoiled.
+  const auto look = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    using enum nlohmann::json::parse_event_t;
+    if (depth == 1 && event == key) is_number = parsed == "id";
+    if (depth == 1 && event == value && std::exchange(is_number, false) && parsed.is_number_unsigned())
+      number = parsed.get<std::uint64_t>();
+    return true;
+  };
+  [[maybe_unused]] const auto rest = nlohmann::json::parse(message, look, false);
+  return answer_text(number, why.what);
 }
 
 namespace {

@@ -99,8 +99,12 @@ struct BrowserMessage {
 
 inline constexpr std::size_t most_note_characters = 500, most_name_characters = 60, most_word_characters = 160;
 
-/// Texts are one line, printable and not longer than these. Error: not such a message.
+/// Texts are one line, printable and not longer than these. Error: not such a message, or longer than
+/// most_message_bytes.
 Expected<BrowserMessage> read_browser_message(std::string_view text);
+
+/// Answer to a message that could not be read, under the number that it bears as far as it is one; 0: it has none.
+std::string refusal_text(std::string_view message, const Error& why);
 
 /// The browser in command.
 struct Commander {

@@ -66,7 +66,7 @@ struct OperatorPage::Shared {
   }
   void said(BrowserId browser, std::string_view words) {
     auto message = read_browser_message(words);
-    if (!message) return server->send(browser, shared_text(answer_text(0, message.error().what)));
+    if (!message) return server->send(browser, shared_text(refusal_text(words, message.error())));
     const auto answer = [&](const std::optional<std::string>& why_not) {
       server->send(browser, shared_text(answer_text(message->id, why_not)));
     };

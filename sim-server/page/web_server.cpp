@@ -68,7 +68,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
       response.set(http::field::sec_websocket_protocol, view(subprotocol));
       response.set(http::field::server, "septet");
     }));
-    socket_.read_message_max(most_message_bytes);
+    socket_.read_message_max(most_read_bytes);
     socket_.auto_fragment(false);
     const auto kept = std::make_shared<Request>(std::move(request));
     socket_.async_accept(*kept, [self = shared_from_this(), kept, opened = std::move(opened)](error_code error) {
@@ -108,14 +108,18 @@ class Browser : public std::enable_shared_from_this<Browser> {
   }
 
  private:
+  /// A message comes in parts: what is beyond the longest one is dropped as it comes.
   void read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
+    socket_.async_read_some(buffer_, read_at_once_bytes, [self = shared_from_this()](error_code error, std::size_t) {
       if (error || self->is_ended_) return self->end();
-      if (self->socket_.got_text()) {
-        const auto bytes = self->buffer_.cdata();
-        self->shared_.handlers.said(self->id_, {static_cast<const char*>(bytes.data()), bytes.size()});
+      const auto bytes = self->buffer_.cdata();
+      self->said_.append(static_cast<const char*>(bytes.data()),
+                         std::min(bytes.size(), most_message_bytes + 1 - self->said_.size()));
+      self->buffer_.consume(bytes.size());
+      if (self->socket_.is_message_done()) {
+        if (self->socket_.got_text()) self->shared_.handlers.said(self->id_, self->said_);
+        self->said_.clear();
       }
-      self->buffer_.consume(self->buffer_.size());
       if (!self->is_ended_) self->read();
     });
   }
@@ -142,7 +146,9 @@ class Browser : public std::enable_shared_from_this<Browser> {
   websocket::stream<beast::tcp_stream> socket_;
   BrowserId id_;
   Shared& shared_;
-  beast::flat_buffer buffer_{most_message_bytes + 1024};
+  static constexpr std::size_t read_at_once_bytes = 4096;
+  beast::flat_buffer buffer_{read_at_once_bytes};
+  std::string said_;  ///< The message so far, up to a byte more than the longest one.
   std::deque<Text> messages_;
   Text newest_, writing_;
   std::map<std::string, Text> pictures_;  ///< The newest of each name.

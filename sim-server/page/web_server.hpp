@@ -58,6 +58,7 @@ struct WebServerOptions {
 
 inline constexpr std::size_t most_browsers = 16, most_connections = 256;
 inline constexpr std::size_t most_header_bytes = 8192, most_message_bytes = 16384;
+inline constexpr std::size_t most_read_bytes = std::size_t{1} << 20;  ///< A longer message ends its connection.
 inline constexpr std::size_t most_waiting_messages = 256;
 
 using BrowserId = std::uint64_t;
@@ -67,7 +68,8 @@ inline Text shared_text(std::string words) { return std::make_shared<const std::
 /// Called in the server's thread; may call send, send_newest and close.
 struct WebHandlers {
   std::function<void(BrowserId)> opened;
-  std::function<void(BrowserId, std::string_view)> said;  ///< A text message, at most most_message_bytes, any bytes.
+  /// A text message, any bytes; of one longer than most_message_bytes its first most_message_bytes + 1.
+  std::function<void(BrowserId, std::string_view)> said;
   std::function<void(BrowserId)> closed;
 };
 

@@ -269,6 +269,9 @@ TEST_CASE(
   INFO(complaint);
   CHECK(complaint.find("no screen can be started") != std::string::npos);
   CHECK(complaint.find("screens/a.log") != std::string::npos);
+  // The server has let each try in without waiting for the one before to fall silent.
+  CHECK(complaint.find("screen a left: it said goodbye") != std::string::npos);
+  CHECK(complaint.find("not heard for") == std::string::npos);
   CHECK(last_words(blind).find("no screen could be started") != std::string::npos);
   // The world waited for its driver meanwhile: the only results are the screens' outputs.
   for (const char* name : {"session.sqlite", "summary.json", "report.html"})

@@ -264,16 +264,6 @@ TEST_CASE("bytes per tick do not grow with the number of screens") {
   CHECK(bytes_per_tick[2] < 1.05 * bytes_per_tick[0]);
 }
 
-TEST_CASE("a change of the scene reaches every screen while it runs") {
-  SimulatedRig rig({.screens = 3});
-  rig.run_for(1.0);
-  scene::SceneBuilder builder(rig.store(), [&](const scene::Command& command) { rig.host().scene_changed(command); });
-  builder.add_object("fallen tree", {});
-  rig.run_for(0.2);
-  for (std::size_t i = 0; i < rig.size(); ++i)
-    CHECK(rig.screen(i).link->scene().find(scene::NodeType::object, "fallen tree") != nullptr);
-}
-
 TEST_CASE("random and forged datagrams change nothing") {
   SimulatedRig rig({.screens = 2});
   rig.run_for(1.0);

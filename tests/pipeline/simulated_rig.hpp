@@ -196,7 +196,6 @@ class SimulatedRig {
   std::size_t size() const { return screens_.size(); }
   net::BadNetwork& network() { return network_; }
   const scene::Store& store() const { return store_; }
-  scene::Store& store() { return store_; }
   net::Address lane_address() const { return server_address_; }
   net::Address tick_address() const { return {server_address_.ip, 4999}; }
   net::Address group() const { return group_; }

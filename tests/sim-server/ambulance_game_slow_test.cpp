@@ -11,7 +11,9 @@
 
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
+#include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::server {
 namespace {
@@ -34,9 +36,13 @@ PlayedGame play(const std::string& driver, std::uint64_t seed, double seconds, c
   auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat));
   REQUIRE(drive.has_value());
   PlayedGame played;
-  (*drive)->watch_events([&](const simulation::Event& event, double) {
+  const TemporaryFolder folder;
+  auto log = SessionLog::create(loaded, {.out = folder.path(), .log_samples_only = true, .no_screens = true});
+  REQUIRE(log.has_value());
+  log->watch({}, [&](const logging::Event& event) {
     if (event.kind == "game") played.events.push_back(event.detail);
   });
+  (*drive)->log_to(*log);
   while ((*drive)->newest().simulated_time_s < seconds) {
     const auto next = (*drive)->next(driver.empty() ? std::optional(held) : std::nullopt);
     if (!next || !*next) break;

@@ -4,6 +4,8 @@
 ///
 /// Every byte string is a script. At its end the host has received every call that the server makes.
 
+#include <array>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -15,6 +17,7 @@
 #include "engine/replication/message.hpp"
 #include "engine/scene/builder.hpp"
 #include "sim-server/host/screen_host.hpp"
+#include "tests/engine/net/tick_wire.hpp"
 
 namespace septet::server {
 
@@ -60,7 +63,7 @@ class ClientScript {
   ClientScript() {
     scene::SceneBuilder builder(store_);
     for (int i = 0; i < 3; ++i) builder.add_object("post", {});
-    ScreenHostOptions options{.identity = identity_of(0), .session = {1}, .allowed = list(clients)};
+    ScreenHostOptions options{.identity = server_identity(), .session = {1}, .allowed = list(clients)};
     options.screens = {"a", "b"};
     options.drivers = {"a"};
     options.car = std::make_shared<RemoteCar>();
@@ -135,13 +138,11 @@ class ClientScript {
 
   static constexpr net::Address server_address{0x0a000001, 4750}, tick_address{0x0a000001, 4751};
 
-  static net::Identity identity_of(std::size_t who) {
-    std::array<std::uint8_t, 32> seed{};
-    seed[0] = static_cast<std::uint8_t>(who + 1);
-    return net::Identity::from_seed(seed);
-  }
+  static net::Identity server_identity() { return net::identity_of(1); }
   /// Client 3 has client 0's key.
-  static net::Identity client_identity(std::size_t who) { return identity_of(1 + who % 3); }
+  static net::Identity client_identity(std::size_t who) {
+    return net::identity_of(static_cast<std::uint8_t>(2 + who % 3));
+  }
   static std::string name_of(std::size_t who) { return who % 3 == 0 ? "a" : who % 3 == 1 ? "b" : "car"; }
   static std::vector<net::AllowedClient> list(std::size_t without) {
     std::vector<net::AllowedClient> allowed;
@@ -161,7 +162,7 @@ class ClientScript {
     sockets_[own] = client_sockets_[who].get();
     clients_[who] = std::make_unique<net::SecureClient>(
         *client_sockets_[who],
-        net::SecureClientOptions{server_address, identity_of(0).public_key(), client_identity(who), {}});
+        net::SecureClientOptions{server_address, server_identity().public_key(), client_identity(who), {}});
   }
 
   void send(std::size_t who, Bytes message, net::Reliability reliability = net::Reliability::reliable) {

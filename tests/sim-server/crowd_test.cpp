@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <functional>
 
 #include <doctest/doctest.h>
@@ -7,15 +8,10 @@
 #include "engine/scene/builder.hpp"
 #include "sim-server/host/screen_host.hpp"
 #include "tests/engine/net/simulated_machine.hpp"
+#include "tests/engine/net/tick_wire.hpp"
 
 namespace septet::server {
 namespace {
-
-net::Identity identity_of(std::size_t who) {
-  std::array<std::uint8_t, 32> seed{};
-  seed[0] = static_cast<std::uint8_t>(who);
-  return net::Identity::from_seed(seed);
-}
 
 /// The server's socket, before which the others go on talking while it reads.
 struct LaneSocket final : net::DatagramSocket {
@@ -43,9 +39,10 @@ struct LaneSocket final : net::DatagramSocket {
 struct Crowd {
   explicit Crowd(std::size_t count) {
     scene::SceneBuilder(store).add_object("post", {});
-    ScreenHostOptions options{.identity = identity_of(0), .session = {1}, .allowed = {}};
+    ScreenHostOptions options{.identity = net::identity_of(0), .session = {1}, .allowed = {}};
     for (std::size_t who = 1; who <= count; ++who) {
-      options.allowed.push_back({identity_of(who).public_key(), fmt::format("screen-{}", who)});
+      options.allowed.push_back(
+          {net::identity_of(static_cast<std::uint8_t>(who)).public_key(), fmt::format("screen-{}", who)});
       options.screens.push_back(options.allowed.back().name);
     }
     lane.talk = [this] {
@@ -59,7 +56,8 @@ struct Crowd {
       sockets.push_back(machines.back()->open(5000));
       clients.push_back(std::make_unique<net::SecureClient>(
           *sockets.back(),
-          net::SecureClientOptions{server_address, identity_of(0).public_key(), identity_of(who), {}}));
+          net::SecureClientOptions{
+              server_address, net::identity_of(0).public_key(), net::identity_of(static_cast<std::uint8_t>(who)), {}}));
     }
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A shipped lesson, taken by a simulated driver.
+/// A shipped lesson, taken by a simulated driver and marked by what its log is told.
 
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,9 @@
 #include "logging/study/lesson/lesson.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
+#include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/simulated_drive.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::server {
 
@@ -27,15 +29,15 @@ inline TakenLesson take_lesson(const std::string& scenario, const std::string& d
   const auto drive = simulated_drive(loaded, driver, seed);
   std::vector<logging::Sample> samples;
   std::vector<logging::Event> events;
-  drive->watch_events([&](const simulation::Event& event, double now_s) {
-    events.push_back({0, now_s, event.kind, event.participant, event.detail});
-  });
+  const TemporaryFolder folder;
+  auto log = SessionLog::create(loaded, {.out = folder.path(), .log_samples_only = true, .no_screens = true});
+  REQUIRE(log.has_value());
+  log->watch([&](const logging::Sample& sample) { samples.push_back(sample); },
+             [&](const logging::Event& event) { events.push_back(event); });
+  drive->log_to(*log);
   while (drive->newest().simulated_time_s < seconds) {
     const auto next = drive->next(std::nullopt);
     if (!next || !*next) break;
-    const Snapshot& now = drive->newest();
-    if (logging::is_sample_due(now.tick, simulation::tick_rate_hz))
-      samples.push_back(logging::take_sample(now, find_leader(now, loaded.model->roads)));
   }
   const auto lesson = logging::read_lesson(loaded.source(logging::lesson_role), scenario);
   REQUIRE(lesson.has_value());

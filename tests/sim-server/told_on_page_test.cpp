@@ -30,6 +30,12 @@ TEST_CASE("what is no news to a person is not told, and an event nobody has word
   const auto said = told_on_page({.kind = "screen", .participant = {}, .detail = "screen ahead connected"});
   REQUIRE(said.has_value());
   CHECK(said->kind == "message");
+  // A device's name may have a colon, and a sentence of another kind may only begin alike.
+  const auto silent =
+      told_on_page({.kind = "screen", .participant = {}, .detail = "no sound: hw:0: busy; wait; or not"});
+  REQUIRE(silent.has_value());
+  CHECK(silent->values == Values{{"device", "hw:0"}, {"why", "busy"}, {"remedy", "wait; or not"}});
+  CHECK(told_on_page({.kind = "screen", .participant = {}, .detail = "no sound: x"})->kind == "message");
   CHECK(said->text == "screen ahead connected");
 }
 

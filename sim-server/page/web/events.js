@@ -35,6 +35,8 @@ function event_words({ kind, values = {}, text }) {
     return t(values.kind === 'crossing' ? 'event.crossing' : 'event.give_way', { seconds: figure(Number(values.margin_s || 0), 1) });
   }
   if (kind === 'actuators_cut') return t('event.actuators_cut', { why: heard(values.why || '') });
+  if (kind === 'no_sound') return t('event.no_sound', { device: heard(values.device), why: heard(values.why), remedy: heard(values.remedy) });
+  if (kind === 'sound') return t('event.sound', { device: heard(values.device) });
   if (kind === 'emergency_stop') return t(values.pressed === '1' ? 'event.stop_pressed' : 'event.stop_released');
   return has_text(`event.${kind}`) ? t(`event.${kind}`) + by : text;
 }

@@ -52,6 +52,11 @@ function ask(what, then) {
 function command(what) {
   ask(what, (answer) => { if (!answer.ok) log({ text: t('shell.not_done', { why: heard(answer.why) }) }, true); });
 }
+/// A refusal of what bore no number that is waited for.
+function hear_refusal(answer) {
+  const text = t('shell.not_done', { why: heard(answer.why) });
+  hello && hello.choices ? alarm(text) : log({ text }, true);
+}
 const change = (text) => command({ do: 'change', command: text });
 
 function receive(message) {
@@ -93,6 +98,7 @@ function receive(message) {
     const then = waiting.get(message.id);
     waiting.delete(message.id);
     if (then) then(message);
+    else if (!message.ok) hear_refusal(message);
   } else if (message.type === 'event') {
     happened.push(message);
     if (happened.length > 300) happened.shift();

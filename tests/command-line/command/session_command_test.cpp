@@ -81,6 +81,66 @@ TEST_CASE("a link to a session is no session of its own: the driver is forgotten
   }
 }
 
+TEST_CASE("links to deleted drives go with them: to a session, to its folder and to a place") {
+  const TemporaryFolder folder;
+  write_session(folder / "disk/a", "P07");
+  write_session(folder / "disk/b", "P07");
+  const auto other = write_session(folder / "disk/c", "P08");
+  std::ofstream(folder / "disk/b/notes.txt") << "of the experimenter";
+  fs::create_directories(folder / "data/a");
+  fs::create_symlink("../../disk/a/session.sqlite", folder / "data/a/session.sqlite");
+  std::ofstream(folder / "data/a/summary.json") << "{\"participant\": \"P07\"}";
+  for (const char* name : {"a", "b", "c"})
+    fs::create_directory_symlink(folder / "disk" / name, folder / "data" / (std::string("drive-") + name));
+  CHECK(run_session_forget({"P07", {folder / "data", folder / "disk"}, true}) == 0);
+  CHECK_FALSE(fs::exists(folder / "disk/a"));
+  for (const char* gone : {"data/a", "data/drive-a"})
+    CHECK_MESSAGE(fs::symlink_status(folder / gone).type() == fs::file_type::not_found, gone);
+  // What is not of the drive stays, and so does the link to it.
+  CHECK(fs::exists(folder / "data/drive-b/notes.txt"));
+  CHECK_FALSE(fs::exists(folder / "disk/b/session.sqlite"));
+  CHECK(participant_of(other) == "P08");
+  CHECK(fs::is_symlink(folder / "data/drive-c"));
+
+  write_session(folder / "disk/d", "P07");
+  fs::create_directory_symlink(folder / "disk/d", folder / "place");
+  CHECK(run_session_forget({"P07", {folder / "place/"}, true}) == 0);
+  CHECK_FALSE(fs::exists(folder / "disk/d"));
+  CHECK_FALSE(fs::is_symlink(folder / "place"));
+}
+
+TEST_CASE("a session behind a link is not touched unless its own place is given, and exit status 1 says so") {
+  for (const bool delete_data : {false, true})
+    for (const bool is_folder : {false, true}) {
+      CAPTURE(delete_data);
+      CAPTURE(is_folder);
+      const TemporaryFolder folder;
+      const auto held = write_session(folder / "disk/a", "P07"), own = write_session(folder / "data/own", "P07");
+      if (is_folder) {
+        fs::create_directory_symlink(folder / "disk/a", folder / "data/a");
+      } else {
+        fs::create_directories(folder / "data/a");
+        fs::create_symlink(held, folder / "data/a/session.sqlite");
+      }
+      CHECK(run_session_forget({"P07", {folder / "data"}, delete_data}) == 1);
+      CHECK(participant_of(held) == "P07");
+      CHECK(fs::exists(folder / "data/a/session.sqlite"));
+      CHECK((delete_data ? !fs::exists(own) : participant_of(own).empty()));
+      CHECK(run_session_forget({"P07", {folder / "data"}, delete_data}) == 1);  // Nothing but that is left.
+    }
+}
+
+TEST_CASE("pictures to which a deleted drive had only a link stay, and exit status 1 says so") {
+  const TemporaryFolder folder;
+  write_session(folder / "data/a", "P07");
+  fs::create_directories(folder / "pictures");
+  std::ofstream(folder / "pictures/1.png") << "a picture";
+  fs::create_directory_symlink(folder / "pictures", folder / "data/a/screens");
+  CHECK(run_session_forget({"P07", {folder / "data"}, true}) == 1);
+  CHECK(fs::symlink_status(folder / "data/a").type() == fs::file_type::not_found);
+  CHECK(fs::exists(folder / "pictures/1.png"));
+}
+
 TEST_CASE("a drive that is still going on is neither deleted nor changed and the driver's other drives are") {
   for (const bool delete_data : {false, true}) {
     CAPTURE(delete_data);

@@ -15,9 +15,11 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
+#include "sim-server/drive/told_on_page.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace septet::server {
@@ -152,7 +154,7 @@ TEST_CASE("a device that is pulled out is told and opened again within two secon
   drive.feeder.take_message();
   speaker.is_connected = false;
   drive.run(0.15);
-  CHECK(drive.feeder.take_message() == "no sound: test speaker was disconnected; it is opened again by itself");
+  CHECK(drive.feeder.take_message() == "no sound: test speaker: it was disconnected; it is opened again by itself");
   speaker.is_connected = true;
   drive.run(2.1);
   CHECK(drive.feeder.take_message() == "sound: test speaker");
@@ -168,7 +170,8 @@ TEST_CASE("a device whose callback has stopped is noticed within 300 ms although
   drive.run(0.2);
   CHECK_FALSE(drive.feeder.take_message().has_value());
   drive.run(0.1);
-  CHECK(drive.feeder.take_message() == "no sound: test speaker plays nothing any more; it is opened again by itself");
+  CHECK(drive.feeder.take_message() ==
+        "no sound: test speaker: it plays nothing any more; it is opened again by itself");
   CHECK(drive.feeder.counts().lost == 1);
   speaker.is_playing = true;
   drive.run(2.2);
@@ -238,6 +241,32 @@ TEST_CASE("a device that lets nobody go on counts as lost while it hangs") {
   }
   gate->changed.notify_all();
   while (live.counts().lost != 0) std::this_thread::yield();
+}
+
+// Comes after the case of 5.1 channels: OpenAL reads its settings once.
+TEST_CASE("the page is told device, fault and remedy apart, so that it can say them in its language") {
+  SoundFeeder deviceless(device_opener({.device = "no such device"}), {}, {});
+  deviceless.pump(0.0);
+  const auto message = deviceless.take_message();
+  REQUIRE(message.has_value());
+  const auto told = told_on_page({.kind = "screen", .participant = {}, .detail = *message});
+  REQUIRE(told.has_value());
+  CHECK(told->kind == "no_sound");
+  CHECK(told->text == *message);
+  REQUIRE(told->values.size() == 3);
+  CHECK(told->values[0] == std::pair<std::string, std::string>("device", "no such device"));
+  CHECK(told->values[1] == std::pair<std::string, std::string>("why", "there is no sound device that can be opened"));
+  CHECK(told->values[2].first == "remedy");
+  CHECK(told->values[2].second.starts_with("connect or switch on one"));
+
+  Loudspeaker speaker;
+  Drive drive(speaker);
+  drive.run(0.1);
+  const auto opened =
+      told_on_page({.kind = "screen", .participant = {}, .detail = drive.feeder.take_message().value_or("nothing")});
+  REQUIRE(opened.has_value());
+  CHECK(opened->kind == "sound");
+  CHECK(opened->values == std::vector<std::pair<std::string, std::string>>{{"device", "test speaker"}});
 }
 
 }  // namespace septet::server

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The page's files of a language: each has every key once, with the same {names} in its text, and the page asks for no other.
 
-Every word that Septet's own lessons and things bring onto it is told likewise, and every refusal of a wish.
+Every word that Septet's own lessons and things bring onto it is told likewise, every refusal of a wish, and why there is no sound.
 
     language_test.py FOLDER_OF_THE_PAGE ROOT
 """
@@ -41,10 +41,24 @@ def brought_words(root):
 def refusals(root):
     """The keys of sentences by which a wish of the operator is refused, as the sources have them."""
     for file, sentence in (("sim-server/drive/operator_desk.cpp", r'return "([a-z][^"=]* [^"=]*)";'),
+                           ("sim-server/page/messages.cpp", r'no_message\("([^"]+)"\)'),
                            ("engine/simulation/operator_command.cpp", r'failure\((?:[\w.]+ \? )?"([^"]+)"(?: : "([^"]+)")?')):
         found = re.findall(sentence, (root / file).read_text(encoding="utf-8"))
         assert found, file
         yield from (f"said.{text}" for match in found for text in ([match] if isinstance(match, str) else match) if text)
+
+
+def sound_words(root):
+    """The keys of device, fault and remedy where there is no sound, as the sources have them."""
+    stage = (root / "engine/audio/sound_stage.cpp").read_text(encoding="utf-8")
+    failures = re.findall(r'failure\(\s*"([^"]+)",[^"]*"([^"]+)"[^"]*,\s*"([^"]+)"\)', stage)
+    live = (root / "sim-server/host/live_sound.cpp").read_text(encoding="utf-8")
+    lost = re.findall(r'lose\(now_s, "([^"]+)"\)', live)
+    remedies = re.findall(r'describe\(Error\{why, [^"]*"([^"]+)"\}\)', live)
+    assert len(failures) == stage.count("failure(") and lost and remedies
+    # Memory is no device of a drive, and a package's name is one in every language.
+    words = [word for what, where, remedy in failures if "into memory" not in what for word in (what, where, remedy)]
+    return [f"said.{word}" for word in [*words, *lost, *remedies] if word != "libopenal1"]
 
 
 def names_in(text):
@@ -65,7 +79,7 @@ def main():
                 mistakes.append(f"{code}: {key} is empty")
             if names_in(texts[key]) != names_in(english[key]):
                 mistakes.append(f"{code}: {key} has the names {names_in(texts[key])}, English has {names_in(english[key])}")
-    mistakes += [f"the page is told of {key}" for key in [*brought_words(root), *refusals(root)] if key not in english]
+    mistakes += [f"the page is told of {key}" for key in [*brought_words(root), *refusals(root), *sound_words(root)] if key not in english]
     asked = set()
     areas = {key.split(".")[0] for key in english} - {made.rstrip(".") for made in MADE}
     for file in folder.iterdir():

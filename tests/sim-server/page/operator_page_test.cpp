@@ -189,6 +189,30 @@ TEST_CASE("a lesson is sent as it changes, each still once, and all of it to who
   CHECK(hear(late, "still", [](const json&) { return true; })["picture"] == "data:image/jpeg;base64,/9g=");
 }
 
+TEST_CASE("a wish that is not known or too long is refused by its number, and nothing is done") {
+  Desk desk;
+  RawBrowser anna(desk.port, token);
+  anna.say(R"({"id":1,"do":"take"})");
+  CHECK(answer(anna, 1)["ok"] == true);
+  const auto refusal = [&](int id, const std::string& said) {
+    CHECK(anna.say(said));
+    const json refused = answer(anna, id);
+    CHECK(refused["ok"] == false);
+    return refused["why"].get<std::string>();
+  };
+  CHECK(refusal(2, R"({"id":2,"do":"fly"})") == "no such wish is known, and nothing was done");
+  const json word{{"id", 3}, {"do", "say"}, {"text", std::string(20'000, 'x')}};
+  CHECK(refusal(3, word.dump()) == "the message is too long, and nothing was done");
+  // Its number stands behind what is too long.
+  CHECK(refusal(0, R"({"text":")" + std::string(20'000, 'x') + R"(","id":4,"do":"say"})") ==
+        "the message is too long, and nothing was done");
+  CHECK(refusal(5, R"({"id":5,"do":"pause")") == "this is no message, and nothing was done");
+  CHECK(refusal(0, R"({"do":"pause"})") == "the message has no number, and nothing was done");
+  CHECK(desk.page->take_wishes().empty());
+  REQUIRE(anna.say(R"({"id":6,"do":"mark","note":"goes on"})"));
+  CHECK(std::get<Mark>(desk.next_wish().wish).note == "goes on");
+}
+
 TEST_CASE("more wishes than the drive has done are refused, not kept") {
   Desk desk;
   RawBrowser eager(desk.port, token);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -166,15 +167,38 @@ TEST_CASE("ten thousand spoiled requests and frames harm nobody, and valid ones 
   echo.wait_until([&] { return echo.closed == echo.opened; });
 }
 
-TEST_CASE("a header or a message that is too long ends its connection") {
+TEST_CASE("a header that is too long ends its connection") {
   Echo echo;
   CHECK(echo.get("/", "X: " + std::string(2 * most_header_bytes, 'x') + "\r\n").find("200 OK") == std::string::npos);
+  CHECK(echo.works());
+}
+
+TEST_CASE("of a message that is too long the beginning is told, and the next one is read as usual") {
+  Echo echo;
   RawBrowser browser(echo.server->port(), token);
-  CHECK(browser.say(std::string(most_message_bytes, 'x')));
-  CHECK(browser.hear()->size() == most_message_bytes);
-  browser.say(std::string(most_message_bytes + 1, 'x'));
-  CHECK(!browser.hear().has_value());
-  CHECK(echo.now(echo.said) == 1);
+  for (const std::size_t size :
+       {most_message_bytes, most_message_bytes + 1, std::size_t{20'000}, std::size_t{65'000}}) {
+    CAPTURE(size);
+    CHECK(browser.say("{" + std::string(size - 1, 'x')));
+    const auto heard = browser.hear();
+    REQUIRE(heard.has_value());
+    CHECK(heard->size() == std::min(size, most_message_bytes + 1));
+    CHECK(heard->starts_with("{x"));
+  }
+  CHECK(browser.say("short"));
+  CHECK(browser.hear() == "short");
+  CHECK(echo.now(echo.said) == 5);
+}
+
+TEST_CASE("a message without end is not read for ever: its connection is closed") {
+  Echo echo;
+  RawBrowser browser(echo.server->port(), token);
+  bool is_open = browser.send(client_frame("a", 0x01));  // A text of which more is to come.
+  for (std::size_t sent = 0; is_open && sent < 4 * most_read_bytes; sent += 60'000)
+    is_open = browser.send(client_frame(std::string(60'000, 'x'), 0x00));
+  CHECK_FALSE(browser.hear().has_value());
+  CHECK(echo.now(echo.said) == 0);
+  CHECK(echo.works());
 }
 
 TEST_CASE("a browser that is killed is gone for the server, and one beside it goes on") {
