@@ -210,9 +210,9 @@ std::string refusal_text(std::string_view message, const Error& why) {
   bool is_number = false;
   // Read member by member: the number is found although what comes behind it is cut or spoiled.
   const auto look = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-    using enum nlohmann::json::parse_event_t;
-    if (depth == 1 && event == key) is_number = parsed == "id";
-    if (depth == 1 && event == value && std::exchange(is_number, false) && parsed.is_number_unsigned())
+    using Event = nlohmann::json::parse_event_t;  // clang 14 takes no "using enum" of an alias.
+    if (depth == 1 && event == Event::key) is_number = parsed == "id";
+    if (depth == 1 && event == Event::value && std::exchange(is_number, false) && parsed.is_number_unsigned())
       number = parsed.get<std::uint64_t>();
     return true;
   };

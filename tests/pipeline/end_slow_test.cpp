@@ -74,20 +74,23 @@ TEST_CASE("a drive ends when the scenario's StopTrigger fires and when its time 
 
 TEST_CASE("a signal ends a drive in order with its own reason and status 3 and no key stays behind") {
   std::signal(SIGHUP, SIG_DFL);  // Also where the tests run under nohup.
-  for (const auto& [signal, name] :
-       {std::pair(SIGINT, "interrupted"), std::pair(SIGTERM, "terminated"), std::pair(SIGHUP, "hung_up")}) {
-    CAPTURE(name);
+  struct End {
+    int signal;
+    const char* reason;
+  };
+  for (const End& end : {End{SIGINT, "interrupted"}, End{SIGTERM, "terminated"}, End{SIGHUP, "hung_up"}}) {
+    CAPTURE(end.reason);
     const TemporaryFolder folder;
     fs::create_directories(folder / "tmp");
     // Zero seconds: until it is stopped.
     auto drive = start("septet", headless(folder / "out", "0"), folder / "err", {{"TMPDIR", folder / "tmp"}});
     REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }));
     CHECK(entries(folder / "tmp") == 1);
-    drive.send_signal(signal);
+    drive.send_signal(end.signal);
     const int code = exit_code(drive);
     INFO(text_of(folder / "err"));
     CHECK(code == 3);
-    CHECK(why(folder / "out") == name);
+    CHECK(why(folder / "out") == end.reason);
     check_results(folder / "out");
     CHECK(entries(folder / "tmp") == 0);
   }
