@@ -229,6 +229,7 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   for (const fs::path& experiment : experiments)
     if (auto noted = note_forgotten(experiment, options.participant); !noted) return tl::unexpected(noted.error());
   std::vector<fs::path> sessions;
+  sessions.reserve(theirs.size());
   for (const auto& [held, names] : theirs) sessions.push_back(held);
   const LeftOver result = options.delete_data ? delete_drives(sessions) : make_anonymous(sessions);
   std::vector<Error> failed = result.why;
