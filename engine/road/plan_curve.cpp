@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/check.hpp"
+#include "engine/math/plane_vector.hpp"
 #include "engine/road/cubic_record.hpp"
 
 namespace septet::road {
@@ -19,8 +20,6 @@ constexpr std::size_t min_cubic_knots = 64, max_cubic_knots = 16384;
 // Gauss–Legendre nodes and weights on [0, 1], four points.
 constexpr double gauss_node[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
 constexpr double gauss_weight[4] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307, 0.17392742256872692};
-
-Vec2 left_of(const Vec2& direction) { return {-direction.y, direction.x}; }
 
 /// (cos φ, sin φ) for |φ| ≤ 1/4, by Taylor's series: the error is below 1e-12 there, 3e-14 at 1/8.
 Vec2 small_turn(double phi) {

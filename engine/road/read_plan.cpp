@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "engine/math/plane_vector.hpp"
 #include "engine/road/cubic_range.hpp"
 #include "engine/road/road_elements.hpp"
 #include "engine/road/road_limits.hpp"
@@ -15,11 +16,6 @@ namespace {
 constexpr double break_m = 0.05, break_rad = 0.01;
 /// Roads of test tracks climb a metre and a half in a metre; a steeper one comes from a wrong coefficient.
 constexpr double steepest_grade = 2.0;
-
-Vec2 turned(const Vec2& v, double angle_rad) {
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
 
 CubicCurve read_cubic(XmlFindings& findings, const pugi::xml_node& node, bool with_u) {
   static constexpr const char* u_names[4] = {"aU", "bU", "cU", "dU"};

@@ -199,8 +199,7 @@ std::uint64_t hash_state(const State& state) {
   if (state.game) hash_members(hash, *state.game);
   if (state.examiner) hash_members(hash, *state.examiner);
   if (state.faults.any()) hash_members(hash, state.faults);
-  if (!state.impacts.empty())
-    for (const CarImpact& running : state.impacts) hash_members(hash, running);
+  for (const CarImpact& running : state.impacts) hash_members(hash, running);
   return hash.value();
 }
 

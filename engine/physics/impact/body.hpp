@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/math/rigid_transform.hpp"
+#include "engine/math/plane_vector.hpp"
 
 namespace septet::impact {
 
@@ -21,12 +21,14 @@ struct Body {
   double heading_rad = 0.0;
 };
 
-inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-inline Vec2 left_of(const Vec2& v) { return {-v.y, v.x}; }
-
 /// Velocity of the body's material at `arm_m` from its mass centre.
 inline Vec2 velocity_at(const Body& body, const Vec2& arm_m) {
   return body.velocity_mps + body.yaw_rate_radps * left_of(arm_m);
+}
+
+/// Velocity of the first body's material at a point relative to the second's.
+inline Vec2 relative_velocity_at(const Body& first, const Body& second, const Vec2& point_m) {
+  return velocity_at(first, point_m - first.mass_centre_m) - velocity_at(second, point_m - second.mass_centre_m);
 }
 
 /// Changes the body's motion by an impulse at `arm_m`; has no effect on what stands fast.

@@ -53,6 +53,13 @@ Course course_in(const CrushCurve& curve, std::size_t piece, double speed_mps) {
   return course;
 }
 
+/// The piece in which a depth lies; the last one goes on without end.
+std::size_t piece_at(const CrushCurve& curve, double depth_m) {
+  std::size_t piece = curve.count - 1;
+  while (piece > 0 && curve.pieces[piece].depth_m > depth_m) --piece;
+  return piece;
+}
+
 /// Work against the piece's deceleration between its beginning and `depth_m`, m²/s².
 double work_to(const CrushPiece& piece, double depth_m) {
   const double in_m = depth_m - piece.depth_m;
@@ -81,11 +88,10 @@ CrushCurve crush_curve(const Stiffness& first, const Stiffness& second) {
 
 CrushCurve beyond(const CrushCurve& curve, double depth_m) {
   CrushCurve rest;
-  std::size_t begin = curve.count - 1;
-  while (begin > 0 && curve.pieces[begin].depth_m > depth_m) --begin;
+  const std::size_t begin = piece_at(curve, depth_m);
   for (std::size_t i = begin; i < curve.count; ++i) {
     CrushPiece piece = curve.pieces[i];
-    if (i == begin) piece.deceleration_mps2 += piece.steepness_ps2 * (depth_m - piece.depth_m);
+    if (i == begin) piece.deceleration_mps2 = deceleration_mps2(curve, depth_m);
     piece.depth_m = i == begin ? 0.0 : piece.depth_m - depth_m;
     rest.pieces[rest.count++] = piece;
   }
@@ -122,9 +128,8 @@ double speed_mps(const CrushCurve& curve, double depth_m) {
 }
 
 double deceleration_mps2(const CrushCurve& curve, double depth_m) {
-  std::size_t i = curve.count - 1;
-  while (i > 0 && curve.pieces[i].depth_m > depth_m) --i;
-  return curve.pieces[i].deceleration_mps2 + curve.pieces[i].steepness_ps2 * (depth_m - curve.pieces[i].depth_m);
+  const CrushPiece& piece = curve.pieces[piece_at(curve, depth_m)];
+  return piece.deceleration_mps2 + piece.steepness_ps2 * (depth_m - piece.depth_m);
 }
 
 double compression_s(const CrushCurve& curve, double speed_mps) {

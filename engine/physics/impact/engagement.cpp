@@ -28,9 +28,7 @@ std::optional<Impact> meet_again(double friction, const Engagement& engagement, 
   Body own = first.body, other = second.body;
   for (const Pulse& pulse : engagement.pulses) exchange(pulse.impulse, 1.0 - share_at(pulse, pulse.age_s), own, other);
   const Place& place = contact->place;
-  const double closing_mps = glm::dot(
-      velocity_at(own, place.point_m - own.mass_centre_m) - velocity_at(other, place.point_m - other.mass_centre_m),
-      place.normal);
+  const double closing_mps = glm::dot(relative_velocity_at(own, other, place.point_m), place.normal);
   const Rule rule{restitution(closing_mps), friction};
   const auto impulse = impulse_at(own, other, place, rule);
   if (!impulse) return std::nullopt;

@@ -25,7 +25,7 @@ std::optional<Impulse> impulse_at(const Body& first, const Body& second, const P
   impulse.first_arm_m = place.point_m - first.mass_centre_m;
   impulse.second_arm_m = place.point_m - second.mass_centre_m;
   const Vec2 tangent = left_of(place.normal);
-  const Vec2 relative_mps = velocity_at(first, impulse.first_arm_m) - velocity_at(second, impulse.second_arm_m);
+  const Vec2 relative_mps = relative_velocity_at(first, second, place.point_m);
   impulse.closing_mps = glm::dot(relative_mps, place.normal);
   impulse.sliding_mps = glm::dot(relative_mps, tangent);
   impulse.stopped_mps = std::min(impulse.closing_mps, rule.most_stopped_mps);

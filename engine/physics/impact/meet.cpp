@@ -8,11 +8,6 @@
 namespace septet::impact {
 namespace {
 
-Vec2 turned(const Vec2& v, double angle_rad) {
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
-
 double gap_before_m(const Side& first, const Side& second, double time_s) {
   return nearest(moved_back(first, time_s).outline, moved_back(second, time_s).outline).gap_m;
 }
@@ -75,8 +70,7 @@ std::optional<Impact> meet(const Side& first, const Side& second, double frictio
   if (!touch) return std::nullopt;
   const Side a = moved_back(first, touch->age_s), b = moved_back(second, touch->age_s);
   Place place = touch->place;
-  const Vec2 relative_mps = velocity_at(a.body, place.point_m - a.body.mass_centre_m) -
-                            velocity_at(b.body, place.point_m - b.body.mass_centre_m);
+  const Vec2 relative_mps = relative_velocity_at(a.body, b.body, place.point_m);
   const double closing_mps = glm::dot(relative_mps, place.normal);
   if (!(closing_mps > 0.0)) return std::nullopt;
   const CrushCurve curve = crush_curve({a.body.mass_kg, a.crush}, {b.body.mass_kg, b.crush});
@@ -89,8 +83,7 @@ std::optional<Impact> meet(const Side& first, const Side& second, double frictio
   rule.restitution = restitution(std::min(closing_mps, rule.most_stopped_mps));
   const auto impulse = impulse_at(a.body, b.body, place, rule);
   if (!impulse) return std::nullopt;
-  Impact impact{{place, touch->age_s}, pulse_of(*impulse, place.normal, curve, rule.restitution)};
-  return impact;
+  return Impact{{place, touch->age_s}, pulse_of(*impulse, place.normal, curve, rule.restitution)};
 }
 
 }  // namespace septet::impact

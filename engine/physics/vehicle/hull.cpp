@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/math/plane_vector.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::vehicle {
@@ -14,9 +15,6 @@ namespace {
 constexpr double blow_s = 0.25;  // End of the impact itself; later contact is sliding.
 constexpr double let_go_s = 0.1, forgotten_s = 0.5;
 constexpr double joint_m = 0.15;  // Limit of the extra depth with which a next stretch is met.
-
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-Vec2 left_of(const Vec2& v) { return {-v.y, v.x}; }
 
 double crush_force_n(double mass_kg, double depth_m) {
   const Crush& crush = passenger_car_crush();

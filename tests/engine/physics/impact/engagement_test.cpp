@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/random.hpp"
+#include "tests/engine/physics/impact/moved_world.hpp"
 #include "tests/engine/physics/impact/two_bodies.hpp"
 #include "tests/relative.hpp"
 
@@ -33,17 +34,6 @@ Crossing random_crossing(Random& random) {
     const double mass_kg = std::exp(random.uniform(std::log(100.0), std::log(40000.0)));
     return {car_at({0, 0}, heading, velocity), car_at(place, other_heading, other, mass_kg)};
   }
-}
-
-Side turned(const Side& side, double angle, const Vec2& by) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const auto turn = [&](const Vec2& v) { return Vec2(c * v.x - s * v.y, s * v.x + c * v.y); };
-  Side other = side;
-  other.body.mass_centre_m = turn(side.body.mass_centre_m) + by;
-  other.body.velocity_mps = turn(side.body.velocity_mps);
-  other.outline.centre_m = turn(side.outline.centre_m) + by;
-  other.outline.forward = turn(side.outline.forward);
-  return other;
 }
 
 }  // namespace
@@ -147,15 +137,14 @@ TEST_CASE("which body is called the first, and where the world's axes lie, chang
     ++met;
     const Vec2 given = impact->pulse.impulse.on_second_ns;
     const auto swapped = meet(second, first, 0.5, tick_s);
-    const double angle = random.uniform(0.0, 2.0 * std::numbers::pi), c = std::cos(angle), s = std::sin(angle);
+    const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
     const Vec2 by(random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0));
-    const auto there = meet(turned(first, angle, by), turned(second, angle, by), 0.5, tick_s);
+    const auto there = meet(in_moved_world(first, angle, by), in_moved_world(second, angle, by), 0.5, tick_s);
     REQUIRE(swapped);
     REQUIRE(there);
     worst_swap = std::max(worst_swap, glm::distance(given, -swapped->pulse.impulse.on_second_ns) / glm::length(given));
-    worst_turn = std::max(worst_turn, glm::distance(Vec2(c * given.x - s * given.y, s * given.x + c * given.y),
-                                                    there->pulse.impulse.on_second_ns) /
-                                          glm::length(given));
+    worst_turn = std::max(worst_turn,
+                          glm::distance(turned(given, angle), there->pulse.impulse.on_second_ns) / glm::length(given));
   }
   MESSAGE(met << " meetings, at worst: swapped " << worst_swap << ", turned and moved " << worst_turn);
   CHECK(met > 1000);

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/random.hpp"
+#include "tests/engine/physics/impact/moved_world.hpp"
 #include "tests/engine/physics/impact/pairs.hpp"
 
 using namespace septet;
@@ -46,15 +47,6 @@ std::vector<Vec2> points_of(const Outline& outline, int count) {
     }
   }
   return points;
-}
-
-Outline turned(const Outline& outline, double angle, const Vec2& by) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const auto turn = [&](const Vec2& v) { return Vec2(c * v.x - s * v.y, s * v.x + c * v.y); };
-  Outline other = outline;
-  other.centre_m = turn(outline.centre_m) + by;
-  other.forward = turn(outline.forward);
-  return other;
 }
 
 }  // namespace
@@ -102,17 +94,16 @@ TEST_CASE("which outline is called the first changes nothing, nor does the place
   for (int i = 0; i < 5000; ++i) {
     const Outline first = random_outline(random, 3.0), second = random_outline(random, 3.0);
     const Meeting meeting = nearest(first, second), swapped = nearest(second, first);
-    const double angle = random.uniform(0.0, 2.0 * std::numbers::pi), c = std::cos(angle), s = std::sin(angle);
-    const auto turn = [&](const Vec2& v) { return Vec2(c * v.x - s * v.y, s * v.x + c * v.y); };
+    const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
     const Vec2 by(random.uniform(-100.0, 100.0), random.uniform(-100.0, 100.0));
-    const Meeting there = nearest(turned(first, angle, by), turned(second, angle, by));
+    const Meeting there = nearest(in_moved_world(first, angle, by), in_moved_world(second, angle, by));
     worst_gap = std::max({worst_gap, std::abs(meeting.gap_m - swapped.gap_m), std::abs(meeting.gap_m - there.gap_m)});
     // Two outlines side by side have more than one nearest point: there the gap alone is compared.
     if (std::abs(cross(first.forward, second.forward)) < 1e-9) continue;
     worst_normal = std::max({worst_normal, glm::distance(meeting.place.normal, -swapped.place.normal),
-                             glm::distance(turn(meeting.place.normal), there.place.normal)});
+                             glm::distance(turned(meeting.place.normal, angle), there.place.normal)});
     worst_point = std::max({worst_point, glm::distance(meeting.place.point_m, swapped.place.point_m),
-                            glm::distance(turn(meeting.place.point_m) + by, there.place.point_m)});
+                            glm::distance(turned(meeting.place.point_m, angle) + by, there.place.point_m)});
   }
   MESSAGE("at worst: gap " << worst_gap << " m, normal " << worst_normal << ", point " << worst_point << " m");
   CHECK(worst_gap < 1e-12);
