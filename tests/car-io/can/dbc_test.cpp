@@ -199,7 +199,7 @@ TEST_CASE("a message whose BO_ is damaged is left unread with its signals and th
        {"BX_ 8 B: 8 ECU", "BO 8 B: 8 ECU", "BO_8 B: 8 ECU", "B\x01_ 8 B: 8 ECU", "# 8 B : 8", "8 B: 8 ECU"}) {
     CAPTURE(std::string(damaged));
     const auto database = read_dbc(head + before + damaged + "\n" + signals + behind, "bad.dbc");
-    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE_MESSAGE(database.has_value(), why_not(database));
     REQUIRE(database->messages.size() == 2);
     CHECK((database->messages[0].name == "A" && database->messages[0].signals.size() == 1));
     CHECK((database->messages[1].name == "C" && database->messages[1].signals.size() == 1));
@@ -212,7 +212,7 @@ TEST_CASE("a message whose BO_ is damaged is left unread with its signals and th
     CHECK(notice->where == "bad.dbc:7");
   }
   const auto first = read_dbc(head + ("BX_ 8 B: 8 ECU\n" + signals) + behind, "bad.dbc");
-  REQUIRE_MESSAGE(first.has_value(), (first ? "" : describe(first.error())));
+  REQUIRE_MESSAGE(first.has_value(), why_not(first));
   CHECK((first->messages.size() == 1 && first->messages[0].name == "C"));
   CHECK((first->unread.size() == 1 && first->unread[0].why.where == "bad.dbc:5"));
 }
@@ -223,7 +223,7 @@ TEST_CASE("signals behind another statement than a message are no message's") {
     const auto database = read_dbc(std::string(head) + "BO_ 7 A: 8 X\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" X\n" + other +
                                        "\n SG_ s : 8|8@1+ (1,0) [0|0] \"\" X\n SG_ t : 16|8@1+ (1,0) [0|0] \"\" X\n",
                                    "bad.dbc");
-    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE_MESSAGE(database.has_value(), why_not(database));
     REQUIRE(database->messages.size() == 1);
     CHECK(database->messages[0].signals.size() == 1);
     REQUIRE(database->unread.size() == 1);
@@ -287,7 +287,7 @@ TEST_CASE("a statement without its semicolon ends before the next line's stateme
         read_dbc(std::string(head) + "BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n" + open +
                      "\nBO_ 8 B: 8 X\n SG_ t : 0|8@1+ (1,0) [0|0] \"\" X\nBA_ \"GenMsgCycleTime\" BO_ 8 20;\n",
                  "open.dbc");
-    REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+    REQUIRE_MESSAGE(database.has_value(), why_not(database));
     CHECK(database->unread.empty());
     REQUIRE(database->messages.size() == 2);
     CHECK(database->messages[1].signals.size() == 1);

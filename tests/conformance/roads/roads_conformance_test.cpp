@@ -18,6 +18,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/road/road_position.hpp"
 #include "tests/conformance/conformance_data.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::road {
 namespace {
@@ -81,7 +82,7 @@ int for_each_file(const char* suffix, Check check) {
   for (const fs::path& path : paths) {
     CAPTURE(path.filename().string());
     const auto network = read_opendrive(read_text(path), path.filename().string());
-    const std::string what = network ? std::string() : describe(network.error());
+    const std::string what = why_not(network);
     REQUIRE_MESSAGE(network.has_value(), what);
     const auto rows = read_rows(path.parent_path() / (path.stem().string() + suffix));
     REQUIRE_FALSE(rows.empty());

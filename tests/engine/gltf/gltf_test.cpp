@@ -239,7 +239,7 @@ TEST_CASE("a picture whose texture coordinates a mesh does not have is told once
                  texture, base64(png_bytes))}
             .text();
     const auto model = read(text);
-    REQUIRE_MESSAGE(model.has_value(), (model ? "" : describe(model.error())));
+    REQUIRE_MESSAGE(model.has_value(), why_not(model));
     return model->left_out;
   };
   using Sentences = std::vector<std::string>;

@@ -7,6 +7,7 @@
 #include "engine/rig/rig.hpp"
 #include "engine/rig/rig_doubts.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::rig {
 namespace {
@@ -18,7 +19,7 @@ std::vector<Error> doubts_with(const std::string& settings) {
       "lower_right_m = [2, -0.8, 0.5]\nupper_left_m = [2, 0.8, 1.4]\n" +
           settings,
       "own.toml");
-  REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+  REQUIRE_MESSAGE(rig, why_not(rig));
   return doubts_of(*rig, "own.toml");
 }
 
@@ -54,7 +55,7 @@ TEST_CASE("an instruments' panel, which takes its window's shape, is not doubted
 TEST_CASE("no shipped rig is doubted") {
   for (const char* name : {"seven-screens", "three-monitors", "desktop"}) {
     const auto rig = read_rig(shipped_text(fmt::format("rigs/{}.toml", name)), name);
-    REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+    REQUIRE_MESSAGE(rig, why_not(rig));
     for (const Error& doubt : doubts_of(*rig, name)) FAIL_CHECK(describe(doubt));
   }
 }

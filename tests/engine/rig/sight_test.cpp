@@ -43,7 +43,7 @@ upper_left_m = [0.6, 0.9, 1.05]
 
 std::string refusal(const std::string& text) {
   const auto rig = read_rig(text, "one.toml");
-  return rig ? "" : describe(rig.error());
+  return why_not(rig);
 }
 
 Vec3 middle_of(const Window& window) { return 0.5 * (window.lower_right_m + window.upper_left_m); }

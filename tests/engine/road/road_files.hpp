@@ -8,6 +8,7 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "tests/engine/road/road_text.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::road {
 
@@ -15,7 +16,7 @@ inline std::string motorway_text() { return shipped_text("scenarios/motorway-amb
 
 inline RoadNetwork read_or_fail(const std::string& xml) {
   const auto network = read_opendrive(xml, "test.xodr");
-  const std::string what = network ? std::string() : describe(network.error());
+  const std::string what = why_not(network);
   REQUIRE_MESSAGE(network.has_value(), what);
   return *network;
 }

@@ -78,7 +78,7 @@ TEST_CASE("what is not supported is named with its line") {
 TEST_CASE("a wrong file names line element and remedy") {
   const auto error_of = [](const std::string& text) {
     const auto scenario = read_scenario(text, "test.xosc", files_in("."));
-    return scenario ? std::string() : describe(scenario.error());
+    return why_not(scenario);
   };
   CHECK(error_of("<OpenSCENARIO").find("not XML") != std::string::npos);
   CHECK(error_of("<OpenDRIVE/>").find("not an OpenSCENARIO file") != std::string::npos);
@@ -165,7 +165,7 @@ TEST_CASE("a parameter from outside that is not declared not of its type or not 
     const auto parameter = parse_parameter(given);
     REQUIRE_MESSAGE(parameter.has_value(), why_not(parameter));
     const auto scenario = read_scenario(text, "test.xosc", files_in("."), nullptr, {*parameter});
-    return scenario ? std::string() : describe(scenario.error());
+    return why_not(scenario);
   };
   for (const char* good : {"speed=1", "speed=9", "count=65535", "at=2026-01-31T12:00:00.5+01:00", "on=false"})
     CHECK(error_of(good) == "");

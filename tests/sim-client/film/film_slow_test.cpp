@@ -78,7 +78,7 @@ std::string printed_by(const std::string& command) {
 
 std::string refusal_of(const FilmOptions& options) {
   const auto made = make_film(options, [](const FilmMade&) { return true; });
-  return made ? "" : describe(made.error());
+  return why_not(made);
 }
 
 template <class Value>

@@ -20,6 +20,7 @@
 #include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/why_not.hpp"
 
 namespace septet::film {
 namespace {
@@ -46,7 +47,7 @@ Snapshot world_with_others() {
 
 std::string refusal_of(const std::string& script) {
   const auto read = read_script(script, "shots.toml");
-  return read ? "" : describe(read.error());
+  return why_not(read);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ TEST_CASE("turns follow each other without a jump and after the last one the cam
 TEST_CASE("a path without frames or steps or a shorter way is refused with a message that names the shot") {
   const auto refusal = [](double to_s, Turn turn) {
     const auto path = camera_path({.from_s = 1.0, .to_s = to_s, .turns = {turn}, .where = "shot 7"}, frames_per_second);
-    return path ? "" : describe(path.error());
+    return why_not(path);
   };
   const auto check = [](const std::string& message, const char* word) {
     CAPTURE(message);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/why_not.hpp"
 
 using namespace septet;
 using namespace septet::vehicle;
@@ -60,7 +61,7 @@ TEST_CASE("values out of bounds and broken tables are refused") {
 TEST_CASE("points of a table out of any car's range are refused with their place") {
   const auto error_of = [](const std::string& what, const std::string& with) {
     const auto car = read_vehicle(replaced(vehicle_text("volvo-s80"), what, with), "v");
-    return car ? std::string() : describe(car.error());
+    return why_not(car);
   };
   CHECK(error_of("225, 255, 272", "225, 1e308, 272")
             .find("powertrain.full_torque_nm: is 1e+308 at point 4, outside 0 to 5000") != std::string::npos);
