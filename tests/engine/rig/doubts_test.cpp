@@ -52,6 +52,23 @@ TEST_CASE("an instruments' panel, which takes its window's shape, is not doubted
   CHECK(doubts_with(square + "shows = \"instruments\"\n").empty());
 }
 
+TEST_CASE("an inset is doubted for its pixels by its own corners, with the height that would fit") {
+  const auto with_inset = [](double height) {
+    return doubts_with(
+        fmt::format("width_px = 1920\nheight_px = 1080\n[[screen.inset]]\nleft = 0.1\ntop = 0.1\nwidth = 0.25\n"
+                    "height = {}\nlower_left_m = [1, 0.4, 1]\nlower_right_m = [1, 0, 1]\nupper_left_m = [1, 0.4, "
+                    "1.2]\n",
+                    height));
+  };
+  CHECK(with_inset(240.0 / 1080.0).empty());
+  const auto flat = with_inset(0.2);
+  REQUIRE(flat.size() == 1);
+  CHECK(flat[0].what ==
+        "the pixels of inset 1 of the screen front are 0.90 times as wide as high: 480 × 216 pixels for 0.400 m × "
+        "0.200 m");
+  CHECK(flat[0].remedy == "give it height = 0.2222, or other corners");
+}
+
 TEST_CASE("no shipped rig is doubted") {
   for (const char* name : {"seven-screens", "three-monitors", "desktop"}) {
     const auto rig = read_rig(shipped_text(fmt::format("rigs/{}.toml", name)), name);
