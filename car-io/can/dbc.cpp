@@ -93,7 +93,7 @@ class Reader {
 
   void statement() {
     line_ = scan_.line();
-    if (scan_.peek() == '/') return scan_.skip_line();  // A person's remark; the format itself has CM_.
+    if (scan_.peek() == '/') return remark();
     Scanner from_word = scan_;
     const auto word = scan_.take_identifier();
     const bool follows_message = std::exchange(in_message_, word == "BO_" || word == "SG_");
@@ -130,6 +130,14 @@ class Reader {
     } else {
       end_statement();
     }
+  }
+
+  /// A person's remark; the format itself has CM_. One that takes a message out leaves the signals behind it to nobody.
+  void remark() {
+    const std::string_view line = scan_.rest_of_line();
+    const auto message = message_begun_by(line.substr(std::min(line.find("BO_"), line.size())));
+    if (message && draft_.size() > 0 && *message != draft_[draft_.size() - 1].name) in_message_ = false;
+    scan_.skip_line();
   }
 
   /// Past its `;`; where that is missing, up to the line that begins another statement, or to the end.

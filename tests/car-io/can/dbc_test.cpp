@@ -278,6 +278,32 @@ TEST_CASE("what makers' files do with names, senders, remarks and ends of statem
   CHECK(database->messages[1].period_s == 0.05);
 }
 
+TEST_CASE("signals behind a message that a remark takes out are given to no other message") {
+  const auto with = [](const std::string& remark) {
+    return read_dbc(std::string(head) + "BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n\n" + remark +
+                        " SG_ t : 8|8@1+ (1,0) [0|0] \"\" X\nBO_ 9 C: 8 X\n",
+                    "out.dbc");
+  };
+  for (const char* remark : {"// BO_ 8 B: 8 X\n", "//BO_ 8 B: 8 X\n", " // was: BO_ 8 B : 8 X\n"}) {
+    CAPTURE(std::string(remark));
+    const auto database = with(remark);
+    REQUIRE_MESSAGE(database.has_value(), why_not(database));
+    REQUIRE(database->messages.size() == 2);
+    CHECK(database->messages[0].signals.size() == 1);
+    CHECK(database->messages[1].name == "C");
+    REQUIRE(database->unread.size() == 1);
+    CHECK(database->unread[0].why.what == "a SG_ stands behind no BO_");
+  }
+  // An earlier form of the same message, or words about it, take nothing out.
+  for (const char* remark : {"// BO_ 7 A: 6 X\n", "// the BO_ above\n"}) {
+    CAPTURE(std::string(remark));
+    const auto database = with(remark);
+    REQUIRE_MESSAGE(database.has_value(), why_not(database));
+    CHECK(database->unread.empty());
+    CHECK(database->messages[0].signals.size() == 2);
+  }
+}
+
 TEST_CASE("a statement without its semicolon ends before the next line's statement") {
   for (const char* open :
        {"BA_ \"GenMsgCycleTime\" BO_ 7 50", "CM_ BO_ 7 \"a text\"", "BA_DEF_DEF_ \"VFrameFormat\" 1",
