@@ -1,6 +1,7 @@
 'use strict';
 // The page in the language of who reads it. Each file language_XX.js has the same keys; an element's data-t is the key of its text,
-// data-t-title, data-t-label and data-t-placeholder those of its attributes. Words of the server that have a key "said.WORDS" are told likewise.
+// data-t-title, data-t-label and data-t-placeholder those of its attributes. Words of the server that have a key "said.WORDS" are told likewise;
+// a {name} in such a key stands for anything.
 const languages = {};
 const $ = (id) => document.getElementById(id);
 let language = 'en';
@@ -12,8 +13,25 @@ function t(key, values = {}) {
 }
 const has_text = (key) => key in languages.en;
 
+/// Keys of sentences with gaps, each with the expression that finds what fills them; the longest first, which says most.
+let gapped = null;
+function sentences_with_gaps() {
+  gapped ??= Object.keys(languages.en).filter((key) => key.startsWith('said.') && key.includes('{')).sort((a, b) => b.length - a.length).map((key) => {
+    const form = key.slice(5).replace(/[.*+?^$()|[\]\\]/g, '\\$&').replace(/\{(\w+)\}/g, '(?<$1>.+?)');
+    return [key, new RegExp(`^${form}$`)];
+  });
+  return gapped;
+}
+
 /// What the server has said, in this language where it is one of the sentences that the page knows.
-const heard = (text) => has_text(`said.${text}`) ? t(`said.${text}`) : text;
+function heard(text) {
+  if (has_text(`said.${text}`)) return t(`said.${text}`);
+  for (const [key, form] of sentences_with_gaps()) {
+    const found = form.exec(text);
+    if (found) return t(key, Object.fromEntries(Object.entries(found.groups).map(([name, value]) => [name, heard(value)])));
+  }
+  return text;
+}
 
 /// A number as this language writes it.
 function figure(value, digits = 0) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The page's files of a language: each has every key once, with the same {names} in its text, and the page asks for no other.
 
-Every word that Septet's own lessons and things bring onto it is told likewise, every refusal of a wish, and why there is no sound.
+Every word that Septet's own lessons and things bring onto it is told likewise, every refusal of a wish,
+why there is no sound, and which screens and cars connect and leave.
 
     language_test.py FOLDER_OF_THE_PAGE ROOT
 """
@@ -61,6 +62,15 @@ def sound_words(root):
     return [f"said.{word}" for word in [*words, *lost, *remedies] if word != "libopenal1"]
 
 
+def told_of_clients(root):
+    """The sentences of screens and car that connect and leave, with {} for each gap."""
+    host = (root / "sim-server/host/screen_host.cpp").read_text(encoding="utf-8")
+    joined = re.sub(r'"\s*\n\s*"', "", host)
+    found = re.findall(r'tell\(\w+,\s*(?:fmt::format\()?"([^"]+)"', joined)
+    assert len(found) == joined.count("  tell(client,"), found
+    yield from (re.sub(r"\{[^}]*\}", "{}", sentence) for sentence in found)
+
+
 def names_in(text):
     return sorted(set(re.findall(r"\{(\w+)\}", text)))
 
@@ -80,6 +90,8 @@ def main():
             if names_in(texts[key]) != names_in(english[key]):
                 mistakes.append(f"{code}: {key} has the names {names_in(texts[key])}, English has {names_in(english[key])}")
     mistakes += [f"the page is told of {key}" for key in [*brought_words(root), *refusals(root), *sound_words(root)] if key not in english]
+    with_gaps = {re.sub(r"\{\w+\}", "{}", key) for key in english if key.startswith("said.")}
+    mistakes += [f"the page is told of {said}" for said in told_of_clients(root) if f"said.{said}" not in with_gaps]
     asked = set()
     areas = {key.split(".")[0] for key in english} - {made.rstrip(".") for made in MADE}
     for file in folder.iterdir():
