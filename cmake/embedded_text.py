@@ -7,7 +7,8 @@
 import sys
 from pathlib import Path
 
-ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"}
+# Of two question marks and a third sign the language makes another sign.
+ESCAPES = {"\\": "\\\\", "\"": "\\\"", "\n": "\\n", "\t": "\\t", "?": "\\?"}
 
 
 def main():
