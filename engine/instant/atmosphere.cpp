@@ -22,6 +22,9 @@ const Vec3 rayleigh_per_m{5.802e-6, 13.558e-6, 33.1e-6};
 const Vec3 ozone_per_m{0.650e-6, 1.881e-6, 0.085e-6};
 const Vec3 ground_albedo{0.11, 0.12, 0.08};
 const Vec3 snow_albedo{0.75, 0.76, 0.78};  // Snow between bare tracks and objects; fresh snow alone has 0.8 to 0.9.
+/// Mean albedo of houses and trees along a street, and the share of the lowest sky that they hide.
+const Vec3 upright_albedo{0.36, 0.26, 0.16};
+constexpr float street_hidden_share = 0.8f;
 const Vec3 night_sky{1.0e-5, 1.64e-5, 3.27e-5};  // Some 0.13 cd/m², as over a lit country.
 /// At night clouds return the light of towns: brighter than a clear sky (Kyba et al. 2011).
 const Vec3 towns_on_clouds{4.18e-5, 3.82e-5, 3.64e-5};
@@ -236,6 +239,12 @@ SkyLight sky_light(const Environment& environment) {
   light.sky_irradiance = glm::vec3(sky_irradiance) * adapted.light_up;
   light.ground_irradiance = glm::vec3(pi * ground) * adapted.light_up;
   light.irradiance = instant::sky_irradiance(table, light.sky_irradiance, glm::vec3(ground) * adapted.light_up);
+  const Vec3 half_of_both = 0.5 * (sky_irradiance + pi * ground), level_sun = sunlight * std::cos(elevation);
+  light.street_irradiance =
+      instant::street_irradiance(table, light.sky_irradiance, glm::vec3(ground) * adapted.light_up,
+                                 {street_hidden_share, glm::vec3(upright_albedo * half_of_both / pi) * adapted.light_up,
+                                  glm::vec3(upright_albedo * level_sun / pi) * adapted.light_up,
+                                  glm::vec3(albedo * sunlight * std::max(0.0, sun.z) / pi) * adapted.light_up});
   light.light_irradiance = glm::vec3(beam) * adapted.light_up;
   // Under a closed cover the exposure stays a little lower.
   light.exposure = static_cast<float>(1.0 - 0.22 * overcast) * adapted.exposure;

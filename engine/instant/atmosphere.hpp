@@ -39,6 +39,7 @@ struct SkyLight {
   glm::vec3 sky_irradiance{0.0f};     ///< Irradiance of a level surface that faces up.
   glm::vec3 ground_irradiance{0.0f};  ///< Irradiance of a level surface that faces down.
   SkyIrradiance irradiance{};         ///< Irradiance of a surface of any direction.
+  SkyIrradiance street_irradiance{};  ///< The same of a wall along a street.
   float fog_per_m = 0.0f;             ///< Extinction by haze and fog.
   float fall_per_m = 0.0f;            ///< Extinction by rain or snow, in places where they fall.
   float overcast = 0.0f;              ///< 0 broken clouds to 1 a closed cover.

@@ -1,5 +1,6 @@
 #include "engine/instant/sky_irradiance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -18,10 +19,10 @@ std::array<double, 7> functions(double x, double y, double z) {
   return {1.0, z, x, 3.0 * z2 - 1.0, x * z, x * x - y * y, 35.0 * z2 * z2 - 30.0 * z2 + 3.0};
 }
 
-}  // namespace
-
-SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irradiance,
-                             const glm::vec3& ground_radiance) {
+/// `radiance(row, column, z, cosine)`: of a cell of the sky's table, at the direction's height z and the cosine of its
+/// azimuth from the sun.
+template <class Radiance>
+SkyIrradiance irradiance_from(const Radiance& radiance, const glm::vec3& level_irradiance) {
   std::array<Vec3, 7> sums{};
   for (std::uint32_t row = 0; row < SkyTable::rows; ++row)
     for (std::uint32_t column = 0; column < SkyTable::columns; ++column) {
@@ -35,9 +36,7 @@ SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irrad
           2.0 * (std::asin((column + 1.0) / SkyTable::columns) - std::asin(double(column) / SkyTable::columns));
       const double solid_angle = 2.0 * height * width;
       const std::array<double, 7> shape = functions(x, y, z);
-      const bool is_sky = row >= SkyTable::rows / 2;
-      const Vec3 light =
-          Vec3(is_sky ? table.radiance[row * SkyTable::columns + column] : ground_radiance) * solid_angle;
+      const Vec3 light = radiance(row, column, z, cosine) * solid_angle;
       for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += light * shape[i];
     }
   // Squared norms of the harmonics, times π, 2π/3, π/4 and −π/24, the coefficients of the cosine.
@@ -50,6 +49,37 @@ SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irrad
   irradiance[0] += 0.5f * missing;
   irradiance[1] += 0.5f * missing;
   return irradiance;
+}
+
+bool is_sky(std::uint32_t row) { return row >= SkyTable::rows / 2; }
+
+}  // namespace
+
+SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irradiance,
+                             const glm::vec3& ground_radiance) {
+  return irradiance_from(
+      [&](std::uint32_t row, std::uint32_t column, double, double) {
+        return Vec3(is_sky(row) ? table.radiance[row * SkyTable::columns + column] : ground_radiance);
+      },
+      level_irradiance);
+}
+
+SkyIrradiance street_irradiance(const SkyTable& table, const glm::vec3& level_irradiance,
+                                const glm::vec3& ground_radiance, const Street& street) {
+  // Sine of 13°, the height of houses across a street.
+  constexpr double hidden_below = 0.23;
+  // Share of the ground in a wall's shadow, of that which it sees straight away from the sun.
+  constexpr double own_shadow = 0.7;
+  return irradiance_from(
+      [&](std::uint32_t row, std::uint32_t column, double z, double cosine) {
+        const double from_sun = std::max(0.0, -cosine);
+        if (!is_sky(row)) return Vec3(ground_radiance) - own_shadow * from_sun * Vec3(street.ground_sun_radiance);
+        const Vec3 sky(table.radiance[row * SkyTable::columns + column]);
+        if (z > hidden_below) return sky;
+        const Vec3 upright = Vec3(street.shaded_radiance) + from_sun * Vec3(street.sunlit_radiance);
+        return glm::mix(sky, upright, double{street.hidden_share});
+      },
+      level_irradiance);
 }
 
 }  // namespace septet::instant

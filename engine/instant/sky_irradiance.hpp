@@ -24,4 +24,17 @@ using SkyIrradiance = std::array<glm::vec3, light::irradiance_terms>;
 SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irradiance,
                              const glm::vec3& ground_radiance);
 
+/// Surroundings of a wall along a street: upright things all round it, houses and trees, and the shadow that it throws.
+struct Street {
+  float hidden_share = 0.0f;            ///< Of the lowest sky, by upright things.
+  glm::vec3 shaded_radiance{0.0f};      ///< Of an upright thing without the sun's light.
+  glm::vec3 sunlit_radiance{0.0f};      ///< Addition by the sun, on one that faces the sun's azimuth.
+  glm::vec3 ground_sun_radiance{0.0f};  ///< Share of the ground's that the sun gives, lost in the wall's shadow.
+};
+
+/// The same for a wall along a street. Towards the side away from the sun the wall sees sunlit things, and where it
+/// faces there, before itself, ground in its own shadow. A level surface still receives `level_irradiance`.
+SkyIrradiance street_irradiance(const SkyTable& table, const glm::vec3& level_irradiance,
+                                const glm::vec3& ground_radiance, const Street& street);
+
 }  // namespace septet::instant

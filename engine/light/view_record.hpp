@@ -41,10 +41,12 @@ struct ViewUniforms {
   vec4 target;
   /// xy: offset of the samples of still surfaces, NDC. z: share of its depth that one keeps. w: 1 where the sun or moon casts visible shadows.
   vec4 offset;
+  /// rgb: as `irradiance`, of walls along a street.
+  vec4 street_irradiance[irradiance_terms];
   vec4 beacon_position[most_beacons];   ///< xyz relative. w: the vehicle's ahead on the level, x.
   vec4 beacon_intensity[most_beacons];  ///< rgb, on the level. w: that ahead, y.
 };
-LIGHT_RECORD(ViewUniforms, beacon_intensity, 4 * 2 + 24 + irradiance_terms + 2 * most_headlights + 2 * most_beacons)
+LIGHT_RECORD(ViewUniforms, beacon_intensity, 4 * 2 + 24 + 2 * irradiance_terms + 2 * most_headlights + 2 * most_beacons)
 
 LIGHT_END
 

@@ -212,6 +212,7 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
   if (parameters.ambient_share != 1.0f)
     apply(TagSet{id, surface_group, tag++, {"ambient_share", double{parameters.ambient_share}}});
   if (parameters.lit_by_night) apply(TagSet{id, surface_group, tag++, {"lit_by_night", true}});
+  if (parameters.in_street) apply(TagSet{id, surface_group, tag++, {"in_street", true}});
   return id;
 }
 

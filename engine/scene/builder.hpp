@@ -43,6 +43,7 @@ struct MaterialParameters {
   bool two_sided = false;
   float ambient_share = 1.0f;
   bool lit_by_night = false;
+  bool in_street = false;
 };
 
 struct ObjectParameters {

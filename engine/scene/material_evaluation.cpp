@@ -219,6 +219,7 @@ SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int
   material.two_sided = tag_or(node, "two_sided", false);
   material.ambient_share = static_cast<float>(std::clamp(tag_or(node, "ambient_share", 1.0), 0.0, 1.0));
   material.lit_by_night = tag_or(node, "lit_by_night", false);
+  material.in_street = tag_or(node, "in_street", false);
   return material;
 }
 

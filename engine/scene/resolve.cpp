@@ -296,7 +296,8 @@ struct Resolver::State {
            a.emission == b.emission && a.takes_paint == b.takes_paint && a.wettable == b.wettable &&
            a.stripe == b.stripe && a.retroreflection == b.retroreflection && a.picture_columns == b.picture_columns &&
            a.picture_rows == b.picture_rows && a.share_of_sky == b.share_of_sky && a.clear_coat == b.clear_coat &&
-           a.two_sided == b.two_sided && a.ambient_share == b.ambient_share && a.lit_by_night == b.lit_by_night;
+           a.two_sided == b.two_sided && a.ambient_share == b.ambient_share && a.lit_by_night == b.lit_by_night &&
+           a.in_street == b.in_street;
   }
 
   void make_images(const Store& store) {

@@ -79,6 +79,9 @@ struct SurfaceMaterial {
   float ambient_share = 1.0f;
   /// True for a window: its emission comes with the night; it is visible and lights no other surface.
   bool lit_by_night = false;
+  /// True for a wall along a street, where houses hide the lowest sky and the wall shades the ground before it: light
+  /// from around is then SkyLight::street_irradiance, where no ray is traced.
+  bool in_street = false;
 };
 
 /// Source of a part's motion or light on a vehicle.

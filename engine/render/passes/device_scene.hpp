@@ -22,7 +22,7 @@ struct DeviceMaterial {
   MaterialConstants constants{};
   std::int32_t image = -1;  ///< Index of its texture; −1: no texture.
   bool cut = false, blended = false, glossy = false, coated = false, wettable = false, stripe = false,
-       two_sided = false;  ///< two_sided: opaque, and drawn from both sides.
+       two_sided = false, in_street = false;  ///< two_sided: opaque, and drawn from both sides.
 };
 
 struct DeviceMesh {

@@ -7,11 +7,12 @@
 
 namespace septet::render::shaders {
 
-/// Specialization constant of shaders/surface.frag, as is two_sided_constant.
+/// Specialization constant of shaders/surface.frag, as are two_sided_constant and in_street_constant.
 inline constexpr std::size_t clustered_headlights_constant = 14;
 /// Specialization constant of shaders/sunlit.glsl, as is soft_shadows_constant.
 inline constexpr std::size_t unshaded_constant = 13;
 inline constexpr std::size_t two_sided_constant = 16;
+inline constexpr std::size_t in_street_constant = 17;
 inline constexpr std::size_t soft_shadows_constant = 15;
 
 std::span<const std::uint32_t> surface_vert();

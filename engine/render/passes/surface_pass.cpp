@@ -12,13 +12,14 @@ struct Variant {
   std::uint32_t textured;  ///< See shaders/surface.frag.
   std::uint32_t lamps;     ///< See shaders/surface.frag.
   std::uint32_t glossy;    ///< See shaders/surface.frag.
-  bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving, two_sided;
+  bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving, two_sided, in_street;
   SurfaceKind kind;
   std::uint32_t key() const {
     return textured | (lamps & 7u) << 2 | (lamps >> 3) << 18 | glossy << 5 | std::uint32_t{snowy} << 7 |
            std::uint32_t{sooty} << 8 | static_cast<std::uint32_t>(kind) << 9 | std::uint32_t{road} << 11 |
            std::uint32_t{mirror} << 12 | std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 |
-           std::uint32_t{moving} << 15 | std::uint32_t{unshaded} << 16 | std::uint32_t{two_sided} << 17;
+           std::uint32_t{moving} << 15 | std::uint32_t{unshaded} << 16 | std::uint32_t{two_sided} << 17 |
+           std::uint32_t{in_street} << 19;
   }
 };
 
@@ -63,6 +64,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.constants[shaders::clustered_headlights_constant] = context.refinements.clustered_headlights;
   description.constants[shaders::unshaded_constant] = variant.unshaded;
   description.constants[shaders::two_sided_constant] = variant.two_sided;
+  description.constants[shaders::in_street_constant] = variant.in_street;
   description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
@@ -94,10 +96,10 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
         std::uint32_t{material.glossy || (light.wet && material.wettable)} | std::uint32_t{material.coated} << 1;
     const bool moving = context.formats.marks && !draw.still;
     const bool retroreflective = material.constants.light.y > 0.0f;
-    const VkPipeline pipeline =
-        pipeline_of(pass, context,
-                    {texturing, light.lamps(), glossy, light.unshaded, light.snowy, light.sooty, material.wettable,
-                     light.mirror_of_road, draw.fading, retroreflective, moving, material.two_sided, kind});
+    const VkPipeline pipeline = pipeline_of(
+        pass, context,
+        {texturing, light.lamps(), glossy, light.unshaded, light.snowy, light.sooty, material.wettable,
+         light.mirror_of_road, draw.fading, retroreflective, moving, material.two_sided, material.in_street, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (const bool culled = kind == SurfaceKind::opaque && !material.two_sided; culled != culls)

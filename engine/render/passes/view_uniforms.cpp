@@ -108,8 +108,10 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   const glm::vec2 sun_level = glm::length(sun) > 1e-6f ? glm::normalize(sun) : glm::vec2(1.0f, 0.0f);
   uniforms.sun_level = glm::vec4(sun_level, light.overcast, static_cast<float>(instant.environment.cloud_cover));
 
-  for (std::size_t i = 0; i < light.irradiance.size(); ++i)
+  for (std::size_t i = 0; i < light.irradiance.size(); ++i) {
     uniforms.irradiance[i] = glm::vec4(light.irradiance[i], 0.0f);
+    uniforms.street_irradiance[i] = glm::vec4(light.street_irradiance[i], 0.0f);
+  }
 
   uniforms.irradiance[0].w = lamps.roofed_height_m;
 

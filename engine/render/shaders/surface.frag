@@ -33,6 +33,7 @@ layout(constant_id = 10) const uint fading = 0;         // Some pixels show anot
 
 layout(constant_id = 11) const uint retroreflective = 0;
 layout(constant_id = 16) const uint two_sided = 0;  // Opaque, and drawn from both sides.
+layout(constant_id = 17) const uint in_street = 0;  // A wall along a street, between houses.
 layout(constant_id = 12) const uint over_frames = 0;  // See surface.vert.
 
 const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of the surroundings reflected in tunnels.
@@ -193,8 +194,9 @@ void main() {
   float diffuse = max(facing, 0.0);
   if (cut != 0) diffuse = 0.75 * diffuse + 0.25 * abs(facing) + 0.1;  // Leaves let light through.
   vec3 sunlight = view.light_irradiance.rgb * lit;
+  vec3 from_around = in_street != 0 ? street_irradiance_on(n) : irradiance_on(n);
   // Roads lie level, in the open.
-  vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : irradiance_on(n) * (share_of_sky * material.more.x);
+  vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : from_around * (share_of_sky * material.more.x);
   // Light of the lamps of a roofed place: from all sides, and near the eye their pools as well.
   float between_pools = 1.0 - share_of_sky;
   if ((lamps & 2) != 0) {

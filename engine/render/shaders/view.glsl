@@ -36,11 +36,14 @@ vec3 mirrored_sky(vec3 direction, float roughness) {
   return sky_in_table(direction, sky_table_of(roughness));
 }
 
+#define HUES_OF(terms) \
+  vec3[](terms[0].rgb, terms[1].rgb, terms[2].rgb, terms[3].rgb, terms[4].rgb, terms[5].rgb, terms[6].rgb)
+
 // Light of sky and ground on a surface that faces `n`.
-vec3 irradiance_on(vec3 n) {
-  return irradiance_on(vec3[](view.irradiance[0].rgb, view.irradiance[1].rgb, view.irradiance[2].rgb, view.irradiance[3].rgb,
-                              view.irradiance[4].rgb, view.irradiance[5].rgb, view.irradiance[6].rgb), view.sun_level.xy, n);
-}
+vec3 irradiance_on(vec3 n) { return irradiance_on(HUES_OF(view.irradiance), view.sun_level.xy, n); }
+
+// The same where it stands along a street, between houses.
+vec3 street_irradiance_on(vec3 n) { return irradiance_on(HUES_OF(view.street_irradiance), view.sun_level.xy, n); }
 
 // Radiance of fog between the eye and a place in that direction: that of the sky behind it, and below the horizon that
 // of the sky just above.

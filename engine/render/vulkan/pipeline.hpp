@@ -70,7 +70,7 @@ struct PipelineDescription {
   bool marks = false;  ///< Alpha is stored, too: blended by itself, whatever the blending of the colours.
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 17> constants{};  ///< Specialization constants 0 to 16 of both stages.
+  std::array<std::uint32_t, 18> constants{};  ///< Specialization constants 0 to 17 of both stages.
 };
 
 /// Creates a pipeline. Viewport, scissor, cull mode and front face are dynamic.

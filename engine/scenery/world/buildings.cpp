@@ -19,10 +19,9 @@ using roadside::BuildingKind;
 
 geometry::PolygonMesh farm(bool red) {
   MeshBuilder builder;
-  const std::array<HouseLook, 3> looks{
-      {{5.4f, 8.6f, red ? Ground::facade_red : Ground::facade_white, Ground::roof_tiles},
-       {4.8f, 10.0f, Ground::planks, Ground::roof_dark},
-       {2.7f, 4.8f, Ground::facade_red, Ground::roof_tiles}}};
+  const std::array<HouseLook, 3> looks{{{5.4f, 8.6f, red ? Ground::farm_red : Ground::farm_white, Ground::roof_tiles},
+                                        {4.8f, 10.0f, Ground::planks, Ground::roof_dark},
+                                        {2.7f, 4.8f, Ground::farm_red, Ground::roof_tiles}}};
   const auto blocks = roadside::house_blocks(BuildingKind::red_farm);
   for (std::size_t i = 0; i < looks.size(); ++i) add_house(builder, blocks[i], looks[i]);
   return builder.take();
@@ -31,10 +30,10 @@ geometry::PolygonMesh farm(bool red) {
 geometry::PolygonMesh church() {
   MeshBuilder builder;
   const auto blocks = roadside::house_blocks(BuildingKind::church);
-  add_house(builder, blocks[0], {7.5f, 13.0f, Ground::facade_white, Ground::roof_dark});
+  add_house(builder, blocks[0], {7.5f, 13.0f, Ground::farm_white, Ground::roof_dark});
   const auto& tower = blocks[1];
   const glm::vec2 middle(tower.x_m, tower.y_m), half(tower.length_m / 2, tower.width_m / 2);
-  builder.material = index_of(Ground::facade_white);
+  builder.material = index_of(Ground::farm_white);
   builder.append(geometry::box(glm::vec3(middle - half, -1.5f), glm::vec3(middle + half, 19.0f)), glm::mat4(1.0f),
                  true);
   builder.material = index_of(Ground::roof_dark);

@@ -43,7 +43,7 @@ struct WorldLook {
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
 /// Looks in the order of Ground. Linear means of the textures: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 72> ground_looks{{
+constexpr std::array<WorldLook, 74> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
@@ -97,6 +97,8 @@ constexpr std::array<WorldLook, 72> ground_looks{{
     {"facade white", {0.82f, 0.80f, 0.72f}, Texture::facade},
     {"facade yellow", {0.72f, 0.52f, 0.25f}, Texture::facade},
     {"facade grey", {0.46f, 0.47f, 0.46f}, Texture::facade},
+    {"farm red", {0.52f, 0.095f, 0.060f}, Texture::facade},
+    {"farm white", {0.82f, 0.80f, 0.72f}, Texture::facade},
     {"roof tiles", {0.34f, 0.13f, 0.080f}, Texture::none},
     {"roof dark", {0.085f, 0.085f, 0.090f}, Texture::none},
     {"planks", {0.30f, 0.055f, 0.040f}, Texture::none},
@@ -122,6 +124,12 @@ bool is_in_tunnel(Ground ground) {
   using enum Ground;
   return ground == asphalt_tunnel || ground == mark_tunnel || ground == concrete_tunnel || ground == tiles_tunnel ||
          ground == lamp_tunnel || ground == exit_sign;
+}
+
+bool is_street_wall(Ground ground) {
+  using enum Ground;
+  return ground == facade_red || ground == facade_white || ground == facade_yellow || ground == facade_grey ||
+         ground == window_lit;  // Its panes stand before the facades alone.
 }
 
 constexpr std::uint32_t first_color = index_of(Ground::palette) + 1;
@@ -227,6 +235,7 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, boo
         i <= index_of(Ground::mark) || i == index_of(Ground::paint) || i == index_of(Ground::far_asphalt);
     material.stripe = i == index_of(Ground::mark) || i == index_of(Ground::mark_tunnel);
     material.lit_by_night = i == index_of(Ground::window_lit);
+    material.in_street = is_street_wall(static_cast<Ground>(i));
     material.share_of_sky = is_in_tunnel(static_cast<Ground>(i)) ? 0.0f : 1.0f;
     palette.push_back(builder.add_material(std::string("world/") + look.name, material));
   }

@@ -57,10 +57,12 @@ enum class Ground : std::uint32_t {
   noise_wall,
   water,
   water_shaded,
-  facade_red,
+  facade_red,  ///< Walls along a street, to facade_grey.
   facade_white,
   facade_yellow,
   facade_grey,
+  farm_red,  ///< Walls among fields, as are those of farm_white.
+  farm_white,
   roof_tiles,
   roof_dark,
   planks,

@@ -71,6 +71,42 @@ TEST_CASE("seven numbers of a sky give the light on every side of a thing as a s
   }
 }
 
+TEST_CASE("houses and its own shadow change the light on a wall that turns from the sun, and not on level ground") {
+  SkyTable table;
+  table.radiance.assign(SkyTable::columns * SkyTable::rows, glm::vec3(1.0f));
+  const glm::vec3 level(pi), ground(0.5f), away(-1, 0, 0), towards(1, 0, 0), up(0, 0, 1);
+  const Street open{}, dark{.hidden_share = 0.8f, .shaded_radiance = glm::vec3(0.2f)},
+      lit{.hidden_share = 0.8f, .shaded_radiance = glm::vec3(0.2f), .sunlit_radiance = glm::vec3(2.0f)},
+      shadowed{.ground_sun_radiance = glm::vec3(0.4f)};
+  const auto on = [&](const Street& street, const glm::vec3& normal) {
+    return irradiance_on(street_irradiance(table, level, ground, street), {1.0f, 0.0f}, normal).g;
+  };
+  for (const glm::vec3& normal : {away, towards, up})
+    CHECK(on(open, normal) ==
+          relative(irradiance_on(sky_irradiance(table, level, ground), {1.0f, 0.0f}, normal).g, 1e-5));
+  CHECK(on(dark, away) < 0.95f * on(open, away));
+  CHECK(on(lit, away) > 1.1f * on(dark, away));
+  CHECK(on(lit, away) > 1.1f * on(lit, towards));
+  CHECK(on(shadowed, away) < 0.95f * on(open, away));
+  // The ground fills half of its sight, and 0.7 of that straight away from the sun lies in its shadow.
+  CHECK(on(shadowed, away) > on(open, away) - 0.7f * 0.4f * 0.5f * pi);
+  for (const Street& street : {dark, lit, shadowed}) CHECK(on(street, up) == relative(pi, 1e-4));
+}
+
+TEST_CASE("in the sun a wall along a street that turns from it is lit with a warmer hue than one in a field") {
+  for (const double elevation_rad : {0.25, 0.6, 1.0}) {
+    Environment environment;
+    environment.sun_elevation_rad = elevation_rad;
+    environment.cloud_cover = 0.25;
+    const SkyLight light = sky_light(environment);
+    const glm::vec2 sun_level = glm::normalize(glm::vec2(light.sun_direction));
+    const glm::vec3 away(-sun_level, 0.0f), street = irradiance_on(light.street_irradiance, sun_level, away),
+                                            field = irradiance_on(light.irradiance, sun_level, away);
+    CAPTURE(elevation_rad);
+    CHECK(street.r / street.b > 1.02f * (field.r / field.b));
+  }
+}
+
 TEST_CASE("at a low sun a wall that faces it receives much more of the sky's light than one that turns from it") {
   Environment environment;
   environment.sun_elevation_rad = 0.05;

@@ -32,7 +32,7 @@ struct DrawnWorld {
 
 TEST_CASE("whatever of a material changes is shown and what does not change it makes nothing anew") {
   const MaterialParameters before{.opacity = 0.5f};
-  std::vector<MaterialParameters> changes(14, before);
+  std::vector<MaterialParameters> changes(15, before);
   changes[0].base_color = {0.1f, 0.8f, 0.8f};
   const DrawnWorld any;
   changes[1].base_color_bitmap = any.bitmap;
@@ -48,6 +48,7 @@ TEST_CASE("whatever of a material changes is shown and what does not change it m
   changes[11].retroreflection = 70.0f;
   changes[12].picture_columns = 4;
   changes[13].picture_rows = 8;
+  changes[14].in_street = true;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     CAPTURE(i);
     DrawnWorld world, changed;
