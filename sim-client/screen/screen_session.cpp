@@ -264,12 +264,14 @@ Expected<void> Session::show_closely(Tick tick, double now_s) {
   return {};
 }
 
-/// A picture that would wait in a queue is dropped.
+/// One at a time: a newer picture replaces one that waits for the lane. The large one goes first, since small ones come
+/// as often as frames are drawn and would leave it no gap.
 void Session::send_pictures() {
-  if (auto small = thumbnails_.finished(); small && !link_.has_backlog())
-    link_.send(control::Thumbnail{small->tick, std::move(small->picture)}, net::Reliability::reliable);
-  if (auto large = large_pictures_.finished(); large && !link_.has_backlog())
+  if (link_.has_backlog()) return;
+  if (auto large = large_pictures_.finished())
     link_.send(control::LargePicture{large->tick, std::move(large->picture)}, net::Reliability::reliable);
+  else if (auto small = thumbnails_.finished())
+    link_.send(control::Thumbnail{small->tick, std::move(small->picture)}, net::Reliability::reliable);
 }
 
 Expected<void> Session::draw_lockstep() {

@@ -165,6 +165,11 @@ def with_a_screen(trial, folder):
     desk.until("large.size > 4 && document.getElementById('large').naturalWidth >= 640")
     assert desk.value("document.getElementById('large').getBoundingClientRect().width") >= 640
     pictures(desk, folder, "large")
+    # Small pictures, which come with every frame, leave the large one its turn.
+    desk.value("large.clear(); var small = new Set(), image = document.querySelector('#thumbnails img');"
+               "new MutationObserver(() => small.add(image.src)).observe(image, { attributes: true })")
+    desk.until("small.size >= 40")
+    assert desk.value("large.size") >= 5, desk.value("large.size")
     desk.click("#largebox button")
     desk.until("!document.getElementById('largebox').open")
     # Without a viewer nothing more comes.
