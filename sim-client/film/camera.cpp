@@ -1,7 +1,6 @@
 #include "sim-client/film/camera.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -28,20 +27,18 @@ const Participant* nearest(const Snapshot& world, const Meant& is_meant) {
   return found;
 }
 
-const Participant* find_meant(const std::string& name, const Snapshot& world) {
+const Participant* find_meant(const std::string& name, const Snapshot& world, const logging::ParticipantNames& names) {
   if (name == "driver") return find_participant(world, world.driver_car.participant);
   if (name == "nearest") return nearest(world, [](const Participant&) { return true; });
-  ParticipantId id = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
-  if (error == std::errc() && end == name.data() + name.size()) return find_participant(world, id);
+  if (const auto number = logging::number_of(names, name)) return find_participant(world, *number);
   return nearest(world, [&](const Participant& other) { return model_of(other).name == name; });
 }
 
-/// List of a few participants: "1 volvo-s80, 2 ambulance, …".
-std::string list_of(const Snapshot& world) {
+/// List of a few participants: "1 ego (volvo-s80), 2 (ambulance), …".
+std::string list_of(const Snapshot& world, const logging::ParticipantNames& names) {
   std::string list;
   for (std::size_t n = 0; n < world.participants.size() && n < 12; ++n)
-    list += fmt::format("{}{} {}", n ? ", " : "", world.participants[n].id, model_of(world.participants[n]).name);
+    list += fmt::format("{}{}", n ? ", " : "", logging::called(names, world.participants[n]));
   if (list.empty()) return "nobody; give a place";
   return list + (world.participants.size() > 12 ? fmt::format(" and {} more", world.participants.size() - 12) : "");
 }
@@ -49,12 +46,14 @@ std::string list_of(const Snapshot& world) {
 }  // namespace
 
 Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& driver_eye_m,
-                           const std::vector<Look>& path) {
+                           const std::vector<Look>& path, const logging::ParticipantNames& names) {
   if (shot.place_m) return Pivot{};
-  const Participant* participant = find_meant(shot.participant, world);
+  const Participant* participant = find_meant(shot.participant, world, names);
   if (!participant)
-    return failure(fmt::format("there is no participant \"{}\" at {} s", shot.participant, shot.from_s), shot.where,
-                   "choose \"driver\", \"nearest\", or a model or an id of those there are then: " + list_of(world));
+    return failure(
+        fmt::format("there is no participant \"{}\" at {} s", shot.participant, shot.from_s), shot.where,
+        fmt::format("choose \"driver\", \"nearest\", or the name, number or model of somebody there then: {}",
+                    list_of(world, names)));
   const VehicleModel& model = model_of(*participant);
   const bool drives = participant->id == world.driver_car.participant;
   if (!is_outside(shot)) return Pivot{participant->id, drives ? driver_eye_m : frame::eye_in(model)};

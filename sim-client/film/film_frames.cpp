@@ -38,12 +38,14 @@ Vec3 driver_eye_m(const logging::SessionInfo& info) {
 
 /// Anchor of each shot's camera.
 Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
+  const auto names = logging::participant_names(session);
+  if (!names) return tl::unexpected(names.error());
   const Vec3 eye_m = driver_eye_m(session.info());
   std::vector<Pivot> pivots;
   for (std::size_t n = 0; n < plan.script.shots.size(); ++n) {
     const auto world = world_at(session, plan.script.shots[n].from_s);
     if (!world) return tl::unexpected(world.error());
-    const auto pivot = find_pivot(plan.script.shots[n], *world, eye_m, plan.paths[n]);
+    const auto pivot = find_pivot(plan.script.shots[n], *world, eye_m, plan.paths[n], *names);
     if (!pivot) return tl::unexpected(pivot.error());
     pivots.push_back(*pivot);
   }
