@@ -21,6 +21,7 @@ namespace septet::film {
 enum class Bearings : std::uint8_t {
   vehicle,  ///< The participant's own heading: the camera goes round bends with it.
   world,    ///< East.
+  gaze,     ///< Where a participant's eyes look: the driver's by their logged head, others straight on.
 };
 
 /// Turns the camera, from the end of the turn before, by the shorter path.

@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "engine/scenery/vehicles/eye_point.hpp"
+
 namespace septet::film {
 namespace {
 
@@ -56,7 +58,7 @@ Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& 
                     list_of(world, names)));
   const VehicleModel& model = model_of(*participant);
   const bool drives = participant->id == world.driver_car.participant;
-  if (!is_outside(shot)) return Pivot{participant->id, drives ? driver_eye_m : frame::eye_in(model)};
+  if (!is_outside(shot)) return Pivot{participant->id, drives ? driver_eye_m : scenery::eye_in(model)};
   const Vec3 middle_m(model.centre_x_m(), 0.0, 0.5 * model.height_m);
   for (const Look& look : path)
     if (middle_m.z - shot.distance_m * look.direction().z < least_height_m)
@@ -74,6 +76,15 @@ frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapsh
   frame::Viewpoint viewpoint{participant->world_from_vehicle, participant->id};
   if (is_outside(shot)) viewpoint.inside.reset();
   if (!is_outside(shot) && shot.bearings == Bearings::vehicle) return viewpoint;
+  if (!is_outside(shot) && shot.bearings == Bearings::gaze) {
+    const DriverCar& driver = world.driver_car;
+    if (participant->id != driver.participant) return viewpoint;
+    const Quat turn = orientation_from_angles(driver.gaze_heading_rad, 0.0, 0.0);
+    viewpoint.world_from_views =
+        participant->world_from_vehicle *
+        RigidTransform{pivot.in_views_m + driver.head.from_rest_m - turn * pivot.in_views_m, turn};
+    return viewpoint;
+  }
   // Level frame below the same pivot.
   const double heading =
       shot.bearings == Bearings::vehicle ? heading_rad(participant->world_from_vehicle.orientation) : 0.0;

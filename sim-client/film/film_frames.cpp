@@ -11,6 +11,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scenery/vehicles/eye_point.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "sim-client/frame/client_frame.hpp"
 
@@ -33,7 +34,7 @@ Vec3 driver_eye_m(const logging::SessionInfo& info) {
   for (const auto& source : info.files)
     if (source.role == "rig")
       if (const auto rig = rig::read_rig(source.content, source.name)) return rig->eye_point_m;
-  return frame::eye_in(vehicle_models().front());
+  return scenery::eye_in(vehicle_models().front());
 }
 
 /// Anchor of each shot's camera.

@@ -13,6 +13,7 @@
 #include "engine/film_script/film_script.hpp"
 #include "engine/image/png.hpp"
 #include "engine/math/spherical_interpolation.hpp"
+#include "engine/scenery/vehicles/eye_point.hpp"
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_program.hpp"
@@ -173,6 +174,29 @@ TEST_CASE("a shot means the driver, the nearest, a name, a number or a model, an
   const auto before = viewpoint_at(shot, pivot, world, {});
   std::erase_if(world.participants, [](const Participant& other) { return other.id == 5; });
   CHECK(viewpoint_at(shot, pivot, world, before).world_from_views.position_m == before.world_from_views.position_m);
+}
+
+TEST_CASE(
+    "with bearings of the gaze a camera looks where the driver's logged head looked, and with others straight on") {
+  Snapshot world = world_with_others();
+  world.driver_car.gaze_heading_rad = 0.6;
+  world.driver_car.head.from_rest_m = Vec3(0.1, -0.05, 0.02);
+  const Vec3 eye_m(1.35, 0.37, 1.17);
+  Shot shot{.from_s = 0.0, .to_s = 1.0, .bearings = Bearings::gaze};
+  const auto seen = [&](const Participant& by, const Vec3& at_m) {
+    const auto pivot = find_pivot(shot, world, eye_m, {}, {});
+    REQUIRE(pivot.has_value());
+    const auto from = viewpoint_at(shot, *pivot, world, {}).world_from_views;
+    CHECK(glm::length(from * pivot->in_views_m - by.world_from_vehicle * at_m) < 1e-9);
+    return inverse(by.world_from_vehicle).orientation * (from.orientation * Vec3(1, 0, 0));
+  };
+  const Vec3 ahead = seen(world.participants[0], eye_m + world.driver_car.head.from_rest_m);
+  CHECK(glm::length(ahead - Vec3(std::cos(0.6), std::sin(0.6), 0.0)) < 1e-9);
+  shot.participant = "8";
+  const Participant& lorry = world.participants[2];
+  CHECK(glm::length(seen(lorry, scenery::eye_in(vehicle_models()[lorry.model])) - Vec3(1, 0, 0)) < 1e-9);
+  CHECK(refusal_of("[[shot]]\nfrom_s = 0.0\nto_s = 1.0\ndistance_m = 5.0\nbearings = \"gaze\"\n").find("gaze") !=
+        std::string::npos);
 }
 
 TEST_CASE("a camera that would go below the road is refused") {
