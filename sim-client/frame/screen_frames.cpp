@@ -24,6 +24,7 @@ Expected<void> ScreenFrames::look_through(const rig::Rig& rig, const rig::Screen
 ScreenViews ScreenFrames::views_in(const Snapshot& shown, const Viewpoint& viewpoint, bool are_drivers) const {
   ScreenViews views = views_;
   if (are_drivers || views.only_instruments) return views;
+  views.views.resize(1);  // Insets are mirrors of the driver's car.
   // The rig's real car is around the viewer: it stands for the inside of a car, and for that of nothing else.
   const Participant* participant = viewpoint.inside ? find_participant(shown, *viewpoint.inside) : nullptr;
   views.show_interior |= participant && vehicle_models()[participant->model].kind != ParticipantKind::car;

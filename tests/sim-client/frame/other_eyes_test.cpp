@@ -102,6 +102,15 @@ TEST_CASE("the driver's own eyes turn the windows by the logged gaze, others' do
   CHECK(texts_of(frame_of(rig, ahead, world, Eyes{driver, "1 ego"})).find("as logged") != std::string::npos);
 }
 
+TEST_CASE("insets, which are mirrors of the driver's car, are left out at others' eyes") {
+  const Snapshot world = crossing();
+  const auto rig = rig::read_rig(shipped_text("rigs/desktop.toml"), "desktop");
+  REQUIRE(rig.has_value());
+  const rig::Screen& screen = rig->screens.front();
+  CHECK(frame_of(*rig, screen, world, std::nullopt).views.size() > 1);
+  CHECK(frame_of(*rig, screen, world, Eyes{crosser, "4"}).views.size() == 1);
+}
+
 TEST_CASE("before somebody is there the screens wait at the driver's eyes, and after at the last place, and say so") {
   const Snapshot world = crossing();
   Snapshot without = world;
