@@ -25,6 +25,9 @@ int main(int argc, char** argv) {
   app.add_option("--replay", options.replay, "Show this session instead of driving")->default_str("");
   app.add_option("--from", options.replay_from_s, "Simulated second to begin the replay at")
       ->check(number_between(0.0, 1e6));
+  app.add_option("--eyes", options.eyes, "Of a replay: whose eyes the screens show, by name in the scenario or number")
+      ->default_str("the driver's")
+      ->needs("--replay");
   app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until the scenario ends or somebody stops it")
       ->check(number_between(0.0, 1e6));
   app.add_option("--seed", options.seed, "Seed of everything random")->check(seed_number());

@@ -146,6 +146,7 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
     // One word, since a value may begin with a hyphen.
     if (!value.empty()) add({fmt::format("{}={}", option, value)});
   };
+  add_chosen("--eyes", options.eyes);
   add_chosen("--driver", options.driver);
   add_chosen("--vehicle", options.vehicle);
   add_chosen("--models", options.models.string());

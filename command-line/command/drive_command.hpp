@@ -28,6 +28,7 @@ struct DriveOptions {
   std::string traffic = "own";          ///< Traffic engine: own or sumo.
   std::filesystem::path replay;         ///< A session to replay, instead of a scenario to drive.
   double replay_from_s = 0.0;
+  std::string eyes;                     ///< Of a replay: whose eyes, by name or number; empty: the driver's.
   std::filesystem::path begin_from;     ///< An earlier session of this drive; empty: begin at the start.
   double begin_at_s = 0.0;              ///< The drive begins at the newest state that session kept until then.
   bool full_screen = false;             ///< Full screen even without the rig's `full_screen`.

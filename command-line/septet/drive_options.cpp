@@ -135,8 +135,15 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->add_option("--from", options.replay.replay_from_s,
                    "Simulated second to begin at; with --verify at the last state before it that the log keeps")
       ->check(number_between(0.0, 1e6));
-  replay_command->add_flag("--verify", options.verify,
-                           "Run the recorded input again and compare every tick's state hash");
+  auto* eyes = replay_command
+                   ->add_option("--eyes", options.replay.eyes,
+                                "Somebody at whose eyes the screens stand: a name or number of septet session "
+                                "participants; driver: head and gaze as logged")
+                   ->type_name("NAME")
+                   ->default_str("the driver's");
+  replay_command
+      ->add_flag("--verify", options.verify, "Run the recorded input again and compare every tick's state hash")
+      ->excludes(eyes);
   replay_command->callback([&] {
     options.work = [&] {
       if (!options.verify) return run_drive(options.replay);

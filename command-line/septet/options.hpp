@@ -12,6 +12,7 @@
 #include "command-line/command/operate_command.hpp"
 #include "command-line/command/report_command.hpp"
 #include "command-line/command/session_command.hpp"
+#include "command-line/command/session_participants.hpp"
 #include "command-line/command/traffic_command.hpp"
 #include "command-line/command/vehicle_command.hpp"
 #include "engine/core/expected.hpp"
@@ -35,6 +36,7 @@ struct Options {
   std::vector<std::filesystem::path> list_data;  ///< User folders, of list.
   std::filesystem::path keys_out = "keys";
   CheckOptions check;
+  ParticipantsOptions participants;
   AnswerOptions answer;
   StopOptions stop;
   ForgetOptions forget;

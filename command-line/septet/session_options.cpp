@@ -2,12 +2,25 @@
 
 #include "command-line/septet/options.hpp"
 #include "program/command_line.hpp"
+#include "program/confinement.hpp"
 
 namespace septet::server {
 
 void add_session_commands(CLI::App& app, Options& options) {
-  auto* session = app.add_subcommand("session", "Additions to a session after the drive, and removals");
+  auto* session =
+      app.add_subcommand("session", "Who takes part in a session; additions to it after the drive, and removals");
   session->require_subcommand(1);
+
+  auto* participants = session->add_subcommand(
+      "participants", "Who takes part: number, name in the scenario, kind, model, from when to when");
+  participants->add_option("session", options.participants.session, "Session file")->required();
+  participants->add_flag("--json", options.participants.json, "One JSON array instead of lines");
+  participants->callback([&] {
+    options.work = [&] {
+      program::write_only_below({});
+      return run_session_participants(options.participants, std::cout);
+    };
+  });
 
   auto* answer = session->add_subcommand("answer", "A questionnaire: asks its items, or takes the answers from a file");
   answer->add_option("session", options.answer.session, "Session file")->required();

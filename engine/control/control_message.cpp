@@ -29,6 +29,8 @@ void fields(Welcome& m, Visitor& v) {
   v(m.group_port);
   v(m.interface_ip);
   v(m.thumbnails);
+  v(m.eyes);
+  v(m.eyes_name);
 }
 template <class Visitor>
 void fields(Refusal& m, Visitor& v) {

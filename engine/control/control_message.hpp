@@ -22,7 +22,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Version of these messages; a program of another version is refused.
-inline constexpr std::uint16_t protocol_version = 4;
+inline constexpr std::uint16_t protocol_version = 5;
 
 /// Screen → server, first of all.
 struct Hello {
@@ -41,6 +41,8 @@ struct Welcome {
   std::uint16_t group_port = 0;
   std::uint32_t interface_ip = 0;
   bool thumbnails = false;  ///< The operator watches: send a small picture with each that is kept.
+  ParticipantId eyes = 0;  ///< Whose eyes the screens show, in a replay that was asked for somebody's; 0: the driver's.
+  std::string eyes_name;   ///< Their number, name and model in words; empty with `eyes` 0.
 };
 
 /// Server → screen: this screen cannot take part.

@@ -70,8 +70,12 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
   if (shot.place_m && table.contains("participant"))
     reader.report("participant", "a shot hangs on a participant or on a place, not on both", "leave one of them out");
   shot.distance_m = reader.get_double("distance_m", 0.0, 0.0, 1000.0);
-  shot.bearings = static_cast<Bearings>(reader.get_choice("bearings", shot.place_m ? 1 : 0, {"vehicle", "world"}));
-  if (shot.place_m && shot.bearings == Bearings::vehicle)
+  shot.bearings =
+      static_cast<Bearings>(reader.get_choice("bearings", shot.place_m ? 1 : 0, {"vehicle", "world", "gaze"}));
+  if (shot.distance_m > 0.0 && shot.bearings == Bearings::gaze)
+    reader.report("bearings", "a camera that looks at a participant from outside has no gaze of theirs",
+                  "leave distance_m out, or write \"vehicle\"");
+  if (shot.place_m && shot.bearings != Bearings::world)
     reader.report("bearings", "a place has no heading that others could be counted from",
                   "leave bearings out, or write \"world\"");
   shot.heading_rad = get_angle(reader, "heading_deg", 0.0, 360.0);

@@ -21,6 +21,7 @@ namespace septet::film {
 enum class Bearings : std::uint8_t {
   vehicle,  ///< The participant's own heading: the camera goes round bends with it.
   world,    ///< East.
+  gaze,     ///< Where a participant's eyes look: the driver's by their logged head, others straight on.
 };
 
 /// Turns the camera, from the end of the turn before, by the shorter path.
@@ -33,7 +34,7 @@ struct Turn {
 struct Shot {
   double from_s = 0.0, to_s = 0.0;  ///< Simulated time; a frame at from_s, none at to_s.
   double speed = 1.0;  ///< Rate of time: 0.25 is slow motion, in which a frame is a quarter as far from the next.
-  std::string participant = "driver";  ///< "driver", "nearest", a model's name or an id.
+  std::string participant = "driver";  ///< "driver", "nearest", a scenario's name, a number or a model.
   std::optional<Vec3> place_m;         ///< World: the pivot, in the participant's stead.
   double distance_m = 0.0;
   Bearings bearings = Bearings::vehicle;

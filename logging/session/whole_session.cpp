@@ -12,8 +12,10 @@
 #include "engine/scene/store.hpp"
 #include "logging/session/input_hash.hpp"
 #include "logging/session/outcome.hpp"
+#include "logging/session/participants.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "logging/session/session_digest.hpp"
+#include "logging/session/shallow_json.hpp"
 
 namespace septet::logging {
 namespace {
@@ -24,21 +26,6 @@ tl::unexpected<Error> damaged(const SessionReader& session, const std::string& w
   return failure(what, session.path().string(), "it was altered or damaged: use an unaltered copy");
 }
 
-/// A JSON text no deeper than Septet's own; empty if it is not one.
-std::optional<Json> shallow_json(const std::string& text) {
-  constexpr int deepest = 16;
-  bool is_deep = false;
-  Json json = Json::parse(
-      text,
-      [&](int depth, Json::parse_event_t, Json&) {
-        is_deep |= depth > deepest;
-        return depth <= deepest;
-      },
-      false);
-  if (is_deep || json.is_discarded()) return std::nullopt;
-  return json;
-}
-
 Expected<void> check_names(const SessionReader& session) {
   const auto& other = session.info().other;
   if (const auto row = other.find("vehicle_models"); row != other.end()) {
@@ -47,11 +34,7 @@ Expected<void> check_names(const SessionReader& session) {
     for (std::size_t i = 0; are_models && i < json->size(); ++i) are_models = (*json)[i].is_object();
     if (!are_models) return damaged(session, "the meta row vehicle_models is not what Septet writes");
   }
-  if (const auto row = other.find("participant_names"); row != other.end()) {
-    const auto json = shallow_json(row->second);
-    if (!json || !json->is_object())
-      return damaged(session, "the meta row participant_names is not what Septet writes");
-  }
+  if (const auto names = participant_names(session); !names) return tl::unexpected(names.error());
   return {};
 }
 

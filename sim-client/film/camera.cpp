@@ -1,10 +1,11 @@
 #include "sim-client/film/camera.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
+
+#include "engine/scenery/vehicles/eye_point.hpp"
 
 namespace septet::film {
 namespace {
@@ -28,20 +29,18 @@ const Participant* nearest(const Snapshot& world, const Meant& is_meant) {
   return found;
 }
 
-const Participant* find_meant(const std::string& name, const Snapshot& world) {
+const Participant* find_meant(const std::string& name, const Snapshot& world, const logging::ParticipantNames& names) {
   if (name == "driver") return find_participant(world, world.driver_car.participant);
   if (name == "nearest") return nearest(world, [](const Participant&) { return true; });
-  ParticipantId id = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
-  if (error == std::errc() && end == name.data() + name.size()) return find_participant(world, id);
+  if (const auto number = logging::number_of(names, name)) return find_participant(world, *number);
   return nearest(world, [&](const Participant& other) { return model_of(other).name == name; });
 }
 
-/// List of a few participants: "1 volvo-s80, 2 ambulance, …".
-std::string list_of(const Snapshot& world) {
+/// List of a few participants: "1 ego (volvo-s80), 2 (ambulance), …".
+std::string list_of(const Snapshot& world, const logging::ParticipantNames& names) {
   std::string list;
   for (std::size_t n = 0; n < world.participants.size() && n < 12; ++n)
-    list += fmt::format("{}{} {}", n ? ", " : "", world.participants[n].id, model_of(world.participants[n]).name);
+    list += fmt::format("{}{}", n ? ", " : "", logging::called(names, world.participants[n]));
   if (list.empty()) return "nobody; give a place";
   return list + (world.participants.size() > 12 ? fmt::format(" and {} more", world.participants.size() - 12) : "");
 }
@@ -49,15 +48,17 @@ std::string list_of(const Snapshot& world) {
 }  // namespace
 
 Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& driver_eye_m,
-                           const std::vector<Look>& path) {
+                           const std::vector<Look>& path, const logging::ParticipantNames& names) {
   if (shot.place_m) return Pivot{};
-  const Participant* participant = find_meant(shot.participant, world);
+  const Participant* participant = find_meant(shot.participant, world, names);
   if (!participant)
-    return failure(fmt::format("there is no participant \"{}\" at {} s", shot.participant, shot.from_s), shot.where,
-                   "choose \"driver\", \"nearest\", or a model or an id of those there are then: " + list_of(world));
+    return failure(
+        fmt::format("there is no participant \"{}\" at {} s", shot.participant, shot.from_s), shot.where,
+        fmt::format("choose \"driver\", \"nearest\", or the name, number or model of somebody there then: {}",
+                    list_of(world, names)));
   const VehicleModel& model = model_of(*participant);
   const bool drives = participant->id == world.driver_car.participant;
-  if (!is_outside(shot)) return Pivot{participant->id, drives ? driver_eye_m : frame::eye_in(model)};
+  if (!is_outside(shot)) return Pivot{participant->id, drives ? driver_eye_m : scenery::eye_in(model)};
   const Vec3 middle_m(model.centre_x_m(), 0.0, 0.5 * model.height_m);
   for (const Look& look : path)
     if (middle_m.z - shot.distance_m * look.direction().z < least_height_m)
@@ -75,6 +76,15 @@ frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapsh
   frame::Viewpoint viewpoint{participant->world_from_vehicle, participant->id};
   if (is_outside(shot)) viewpoint.inside.reset();
   if (!is_outside(shot) && shot.bearings == Bearings::vehicle) return viewpoint;
+  if (!is_outside(shot) && shot.bearings == Bearings::gaze) {
+    const DriverCar& driver = world.driver_car;
+    if (participant->id != driver.participant) return viewpoint;
+    const Quat turn = orientation_from_angles(driver.gaze_heading_rad, 0.0, 0.0);
+    viewpoint.world_from_views =
+        participant->world_from_vehicle *
+        RigidTransform{pivot.in_views_m + driver.head.from_rest_m - turn * pivot.in_views_m, turn};
+    return viewpoint;
+  }
   // Level frame below the same pivot.
   const double heading =
       shot.bearings == Bearings::vehicle ? heading_rad(participant->world_from_vehicle.orientation) : 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 /// Camera of a film shot at an instant: its anchor (pivot) and the resulting view. Pure functions.
 
+#include "logging/session/participants.hpp"
 #include "sim-client/film/camera_path.hpp"
 #include "sim-client/frame/client_frame.hpp"
 
@@ -13,10 +14,10 @@ struct Pivot {
 };
 
 /// Resolves the participant that a shot names, in the world at the shot's beginning, and the camera's anchor on them:
-/// their eyes, or their middle if it is outside. `driver_eye_m` is the driver's eye of the session's rig, vehicle
-/// frame. Error: no participant of that name, or the camera would go below the road.
+/// their eyes, or their middle if it is outside. `driver_eye_m` is the driver's eye of the session's rig, vehicle frame;
+/// `names` are the session's. Error: no participant of that name, or the camera would go below the road.
 Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& driver_eye_m,
-                           const std::vector<Look>& path);
+                           const std::vector<Look>& path, const logging::ParticipantNames& names);
 
 /// Frame in which the camera is placed and looks. Through a participant's eyes it sways with the vehicle; outside it
 /// stays level. For a participant that is gone it returns `before`, so the camera holds still.

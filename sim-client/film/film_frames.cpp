@@ -11,6 +11,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scenery/vehicles/eye_point.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "sim-client/frame/client_frame.hpp"
 
@@ -33,17 +34,19 @@ Vec3 driver_eye_m(const logging::SessionInfo& info) {
   for (const auto& source : info.files)
     if (source.role == "rig")
       if (const auto rig = rig::read_rig(source.content, source.name)) return rig->eye_point_m;
-  return frame::eye_in(vehicle_models().front());
+  return scenery::eye_in(vehicle_models().front());
 }
 
 /// Anchor of each shot's camera.
 Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
+  const auto names = logging::participant_names(session);
+  if (!names) return tl::unexpected(names.error());
   const Vec3 eye_m = driver_eye_m(session.info());
   std::vector<Pivot> pivots;
   for (std::size_t n = 0; n < plan.script.shots.size(); ++n) {
     const auto world = world_at(session, plan.script.shots[n].from_s);
     if (!world) return tl::unexpected(world.error());
-    const auto pivot = find_pivot(plan.script.shots[n], *world, eye_m, plan.paths[n]);
+    const auto pivot = find_pivot(plan.script.shots[n], *world, eye_m, plan.paths[n], *names);
     if (!pivot) return tl::unexpected(pivot.error());
     pivots.push_back(*pivot);
   }

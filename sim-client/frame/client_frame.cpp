@@ -14,6 +14,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/instant/mirror_view.hpp"
+#include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/world/instrument_panel.hpp"
 #include "engine/world/paint.hpp"
 #include "engine/world/traffic_light.hpp"
@@ -23,6 +24,9 @@
 
 namespace septet::frame {
 namespace {
+
+/// Hand wheel's angle over that of the front wheels, of a vehicle whose hand wheel is not logged.
+constexpr double steering_ratio = 16.0;
 
 /// Viewport of at least one pixel of the screen, however small its window is.
 instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
@@ -173,8 +177,15 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
       for (auto& view : frame.views) view.velocity_mps = participant.velocity_mps;
       // A real car is around the driver, or its inside is drawn: of the model only the shadow and the light remain.
       drawn.shown = instant::Shown::shadow_and_light;
-      if (const auto inside = prototype_of(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
-          inside && views.show_interior) {
+      const VehicleModel& model = vehicle_models()[participant.model];
+      const auto inside = prototype_of(scene, fmt::format("interior/{}", model.name));
+      if (inside && views.show_interior && !scenery::has_cockpit(model)) {
+        // It is the whole vehicle but for the panes and the person whose eyes these are.
+        drawn.prototype = *inside;
+        drawn.shown = instant::Shown::whole;
+        drawn.steering_wheel_rad = steering_ratio * drawn.front_steer_rad;
+        add_vehicle_mirrors(frame, participant);
+      } else if (inside && views.show_interior) {
         auto interior = drawn;
         interior.prototype = *inside;
         interior.shown = instant::Shown::whole;
@@ -187,8 +198,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         add_windscreen(frame, shown, participant, scene);
         add_mirrors(frame, views.mirrors, scene);
         // The cabin's shell casts the shadow of the parts above the belt line.
-        if (const auto shell = prototype_of(scene, fmt::format("shell/{}", vehicle_models()[participant.model].name)))
-          drawn.prototype = *shell;
+        if (const auto shell = prototype_of(scene, fmt::format("shell/{}", model.name))) drawn.prototype = *shell;
       }
     }
     frame.participants.push_back(drawn);

@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/effects/ice/glass_keyframe.hpp"
+#include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/world/vehicle_model.hpp"
 #include "engine/world/windscreen.hpp"
 
@@ -73,8 +74,9 @@ ice::PaneShape windscreen_of(const scene::ResolvedScene& scene, const scene::Pro
 
 void GlassDrawing::make(Made& made, const Participant& vehicle, const scene::ResolvedScene& scene) const {
   const std::string outside(vehicle_models()[vehicle.model].name), inside = "interior/" + outside;
+  const bool has_cockpit = scenery::has_cockpit(vehicle_models()[vehicle.model]);
   for (std::size_t i = 0; i < scene.prototypes.size(); ++i) {
-    const bool within = scene.prototypes[i].name == inside;
+    const bool within = has_cockpit && scene.prototypes[i].name == inside;
     if (!within && scene.prototypes[i].name != outside) continue;
     Surfaces& surfaces = made.by_prototype[static_cast<std::uint32_t>(i)];
     if (surfaces.shape.empty())

@@ -140,6 +140,26 @@ std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig
   return texts;
 }
 
+std::vector<instant::OverlayText> eyes_caption(const std::string& name, EyesSeen seen, const rig::Rig& rig,
+                                               const rig::Screen& screen) {
+  std::vector<instant::OverlayText> texts;
+  if (&screen != &rig::screen_ahead(rig)) return texts;
+  const char* known = seen == EyesSeen::drivers  ? "head and gaze as logged"
+                      : seen == EyesSeen::others ? "straight on: their gaze is not logged"
+                                                 : "not there at this instant";
+  const double height_px = std::max(9.0, std::round(height_for_letters_px(screen) / 28.0));
+  // The driver's inside mirror hangs in the middle.
+  const double share = seen == EyesSeen::drivers ? 0.13 : 0.02;
+  double y_px = std::round(share * screen.height_px) + 0.5 * height_px;
+  for (const std::string& words :
+       lines_of(fmt::format("eyes of {}{}{}", name, seen == EyesSeen::drivers ? ": " : "\n", known), screen, height_px,
+                height_px)) {
+    texts.push_back(in_the_middle(words, screen, y_px, height_px));
+    y_px += height_px + 4.0;
+  }
+  return texts;
+}
+
 std::vector<instant::OverlayText> notice(const std::string& text, const rig::Screen& screen) {
   std::vector<instant::OverlayText> texts;
   const double letters_px = height_for_letters_px(screen);

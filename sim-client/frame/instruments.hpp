@@ -4,6 +4,7 @@
 ///
 /// Pure: lines of text for a frame's overlay, in pixels of the screen.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,17 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
 /// Standing of a game, high on the screen ahead: level, points, time; a leader who gets away; the outcome. Empty if the
 /// scenario is not a game.
 std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
+
+/// What a replay at somebody's eyes shows.
+enum class EyesSeen : std::uint8_t {
+  drivers,  ///< The driver's, as logged.
+  others,   ///< Somebody else's, of whom no gaze is logged.
+  absent,   ///< Somebody who is not there at this instant.
+};
+
+/// Caption high on the screen ahead: whose eyes these are, and what is known of where they looked. Empty on the others.
+std::vector<instant::OverlayText> eyes_caption(const std::string& name, EyesSeen seen, const rig::Rig& rig,
+                                               const rig::Screen& screen);
 
 /// Notice to the driver, in the middle of the screen: its first line large, the others below it, wrapped where too
 /// long.

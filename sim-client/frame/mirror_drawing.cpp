@@ -11,7 +11,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/scenery/vehicles/vehicle_mirrors.hpp"
 #include "engine/world/instrument_panel.hpp"
+#include "engine/world/vehicle_model.hpp"
 #include "engine/world/windscreen.hpp"
 #include "sim-client/frame/prototype_of.hpp"
 
@@ -147,6 +149,26 @@ void add_mirrors(instant::FrameInput& frame, const std::vector<SeenMirror>& mirr
       vertex.normal = glm::vec3(turn * Vec3(vertex.normal));
     }
     frame.meshes.push_back(std::move(housing));
+  }
+}
+
+void add_vehicle_mirrors(instant::FrameInput& frame, const Participant& vehicle) {
+  const instant::FrameView& through = frame.views.front();
+  const RigidTransform views_from_vehicle = inverse(through.world_from_car) * vehicle.world_from_vehicle;
+  std::int32_t below_px = 0;
+  for (const scenery::VehicleMirror& mirror : scenery::vehicle_mirrors(vehicle_models()[vehicle.model])) {
+    const auto corner = [&](double across, double upward) {
+      return views_from_vehicle * (mirror.middle_m + across * 0.5 * mirror.width_m * mirror.right +
+                                   upward * 0.5 * mirror.height_m * mirror.up());
+    };
+    auto seen = instant::mirror_glass({corner(-1, -1), corner(1, -1), corner(-1, 1)}, mirror.radius_m,
+                                      through.projection, through.viewport);
+    if (!seen) continue;
+    seen->picture.viewport.y = below_px;
+    below_px += static_cast<std::int32_t>(seen->picture.viewport.height);
+    seen->picture.world_from_car = through.world_from_car;
+    seen->picture.velocity_mps = through.velocity_mps;
+    frame.mirrors.push_back(std::move(*seen));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/instant/frame_input.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/scene/resolved_scene.hpp"
+#include "engine/world/snapshot.hpp"
 
 namespace septet::frame {
 
@@ -27,5 +28,9 @@ std::vector<scene::SurfaceVertex> mirror_housing(const rig::Mirror& mirror);
 /// Adds the mirrors to a frame in which the inside of the car is drawn, for eyes that move as the first view's do.
 /// Without the scene's signs there is no housing.
 void add_mirrors(instant::FrameInput& frame, const std::vector<SeenMirror>& mirrors, const scene::ResolvedScene& scene);
+
+/// Adds the pictures in the mirrors of a vehicle that has mirrors of its own (engine/scenery/vehicles/vehicle_mirrors.hpp),
+/// as far as the frame's first view sees them. Their glass and housings are parts of its inside.
+void add_vehicle_mirrors(instant::FrameInput& frame, const Participant& vehicle);
 
 }  // namespace septet::frame

@@ -2,6 +2,7 @@
 /// Viewpoint of an instant: a participant's eyes, or a place beside them.
 
 #include <optional>
+#include <string>
 
 #include "engine/world/snapshot.hpp"
 
@@ -15,7 +16,14 @@ struct Viewpoint {
 /// Viewpoint of the driver, in the frame of his car; of the first participant if the snapshot has no driver.
 Viewpoint driver_viewpoint(const Snapshot& shown);
 
-/// Eye point of the driver of such a vehicle, vehicle frame. The seats are on the left.
-Vec3 eye_in(const VehicleModel& model);
+/// Viewpoint of a rig's screens at somebody's eyes: the rig's eye point, `rig_eye_m` in the frame of its car, lies at
+/// theirs, and its axes are those of their vehicle. Empty: they are not there.
+std::optional<Viewpoint> viewpoint_of(const Snapshot& shown, ParticipantId participant, const Vec3& rig_eye_m);
+
+/// Somebody at whose eyes a replay's screens stand.
+struct Eyes {
+  ParticipantId participant = 0;
+  std::string name;  ///< In words, for the caption.
+};
 
 }  // namespace septet::frame

@@ -59,6 +59,12 @@ class Session {
   }
 
   Expected<void> take_welcome();
+  /// Whose eyes the server asks for; empty: the driver's.
+  std::optional<frame::Eyes> eyes() const {
+    const control::Welcome& welcome = *link_.welcome();
+    if (welcome.eyes == 0) return std::nullopt;
+    return frame::Eyes{welcome.eyes, welcome.eyes_name};
+  }
   Expected<void> bring_scene_up();
   Expected<void> draw_lockstep();
   Expected<void> draw_real_time(double now_s);
@@ -124,7 +130,7 @@ Expected<void> Session::take_welcome() {
   for (auto& screen : rig_.screens)
     if (screen.name == options_.name) screen_ = &screen;
   if (!screen_) return failure("the rig has no such screen", options_.name, "start one of the rig's screens");
-  if (auto seen = screen_frames_.look_through(rig_, *screen_); !seen) return seen;
+  if (auto seen = screen_frames_.look_through(rig_, *screen_, eyes()); !seen) return seen;
   drawn_tick_.reset();
   resolver_.forget();
   uploaded_revision_ = 0;
@@ -169,7 +175,7 @@ Expected<void> Session::take_window_shape() {
     if (auto resized = renderer.resize(size->width_px, size->height_px); !resized) return resized;
   if (*size == Display::Size{screen_->width_px, screen_->height_px}) return {};
   *screen_ = shaped_to_window(screen_of_rig_, rig_.eye_point_m, size->width_px, size->height_px);
-  return screen_frames_.look_through(rig_, *screen_);
+  return screen_frames_.look_through(rig_, *screen_, eyes());
 }
 
 Expected<void> Session::draw(const Snapshot& snapshot, const std::optional<std::string>& message) {

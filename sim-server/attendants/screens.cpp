@@ -7,6 +7,7 @@
 
 #include "car-io/driving_keys.hpp"
 #include "engine/rig/rig.hpp"
+#include "logging/session/participants.hpp"
 #include "program/clock.hpp"
 
 namespace septet::server {
@@ -30,6 +31,10 @@ ScreenHostOptions host_options(const ServerOptions& options, const ServeOptions&
                   .tick_rate_hz = tick_rate_hz,
                   .picture_every_ticks = picture_every(serving, tick_rate_hz),
                   .thumbnails = options.page_port.has_value()};
+  if (drive.eyes) {
+    host.welcome.eyes = drive.eyes->number;
+    host.welcome.eyes_name = logging::called(*drive.eyes);
+  }
   host.max_datagram_bytes = rig.network.max_payload_bytes;
   host.limits.max_datagram_bytes = rig.network.max_payload_bytes;
   // Compiling shaders keeps a screen silent for a while, at no cost: in real time ticks do not wait for it, and

@@ -34,6 +34,11 @@ Expected<void> open_replay(const ServerOptions& options, OpenedDrive& drive) {
   if (!rig) return tl::unexpected(rig.error());
   drive.loaded.rig = std::move(*rig);
   drive.loaded.sources.push_back({"rig", options.rig, *rig_text});
+  if (!options.eyes.empty()) {
+    auto eyes = logging::find_stay(*drive.session, options.eyes, "--eyes");
+    if (!eyes) return tl::unexpected(eyes.error());
+    drive.eyes = std::move(*eyes);
+  }
   if (auto restored = logging::restore_scene(*drive.session, drive.store); !restored) return restored;
   auto source = ReplaySource::start(*drive.session, options.replay_from_s);
   if (!source) return tl::unexpected(source.error());

@@ -6,6 +6,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/scene/store.hpp"
+#include "logging/session/participants.hpp"
 #include "logging/session/session_reader.hpp"
 #include "program/console.hpp"
 #include "sim-server/drive/drive_loader.hpp"
@@ -20,6 +21,7 @@ struct OpenedDrive {
   LoadedDrive loaded;  ///< For a replay, the rig alone.
   scene::Store store;
   std::optional<logging::SessionReader> session;  ///< Set for a replay.
+  std::optional<logging::Stay> eyes;              ///< Of a replay: whose eyes the screens show; empty: the driver's.
   bool by_person = false;                         ///< A person drives, not a simulated driver.
   std::shared_ptr<RemoteCar> remote_car;          ///< The driver's car, if it is on another machine.
   std::unique_ptr<TickSource> source;

@@ -19,6 +19,7 @@ struct ServerOptions {
   std::filesystem::path keys;    ///< Folder with server.key and allowed-clients.
   std::filesystem::path replay;  ///< A session to replay, instead of a scenario to drive.
   double replay_from_s = 0.0;
+  std::string eyes;      ///< Of a replay: whose eyes the screens show, by name or number; empty: the driver's.
   double seconds = 0.0;  ///< Simulated; 0: until stopped.
   std::uint64_t seed = 1;
   std::string driver;                   ///< A simulated driver, who replaces the rig's source; empty: the rig's.

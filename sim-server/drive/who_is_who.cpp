@@ -1,33 +1,15 @@
 #include "sim-server/drive/who_is_who.hpp"
 
 #include <cstddef>
-#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "engine/document/json.hpp"
+#include "engine/world/kind_name.hpp"
 #include "engine/world/vehicle_model.hpp"
 
 namespace septet::server {
-namespace {
-
-constexpr std::pair<ParticipantKind, std::string_view> kinds[] = {{ParticipantKind::car, "car"},
-                                                                  {ParticipantKind::van, "van"},
-                                                                  {ParticipantKind::lorry, "lorry"},
-                                                                  {ParticipantKind::bus, "bus"},
-                                                                  {ParticipantKind::motorcycle, "motorcycle"},
-                                                                  {ParticipantKind::bicycle, "bicycle"},
-                                                                  {ParticipantKind::pedestrian, "pedestrian"},
-                                                                  {ParticipantKind::ambulance, "ambulance"}};
-
-std::string_view name_of(ParticipantKind kind) {
-  for (const auto& [of, name] : kinds)
-    if (of == kind) return name;
-  return "object";
-}
-
-}  // namespace
 
 std::map<std::string, std::string> who_is_who(const simulation::Model& model) {
   document::Json models = document::Json::array(), names = document::Json::object();

@@ -27,7 +27,7 @@ struct Look {
 constexpr float lacquer = 1.0f;
 
 /// Looks in the order of Finish.
-constexpr std::array<Look, 31> looks{{
+constexpr std::array<Look, 32> looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.7f, 0.0f, {}, 1.0f, lacquer},
     {"glass", {0.012f, 0.016f, 0.018f}, 0.06f},
     {"trim", {0.022f, 0.022f, 0.024f}, 0.55f},
@@ -59,6 +59,7 @@ constexpr std::array<Look, 31> looks{{
     {"taxi sign", {1.0f, 1.0f, 1.0f}, 0.4f, 0.0f, {0.5f, 0.5f, 0.5f}},
     {"timber", {0.23f, 0.14f, 0.075f}, 0.9f},
     {"clear glass", {0.012f, 0.016f, 0.018f}, 0.06f, 0.0f, {0.0f, 0.0f, 0.0f}, 0.42f},
+    {"mirror", {0.9f, 0.9f, 0.9f}, 0.02f, 1.0f},
 }};
 
 constexpr std::uint32_t plate_columns = 4, plate_rows = 8, plate_width_px = 128, plate_height_px = 28;

@@ -39,6 +39,7 @@ enum class Finish : std::uint32_t {
   taxi_sign,
   timber,
   clear_glass,  ///< Tinted and transparent.
+  mirror,       ///< Silvered glass.
 };
 
 constexpr std::uint32_t index_of(Finish finish) { return static_cast<std::uint32_t>(finish); }

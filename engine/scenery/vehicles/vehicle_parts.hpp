@@ -47,6 +47,10 @@ VehicleParts caravan_parts(const VehicleModel& model);
 VehicleParts bicycle_parts(const VehicleModel& model);
 VehicleParts motorcycle_parts(const VehicleModel& model);
 VehicleParts pedestrian_parts(const VehicleModel& model);
+/// Parts of a vehicle as its driver, rider or walker sees them who looks out of it: all near ones without its panes and
+/// without that person's head (of those who sit, body), with dashboard, steering wheel and mirrors. Empty for what is
+/// towed, and for the model with a cockpit (interior_parts).
+VehicleParts inside_parts(const VehicleModel& model);
 /// Parts of the S80 that its driver sees: bonnet, dashboard, pillars, steering wheel. Materials are CockpitFinish
 /// indices, as in all functions below but the next.
 VehicleParts interior_parts();

@@ -65,6 +65,10 @@ void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models) {
     } else {
       add_prototype(builder, palette, known, model.name, vehicle_parts(model));
     }
+  // What a person's own model looks like from within is not known: it has no inside.
+  for (const VehicleModel& model : vehicle_models())
+    if (const VehicleParts parts = inside_parts(model); !parts.empty() && !own.find(model.name))
+      add_prototype(builder, palette, known, "interior/" + std::string(model.name), parts);
   add_prototype(builder, palette, known, "shell/volvo-s80", shell_parts());
   const Palette inside = add_cockpit_finishes(builder);
   KnownShapes known_inside;

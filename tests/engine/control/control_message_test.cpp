@@ -35,8 +35,8 @@ const std::string input_bytes =
 std::vector<std::pair<ControlMessage, std::string>> written_messages() {
   return {
       {Hello{"left", 0x1234, 7}, "01 00 04 6c656674 3412 0700"},
-      {Welcome{"rig", true, 120.0, 8, 0x0a0b0c0d, 0x4321, 0x7f000001, true},
-       "01 01 03 726967 01 0000000000005e40 08000000 0d0c0b0a 2143 0100007f 01"},
+      {Welcome{"rig", true, 120.0, 8, 0x0a0b0c0d, 0x4321, 0x7f000001, true, 0x0102, "who"},
+       "01 01 03 726967 01 0000000000005e40 08000000 0d0c0b0a 2143 0100007f 01 02010000 03 77686f"},
       {Refusal{"no"}, "01 02 02 6e6f"},
       {TickArrived{0x0102, 1.5f, true}, "01 03 0201000000000000 0000c03f 01"},
       {SceneArrived{9}, "01 04 0900000000000000"},

@@ -13,6 +13,7 @@
 #include "engine/film_script/film_script.hpp"
 #include "engine/image/png.hpp"
 #include "engine/math/spherical_interpolation.hpp"
+#include "engine/scenery/vehicles/eye_point.hpp"
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_program.hpp"
@@ -105,7 +106,7 @@ TEST_CASE("an orbit keeps its distance and its pitch and a level horizon though 
     shot.turns = {{4.0, 0.1, -0.2, 0.0}};
     const auto path = camera_path(shot, frames_per_second);
     REQUIRE(path.has_value());
-    const auto pivot = find_pivot(shot, world, Vec3(0.0), *path);
+    const auto pivot = find_pivot(shot, world, Vec3(0.0), *path, {});
     REQUIRE(pivot.has_value());
     const RigidTransform& car = world.participants[0].world_from_vehicle;
     const auto viewpoint = viewpoint_at(shot, *pivot, world, {});
@@ -130,7 +131,7 @@ TEST_CASE("with the eyes of the driver a camera sees what a screen in front of t
   const Vec3 eye_m(1.35, 0.37, 1.17);
   Shot shot{.from_s = 0.0, .to_s = 1.0};
   shot.field_of_view_rad = 2.0 * std::atan(0.5);
-  const auto pivot = find_pivot(shot, world, eye_m, {});
+  const auto pivot = find_pivot(shot, world, eye_m, {}, {});
   REQUIRE(pivot.has_value());
   const auto viewpoint = viewpoint_at(shot, *pivot, world, {}), screen_viewpoint = frame::driver_viewpoint(world);
   CHECK(viewpoint.inside == screen_viewpoint.inside);
@@ -144,23 +145,28 @@ TEST_CASE("with the eyes of the driver a camera sees what a screen in front of t
     CHECK(glm::length(view.projection.clip_from_eye_relative[column] - screen->clip_from_eye_relative[column]) < 1e-12);
 }
 
-TEST_CASE("a shot means the driver or the nearest or a model or an id and whoever goes is waited for") {
+TEST_CASE("a shot means the driver, the nearest, a name, a number or a model, and waits for one who is gone") {
   Snapshot world = world_with_others();
+  const logging::ParticipantNames names{{3, "ego"}, {5, "crosser"}, {8, "ambulance"}, {9, "3"}, {77, "not yet there"}};
   Shot shot{.from_s = 1.5, .to_s = 2.0};
-  const auto found = [&](const char* name) {
+  const auto found = [&](const char* name, const logging::ParticipantNames& known) {
     shot.participant = name;
-    const auto pivot = find_pivot(shot, world, Vec3(1.0), {});
+    const auto pivot = find_pivot(shot, world, Vec3(1.0), {}, known);
     return pivot ? *pivot->participant : 0;
   };
-  CHECK(found("driver") == 3);
-  CHECK(found("nearest") == 8);
-  CHECK(found("ambulance") == 9);
-  CHECK(found("5") == 5);
+  CHECK(found("driver", names) == 3);
+  CHECK(found("nearest", names) == 8);
+  CHECK(found("crosser", names) == 5);
+  CHECK(found("ambulance", {}) == 9);
+  CHECK(found("ambulance", names) == 8);  // A name goes before a model's,
+  CHECK(found("3", names) == 9);          // and before a number.
+  CHECK(found("5", names) == 5);
+  CHECK(found("not yet there", names) == 0);
   shot.participant = "tram";
   shot.where = "shots.toml, shot 2";
-  const auto nobody = find_pivot(shot, world, Vec3(0.0), {});
+  const auto nobody = find_pivot(shot, world, Vec3(0.0), {}, names);
   REQUIRE_FALSE(nobody.has_value());
-  for (const char* word : {"shots.toml, shot 2", "tram", "1.5 s", "5 ambulance", "8 lorry"}) {
+  for (const char* word : {"shots.toml, shot 2", "tram", "1.5 s", "5 crosser (ambulance)", "8 ambulance (lorry)"}) {
     CAPTURE(word);
     CHECK(describe(nobody.error()).find(word) != std::string::npos);
   }
@@ -170,11 +176,34 @@ TEST_CASE("a shot means the driver or the nearest or a model or an id and whoeve
   CHECK(viewpoint_at(shot, pivot, world, before).world_from_views.position_m == before.world_from_views.position_m);
 }
 
+TEST_CASE(
+    "with bearings of the gaze a camera looks where the driver's logged head looked, and with others straight on") {
+  Snapshot world = world_with_others();
+  world.driver_car.gaze_heading_rad = 0.6;
+  world.driver_car.head.from_rest_m = Vec3(0.1, -0.05, 0.02);
+  const Vec3 eye_m(1.35, 0.37, 1.17);
+  Shot shot{.from_s = 0.0, .to_s = 1.0, .bearings = Bearings::gaze};
+  const auto seen = [&](const Participant& by, const Vec3& at_m) {
+    const auto pivot = find_pivot(shot, world, eye_m, {}, {});
+    REQUIRE(pivot.has_value());
+    const auto from = viewpoint_at(shot, *pivot, world, {}).world_from_views;
+    CHECK(glm::length(from * pivot->in_views_m - by.world_from_vehicle * at_m) < 1e-9);
+    return inverse(by.world_from_vehicle).orientation * (from.orientation * Vec3(1, 0, 0));
+  };
+  const Vec3 ahead = seen(world.participants[0], eye_m + world.driver_car.head.from_rest_m);
+  CHECK(glm::length(ahead - Vec3(std::cos(0.6), std::sin(0.6), 0.0)) < 1e-9);
+  shot.participant = "8";
+  const Participant& lorry = world.participants[2];
+  CHECK(glm::length(seen(lorry, scenery::eye_in(vehicle_models()[lorry.model])) - Vec3(1, 0, 0)) < 1e-9);
+  CHECK(refusal_of("[[shot]]\nfrom_s = 0.0\nto_s = 1.0\ndistance_m = 5.0\nbearings = \"gaze\"\n").find("gaze") !=
+        std::string::npos);
+}
+
 TEST_CASE("a camera that would go below the road is refused") {
   Shot shot{.from_s = 0.0, .to_s = 1.0, .distance_m = 8.0, .pitch_rad = 4.0 * radians};
   const auto path = camera_path(shot, frames_per_second);
   REQUIRE(path.has_value());
-  const auto pivot = find_pivot(shot, world_with_others(), Vec3(0.0), *path);
+  const auto pivot = find_pivot(shot, world_with_others(), Vec3(0.0), *path, {});
   REQUIRE_FALSE(pivot.has_value());
   CHECK(describe(pivot.error()).find("below the road") != std::string::npos);
 }

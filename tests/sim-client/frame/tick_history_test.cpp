@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/scenery/vehicles/eye_point.hpp"
 #include "sim-client/frame/viewpoint.hpp"
 
 using namespace septet;
@@ -94,11 +95,13 @@ TEST_CASE("a screen looks out of the driver's car and where there is none out of
 TEST_CASE("drivers sit on the left below the roof and ahead of the rear axle, and riders in the middle") {
   for (const VehicleModel& model : vehicle_models()) {
     CAPTURE(model.name);
-    const Vec3 eye = eye_in(model);
+    const Vec3 eye = scenery::eye_in(model);
     const bool seated = model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
                         model.kind == ParticipantKind::ambulance || model.kind == ParticipantKind::lorry ||
                         model.kind == ParticipantKind::bus;
-    if (seated) {
+    const bool in_the_middle = model.name == "farm-tractor";
+    const bool is_towed = model.name == "caravan" || model.name == "semitrailer";  // Nobody drives it.
+    if (seated && !in_the_middle && !is_towed) {
       CHECK(eye.y > 0.1 * model.width_m);
       CHECK(eye.y < 0.4 * model.width_m);
       CHECK(eye.z < model.height_m - 0.1);

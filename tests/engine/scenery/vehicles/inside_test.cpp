@@ -1,0 +1,169 @@
+// What is seen from the eye points of all kinds of vehicles, by rays against the meshes that are drawn around them.
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/scenery/vehicles/cockpit.hpp"
+#include "engine/scenery/vehicles/eye_point.hpp"
+#include "engine/scenery/vehicles/finish.hpp"
+#include "engine/scenery/vehicles/vehicle_mirrors.hpp"
+#include "engine/scenery/vehicles/vehicle_parts.hpp"
+
+namespace septet::scenery {
+namespace {
+
+struct InsideTriangle {
+  Vec3 a, b, c;
+  std::uint32_t finish;
+};
+
+std::vector<InsideTriangle> triangles_of(const VehicleParts& parts) {
+  std::vector<InsideTriangle> triangles;
+  for (const VehiclePart& part : parts)
+    for (const Placement& place : part.places) {
+      const auto at = [&](std::uint32_t vertex) {
+        return place.parent_from_object * (Vec3(part.mesh.vertices_m[vertex]) * Vec3(place.scale));
+      };
+      for (std::size_t i = 0; i < part.mesh.polygons.size(); ++i) {
+        const auto& corners = part.mesh.polygons[i];
+        for (std::uint32_t k = 2; k < geometry::corner_count(corners); ++k)
+          triangles.push_back({at(corners[0]), at(corners[k - 1]), at(corners[k]), part.mesh.polygon_materials.at(i)});
+      }
+    }
+  return triangles;
+}
+
+struct Met {
+  double distance_m;
+  std::uint32_t finish;
+};
+
+/// Nearest triangle on a ray, from either side (Möller and Trumbore).
+std::optional<Met> met_by(const std::vector<InsideTriangle>& triangles, const Vec3& from, const Vec3& along) {
+  std::optional<Met> nearest;
+  for (const InsideTriangle& t : triangles) {
+    const Vec3 e1 = t.b - t.a, e2 = t.c - t.a, p = glm::cross(along, e2);
+    const double determinant = glm::dot(e1, p);
+    if (std::abs(determinant) < 1e-12) continue;
+    const Vec3 s = from - t.a, q = glm::cross(s, e1);
+    const double u = glm::dot(s, p) / determinant, v = glm::dot(along, q) / determinant,
+                 distance_m = glm::dot(e2, q) / determinant;
+    if (u < 0.0 || v < 0.0 || u + v > 1.0 || distance_m < 1e-6) continue;
+    if (!nearest || distance_m < nearest->distance_m) nearest = Met{distance_m, t.finish};
+  }
+  return nearest;
+}
+
+/// Direction in the vehicle's frame: headings to the left, pitches upwards.
+Vec3 towards(double heading_deg, double pitch_deg) {
+  constexpr double radians = std::numbers::pi / 180.0;
+  const double level = std::cos(pitch_deg * radians);
+  return {level * std::cos(heading_deg * radians), level * std::sin(heading_deg * radians),
+          std::sin(pitch_deg * radians)};
+}
+
+bool is_enclosed(const VehicleModel& model) {
+  return model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
+         model.kind == ParticipantKind::ambulance || model.kind == ParticipantKind::lorry ||
+         model.kind == ParticipantKind::bus;
+}
+
+}  // namespace
+
+TEST_CASE("whoever drives, rides or walks sees the road: nothing of their own lies straight on or over the horizon") {
+  for (const VehicleModel& model : vehicle_models()) {
+    if (!is_driven(model) || has_cockpit(model)) continue;
+    CAPTURE(model.name);
+    const auto triangles = triangles_of(inside_parts(model));
+    REQUIRE_FALSE(triangles.empty());
+    const Vec3 eye_m = eye_in(model);
+    for (const double heading_deg : {-8.0, 0.0, 8.0})
+      for (const double pitch_deg : {-4.0, 0.0, 3.0}) {
+        CAPTURE(heading_deg);
+        CAPTURE(pitch_deg);
+        CHECK_FALSE(met_by(triangles, eye_m, towards(heading_deg, pitch_deg)).has_value());
+      }
+    // Nothing is so near that the picture's first 10 cm would cut it.
+    for (const InsideTriangle& t : triangles) REQUIRE(glm::distance((t.a + t.b + t.c) / 3.0, eye_m) > 0.10);
+  }
+}
+
+TEST_CASE(
+    "cars, vans, lorries and buses have a roof above the eyes, a dashboard below, pillars and panes beside them") {
+  for (const VehicleModel& model : vehicle_models()) {
+    if (!is_driven(model) || has_cockpit(model) || !is_enclosed(model)) continue;
+    CAPTURE(model.name);
+    const auto triangles = triangles_of(inside_parts(model));
+    const Vec3 eye_m = eye_in(model);
+    const auto above = met_by(triangles, eye_m, Vec3(0, 0, 1));
+    REQUIRE(above.has_value());
+    CHECK(above->distance_m < 1.4);
+    const auto below = met_by(triangles, eye_m, towards(0.0, -50.0));
+    REQUIRE(below.has_value());
+    CHECK(below->distance_m < 2.0);
+    int pillars = 0, panes = 0;
+    for (double heading_deg = 15.0; heading_deg < 100.0; heading_deg += 0.5) {
+      const auto met = met_by(triangles, eye_m, towards(heading_deg, 4.0));
+      ++(met && met->distance_m < 3.0 ? pillars : panes);
+    }
+    CHECK(pillars >= 2);  // At least one degree.
+    CHECK(panes >= 60);   // At least 30 degrees free.
+    for (const InsideTriangle& t : triangles) REQUIRE(t.finish != index_of(Finish::clear_glass));
+  }
+}
+
+TEST_CASE("each mirror is seen from the eyes and shows the road behind by the law of reflection") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    const auto mirrors = vehicle_mirrors(model);
+    if (!is_driven(model) || has_cockpit(model) || model.kind == ParticipantKind::bicycle ||
+        model.kind == ParticipantKind::pedestrian) {
+      CHECK(mirrors.empty());
+      continue;
+    }
+    CHECK(mirrors.size() == (model.kind == ParticipantKind::car ? 3 : 2));
+    const auto triangles = triangles_of(inside_parts(model));
+    const Vec3 eye_m = eye_in(model);
+    for (const VehicleMirror& mirror : mirrors) {
+      CAPTURE(mirror.middle_m.y);
+      const double away_m = glm::distance(eye_m, mirror.middle_m);
+      const Vec3 along = (mirror.middle_m - eye_m) / away_m;
+      const auto met = met_by(triangles, eye_m, along);
+      REQUIRE(met.has_value());
+      CHECK(met->finish == index_of(Finish::mirror));
+      CHECK(std::abs(met->distance_m - away_m) < 0.02);
+      CHECK(glm::reflect(along, mirror.normal).x < -0.98);
+      CHECK(glm::length(glm::cross(mirror.right, mirror.up()) - mirror.normal) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a rider sees handlebars and arms, a walker nothing of the own head, and what is towed has no inside") {
+  for (const char* name : {"motorcycle", "bicycle"}) {
+    CAPTURE(name);
+    const VehicleModel& model = vehicle_models()[*find_vehicle_model(name)];
+    const auto triangles = triangles_of(inside_parts(model));
+    // Low before them, to both sides, within reach.
+    for (const double side : {-1.0, 1.0}) {
+      int met = 0;
+      for (double heading_deg = 5.0; heading_deg <= 60.0; heading_deg += 1.0)
+        for (double pitch_deg = -75.0; pitch_deg <= -35.0; pitch_deg += 1.0) {
+          const auto own = met_by(triangles, eye_in(model), towards(side * heading_deg, pitch_deg));
+          met += own && own->distance_m < 0.9 ? 1 : 0;
+        }
+      CHECK(met >= 20);
+    }
+  }
+  for (const char* name : {"caravan", "semitrailer", "volvo-s80"})
+    CHECK(inside_parts(vehicle_models()[*find_vehicle_model(name)]).empty());
+}
+
+}  // namespace septet::scenery

@@ -1,0 +1,134 @@
+// A replay at somebody else's eyes: where the screens stand, where they look, what they say.
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/scenery/vehicles/eye_point.hpp"
+#include "sim-client/frame/screen_frames.hpp"
+#include "tests/shipped_files.hpp"
+#include "tests/why_not.hpp"
+
+namespace septet::frame {
+namespace {
+
+constexpr ParticipantId driver = 1, crosser = 4;
+
+Snapshot crossing() {
+  Snapshot world;
+  const auto add = [&](ParticipantId id, const char* model, const Vec3& place_m, double heading_rad) {
+    Participant participant;
+    participant.id = id;
+    participant.model = *find_vehicle_model(model);
+    participant.world_from_vehicle = {place_m, orientation_from_angles(heading_rad, 0.02, -0.03)};
+    world.participants.push_back(participant);
+  };
+  add(driver, "volvo-s80", {10.0, 20.0, 1.0}, 0.3);
+  add(crosser, "lorry", {60.0, -20.0, 2.0}, 1.9);
+  world.driver_car.participant = driver;
+  world.driver_car.gaze_heading_rad = 0.5;
+  return world;
+}
+
+rig::Rig seven_screens() {
+  auto rig = rig::read_rig(shipped_text("rigs/seven-screens.toml"), "seven-screens");
+  REQUIRE_MESSAGE(rig.has_value(), why_not(rig));
+  return *rig;
+}
+
+std::string texts_of(const instant::FrameInput& frame) {
+  std::string texts;
+  for (const auto& line : frame.overlay) texts += line.text + '\n';
+  return texts;
+}
+
+/// Frame of a screen, with or without somebody's eyes.
+instant::FrameInput frame_of(const rig::Rig& rig, const rig::Screen& screen, const Snapshot& world,
+                             std::optional<Eyes> eyes) {
+  ScreenFrames frames;
+  REQUIRE(frames.look_through(rig, screen, std::move(eyes)).has_value());
+  return frames.frame(world, scene::ResolvedScene());
+}
+
+}  // namespace
+
+TEST_CASE("the rig's eye point lies at the other driver's eyes and its axes are those of their vehicle") {
+  const Snapshot world = crossing();
+  const rig::Rig rig = seven_screens();
+  const Participant& lorry = world.participants[1];
+  for (const rig::Screen& screen : rig.screens) {
+    const auto frame = frame_of(rig, screen, world, Eyes{crosser, "4 crosser (lorry)"});
+    const auto& view = frame.views.front();
+    const Vec3 eye_m = view.world_from_car * view.projection.eye_m;
+    CHECK(glm::distance(eye_m, lorry.world_from_vehicle * scenery::eye_in(vehicle_models()[lorry.model])) < 1e-9);
+    const Vec3 ahead = view.world_from_car.orientation * Vec3(1, 0, 0);
+    CHECK(glm::distance(ahead, lorry.world_from_vehicle.orientation * Vec3(1, 0, 0)) < 1e-12);
+    // The windows are the rig's: the picture is that of the driver's screens, moved as a whole.
+    const auto own = frame_of(rig, screen, world, std::nullopt);
+    for (int column = 0; column < 4; ++column)
+      CHECK(view.projection.clip_from_eye_relative[column] ==
+            own.views.front().projection.clip_from_eye_relative[column]);
+  }
+}
+
+TEST_CASE("the screen ahead and no other says whose eyes these are and that they look straight on") {
+  const Snapshot world = crossing();
+  const rig::Rig rig = seven_screens();
+  for (const rig::Screen& screen : rig.screens) {
+    const bool is_ahead = &screen == &rig::screen_ahead(rig);
+    const std::string texts = texts_of(frame_of(rig, screen, world, Eyes{crosser, "4 crosser (lorry)"}));
+    CHECK((texts.find("eyes of 4 crosser (lorry)") != std::string::npos) == is_ahead);
+    CHECK((texts.find("straight on: their gaze is not logged") != std::string::npos) == is_ahead);
+    CHECK(texts.find("km/h") == std::string::npos);  // That would be the driver's.
+    CHECK(texts_of(frame_of(rig, screen, world, std::nullopt)).find("eyes of") == std::string::npos);
+  }
+}
+
+TEST_CASE("the driver's own eyes turn the windows by the logged gaze, others' do not") {
+  const Snapshot world = crossing();
+  const rig::Rig rig = seven_screens();
+  const rig::Screen& ahead = rig::screen_ahead(rig);
+  const auto looks_along = [&](std::optional<Eyes> eyes) {
+    const auto view = frame_of(rig, ahead, world, std::move(eyes)).views.front();
+    return -view.projection.back;
+  };
+  const Vec3 straight = looks_along(std::nullopt), theirs = looks_along(Eyes{crosser, "4"}),
+             gaze = looks_along(Eyes{driver, "1 ego"});
+  CHECK(glm::distance(theirs, straight) < 1e-12);
+  CHECK(glm::distance(gaze, orientation_from_angles(0.5, 0.0, 0.0) * straight) < 1e-9);
+  CHECK(texts_of(frame_of(rig, ahead, world, Eyes{driver, "1 ego"})).find("as logged") != std::string::npos);
+}
+
+TEST_CASE("insets, which are mirrors of the driver's car, are left out at others' eyes") {
+  const Snapshot world = crossing();
+  const auto rig = rig::read_rig(shipped_text("rigs/desktop.toml"), "desktop");
+  REQUIRE(rig.has_value());
+  const rig::Screen& screen = rig->screens.front();
+  CHECK(frame_of(*rig, screen, world, std::nullopt).views.size() > 1);
+  CHECK(frame_of(*rig, screen, world, Eyes{crosser, "4"}).views.size() == 1);
+}
+
+TEST_CASE("before somebody is there the screens wait at the driver's eyes, and after at the last place, and say so") {
+  const Snapshot world = crossing();
+  Snapshot without = world;
+  without.participants.pop_back();
+  const rig::Rig rig = seven_screens();
+  const rig::Screen& ahead = rig::screen_ahead(rig);
+  ScreenFrames frames;
+  REQUIRE(frames.look_through(rig, ahead, Eyes{crosser, "4 crosser (lorry)"}).has_value());
+  const scene::ResolvedScene scene;
+  const auto place_of = [&](const Snapshot& shown, bool is_there) {
+    const auto frame = frames.frame(shown, scene);
+    CHECK((texts_of(frame).find("not there at this instant") == std::string::npos) == is_there);
+    return frame.views.front().world_from_car.position_m;
+  };
+  CHECK(place_of(without, false) == world.participants[0].world_from_vehicle.position_m);
+  const Vec3 there_m = place_of(world, true);
+  CHECK(glm::distance(there_m, world.participants[1].world_from_vehicle.position_m) < 15.0);
+  CHECK(place_of(without, false) == there_m);
+}
+
+}  // namespace septet::frame
