@@ -25,6 +25,9 @@ impact::Side impact_side(const Participant& participant, double mass_kg);
 std::optional<impact::Impact> begin_impact(const Model& model, const Participant& car, const Participant& other,
                                            State& state);
 
+/// What running impacts with vehicles will still change of the car's motion.
+impact::Due due_to_car(const State& state, const impact::Body& body);
+
 /// Gives the car what is due of its impacts in a step that it has just made. Impacts that are over are forgotten.
 void advance_impacts(const Model& model, double dt_s, State& state);
 

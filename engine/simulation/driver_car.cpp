@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/ground_beside.hpp"
@@ -96,6 +97,7 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
       if (!has_place || !stays_before_face(model, centres[i], stood, state.wheel_roads[i], wheel))
         find_step_edges(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m,
                         state.wheel_roads[i], wheel, way_m);
+      take_faces_away(state.hull, model.car.tyre.radius_m, wheel);
       note_kerb(i, centres[i], wheel, model, state, events);
     } else {
       // A world without land is level, as high as the road that the car was last on.
@@ -216,7 +218,8 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   const vehicle::VehicleParameters& parameters = failed ? *failed : model.car;
   for (int i = 0; i < car_steps; ++i) {
     vehicle::advance_vehicle(parameters, state.input, ground, tick_s / car_steps, state.car);
-    vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
+    const impact::Due due = due_to_car(state, vehicle::planar_body(model.car.body, state.car));
+    vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, due, state.car, state.hull, met);
     advance_impacts(model, tick_s / car_steps, state);
     for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel)
       squeeze_m[wheel] = std::max(squeeze_m[wheel], state.car.wheels[wheel].squeeze_m);

@@ -14,9 +14,8 @@
 namespace septet::simulation {
 namespace {
 
-/// First run number of faces, one for each corner of the hull, as the depth of one is independent of the others. Listed
-/// obstacles never have such a number.
-constexpr std::uint32_t first_face_run = 0x7fff'fff0u;
+/// Run number of all faces: the hull's impact with them is one. Listed obstacles never have such a number.
+constexpr std::uint32_t face_run = 0x7fff'fff0u;
 /// The hull passes over lower faces (hull.cpp) and the wheels climb them.
 constexpr double least_face_m = 0.22;
 /// A rise beyond that to a road that is not joined is overhead.
@@ -155,6 +154,12 @@ bool stays_before_face(const Model& model, const Vec3& centre_m, const road::Roa
   return true;
 }
 
+void take_faces_away(const vehicle::HullState& hull, double wheel_radius_m, vehicle::WheelGround& ground) {
+  if (std::ranges::find(hull.touches, face_run, &vehicle::HullTouch::run) == hull.touches.end()) return;
+  for (auto& edge : ground.edges)
+    if (edge && edge->point_m.z - ground.point_m.z > wheel_radius_m) edge.reset();
+}
+
 void append_faces(const Model& model, const State& state, const vehicle::Ground& ground,
                   std::vector<Obstacle>& obstacles) {
   if (!state.car_road) return;
@@ -190,15 +195,14 @@ void append_faces(const Model& model, const State& state, const vehicle::Ground&
       break;
     }
     const Vec2 normal(-along.y, along.x);
-    const std::uint32_t run = first_face_run + static_cast<std::uint32_t>(i);
     const bool touches =
-        std::ranges::any_of(state.hull.touches, [&](const vehicle::HullTouch& touch) { return touch.run == run; });
+        std::ranges::any_of(state.hull.touches, [&](const vehicle::HullTouch& touch) { return touch.run == face_run; });
     if (glm::dot(velocity_mps, normal) >= 0.0 && !touches) continue;  // A car that drives off a face does not meet it.
     // Beside the corner, which on a slanted path enters elsewhere than the path crosses the face.
     const Vec2 beside_corner_m = edge->place_m + glm::dot(corner_m - edge->place_m, along) * along;
     const double floor_z_m = ground[i].point_m.z;
     obstacles.push_back({.kind = ObstacleKind::ground_face,
-                         .run = run,
+                         .run = face_run,
                          .from_m = beside_corner_m - stretch_half_m * along,
                          .to_m = beside_corner_m + stretch_half_m * along,
                          .radius_m = 0.0,

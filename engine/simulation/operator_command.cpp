@@ -243,6 +243,7 @@ Expected<void> apply(const Model& model, const PutCar& put, State& state, std::v
       return failure("somebody stands there", "put", "choose another place, or wait");
   state.car = vehicle::standstill(model.car, road::world_from_lane(point), put.speed_mps);
   state.hull = {};
+  state.impacts.clear();
   const road::RoadPosition here{lane->road, lane->s_m, point.t_m};
   state.wheel_roads.fill(here);
   state.kerbs = {};

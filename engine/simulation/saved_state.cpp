@@ -12,6 +12,7 @@
 #include "engine/effects/debris/save_debris.hpp"
 #include "engine/effects/smoke/save_smoke.hpp"
 #include "engine/physics/impact/impact_members.hpp"
+#include "engine/physics/impact/sound_state.hpp"
 #include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/road/position_members.hpp"
 #include "engine/scenario/run/save_scenario.hpp"
@@ -77,6 +78,7 @@ namespace {
 constexpr std::array magic{'S', 'E', 'P', 'T', 'S', 'T', 'A', 'T'};
 constexpr std::size_t longest_name = 256;
 constexpr auto wrong = "it does not fit together";
+constexpr double longest_crush_m = 100.0;
 
 struct Heading {
   std::array<char, 8> word = magic;
@@ -127,6 +129,16 @@ void require_keyframes(const std::vector<EffectKeyframe>& keyframes, StateReader
   reader.require(std::ranges::is_sorted(keyframes, std::ranges::less_equal{}, &EffectKeyframe::id), wrong);
 }
 
+bool is_sound(const CarImpact& running) {
+  return impact::is_sound(running.pulse) && impact::is_within(running.due_s, 0.0, impact::longest_pulse_s) &&
+         impact::is_positive(running.struck.mass_kg) && impact::is_positive(running.struck.yaw_inertia_kgm2);
+}
+
+bool is_sound(const vehicle::HullTouch& touch) {
+  return impact::is_sound(touch.engagement) && impact::is_positive(touch.car_kg) && std::abs(touch.side) == 1.0 &&
+         impact::is_within(touch.crushed_m, 0.0, longest_crush_m);
+}
+
 void restore_effects(const Model& model, StateReader& reader, EffectsState& state) {
   transfer(reader, state);
   debris::restore_debris(reader, state.debris);
@@ -148,25 +160,7 @@ void restore_effects(const Model& model, StateReader& reader, EffectsState& stat
   for (const auto& [vehicle, parts] : state.crashes.parts)
     for (const debris::MountedPart& part : parts)
       reader.require(static_cast<int>(part.part) < debris::part_count, wrong);
-}
-
-/// A pulse that can be advanced, and ends.
-void require_sound(const CarImpact& running, StateReader& reader) {
-  constexpr double longest_s = 10.0;
-  const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-  const impact::Pulse& pulse = running.pulse;
-  reader.require(within(pulse.compression_s, 0.0, longest_s) && within(pulse.restitution_s, 0.0, longest_s) &&
-                     within(pulse.age_s, 0.0, longest_s) && within(running.due_s, 0.0, longest_s) &&
-                     within(pulse.restitution, 0.0, 1.0) && positive(pulse.impulse.stopped_mps) &&
-                     positive(running.struck.mass_kg) && positive(running.struck.yaw_inertia_kgm2) &&
-                     pulse.curve.count >= 1 && pulse.curve.count <= pulse.curve.pieces.size(),
-                 wrong);
-  for (std::size_t i = 0; reader.ok() && i < pulse.curve.count; ++i)
-    reader.require(positive(pulse.curve.pieces[i].steepness_ps2) &&
-                       within(pulse.curve.pieces[i].deceleration_mps2, 0.0, 1e9) &&
-                       within(pulse.curve.pieces[i].depth_m, 0.0, 1e3),
-                   wrong);
+  for (const vehicle::HullTouch& touch : state.crashes.struck_standing) reader.require(is_sound(touch), wrong);
 }
 
 void restore_car(const Model& model, StateReader& reader, State& state) {
@@ -177,7 +171,8 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   for (const auto& place : state.wheel_roads) road::require_on_roads(reader, model.roads, place);
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
-  for (const CarImpact& running : state.impacts) require_sound(running, reader);
+  for (const CarImpact& running : state.impacts) reader.require(is_sound(running), wrong);
+  for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
   reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
   reader.require(state.examiner.has_value() != model.yield_lines.empty(), wrong);
   if (state.examiner && state.examiner->front) road::require_on_roads(reader, model.roads, *state.examiner->front);

@@ -64,26 +64,46 @@ std::optional<Touch> touch_of(const Side& first, const Side& second, double back
   return Touch{nearest(moved_back(first, age_s).outline, moved_back(second, age_s).outline).place, age_s};
 }
 
-std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s) {
+void add_due(const Pulse& pulse, const Body& first, Due& due) {
+  Body own{first.mass_kg, first.yaw_inertia_kgm2}, other;
+  exchange(pulse.impulse, 1.0 - share_at(pulse, pulse.age_s), own, other);
+  due.velocity_mps += own.velocity_mps;
+  due.yaw_rate_radps += own.yaw_rate_radps;
+  due.runs = true;
+}
+
+std::optional<Impact> impact_at(const Touch& touch, const Side& first, const Side& second, double friction,
+                                double from_m) {
+  Place place = touch.place;
+  const Vec2 relative_mps = relative_velocity_at(first.body, second.body, place.point_m);
+  const double closing_mps = glm::dot(relative_mps, place.normal);
+  if (!(closing_mps > 0.0)) return std::nullopt;
+  CrushCurve curve = crush_curve({first.body.mass_kg, first.crush}, {second.body.mass_kg, second.crush});
+  if (from_m > 0.0) curve = beyond(curve, from_m);
+  Rule rule;
+  rule.friction = friction;
+  const Passing past = passing(first.outline, second.outline, relative_mps);
+  const double needed_m = depth_m(curve, closing_mps);
+  const bool scrapes = past.depth_m < needed_m;
+  if (scrapes) rule.most_stopped_mps = speed_mps(curve, past.depth_m);
+  place.point_m = engaged_point_m(first.outline, second.outline, place, std::min(past.depth_m, needed_m));
+  rule.restitution = restitution(std::min(closing_mps, rule.most_stopped_mps));
+  const auto impulse = impulse_at(first.body, second.body, place, rule);
+  if (!impulse) return std::nullopt;
+  return Impact{{place, touch.age_s},
+                pulse_of(*impulse, place.normal, curve, rule.restitution),
+                scrapes ? past.aside_m : 0.0,
+                past.aside};
+}
+
+std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s, const Due& due) {
   if (!std::isfinite(first.body.mass_kg) && !std::isfinite(second.body.mass_kg)) return std::nullopt;
   const auto touch = touch_of(first, second, back_s);
   if (!touch) return std::nullopt;
-  const Side a = moved_back(first, touch->age_s), b = moved_back(second, touch->age_s);
-  Place place = touch->place;
-  const Vec2 relative_mps = relative_velocity_at(a.body, b.body, place.point_m);
-  const double closing_mps = glm::dot(relative_mps, place.normal);
-  if (!(closing_mps > 0.0)) return std::nullopt;
-  const CrushCurve curve = crush_curve({a.body.mass_kg, a.crush}, {b.body.mass_kg, b.crush});
-  Rule rule;
-  rule.friction = friction;
-  const double passing_m = passing_depth_m(a.outline, b.outline, relative_mps);
-  const double needed_m = depth_m(curve, closing_mps);
-  if (passing_m < needed_m) rule.most_stopped_mps = speed_mps(curve, passing_m);
-  place.point_m = engaged_point_m(a.outline, b.outline, place, std::min(passing_m, needed_m));
-  rule.restitution = restitution(std::min(closing_mps, rule.most_stopped_mps));
-  const auto impulse = impulse_at(a.body, b.body, place, rule);
-  if (!impulse) return std::nullopt;
-  return Impact{{place, touch->age_s}, pulse_of(*impulse, place.normal, curve, rule.restitution)};
+  Side a = moved_back(first, touch->age_s);
+  a.body.velocity_mps += due.velocity_mps;
+  a.body.yaw_rate_radps += due.yaw_rate_radps;
+  return impact_at(*touch, a, moved_back(second, touch->age_s), friction, first.crushed_m + second.crushed_m);
 }
 
 }  // namespace septet::impact

@@ -8,7 +8,10 @@
 ///
 /// A contact is only as strong as it is deep: bodies that overlap by some centimetres seen along their motion need only
 /// bend by those to be past each other, and no more of their approach is stopped than a crush of that depth stops
-/// (passing_depth_m, crush_curve.hpp). So a scrape is felt, and is not a collision of two fronts.
+/// (passing, crush_curve.hpp). So a scrape is felt, and is not a collision of two fronts.
+///
+/// A body that other pulses still push meets with the motion that those will leave it: what one contact stops, another
+/// does not stop again.
 
 #include <optional>
 
@@ -21,7 +24,18 @@ struct Side {
   Body body;
   Outline outline;
   Crush crush{};  ///< Unused where the mass is infinite.
+  /// Where it is met it has been crushed so far before, in impacts that are over: it is stiffer there from the start.
+  double crushed_m = 0.0;
 };
+
+/// What pulses of other contacts will still change of the first body's motion.
+struct Due {
+  Vec2 velocity_mps{0.0};
+  double yaw_rate_radps = 0.0;
+  bool runs = false;  ///< There are such pulses.
+};
+/// Adds what is left of a pulse, on its first body of these masses.
+void add_due(const Pulse& pulse, const Body& first, Due& due);
 
 /// The side with its outline carried along to the body's new place and heading.
 Side carried(const Side& side, const Body& body);
@@ -41,9 +55,17 @@ std::optional<Touch> touch_of(const Side& first, const Side& second, double back
 struct Impact {
   Touch touch;
   Pulse pulse;
+  /// By how much the outlines give aside where they only scrape past each other; else 0.
+  double aside_m = 0.0;
+  Vec2 aside{0.0};  ///< Unit length, from the first to the second.
 };
 /// Empty where the outlines do not overlap, where the surfaces do not approach, or where both sides stand fast.
 /// Call it in the step in which two bodies that were apart overlap; `friction`: of this pair of surfaces.
-std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s);
+std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s, const Due& due = {});
+
+/// What begins at a place that the outlines have reached, `from_m` of crush behind them. `first.body` with all that is
+/// due to it.
+std::optional<Impact> impact_at(const Touch& touch, const Side& first, const Side& second, double friction,
+                                double from_m);
 
 }  // namespace septet::impact

@@ -12,9 +12,13 @@ struct Restitution {
 struct Vehicles {
   double friction, corner_m;
 };
+struct Posts {
+  double stiffness_share;
+};
 struct Entries {
   Restitution restitution;
   Vehicles vehicles;
+  Posts posts;
 };
 
 constexpr Entries entries() {
@@ -33,5 +37,6 @@ double restitution(double closing_mps) {
 
 double vehicle_friction() { return entries().vehicles.friction; }
 double vehicle_corner_m() { return entries().vehicles.corner_m; }
+double post_stiffness_share() { return entries().posts.stiffness_share; }
 
 }  // namespace septet::impact

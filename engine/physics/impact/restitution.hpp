@@ -15,4 +15,7 @@ double vehicle_friction();
 /// Radius of a vehicle's corners in plan.
 double vehicle_corner_m();
 
+/// Stiffness of a body at a trunk or a post, against that at a wall.
+double post_stiffness_share();
+
 }  // namespace septet::impact

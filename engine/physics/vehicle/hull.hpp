@@ -1,29 +1,31 @@
 #pragma once
-/// The car's hull against obstacles beside the road: forces, crush, and a report for the log.
+/// The car's hull against obstacles beside the road, by the law of all impacts (engine/physics/impact): crush, impulse,
+/// and a report for the log.
 ///
-/// In plan the hull is a rectangle. Where an obstacle enters it, the hull crushes like a spring that hardly returns
-/// (McHenry's SMAC, 1973; Huang 2002, Vehicle Crash Mechanics, ch. 4): the force grows with the depth, 0.5 m ω² at each
-/// corner or trunk, so that a flat wall, met by two corners, gives ω = 23.5 /s, a crush of V/ω and a quarter period of
-/// 67 ms; past the crumple zone it grows faster. In unloading only a few centimetres spring back (restitution 0.2 at 14
-/// m/s, 0.5 at 1 m/s: of the order that tests of bumpers and barriers give). Along the surface Coulomb's friction acts.
-/// The forces act at the height of the centre of mass, and the obstacle does not move: the deflection of a rail is part
-/// of the crush.
+/// In plan the hull is a rectangle with rounded corners, of the mass and yaw inertia of the vehicle's file. Each run of
+/// obstacles (all stretches of one rail, one trunk) is engaged by itself, as a body that stands fast: the deflection of
+/// a rail is part of the crush. A flat wall gives a crush of V/ω and a quarter period of 67 ms with ω = 23.5 /s; a trunk
+/// or a post meets half the members, and goes deeper by √2. Where the hull was crushed before, it is stiffer from the
+/// start.
 ///
-/// A yielding obstacle (a marker post, a bush) takes its momentum once and is met again only after the car has left it.
+/// A yielding obstacle (a marker post, a bush) gives its impulse at once and is met again only after the car has left
+/// it.
 ///
-/// Call with each step of the vehicle, right after it: at 1 ms a car at 60 m/s enters an obstacle by 6 cm.
+/// Call with each step of the vehicle, right after it.
 
 #include <array>
 #include <span>
 #include <vector>
 
+#include "engine/physics/impact/engagement.hpp"
 #include "engine/physics/vehicle/vehicle_parameters.hpp"
 #include "engine/physics/vehicle/vehicle_state.hpp"
 #include "engine/world/obstacle.hpp"
 
 namespace septet::vehicle {
 
-/// One obstacle's contact with the hull, from the first touch until half a second after the last.
+/// One obstacle's contact with the hull, from the first touch until half a second after the last. The whole hull
+/// counts, also where it is crushed.
 struct HullTouch {
   std::uint32_t run = 0;  ///< Run of the obstacle.
   ObstacleKind kind = ObstacleKind::tree;
@@ -34,17 +36,18 @@ struct HullTouch {
   Vec3 angular_velocity_radps{0.0};
   double closing_speed_mps = 0.0;  ///< Along the normal, of the point.
 
-  Vec2 delta_v_mps{0.0};  ///< Change of the car's velocity by the obstacle during the impact.
-  double age_s = 0.0;     ///< Time since the first touch.
-  double free_s = 0.0;    ///< Time since the last touch.
-  double depth_m = 0.0;   ///< Depth in the last step.
-  double side = 1.0;      ///< Side of a line on which the car is.
-  Vec2 face{0.0};         ///< Outward normal of the hull's side through which a trunk came: body frame.
-  bool over = false;      ///< The impact is over: `delta_v_mps` is final.
+  double car_kg = 0.0;
+  impact::Engagement engagement;  ///< Of the hull as the first body.
+  double crushed_m = 0.0;         ///< Crush of the hull at that place by earlier touches.
+  Vec2 delta_v_mps{0.0};          ///< Change of the car's velocity by the obstacle during the impact.
+  double age_s = 0.0;             ///< Time since the first touch.
+  double free_s = 0.0;            ///< Time since the last touch.
+  double side = 1.0;              ///< Side of a line on which the car is.
+  bool over = false;              ///< The impact is over: `delta_v_mps` is final.
 };
 
 struct HullState {
-  /// Deepest crush so far; the hull in thirds along and across, from right rear to left front.
+  /// Deepest crush so far by impacts that began there; the hull in thirds along and across, from right rear to left front.
   std::array<double, 9> crush_m{};
   std::vector<HullTouch> touches;  ///< In the order of their beginnings.
 };
@@ -58,8 +61,12 @@ struct HullReport {
 /// Radius round the centre of mass that holds the hull.
 double hull_reach_m(const VehicleParameters& parameters);
 
-/// Pushes the car off the obstacles that it has entered. `obstacles`: all within hull_reach_m. Appends to `report`.
+/// What impacts with obstacles will still change of the car's motion.
+impact::Due due_to_hull(const HullState& hull, const impact::Body& body);
+
+/// Crushes the hull at the obstacles that it has entered, and gives the car their impulses. `obstacles`: all within
+/// hull_reach_m. `due`: to the car by impacts with others. Appends to `report`.
 void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s,
-                  VehicleState& state, HullState& hull, HullReport& report);
+                  const impact::Due& due, VehicleState& state, HullState& hull, HullReport& report);
 
 }  // namespace septet::vehicle

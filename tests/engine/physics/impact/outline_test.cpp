@@ -145,7 +145,7 @@ TEST_CASE("the crush of a front that meets a wall squarely carries in its middle
 TEST_CASE("cars that overlap by seven centimetres are past each other by that, those in line not at all") {
   const Outline ahead = box_outline({0, 0}, {1, 0}, {2.25, 0.9}, 0.3);
   const auto behind = [](double aside_m) { return box_outline({-6, aside_m}, {1, 0}, {2.25, 0.9}, 0.3); };
-  CHECK(passing_depth_m(behind(1.73), ahead, {20, 0}) == doctest::Approx(0.07 * 1.8 / 1.73).epsilon(1e-9).scale(0.07));
-  CHECK(passing_depth_m(behind(0.0), ahead, {20, 0}) == INFINITY);
-  CHECK(passing_depth_m(behind(1.9), ahead, {20, 0}) == 0.0);
+  CHECK(passing(behind(1.73), ahead, {20, 0}).depth_m == doctest::Approx(0.07 * 1.8 / 1.73).epsilon(1e-9).scale(0.07));
+  CHECK(passing(behind(0.0), ahead, {20, 0}).depth_m == INFINITY);
+  CHECK(passing(behind(1.9), ahead, {20, 0}).depth_m == 0.0);
 }

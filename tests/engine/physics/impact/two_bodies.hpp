@@ -34,7 +34,7 @@ struct Encounter {
   std::optional<Impact> impact;  ///< The first.
   int again = 0;                 ///< Further ones.
   double most_overlap_m = 0.0;   ///< Of the outlines as they lie.
-  double most_beyond_m = -1.0;   ///< Overlap beyond the crush.
+  double most_beyond_m = -1.0;   ///< Overlap of the outlines less what is crushed off them.
 };
 
 /// Moves both in steps of `dt_s` for `time_s`; there is no ground.
@@ -50,7 +50,9 @@ inline Encounter encounter(const Side& first, const Side& second, double dt_s, d
     if (!met.impact) continue;
     const double overlap_m = -nearest(met.first.outline, met.second.outline).gap_m;
     met.most_overlap_m = std::max(met.most_overlap_m, overlap_m);
-    met.most_beyond_m = std::max(met.most_beyond_m, overlap_m - met.engagement.crush_m);
+    const Meeting left =
+        nearest(crushed(met.first.outline, met.engagement.first), crushed(met.second.outline, met.engagement.second));
+    met.most_beyond_m = std::max(met.most_beyond_m, -left.gap_m);
     if (is_over(met.engagement, met.first.outline, met.second.outline)) break;
   }
   return met;

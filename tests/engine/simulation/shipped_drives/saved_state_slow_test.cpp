@@ -202,6 +202,7 @@ TEST_CASE("two states that are the same but for what only a later tick will show
   CHECK(differs_with(state.kerbs[2], KerbTouch{0.1, 1.0}));
   CHECK(differs_with(state.effects.crashes.struck_by_driver, std::vector<StruckVehicle>{{.vehicle = 9999}}));
   CHECK(differs_with(state.impacts, std::vector<CarImpact>{{.vehicle = 9999}}));
+  CHECK(differs_with(state.hull.touches, std::vector<vehicle::HullTouch>{{.run = 9999}}));
   CHECK(differs_with(state.effects.random, Random(77)));
   scenario::EntityState& lorry = state.scenario.entities.back();
   CHECK(differs_with(lorry.acceleration_mps2, -1.5));
@@ -237,6 +238,14 @@ TEST_CASE("a state that was changed with care is refused or is one that can be d
       impact::crush_curve({car.mass_kg, passenger_car_crush()}, {other.mass_kg, passenger_car_crush()});
   for (ParticipantId id = 7; id < 27; ++id)
     drive.state.impacts.push_back({id, impact::pulse_of(*impulse, {1.0, 0.0}, curve, 0.1), other});
+  for (std::uint32_t run = 0; run < 20; ++run) {
+    vehicle::HullTouch& touch = drive.state.hull.touches.emplace_back();
+    touch.run = run;
+    touch.car_kg = car.mass_kg;
+    touch.engagement.pulses.push_back(impact::pulse_of(*impulse, {1.0, 0.0}, curve, 0.1));
+    touch.engagement.first.each[0] = {{1.0, 0.0}, 1.9};
+    touch.engagement.first.count = 1;
+  }
   const Bytes bytes = *save_state(*drive.loaded.model, drive.state);
   Random random(5);
   int accepted = 0;
