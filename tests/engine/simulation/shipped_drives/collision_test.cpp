@@ -102,7 +102,7 @@ TEST_CASE(
                without_mps = glm::dot(entered_mps - unhurt->car.velocity_mps, way);
   MESSAGE("told " << told_mps << " m/s, lost " << lost_mps << " m/s, without the impact " << without_mps << " m/s");
   CHECK(without_mps < 0.5);
-  // Wheels and engine, 40 kg at the tyres, still turn as fast as before and push: up to a thirtieth.
+  // The tyres of a struck car push otherwise than those of the other one, which is not summed here.
   CHECK(lost_mps - without_mps == relative(told_mps, 0.05));
 }
 
