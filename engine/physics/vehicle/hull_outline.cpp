@@ -24,7 +24,7 @@ Line line_of(const Obstacle& obstacle, double side) {
   return {along, side * left_of(along)};
 }
 
-double side_of(const Obstacle& line, const Vec2& mass_centre_m, std::span<const HullTouch> touches) {
+double side_of_line(const Obstacle& line, const Vec2& mass_centre_m, std::span<const HullTouch> touches) {
   const auto known = std::ranges::find(touches, line.run, &HullTouch::run);
   if (known != touches.end()) return known->side;
   return cross(line.to_m - line.from_m, mass_centre_m - line.from_m) < 0.0 ? -1.0 : 1.0;
@@ -92,7 +92,7 @@ std::vector<Entered> entered_obstacles(const HullOutline& hull, const Vec2& mass
     Entered found{&obstacle, own};
     double depth_m = 0.0;
     if (is_line) {
-      found.side = side_of(obstacle, mass_centre_m, touches);
+      found.side = side_of_line(obstacle, mass_centre_m, touches);
       const Line line = line_of(obstacle, found.side);
       found.outline = line_outline(obstacle, line, hull, obstacles);
       depth_m = radius_m + impact::reach_beside_m(hull.outline, -line.normal, obstacle.from_m, line.along,
