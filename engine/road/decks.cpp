@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double step_m = 1.5;  ///< Between the points of a stretch, along and across.
 constexpr double over_m = 0.75 * step_m;
+constexpr int most_across = 128;      ///< Points of a row. Wider roads, of damaged files, are looked at more coarsely.
 constexpr double least_gap_m = 12.0;  ///< Between two decks; nearer ones are one.
 
 struct Range {
@@ -59,27 +62,59 @@ std::vector<Row> rows_of(const RoadNetwork& network, const StretchNode& stretch)
     const CrossSection section = cross_section_at(road, row.s_m);
     const RoadExtent extent = road_extent(road, row.s_m);
     const double width = extent.left_t_m - extent.right_t_m;
-    const int across = std::max(1, static_cast<int>(std::ceil(width / step_m)));
-    for (int k = 0; width > 0.1 && k <= across; ++k)
-      row.points_m.push_back(section.place(extent.right_t_m + width * k / across, 0.0));
+    if (width > 0.1) {
+      const int across = static_cast<int>(std::clamp(std::ceil(width / step_m), 1.0, double{most_across}));
+      for (int k = 0; k <= across; ++k)
+        row.points_m.push_back(section.place(extent.right_t_m + width * k / across, 0.0));
+    }
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
-/// Adds the stations of the rows `above` that have a lane of the rows `below` under them to `ranges`.
-void find_over(const std::vector<Row>& above, const std::vector<Row>& below, std::vector<Range>& ranges) {
-  const auto lies_over = [&](const Vec3& p) {
-    return std::ranges::any_of(below, [&](const Row& row) {
-      return std::ranges::any_of(row.points_m, [&](const Vec3& q) {
-        const Vec2 apart = Vec2(p) - Vec2(q);
-        return p.z > q.z + least_rise_m && glm::dot(apart, apart) < over_m * over_m;
-      });
-    });
+/// Points of rows in squares of the plan, so that a place looks at its neighbours alone however many points there are.
+class PointGrid {
+ public:
+  void add(const std::vector<Row>& rows) {
+    for (const Row& row : rows)
+      for (const Vec3& point : row.points_m)
+        if (const auto square = square_of(point)) squares_[*square].push_back(point);
+  }
+
+  /// True if a point lies under `p`, near it in plan.
+  bool has_below(const Vec3& p) const {
+    const auto square = square_of(p);
+    if (!square) return false;
+    for (std::int32_t i = -1; i <= 1; ++i)
+      for (std::int32_t j = -1; j <= 1; ++j)
+        if (const auto found = squares_.find({square->first + i, square->second + j}); found != squares_.end())
+          if (std::ranges::any_of(found->second, [&](const Vec3& q) { return lies_over(p, q); })) return true;
+    return false;
+  }
+
+ private:
+  using Square = std::pair<std::int32_t, std::int32_t>;
+  struct Hash {
+    std::size_t operator()(const Square& square) const {
+      return std::size_t{static_cast<std::uint32_t>(square.first)} * 0x9e37'79b9'7f4a'7c15u +
+             static_cast<std::uint32_t>(square.second);
+    }
   };
-  for (const Row& row : above)
-    if (std::ranges::any_of(row.points_m, lies_over)) ranges.push_back({row.s_m, row.s_m});
-}
+
+  /// Empty for a point farther out than any road.
+  static std::optional<Square> square_of(const Vec3& p) {
+    constexpr double farthest_m = 1e9;
+    if (!(std::abs(p.x) < farthest_m && std::abs(p.y) < farthest_m)) return std::nullopt;
+    return Square{static_cast<std::int32_t>(std::floor(p.x / over_m)),
+                  static_cast<std::int32_t>(std::floor(p.y / over_m))};
+  }
+  static bool lies_over(const Vec3& p, const Vec3& q) {
+    const Vec2 apart = Vec2(p) - Vec2(q);
+    return p.z > q.z + least_rise_m && glm::dot(apart, apart) < over_m * over_m;
+  }
+
+  std::unordered_map<Square, std::vector<Vec3>, Hash> squares_;
+};
 
 std::vector<Range> joined(std::vector<Range> ranges, double gap_m) {
   std::ranges::sort(ranges, {}, &Range::from_m);
@@ -133,14 +168,12 @@ void add_deck(Road& road, Range deck) {
   }
 }
 
-}  // namespace
-
-void find_decks(RoadNetwork& network) {
+/// Heights of the tree's stretches and branches.
+std::vector<Heights> heights_of_tree(const RoadNetwork& network) {
   const std::vector<StretchNode>& tree = network.stretches;
   std::vector<Heights> heights(tree.size());
   for (std::size_t i = 0; i < tree.size(); ++i)
     if (tree[i].road != no_index) heights[i] = heights_of(network, tree[i]);
-  // Whole branches without a second level are passed over.
   for (std::size_t i = tree.size(); i-- > 0;) {
     if (tree[i].road != no_index) continue;
     for (std::size_t child = i + 1; child < tree[i].skip; child = tree[child].skip) {
@@ -148,26 +181,55 @@ void find_decks(RoadNetwork& network) {
       heights[i].high_m = std::max(heights[i].high_m, heights[child].high_m);
     }
   }
-  // A stretch meets several others: its rows are worked out once, when the first of them asks.
-  std::vector<std::optional<std::vector<Row>>> rows(tree.size());
-  const auto rows_at = [&](std::size_t i) -> const std::vector<Row>& {
-    if (!rows[i]) rows[i] = rows_of(network, tree[i]);
-    return *rows[i];
-  };
-  std::vector<std::vector<Range>> over(network.roads.size());
+  return heights;
+}
+
+/// Marks of stretches, by index, that may lie over another one, and of those that may lie under one.
+struct Levels {
+  std::vector<char> is_upper, is_lower;
+};
+Levels find_levels(const RoadNetwork& network) {
+  const std::vector<StretchNode>& tree = network.stretches;
+  const std::vector<Heights> heights = heights_of_tree(network);
+  Levels levels{std::vector<char>(tree.size(), 0), std::vector<char>(tree.size(), 0)};
   for (std::size_t upper = 0; upper < tree.size(); ++upper) {
     if (tree[upper].road == no_index) continue;
     for (std::size_t lower = 0; lower < tree.size();) {
       const bool apart = tree[lower].low_m.x > tree[upper].high_m.x || tree[lower].low_m.y > tree[upper].high_m.y ||
                          tree[lower].high_m.x < tree[upper].low_m.x || tree[lower].high_m.y < tree[upper].low_m.y;
+      // Whole branches without a second level are passed over.
       if (apart || heights[lower].low_m + least_rise_m > heights[upper].high_m) {
         lower = tree[lower].skip;
         continue;
       }
-      if (tree[lower].road != no_index) find_over(rows_at(upper), rows_at(lower), over[tree[upper].road]);
+      if (tree[lower].road != no_index) levels.is_upper[upper] = levels.is_lower[lower] = 1;
       ++lower;
     }
   }
+  return levels;
+}
+
+/// Stations, by road, that have a lane of some road under them.
+std::vector<std::vector<Range>> stations_over(const RoadNetwork& network) {
+  const std::vector<StretchNode>& tree = network.stretches;
+  const Levels levels = find_levels(network);
+  PointGrid below;
+  for (std::size_t i = 0; i < tree.size(); ++i)
+    if (levels.is_lower[i]) below.add(rows_of(network, tree[i]));
+  std::vector<std::vector<Range>> over(network.roads.size());
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    if (!levels.is_upper[i]) continue;
+    for (const Row& row : rows_of(network, tree[i]))
+      if (std::ranges::any_of(row.points_m, [&](const Vec3& p) { return below.has_below(p); }))
+        over[tree[i].road].push_back({row.s_m, row.s_m});
+  }
+  return over;
+}
+
+}  // namespace
+
+void find_decks(RoadNetwork& network) {
+  std::vector<std::vector<Range>> over = stations_over(network);
   std::vector<std::vector<Range>> decks(network.roads.size());
   for (RoadIndex index = 0; index < network.roads.size(); ++index) {
     const double length_m = network.roads[index].length_m;
