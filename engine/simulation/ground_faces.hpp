@@ -25,8 +25,9 @@ bool may_step(const road::Road& road, double s_m, double reach_m);
 /// one by the hull's crush does not climb it.
 void take_faces_away(const vehicle::HullState& hull, double wheel_radius_m, vehicle::WheelGround& ground);
 
-/// Appends a stretch of wall for each corner of the hull that comes to a face, or still touches one: all of one run,
-/// so that two corners at one face are one impact. `ground`: under the wheels. Costs nothing away from places where a road may step.
+/// Appends a stretch of wall for each corner of the hull that comes to a face, or still touches one: all of one run, so
+/// that two corners at one face are one impact. `ground`: under the wheels. Costs nothing away from places where a road
+/// may step.
 void append_faces(const Model& model, const State& state, const vehicle::Ground& ground,
                   std::vector<Obstacle>& obstacles);
 

@@ -68,8 +68,7 @@ std::optional<Impact> meet_again(double friction, const Engagement& engagement, 
   Side own = first, other = second;
   for (const Pulse& pulse : engagement.pulses)
     exchange(pulse.impulse, 1.0 - share_at(pulse, pulse.age_s), own.body, other.body);
-  own.body.velocity_mps += due.velocity_mps;
-  own.body.yaw_rate_radps += due.yaw_rate_radps;
+  give(due, own.body);
   Outline whole = first.outline, other_whole = second.outline;
   whole.cuts = other_whole.cuts = {};
   const double from_m = first.crushed_m + second.crushed_m + excess.overlap_m +

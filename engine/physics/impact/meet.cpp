@@ -72,6 +72,11 @@ void add_due(const Pulse& pulse, const Body& first, Due& due) {
   due.runs = true;
 }
 
+void give(const Due& due, Body& body) {
+  body.velocity_mps += due.velocity_mps;
+  body.yaw_rate_radps += due.yaw_rate_radps;
+}
+
 std::optional<Impact> impact_at(const Touch& touch, const Side& first, const Side& second, double friction,
                                 double from_m) {
   Place place = touch.place;
@@ -101,8 +106,7 @@ std::optional<Impact> meet(const Side& first, const Side& second, double frictio
   const auto touch = touch_of(first, second, back_s);
   if (!touch) return std::nullopt;
   Side a = moved_back(first, touch->age_s);
-  a.body.velocity_mps += due.velocity_mps;
-  a.body.yaw_rate_radps += due.yaw_rate_radps;
+  give(due, a.body);
   return impact_at(*touch, a, moved_back(second, touch->age_s), friction, first.crushed_m + second.crushed_m);
 }
 

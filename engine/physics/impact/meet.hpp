@@ -36,6 +36,8 @@ struct Due {
 };
 /// Adds what is left of a pulse, on its first body of these masses.
 void add_due(const Pulse& pulse, const Body& first, Due& due);
+/// Gives a body all that is due to it.
+void give(const Due& due, Body& body);
 
 /// The side with its outline carried along to the body's new place and heading.
 Side carried(const Side& side, const Body& body);

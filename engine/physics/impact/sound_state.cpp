@@ -1,7 +1,7 @@
 #include "engine/physics/impact/sound_state.hpp"
 
 #include <algorithm>
-#include <cstddef>
+#include <span>
 
 #include <glm/geometric.hpp>
 
@@ -12,20 +12,17 @@ constexpr double farthest_m = 1e3, hardest_mps2 = 1e9;
 
 bool is_sound(const CrushCurve& curve) {
   if (curve.count < 1 || curve.count > curve.pieces.size()) return false;
-  return std::all_of(curve.pieces.begin(), curve.pieces.begin() + static_cast<std::ptrdiff_t>(curve.count),
-                     [](const CrushPiece& piece) {
-                       return is_positive(piece.steepness_ps2) &&
-                              is_within(piece.deceleration_mps2, 0.0, hardest_mps2) &&
-                              is_within(piece.depth_m, 0.0, farthest_m);
-                     });
+  return std::ranges::all_of(std::span(curve.pieces).first(curve.count), [](const CrushPiece& piece) {
+    return is_positive(piece.steepness_ps2) && is_within(piece.deceleration_mps2, 0.0, hardest_mps2) &&
+           is_within(piece.depth_m, 0.0, farthest_m);
+  });
 }
 
 bool is_sound(const Cuts& cuts) {
   if (cuts.count > cuts.each.size()) return false;
-  return std::all_of(
-      cuts.each.begin(), cuts.each.begin() + static_cast<std::ptrdiff_t>(cuts.count), [](const Cut& cut) {
-        return is_within(glm::length(cut.way), 0.999, 1.001) && is_within(cut.offset_m, -farthest_m, farthest_m);
-      });
+  return std::ranges::all_of(std::span(cuts.each).first(cuts.count), [](const Cut& cut) {
+    return is_within(glm::length(cut.way), 0.999, 1.001) && is_within(cut.offset_m, -farthest_m, farthest_m);
+  });
 }
 
 }  // namespace

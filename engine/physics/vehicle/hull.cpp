@@ -18,6 +18,13 @@ constexpr double blow_s = 0.25;  // End of the impact itself; later contact is s
 constexpr double let_go_s = 0.1, forgotten_s = 0.5;
 constexpr double bumper_m = 0.02;  // Surfaces within this depth touch at the same time.
 
+/// Adds what the hull's impacts will still change, but for that of one touch.
+void add_due(const HullState& hull, const HullTouch* besides, const impact::Body& body, impact::Due& due) {
+  for (const HullTouch& touch : hull.touches)
+    if (&touch != besides)
+      for (const impact::Pulse& pulse : touch.engagement.pulses) impact::add_due(pulse, body, due);
+}
+
 /// Of the members that a wall meets, a trunk or post presses half.
 Crush crush_at(const Obstacle& obstacle) {
   Crush crush = passenger_car_crush();
@@ -61,9 +68,7 @@ class Step {
   /// What the car's other impacts will still change.
   impact::Due due_besides(const HullTouch* touch, const impact::Body& body) const {
     impact::Due due = due_;
-    for (const HullTouch& other : hull_.touches)
-      if (&other != touch)
-        for (const impact::Pulse& pulse : other.engagement.pulses) impact::add_due(pulse, body, due);
+    add_due(hull_, touch, body, due);
     return due;
   }
 
@@ -163,8 +168,7 @@ double hull_reach_m(const VehicleParameters& parameters) {
 
 impact::Due due_to_hull(const HullState& hull, const impact::Body& body) {
   impact::Due due;
-  for (const HullTouch& touch : hull.touches)
-    for (const impact::Pulse& pulse : touch.engagement.pulses) impact::add_due(pulse, body, due);
+  add_due(hull, nullptr, body, due);
   return due;
 }
 
