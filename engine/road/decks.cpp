@@ -213,13 +213,17 @@ Levels find_levels(const RoadNetwork& network) {
 std::vector<std::vector<Range>> stations_over(const RoadNetwork& network) {
   const std::vector<StretchNode>& tree = network.stretches;
   const Levels levels = find_levels(network);
+  // A stretch may lie over one and under another: its rows are worked out once.
+  std::vector<std::vector<Row>> rows(tree.size());
   PointGrid below;
-  for (std::size_t i = 0; i < tree.size(); ++i)
-    if (levels.is_lower[i]) below.add(rows_of(network, tree[i]));
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    if (levels.is_upper[i] || levels.is_lower[i]) rows[i] = rows_of(network, tree[i]);
+    if (levels.is_lower[i]) below.add(rows[i]);
+  }
   std::vector<std::vector<Range>> over(network.roads.size());
   for (std::size_t i = 0; i < tree.size(); ++i) {
     if (!levels.is_upper[i]) continue;
-    for (const Row& row : rows_of(network, tree[i]))
+    for (const Row& row : rows[i])
       if (std::ranges::any_of(row.points_m, [&](const Vec3& p) { return below.has_below(p); }))
         over[tree[i].road].push_back({row.s_m, row.s_m});
   }
