@@ -19,11 +19,13 @@ VehicleMirror aimed(const Vec3& eye_m, const Vec3& shown, VehicleMirror mirror) 
   return mirror;
 }
 
-/// Left and right glass around a middle on the left; each shows its own flank and the lane beside it.
+/// Left and right glass, convex, around a middle on the left; each shows its own flank and the lane beside it.
 void add_pair(std::vector<VehicleMirror>& mirrors, const Vec3& eye_m, const VehicleMirror& left) {
+  constexpr double convex_m = 1.4;  // UN Regulation 46: at least 1.2 m outside.
   for (const double side : {1.0, -1.0}) {
     VehicleMirror mirror = left;
     mirror.middle_m.y *= side;
+    mirror.radius_m = convex_m;
     mirrors.push_back(aimed(eye_m, Vec3(-1.0, 0.10 * side, -0.04), mirror));
   }
 }
@@ -37,8 +39,6 @@ std::vector<VehicleMirror> vehicle_mirrors(const VehicleModel& model) {
   if (has_cockpit(model) || !is_driven(model)) return mirrors;
   const Vec3 eye_m = eye_in(model);
   const double half_m = 0.5 * model.width_m;
-  // Radii: UN Regulation 46, at least 1.2 m outside.
-  constexpr double convex_m = 1.4;
   switch (model.kind) {
     case ParticipantKind::car: {
       // Housings as in car_trim.cpp: the glass stands behind them, turned to the driver.
@@ -52,34 +52,26 @@ std::vector<VehicleMirror> vehicle_mirrors(const VehicleModel& model) {
                               {.middle_m = {inner_x_m, 0.0, std::min(eye_m.z + 0.085, pane_z_m - 0.05)},
                                .width_m = 0.22,
                                .height_m = 0.06}));
-      add_pair(mirrors, eye_m,
-               {.middle_m = {x_m, 0.97 * half_m + 0.085, shape.belt_front_m + 0.12},
-                .width_m = 0.17,
-                .height_m = 0.11,
-                .radius_m = convex_m});
+      add_pair(
+          mirrors, eye_m,
+          {.middle_m = {x_m, 0.97 * half_m + 0.085, shape.belt_front_m + 0.12}, .width_m = 0.17, .height_m = 0.11});
       break;
     }
     case ParticipantKind::van:
     case ParticipantKind::ambulance: {
       const CarShape shape = car_shape(model);
       const double x_m = model.wheelbase_m - shape.cowl_m - 0.20 - 0.21;
-      add_pair(mirrors, eye_m,
-               {.middle_m = {x_m, 0.97 * half_m + 0.09, shape.belt_front_m + 0.215},
-                .width_m = 0.17,
-                .height_m = 0.28,
-                .radius_m = convex_m});
+      add_pair(
+          mirrors, eye_m,
+          {.middle_m = {x_m, 0.97 * half_m + 0.09, shape.belt_front_m + 0.215}, .width_m = 0.17, .height_m = 0.28});
       break;
     }
     case ParticipantKind::lorry:
       if (model.name == "farm-tractor")
-        add_pair(mirrors, eye_m,
-                 {.middle_m = {0.85, 1.0, 2.2}, .width_m = 0.17, .height_m = 0.26, .radius_m = convex_m});
+        add_pair(mirrors, eye_m, {.middle_m = {0.85, 1.0, 2.2}, .width_m = 0.17, .height_m = 0.26});
       else
         add_pair(mirrors, eye_m,
-                 {.middle_m = {model.front_m() - 0.49, half_m + 0.10, 2.2},
-                  .width_m = 0.20,
-                  .height_m = 0.56,
-                  .radius_m = convex_m});
+                 {.middle_m = {model.front_m() - 0.49, half_m + 0.10, 2.2}, .width_m = 0.20, .height_m = 0.56});
       break;
     case ParticipantKind::bus: {
       // Before the windscreen, which leans back, so that no pillar hides them.
@@ -87,13 +79,11 @@ std::vector<VehicleMirror> vehicle_mirrors(const VehicleModel& model) {
       add_pair(mirrors, eye_m,
                {.middle_m = {model.front_m() + 0.22 - 0.5 * lean_m, half_m - 0.06, eye_m.z + 0.15},
                 .width_m = 0.20,
-                .height_m = 0.34,
-                .radius_m = convex_m});
+                .height_m = 0.34});
       break;
     }
     case ParticipantKind::motorcycle:
-      add_pair(mirrors, eye_m,
-               {.middle_m = {1.16, 0.38, 1.20}, .width_m = 0.13, .height_m = 0.08, .radius_m = convex_m});
+      add_pair(mirrors, eye_m, {.middle_m = {1.16, 0.38, 1.20}, .width_m = 0.13, .height_m = 0.08});
       break;
     case ParticipantKind::bicycle:
     case ParticipantKind::pedestrian:
