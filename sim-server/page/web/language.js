@@ -1,7 +1,7 @@
 'use strict';
 // The page in the language of who reads it. Each file language_XX.js has the same keys; an element's data-t is the key of its text,
 // data-t-title, data-t-label and data-t-placeholder those of its attributes. Words of the server that have a key "said.WORDS" are told likewise;
-// a {name} in such a key stands for anything.
+// a {name} in such a key stands for anything, and {why} for another such sentence.
 const languages = {};
 const $ = (id) => document.getElementById(id);
 let language = 'en';
@@ -28,7 +28,7 @@ function heard(text) {
   if (has_text(`said.${text}`)) return t(`said.${text}`);
   for (const [key, form] of sentences_with_gaps()) {
     const found = form.exec(text);
-    if (found) return t(key, Object.fromEntries(Object.entries(found.groups).map(([name, value]) => [name, heard(value)])));
+    if (found) return t(key, found.groups.why ? { ...found.groups, why: heard(found.groups.why) } : found.groups);
   }
   return text;
 }
