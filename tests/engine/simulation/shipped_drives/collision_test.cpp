@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -13,6 +14,18 @@
 #include "tests/why_not.hpp"
 
 namespace septet::simulation {
+namespace {
+
+/// The state, saved and restored.
+State restored(const server::LoadedDrive& drive, const State& state) {
+  const auto bytes = save_state(*drive.model, state);
+  REQUIRE(bytes.has_value());
+  auto again = restore_state(*drive.model, traffic::own_traffic(drive.model->roads, 1), *bytes, "test");
+  REQUIRE_MESSAGE(again.has_value(), why_not(again));
+  return std::move(*again);
+}
+
+}  // namespace
 
 TEST_CASE("a vehicle that the driver's car touches is one collision for as long as they touch") {
   const server::LoadedDrive drive = server::shipped_drive("behind-ambulance", "desktop");
@@ -75,31 +88,25 @@ TEST_CASE(
   for (int i = 0; i < 20 && state->impacts.empty(); ++i) server_step(*drive.model, {}, *state, events);
   REQUIRE(state->impacts.size() == 1);
   // The same car without the impact: what its tyres, its engine and the air do alone.
-  const auto touched = save_state(*drive.model, *state);
-  REQUIRE(touched.has_value());
-  auto unhurt = restore_state(*drive.model, traffic::own_traffic(drive.model->roads, 1), *touched, "test");
-  REQUIRE_MESSAGE(unhurt.has_value(), why_not(unhurt));
-  unhurt->impacts.clear();
+  auto unhurt = restored(drive, *state);
+  unhurt.impacts.clear();
   for (int i = 0; i < 3; ++i) server_step(*drive.model, {}, *state, events);
   REQUIRE(state->impacts.size() == 1);
 
-  const auto bytes = save_state(*drive.model, *state);
-  REQUIRE(bytes.has_value());
-  auto again = restore_state(*drive.model, traffic::own_traffic(drive.model->roads, 1), *bytes, "test");
-  REQUIRE_MESSAGE(again.has_value(), why_not(again));
-  CHECK(hash_state(*again) == hash_state(*state));
+  auto again = restored(drive, *state);
+  CHECK(hash_state(again) == hash_state(*state));
   std::vector<Event> others;
   while (!state->impacts.empty()) {
     const std::uint64_t one = server_step(*drive.model, {}, *state, events).state_hash;
-    CHECK(server_step(*drive.model, {}, *again, others).state_hash == one);
+    CHECK(server_step(*drive.model, {}, again, others).state_hash == one);
   }
   const auto event = std::ranges::find(events, "collision", &Event::kind);
   REQUIRE(event != events.end());
   const double told_mps = std::stod(event->detail.substr(event->detail.find("delta_v_mps=") + 12));
   CHECK(told_mps > 5.0);
-  while (unhurt->tick < state->tick) server_step(*drive.model, {}, *unhurt, others);
+  while (unhurt.tick < state->tick) server_step(*drive.model, {}, unhurt, others);
   const double lost_mps = glm::dot(entered_mps - state->car.velocity_mps, way),
-               without_mps = glm::dot(entered_mps - unhurt->car.velocity_mps, way);
+               without_mps = glm::dot(entered_mps - unhurt.car.velocity_mps, way);
   MESSAGE("told " << told_mps << " m/s, lost " << lost_mps << " m/s, without the impact " << without_mps << " m/s");
   CHECK(without_mps < 0.5);
   // The tyres of a struck car push otherwise than those of the other one, which is not summed here.
@@ -134,15 +141,12 @@ TEST_CASE("a drive that is saved while the car crashes into a barrier goes on wi
   for (int i = 0; i < 2; ++i) server_step(*drive.model, {}, *state, events);
   REQUIRE(runs());
 
-  const auto bytes = save_state(*drive.model, *state);
-  REQUIRE(bytes.has_value());
-  auto again = restore_state(*drive.model, traffic::own_traffic(drive.model->roads, 1), *bytes, "test");
-  REQUIRE_MESSAGE(again.has_value(), why_not(again));
-  CHECK(hash_state(*again) == hash_state(*state));
+  auto again = restored(drive, *state);
+  CHECK(hash_state(again) == hash_state(*state));
   std::vector<Event> others;
   for (int i = 0; i < 120; ++i) {
     const std::uint64_t one = server_step(*drive.model, {}, *state, events).state_hash;
-    CHECK(server_step(*drive.model, {}, *again, others).state_hash == one);
+    CHECK(server_step(*drive.model, {}, again, others).state_hash == one);
   }
   CHECK(!runs());
   CHECK(std::ranges::count(events, "collision", &Event::kind) > 0);
