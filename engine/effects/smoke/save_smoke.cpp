@@ -23,12 +23,12 @@ SEPTET_MEMBER_GROUPS(State, kept(grid), hashed(parameters, emitters, particles, 
 namespace {
 
 void require_whole(const Grid& grid, StateReader& reader) {
-  for (const int n : {grid.nx, grid.ny, grid.nz})
-    reader.require(n >= 1 && n <= max_cells_along, "the smoke's grid in it is out of bounds");
-  reader.require(
-      std::int64_t{grid.nx} * grid.ny * grid.nz <= max_cells && std::isfinite(grid.cell_m) && grid.cell_m > 0.0,
-      "the smoke's grid in it is out of bounds");
-  if (reader.ok())
+  // Each side is bounded before all are multiplied.
+  const auto is_side = [](int n) { return n >= 1 && n <= max_cells_along; };
+  if (reader.require(is_side(grid.nx) && is_side(grid.ny) && is_side(grid.nz) &&
+                         std::int64_t{grid.nx} * grid.ny * grid.nz <= max_cells && std::isfinite(grid.cell_m) &&
+                         grid.cell_m > 0.0,
+                     "the smoke's grid in it is out of bounds"))
     reader.require(grid.wall.size() == static_cast<std::size_t>(grid.cells()),
                    "the smoke's walls in it are not its box's");
 }
