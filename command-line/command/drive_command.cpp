@@ -90,10 +90,11 @@ class RunningScreen {
       next_start_ = Clock::now() + pause;
       const std::string how = exit->signal != 0 ? fmt::format("was ended by signal {}", exit->signal)
                                                 : fmt::format("ended with status {}", exit->code);
-      program::say(
-          fmt::format("\nscreen {} {}; starting it again{}; its log: {}", name_, how,
-                      pause > 0ms ? fmt::format(" in {:.1f} s", 1e-3 * static_cast<double>(pause.count())) : "",
-                      options_.log.string()));
+      const std::string next =
+          is_hopeless() ? "that was its last try"
+          : pause > 0ms ? fmt::format("starting it again in {:.1f} s", 1e-3 * static_cast<double>(pause.count()))
+                        : "starting it again";
+      program::say(fmt::format("\nscreen {} {}; {}; its log: {}", name_, how, next, options_.log.string()));
       return;
     }
     start();

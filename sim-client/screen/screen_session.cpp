@@ -104,7 +104,9 @@ class Session {
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_, large_pictures_{large_picture};
-  std::optional<double> looked_s_;  ///< Due time of the newest large picture.
+  std::optional<double> looked_s_;                   ///< Due time of the newest large picture.
+  static constexpr double thumbnails_apart_s = 0.7;  ///< At least: a window's come once a second, give or take.
+  double thumbnail_s_ = -thumbnails_apart_s;         ///< Time of the newest thumbnail.
   FrameTimes frame_times_, submit_times_;
   std::optional<double> last_picture_s_;
   PictureRate picture_rate_;
@@ -245,11 +247,16 @@ std::vector<instant::OverlayText> Session::driver_texts(const Snapshot& snapshot
 }
 
 Expected<void> Session::keep_picture(Tick tick) {
-  const bool somebody_looks = link_.welcome()->thumbnails;
-  if (options_.pictures.empty() && !somebody_looks) return {};
+  // A drive that keeps each picture would else send a small one of each.
+  const double now_s = program::monotonic_s();
+  const bool is_thumbnail_due = link_.welcome()->thumbnails && now_s - thumbnail_s_ >= thumbnails_apart_s;
+  if (options_.pictures.empty() && !is_thumbnail_due) return {};
   auto picture = display_->renderer().read_back();
   if (!picture) return tl::unexpected(picture.error());
-  if (somebody_looks) thumbnails_.take(tick, *picture);
+  if (is_thumbnail_due) {
+    thumbnail_s_ = now_s;
+    thumbnails_.take(tick, *picture);
+  }
   if (options_.pictures.empty()) return {};
   pictures_.write(options_.pictures / fmt::format("{}.png", tick), std::move(*picture));
   return {};
@@ -270,8 +277,7 @@ Expected<void> Session::show_closely(Tick tick, double now_s) {
   return {};
 }
 
-/// One at a time: a newer picture replaces one that waits for the lane. The large one goes first, since small ones come
-/// as often as frames are drawn and would leave it no gap.
+/// One at a time: a newer picture replaces one that waits for the lane. The large one goes first.
 void Session::send_pictures() {
   if (link_.has_backlog()) return;
   if (auto large = large_pictures_.finished())
@@ -378,6 +384,7 @@ Expected<void> Session::run() {
   while (!program::should_stop()) {
     const double now_s = program::monotonic_s();
     link_.pump(now_s);
+    send_pictures();  // Here the lane is free, if ever: what is drawn next adds its own message.
     for (const auto& text : link_.take_messages()) program::say(fmt::format("{}: {}", options_.name, text));
     if (link_.refusal()) return tl::unexpected(*link_.refusal());
     if (link_.finished()) {
@@ -416,7 +423,6 @@ Expected<void> Session::run() {
         drawn = draw_real_time(now_s);
     }
     if (!drawn) return drawn;
-    send_pictures();
     if (!display_ || link_.welcome()->lockstep) wait(link_.has_backlog() ? 0.0 : 0.005);
   }
   link_.close();
