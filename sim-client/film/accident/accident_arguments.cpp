@@ -29,6 +29,10 @@ void add_accident_options(CLI::App& app, AccidentOptions& options) {
   app.add_flag_callback(
       "--no-sound", [&film] { film.sound = false; }, "Leave out what the driver heard");
   app.add_flag("--software", film.software, "Draw without a graphics card, pixel for pixel as off-screen screens do");
+  app.add_option("--voice", options.voice,
+                 "Command of a narrator, run by the shell for each subtitle: reads $WORDS, writes a WAV file, $WAV")
+      ->type_name("COMMAND")
+      ->default_str("none");
   app.add_option("--check", options.check,
                  "Compare the film in this folder with its manifest and its session, and draw three frames again")
       ->default_str("none: make a film");

@@ -18,6 +18,7 @@
 #include "program/stop_signal.hpp"
 #include "sim-client/film/accident/accident_page.hpp"
 #include "sim-client/film/accident/manifest.hpp"
+#include "sim-client/film/accident/narration.hpp"
 #include "sim-client/film/accident/read_plan.hpp"
 #include "sim-client/film/accident/subtitles.hpp"
 #include "sim-client/film/film_file.hpp"
@@ -80,7 +81,7 @@ std::vector<Spoken> spoken_words(const FilmPlan& film, const AccidentPlan& plan,
 }
 
 /// Everything beside the film: subtitles, stills, page, manifest.
-Expected<void> write_beside(const FilmOptions& film_options, const fs::path& folder,
+Expected<void> write_beside(const FilmOptions& film_options, const std::string& voice, const fs::path& folder,
                             const logging::SessionReader& session, const PlannedAccident& planned) {
   const auto span_s = session.shown_span_s();
   if (!span_s) return tl::unexpected(span_s.error());
@@ -103,7 +104,10 @@ Expected<void> write_beside(const FilmOptions& film_options, const fs::path& fol
     if (!read) return tl::unexpected(read.error());
     pictures.push_back(hash_text(*read));
   }
-  const std::string srt = subtitles(spoken_words(*film, planned.plan, film_options.frames_per_second));
+  const auto spoken = spoken_words(*film, planned.plan, film_options.frames_per_second);
+  const std::string srt = subtitles(spoken);
+  if (!voice.empty())
+    if (auto narrated = narrate(film_options.out, film_options.sound, spoken, voice); !narrated) return narrated;
   const std::string page = accident_page(planned.facts, planned.plan, stills, film_name, version_text());
   for (const auto& [name, text] : {std::pair{subtitles_name, &srt}, std::pair{page_name, &page}})
     if (auto written = document::write_text_file(folder / name, *text); !written) return written;
@@ -153,7 +157,8 @@ Expected<int> make_accident_film(const AccidentOptions& options) {
     program::say("septet: stopped; begin again with another --out");
     return program::failed_status;
   }
-  if (auto written = write_beside(film, folder, *session, *planned); !written) return tl::unexpected(written.error());
+  if (auto written = write_beside(film, options.voice, folder, *session, *planned); !written)
+    return tl::unexpected(written.error());
   program::announce(fmt::format("{}: the film; beside it {}, {}, {}, {} and stills", film.out.string(), page_name,
                                 subtitles_name, script_name, manifest_name));
   return 0;

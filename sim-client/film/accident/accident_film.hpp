@@ -16,6 +16,7 @@ struct AccidentOptions {
   std::optional<std::size_t> event;  ///< Number of the contact, from 1; empty: the first.
   std::filesystem::path plan;        ///< Write the storyboard there and stop; empty: make the film.
   std::filesystem::path check;       ///< Check the film of this folder, or of this file in it; empty: make one.
+  std::string voice;                 ///< Command of a narrator (narration.hpp); empty: none.
 };
 
 /// Prints progress and results. Returns the exit status: 1 where a check has found something, or a person stopped it.

@@ -13,11 +13,15 @@ namespace septet::film {
 namespace {
 
 constexpr double radians = std::numbers::pi / 180.0, kmh_per_mps = 3.6;
-constexpr double from_above_deg = 50.0;   ///< Field of view of a camera that looks down.
-constexpr double eyes_deg = 75.0;         ///< Across the picture, through somebody's eyes.
-constexpr double half_eyes_deg = 60.0;    ///< The same across half of it.
-constexpr double shortest_shot_s = 0.2;   ///< Of simulated time.
-constexpr double margin_m = 6.0;          ///< Around the ways in a picture from above.
+constexpr double from_above_deg = 50.0;  ///< Field of view of a camera that looks down.
+constexpr double eyes_deg = 75.0;        ///< Across the picture, through somebody's eyes.
+constexpr double half_eyes_deg = 60.0;   ///< The same across half of it.
+constexpr double shortest_shot_s = 0.2;  ///< Of simulated time.
+constexpr double margin_m = 6.0;         ///< Around the ways in a picture from above.
+constexpr double least_height_m = 12.0;  ///< Of a camera that looks down.
+/// Parts of a picture that the overlay covers, from its middle as shares of its width and height: the clock lies to the
+/// left of the first and above the second, notes below the third.
+constexpr double clock_until_share = -0.15, clock_from_share = 0.22, notes_until_share = -0.35;
 constexpr std::size_t longest_name = 24;  ///< In words over pictures.
 
 double to_centimetres(double value_m) { return std::round(100.0 * value_m) / 100.0; }
@@ -84,7 +88,7 @@ Shot Planner::through_eyes(const Involved& one, double before_s, double after_s,
   return shot;
 }
 
-/// A picture in which the ways lie along the picture's width as they best fit.
+/// A picture of the ways from as near as they fit, turned so that the overlay hides few of their places.
 Shot Planner::from_above(double before_s, double after_s, double speed) const {
   Shot shot{.from_s = window_from(before_s), .to_s = window_to(after_s), .speed = speed};
   shot.pitch_rad = -90.0 * radians;
@@ -98,8 +102,8 @@ Shot Planner::from_above(double before_s, double after_s, double speed) const {
       if (at.time_s >= shot.from_s - 1e-6 && at.time_s <= shot.to_s + 1e-6) places_m.push_back(at.position_m);
   if (places_m.empty()) places_m.push_back(facts.involved.front().way.front().position_m);
   const double slope = std::tan(0.5 * shot.field_of_view_rad);
-  double least_height_m = 1e300;
-  for (int turned_deg = 0; turned_deg < 180; turned_deg += 15) {
+  double least_score_m = 1e300;
+  for (int turned_deg = 0; turned_deg < 360; turned_deg += 15) {
     // With this heading the picture's upper edge points there, and its right one a quarter turn clockwise of it.
     const double heading = turned_deg * radians;
     const Vec2 up(std::cos(heading), std::sin(heading)), right(up.y, -up.x);
@@ -109,14 +113,20 @@ Shot Planner::from_above(double before_s, double after_s, double speed) const {
       const Vec2 p(glm::dot(Vec2(place_m), right), glm::dot(Vec2(place_m), up));
       low = glm::min(low, p), high = glm::max(high, p), ground_m = std::max(ground_m, place_m.z);
     }
-    const Vec2 size = high - low + Vec2(2.0 * margin_m);
-    const double height_m = std::max(size.x, size.y * width_over_height) / (2.0 * slope);
-    if (height_m >= least_height_m - 0.5) continue;
-    least_height_m = height_m;
+    const Vec2 size = high - low + Vec2(2.0 * margin_m), middle = 0.5 * (low + high);
+    const double height_m = std::max(least_height_m, std::max(size.x, size.y * width_over_height) / (2.0 * slope));
+    const double width_m = 2.0 * slope * height_m;
+    const auto hidden = std::ranges::count_if(places_m, [&](const Vec3& place_m) {
+      const double x = (glm::dot(Vec2(place_m), right) - middle.x) / width_m,
+                   y = (glm::dot(Vec2(place_m), up) - middle.y) / width_m * width_over_height;
+      return (x < clock_until_share && y > clock_from_share) || y < notes_until_share;
+    });
+    const double score_m = height_m * (1.0 + static_cast<double>(hidden) / static_cast<double>(places_m.size()));
+    if (score_m >= least_score_m - 1e-6) continue;
+    least_score_m = score_m;
     shot.heading_rad = heading;
-    const Vec2 middle = 0.5 * (low.x + high.x) * right + 0.5 * (low.y + high.y) * up;
-    shot.place_m =
-        Vec3(to_centimetres(middle.x), to_centimetres(middle.y), to_centimetres(ground_m + std::max(height_m, 12.0)));
+    const Vec2 centre = middle.x * right + middle.y * up;
+    shot.place_m = Vec3(to_centimetres(centre.x), to_centimetres(centre.y), to_centimetres(ground_m + height_m));
   }
   return shot;
 }

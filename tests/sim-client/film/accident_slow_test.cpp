@@ -132,6 +132,50 @@ TEST_CASE("an accident's film is the same bytes twice and its check finds an alt
   CHECK(has(differences_of(film), "it is not the session that was filmed, or it was altered"));
 }
 
+TEST_CASE("a narrator is heard when a shot begins and the pictures stay as they are") {
+  const TemporaryFolder folder;
+  const fs::path session = write_session(folder);
+  auto options = options_for(session, folder / "silent");
+  must_make(options);
+  options.film.out = folder / "told";
+  // A beep of 0.2 s for each subtitle, and the words as they came.
+  options.voice = fmt::format(
+      "printf '%s\\n' \"$WORDS\" >> '{}' && ffmpeg -nostdin -loglevel error -f lavfi -i "
+      "sine=frequency=440:duration=0.2 -y \"$WAV\"",
+      (folder / "words.txt").string());
+  must_make(options);
+  CHECK(has(text_of(folder / "words.txt"), "What ego has before them.\nWhat crosser has before them.\n"));
+  const auto silent = decoded_hashes(folder / "silent" / film_name), told = decoded_hashes(folder / "told" / film_name);
+  REQUIRE_MESSAGE(silent.has_value(), why_not(silent));
+  REQUIRE_MESSAGE(told.has_value(), why_not(told));
+  CHECK(*silent == *told);
+  const std::string decode =
+      fmt::format("ffmpeg -nostdin -loglevel error -y -i '{}' -map 0:a -ac 1 -ar 8000 -f s16le '{}'",
+                  (folder / "told" / film_name).string(), (folder / "sound").string());
+  REQUIRE(std::system(decode.c_str()) == 0);
+  const std::string sound = text_of(folder / "sound");
+  const auto loudest = [&](double from_s, double to_s) {
+    int most = 0;
+    for (auto n = static_cast<std::size_t>(8000.0 * from_s); n < static_cast<std::size_t>(8000.0 * to_s); ++n) {
+      REQUIRE(2 * n + 1 < sound.size());
+      most = std::max(
+          most, std::abs(static_cast<int>(static_cast<std::int16_t>(
+                    static_cast<std::uint8_t>(sound[2 * n]) | (static_cast<std::uint8_t>(sound[2 * n + 1]) << 8)))));
+    }
+    return most;
+  };
+  // The first shot lasts 4 s, the session's length; the second begins then.
+  CHECK(loudest(0.02, 0.15) > 1000);
+  CHECK(loudest(0.5, 3.9) < 100);
+  CHECK(loudest(4.02, 4.15) > 1000);
+  CHECK(differences_of(folder / "told").empty());
+
+  options.film.out = folder / "mute";
+  options.voice = "exit 3";
+  const auto mute = run_accident(options);
+  CHECK(has(why_not(mute), "status 3"));
+}
+
 TEST_CASE("the figures in a film's pictures are those of the log's ticks") {
   const TemporaryFolder folder;
   const fs::path session = write_session(folder);
