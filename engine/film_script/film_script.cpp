@@ -137,6 +137,7 @@ Overlay read_overlay(const toml::table& table, std::string_view file, Error& err
   TableReader reader(table, file, "overlay", error);
   Overlay overlay;
   if (table.contains("contact_s")) overlay.contact_s = reader.get_double("contact_s", 0.0, 0.0, longest_s);
+  overlay.contact = reader.get_string("contact", overlay.contact);
   overlay.participants = read_texts(reader, "participants");
   overlay.notes = read_texts(reader, "notes");
   reader.finish(documented_in);

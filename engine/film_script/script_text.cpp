@@ -91,6 +91,7 @@ std::string text_of(const Script& script) {
   const Overlay& overlay = script.overlay;
   if (overlay.contact_s || !overlay.participants.empty() || !overlay.notes.empty()) text += "[overlay]\n";
   if (overlay.contact_s) text += fmt::format("contact_s = {}\n", number_text(*overlay.contact_s));
+  if (overlay.contact != Overlay{}.contact) text += fmt::format("contact = {}\n", quoted_text(overlay.contact));
   if (!overlay.participants.empty()) text += fmt::format("participants = [{}]\n", list_text(overlay.participants));
   if (!overlay.notes.empty()) text += fmt::format("notes = [{}]\n", list_text(overlay.notes));
   for (const Shot& shot : script.shots) text += shot_text(shot);

@@ -77,7 +77,8 @@ double lens_radius_m(const Shot& shot);
 
 /// What lies over the pictures of a script's shots besides the clock.
 struct Overlay {
-  std::optional<double> contact_s;        ///< The clock also counts to this instant.
+  std::optional<double> contact_s;        ///< The clock also counts to this instant,
+  std::string contact = "the contact";    ///< which is called so.
   std::vector<std::string> participants;  ///< Those with speed, label and way: as Shot::participant, no models.
   std::vector<std::string> notes;         ///< Lines at the bottom: what is measured, assumed, computed.
 };

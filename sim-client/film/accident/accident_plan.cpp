@@ -190,14 +190,17 @@ std::vector<std::string> origins(const AccidentFacts& facts) {
   const bool has_driver = has_person || std::ranges::any_of(facts.involved, [](const Involved& one) {
                             return one.moved_by == MovedBy::simulated_driver;
                           });
-  std::string computed = "computed: ";
-  if (has_driver && !has_person) computed += fmt::format("driver ({}), ", printable(facts.driver, longest_name));
-  if (has_driver) computed += "the car's motion, ";
-  if (!traffic.empty()) computed += "traffic (" + traffic + "), ";
-  computed += "the impact";
+  std::string computed;
+  const auto add_computed = [&](const std::string& what) {
+    computed += (computed.empty() ? "computed: " : ", ") + what;
+  };
+  if (has_driver && !has_person) add_computed(fmt::format("driver ({})", printable(facts.driver, longest_name)));
+  if (has_driver) add_computed("the car's motion");
+  if (!traffic.empty()) add_computed(fmt::format("traffic ({})", traffic));
+  if (facts.chosen) add_computed("the impact");
   if (!scripted.empty()) assumed += "; way and speed of " + scripted + " (scenario)";
   return {"simulation from a log; measured: " + std::string(has_person ? "the driver's controls and head" : "nothing"),
-          assumed, computed};
+          assumed, computed.empty() ? "computed: nothing" : computed};
 }
 
 AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, double width_over_height) {
@@ -212,6 +215,7 @@ AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, dou
   plan.title = fmt::format("{}, {:.2f} s", what_happens(facts), contact_s);
   plan.script.overlay.notes = origins(facts);
   if (facts.chosen || facts.nearest_s) plan.script.overlay.contact_s = contact_s;
+  if (!facts.chosen && facts.nearest_s) plan.script.overlay.contact = event;
   for (const Involved& one : facts.involved) plan.script.overlay.participants.push_back(reference(one));
 
   const Shot above = planner.from_above(before_contact_s, after_contact_s, 1.0);

@@ -198,7 +198,7 @@ OverlayContent overlay_content(const OverlayMoment& moment, const image::Font& f
     if (contact_s) {
       column.next_line();
       column.add_figure(contact_clock_text(moment.world.simulated_time_s, *contact_s));
-      column.add("s from the contact");
+      column.add(fmt::format("s from {}", moment.script.overlay.contact));
     }
     if (moment.shot.speed != 1.0) {
       column.next_line();

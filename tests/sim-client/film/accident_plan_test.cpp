@@ -143,6 +143,8 @@ TEST_CASE("without a contact the nearest approach is planned and said to be one"
   REQUIRE(one.facts.nearest_s.has_value());
   CHECK(*one.facts.nearest_s == doctest::Approx(6.0).epsilon(0.02));
   CHECK(one.plan.title.find("no contact") == 0);
+  CHECK(one.plan.script.overlay.contact == "the nearest approach");
+  CHECK(one.plan.script.overlay.notes[2].find("impact") == std::string::npos);
 }
 
 TEST_CASE("of three contacts the first is planned unless another is asked for by its number") {
