@@ -15,7 +15,7 @@
 namespace septet::film {
 namespace {
 
-constexpr double time_slack_s = 1e-6;
+constexpr double same_instant_s = 1e-6;
 
 WayPoint way_point(const Participant& participant, double time_s) {
   return {time_s, participant.world_from_vehicle.position_m, heading_rad(participant.world_from_vehicle.orientation),
@@ -59,8 +59,8 @@ Expected<void> for_each_world(const logging::SessionReader& session, std::pair<d
   for (;;) {
     const auto world = cursor->next();
     if (!world) return tl::unexpected(world.error());
-    if (!*world || (*world)->simulated_time_s > span_s.second + time_slack_s) return {};
-    if ((*world)->simulated_time_s >= span_s.first - time_slack_s) visit(**world);
+    if (!*world || (*world)->simulated_time_s > span_s.second + same_instant_s) return {};
+    if ((*world)->simulated_time_s >= span_s.first - same_instant_s) visit(**world);
   }
 }
 

@@ -3,6 +3,7 @@
 ///
 /// World frame, metres, seconds of simulated time.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>

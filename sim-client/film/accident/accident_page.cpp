@@ -9,13 +9,12 @@
 #include "engine/document/chart.hpp"
 #include "engine/document/markup.hpp"
 #include "logging/study/report/report_style.hpp"
+#include "sim-client/film/overlay/overlay_content.hpp"
 
 namespace septet::film {
 namespace {
 
 using document::escaped;
-
-constexpr double kmh_per_mps = 3.6;
 
 std::string_view words_of(MovedBy moved_by) {
   switch (moved_by) {

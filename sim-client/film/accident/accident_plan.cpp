@@ -2,23 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include "engine/core/printable.hpp"
+#include "sim-client/film/overlay/overlay_content.hpp"
 
 namespace septet::film {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0, kmh_per_mps = 3.6;
+constexpr double per_degree = std::numbers::pi / 180.0;
 constexpr double from_above_deg = 50.0;  ///< Field of view of a camera that looks down.
 constexpr double eyes_deg = 75.0;        ///< Across the picture, through somebody's eyes.
 constexpr double half_eyes_deg = 60.0;   ///< The same across half of it.
 constexpr double shortest_shot_s = 0.2;  ///< Of simulated time.
 constexpr double margin_m = 6.0;         ///< Around the ways in a picture from above.
-constexpr double least_height_m = 12.0;  ///< Of a camera that looks down.
+constexpr double lowest_above_m = 12.0;  ///< Of a camera that looks down.
 /// Parts of a picture that the overlay covers, from its middle as shares of its width and height: the clock lies to the
 /// left of the first and above the second, notes below the third.
 constexpr double clock_until_share = -0.15, clock_from_share = 0.22, notes_until_share = -0.35;
@@ -82,7 +84,7 @@ Shot Planner::through_eyes(const Involved& one, double before_s, double after_s,
   // The driver's head is logged; others look straight on, and the title says so.
   const bool logged = one.moved_by == MovedBy::person || one.moved_by == MovedBy::simulated_driver;
   shot.bearings = logged ? Bearings::gaze : Bearings::vehicle;
-  shot.field_of_view_rad = eyes_deg * radians;
+  shot.field_of_view_rad = eyes_deg * per_degree;
   shot.interior = true;
   shot.title = short_name(one) + (logged ? ": eyes, gaze as logged" : ": eyes, gaze assumed straight on");
   return shot;
@@ -91,9 +93,9 @@ Shot Planner::through_eyes(const Involved& one, double before_s, double after_s,
 /// A picture of the ways from as near as they fit, turned so that the overlay hides few of their places.
 Shot Planner::from_above(double before_s, double after_s, double speed) const {
   Shot shot{.from_s = window_from(before_s), .to_s = window_to(after_s), .speed = speed};
-  shot.pitch_rad = -90.0 * radians;
+  shot.pitch_rad = -90.0 * per_degree;
   shot.bearings = Bearings::world;
-  shot.field_of_view_rad = from_above_deg * radians;
+  shot.field_of_view_rad = from_above_deg * per_degree;
   shot.title = "from above";
   shot.paths = true;
   std::vector<Vec3> places_m;
@@ -105,7 +107,7 @@ Shot Planner::from_above(double before_s, double after_s, double speed) const {
   double least_score_m = 1e300;
   for (int turned_deg = 0; turned_deg < 360; turned_deg += 15) {
     // With this heading the picture's upper edge points there, and its right one a quarter turn clockwise of it.
-    const double heading = turned_deg * radians;
+    const double heading = turned_deg * per_degree;
     const Vec2 up(std::cos(heading), std::sin(heading)), right(up.y, -up.x);
     Vec2 low(1e300), high(-1e300);
     double ground_m = -1e300;
@@ -114,7 +116,7 @@ Shot Planner::from_above(double before_s, double after_s, double speed) const {
       low = glm::min(low, p), high = glm::max(high, p), ground_m = std::max(ground_m, place_m.z);
     }
     const Vec2 size = high - low + Vec2(2.0 * margin_m), middle = 0.5 * (low + high);
-    const double height_m = std::max(least_height_m, std::max(size.x, size.y * width_over_height) / (2.0 * slope));
+    const double height_m = std::max(lowest_above_m, std::max(size.x, size.y * width_over_height) / (2.0 * slope));
     const double width_m = 2.0 * slope * height_m;
     const auto hidden = std::ranges::count_if(places_m, [&](const Vec3& place_m) {
       const double x = (glm::dot(Vec2(place_m), right) - middle.x) / width_m,
@@ -228,10 +230,10 @@ AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, dou
     Shot both = planner.through_eyes(first, 2.0, 1.0, 0.5);
     const Shot other = planner.through_eyes(*second, 2.0, 1.0, 0.5);
     both.from_s = std::max(both.from_s, other.from_s), both.to_s = std::min(both.to_s, other.to_s);
-    both.field_of_view_rad = half_eyes_deg * radians;
+    both.field_of_view_rad = half_eyes_deg * per_degree;
     both.beside = SecondCamera{.participant = other.participant,
                                .bearings = other.bearings,
-                               .field_of_view_rad = half_eyes_deg * radians,
+                               .field_of_view_rad = half_eyes_deg * per_degree,
                                .interior = true,
                                .title = other.title};
     planner.add(both, "Both at once, on one clock, at half speed.");
@@ -263,8 +265,8 @@ AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, dou
               .speed = 0.25,
               .participant = reference(first),
               .distance_m = 11.0,
-              .heading_rad = 125.0 * radians,
-              .pitch_rad = -16.0 * radians,
+              .heading_rad = 125.0 * per_degree,
+              .pitch_rad = -16.0 * per_degree,
               .title = "beside " + short_name(first) + ", slow"};
   beside.to_s = std::min(beside.to_s, first.way.back().time_s);
   beside.from_s = std::max(beside.from_s, first.way.front().time_s);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -11,7 +12,6 @@
 namespace septet::film {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
 constexpr double endless_from_m = 1e5;      ///< An obstacle that is higher has no upper end.
 constexpr double step_of_sight_m = 0.5;     ///< Between points of a line of sight that are looked at.
 constexpr double near_participant_m = 3.0;  ///< That far from its end a line of sight is the participant's own.
@@ -147,7 +147,8 @@ std::optional<Shot> cleared(const Shot& shot, const AccidentFacts& facts, const 
   for (const double share : {1.0, 0.75, 0.55})
     for (const double turned_deg : {0.0, 30.0, -30.0, 60.0, -60.0, 90.0, -90.0, 130.0, -130.0, 180.0}) {
       moved.distance_m = share * shot.distance_m;
-      moved.heading_rad = std::remainder(shot.heading_rad + turned_deg * radians, 2.0 * std::numbers::pi);
+      moved.heading_rad =
+          std::remainder(shot.heading_rad + turned_deg / 180.0 * std::numbers::pi, 2.0 * std::numbers::pi);
       if (is_clear(moved, facts, solids)) return moved;
     }
   return std::nullopt;

@@ -1,9 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <exception>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>

@@ -18,14 +18,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Waits for a program's end. Error: it has failed; `what` is said of it.
-Expected<void> finished(program::ChildOptions options, const std::string& what, const std::string& remedy) {
-  const fs::path log = options.log;
+Expected<void> finished(const program::ChildOptions& options, const std::string& what, const std::string& remedy) {
   auto child = program::ChildProcess::start(options);
   if (!child) return tl::unexpected(child.error());
   std::optional<program::ChildExit> end;
   while (!(end = child->poll())) child->read_line(std::chrono::milliseconds(50));
   if (end->code == 0) return {};
-  const std::string why = program::last_line(log);
+  const std::string why = program::last_line(options.log);
   return failure(fmt::format("it ends with status {}: {}", end->code, why.empty() ? "it says nothing" : why), what,
                  remedy);
 }

@@ -14,7 +14,7 @@
 namespace septet::film {
 namespace {
 
-constexpr double kmh_per_mps = 3.6, text_share = 1.0 / 28.0, least_text_px = 9.0;
+constexpr double text_share = 1.0 / 28.0, least_text_px = 9.0;
 constexpr double far_outside = 4.0;  ///< Pictures' widths from the middle, beyond which a point is not drawn.
 
 /// Lines from the upper left down, each as wide as its text.
