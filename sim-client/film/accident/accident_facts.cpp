@@ -17,6 +17,9 @@ namespace {
 
 constexpr double same_instant_s = 1e-6;
 
+/// Contacts of the driver's car, and of two others.
+bool tells_contact(const logging::Event& event) { return event.kind == "collision" || event.kind == "crash_of_others"; }
+
 WayPoint way_point(const Participant& participant, double time_s) {
   return {time_s, participant.world_from_vehicle.position_m, heading_rad(participant.world_from_vehicle.orientation),
           glm::length(Vec2(participant.velocity_mps))};
@@ -110,7 +113,7 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
   const auto events = session.events();
   if (!events) return tl::unexpected(events.error());
   for (const logging::Event& one : *events)
-    if (one.kind == "collision" && one.simulated_time_s >= span_s->first && one.simulated_time_s <= span_s->second)
+    if (tells_contact(one) && one.simulated_time_s >= span_s->first && one.simulated_time_s <= span_s->second)
       facts.contacts.push_back(contact_of(one, *driver));
   std::ranges::stable_sort(facts.contacts, {}, &Contact::time_s);
   if (event && (*event < 1 || *event > facts.contacts.size()))

@@ -22,13 +22,13 @@ enum class MovedBy : std::uint8_t {
   traffic,           ///< By the traffic model.
 };
 
-/// A contact, as the log's event `collision` tells it.
+/// A contact, as the log's event `collision` or `crash_of_others` tells it.
 struct Contact {
   double time_s = 0.0;
   ParticipantId first = 0;
   std::optional<ParticipantId> second;             ///< Empty: something that stands, which is `stands`.
   std::string stands;                              ///< "guard rail", "tree", …
-  std::optional<double> closing_mps, delta_v_mps;  ///< Empty: the event does not tell it.
+  std::optional<double> closing_mps, delta_v_mps;  ///< The latter of the first. Empty: the event does not tell it.
 };
 
 /// A participant at an instant.
@@ -61,7 +61,7 @@ struct AccidentFacts {
 
 inline constexpr double before_contact_s = 5.0, after_contact_s = 3.0, bystanders_within_m = 60.0;
 
-/// The two of a `collision` event. The event's participant is one of them; the other is named by `with=NUMBER` in its
+/// The two of such an event. The event's participant is one of them; the other is named by `with=NUMBER` in its
 /// detail, and is the driver's car where the event names nobody else.
 Contact contact_of(const logging::Event& event, ParticipantId driver);
 

@@ -172,7 +172,8 @@ TEST_CASE("of three contacts the first is planned unless another is asked for by
 
 TEST_CASE("a contact of two others is planned though there is no driver") {
   const TemporaryFolder folder;
-  const auto one = planned(folder, {collision(6.0, 2, "with=3 closing_speed_mps=12.00")}, false);
+  const logging::Event crash{720, 6.0, "crash_of_others", 2, "with=3 closing_speed_mps=12.00 delta_v_mps=6.00 by=2"};
+  const auto one = planned(folder, {crash}, false);
   check_is_a_film(one);
   REQUIRE(one.facts.involved.size() == 2);
   CHECK(one.facts.involved[0].number == 2);
