@@ -29,27 +29,23 @@ Vec2 middle_m(const Participant& participant) {
   return Vec2(participant.world_from_vehicle * Vec3(vehicle_models()[participant.model].centre_x_m(), 0.0, 0.0));
 }
 
-/// The two that came nearest, and when: the driver's car and others that the scenario names, among everybody.
-struct Nearest {
+/// The two that came nearest, and when: the driver's car and another one, or without it somebody whom the scenario
+/// names and another one.
+struct NearestTwo {
   std::optional<ParticipantId> first, second;
   double time_s = 0.0, distance_m = std::numeric_limits<double>::infinity();
 };
 
-void look_for_nearest(const Snapshot& world, const logging::ParticipantNames& names, Nearest& nearest) {
+void look_for_nearest(const Snapshot& world, const logging::ParticipantNames& names, NearestTwo& nearest) {
+  const bool has_driver = find_participant(world, world.driver_car.participant) != nullptr;
   for (const Participant& one : world.participants) {
-    const bool drives = one.id == world.driver_car.participant;
-    if (!drives && !names.contains(one.id)) continue;
+    if (has_driver ? one.id != world.driver_car.participant : !names.contains(one.id)) continue;
+    if (!nearest.first) nearest.first = one.id, nearest.time_s = world.simulated_time_s;
     for (const Participant& other : world.participants) {
-      const bool was_first =
-          other.id < one.id && (other.id == world.driver_car.participant || names.contains(other.id));
-      if (other.id == one.id || was_first) continue;
       const double distance_m = glm::length(middle_m(one) - middle_m(other));
-      if (!(distance_m < nearest.distance_m)) continue;
-      const bool other_drives = other.id == world.driver_car.participant;
-      nearest = {other_drives ? other.id : one.id, other_drives ? one.id : other.id, world.simulated_time_s,
-                 distance_m};
+      if (other.id != one.id && distance_m < nearest.distance_m)
+        nearest = {one.id, other.id, world.simulated_time_s, distance_m};
     }
-    if (!nearest.first) nearest = {one.id, {}, world.simulated_time_s, nearest.distance_m};
   }
 }
 
@@ -131,7 +127,7 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
     numbers.push_back(contact.first);
     if (contact.second && *contact.second != contact.first) numbers.push_back(*contact.second);
   } else {
-    Nearest nearest;
+    NearestTwo nearest;
     const auto looked = for_each_world(session, *span_s, [&](const Snapshot& world) {
       if (logging::is_sample_due(world.tick, session.info().ticks_per_second)) look_for_nearest(world, *names, nearest);
     });

@@ -143,6 +143,8 @@ TEST_CASE("without a contact the nearest approach is planned and said to be one"
   REQUIRE(one.facts.nearest_s.has_value());
   CHECK(std::abs(*one.facts.nearest_s - 6.0) <= 0.1);
   CHECK(one.plan.title.find("no contact") == 0);
+  REQUIRE(one.facts.involved.size() == 2);
+  CHECK(one.facts.involved[0].name == "ego");  // 2 and 3 come as near to each other.
   CHECK(one.plan.script.overlay.contact == "the nearest approach");
   CHECK(one.plan.script.overlay.notes[2].find("impact") == std::string::npos);
 }
