@@ -166,7 +166,7 @@ void add_figures(const AccidentFacts& facts, AccidentPlan& plan, double contact_
     add("instant of the contact", "s", contact.time_s, "logged event");
     if (contact.closing_mps) add("closing speed", "km/h", kmh_per_mps * *contact.closing_mps, "logged event, computed");
     if (contact.delta_v_mps)
-      add(short_name(facts.involved.front()) + ", change of speed by the contact", "km/h",
+      add(short_name(facts.involved.front()) + ", change of velocity by the contact (ΔV)", "km/h",
           kmh_per_mps * *contact.delta_v_mps, "logged event, computed");
   } else if (facts.nearest_s) {
     add("instant of the nearest approach", "s", *facts.nearest_s, "logged, ten times a second");
@@ -259,7 +259,8 @@ AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, dou
   if (contact && contact->closing_mps)
     told += fmt::format(": closing at {:.0f} km/h", kmh_per_mps * *contact->closing_mps);
   if (contact && contact->delta_v_mps)
-    told += fmt::format(", {} changed by {:.0f} km/h", short_name(first), kmh_per_mps * *contact->delta_v_mps);
+    told +=
+        fmt::format(", velocity of {} changed by {:.0f} km/h", short_name(first), kmh_per_mps * *contact->delta_v_mps);
   planner.add_clear(slow, told + ".");
   Shot beside{.from_s = planner.window_from(0.5),
               .to_s = planner.window_to(1.0),
