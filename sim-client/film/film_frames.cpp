@@ -14,6 +14,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "logging/session/recorded_scene.hpp"
+#include "sim-client/film/last_seen.hpp"
 #include "sim-client/film/overlay/overlay_cast.hpp"
 #include "sim-client/film/overlay/overlay_drawing.hpp"
 #include "sim-client/frame/client_frame.hpp"
@@ -25,12 +26,6 @@ namespace {
 constexpr double time_slack_s = 1e-6;
 constexpr std::size_t longest_script_bytes = 1 << 22;
 constexpr std::size_t most_frames = 1'000'000;
-
-Expected<Snapshot> world_at(const logging::SessionReader& session, double instant_s) {
-  return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) {
-    return instants.at(instant_s);
-  });
-}
 
 /// Eye point of the driver, vehicle frame, from the session's rig.
 Vec3 driver_eye_m(const logging::SessionInfo& info) {
@@ -93,46 +88,6 @@ Expected<Script> choose_script(const FilmOptions& options, const logging::Sessio
   if (world->participants.size() < 2 && script.shots.size() > 1) script.shots.pop_back();
   return script;
 }
-
-/// Waiting place of the camera for a participant that is gone: from the last tick of the shot that holds them. Reads on
-/// as instants ascend.
-class LastSeen {
- public:
-  static Expected<LastSeen> start(const logging::SessionReader& session, const Shot& shot, const Pivot& pivot) {
-    const auto world = world_at(session, shot.from_s);
-    if (!world) return tl::unexpected(world.error());
-    auto cursor = session.snapshots_from(shot.from_s);
-    if (!cursor) return tl::unexpected(cursor.error());
-    return LastSeen(shot, pivot, std::move(*cursor), viewpoint_at(shot, pivot, *world, {}));
-  }
-
-  /// Viewpoint at an instant not before the previous call's.
-  Expected<frame::Viewpoint> at(double instant_s) {
-    while (!ended_ && (!next_ || next_->simulated_time_s <= instant_s)) {
-      if (next_) viewpoint_ = viewpoint_at(*shot_, pivot_, *next_, viewpoint_);
-      auto next = cursor_.next();
-      if (!next) return tl::unexpected(next.error());
-      next_ = std::move(*next);
-      ended_ = !next_.has_value();
-    }
-    return viewpoint_;
-  }
-
- private:
-  LastSeen(const Shot& shot, const Pivot& pivot, logging::SnapshotCursor cursor, const frame::Viewpoint& viewpoint)
-      : shot_(&shot), pivot_(pivot), cursor_(std::move(cursor)), viewpoint_(viewpoint) {}
-
-  const Shot* shot_;
-  Pivot pivot_;
-  logging::SnapshotCursor cursor_;
-  std::optional<Snapshot> next_;
-  frame::Viewpoint viewpoint_;
-  bool ended_ = false;
-};
-
-}  // namespace
-
-namespace {
 
 /// Direction between two frames of a camera that turns evenly.
 Look between(const Look& from, const Look& to, double share) {

@@ -26,14 +26,18 @@ namespace fs = std::filesystem;
 
 constexpr double contact_s = 2.0, frames_per_second = 10.0;
 
-/// Four seconds of five on a circle, of whom 1 and 2 are said to meet.
-fs::path write_session(const TemporaryFolder& folder) {
+/// Four seconds of five on a circle, of whom 1 and 2 are said to meet; 2 is gone from a tick on.
+fs::path write_session(const TemporaryFolder& folder, Tick second_until = 480) {
   auto info = logging::example_info();
   info.other["participant_names"] = R"({"1":"ego","2":"crosser"})";
   info.other["driver"] = "novice";
   auto writer = logging::SessionWriter::create(folder / "session.sqlite", info);
   REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
-  for (Tick tick = 0; tick <= 480; ++tick) writer->record(logging::taken(logging::drive_snapshot(tick)));
+  for (Tick tick = 0; tick <= 480; ++tick) {
+    Snapshot world = logging::drive_snapshot(tick);
+    if (tick > second_until) std::erase_if(world.participants, [](const Participant& one) { return one.id == 2; });
+    writer->record(logging::taken(world));
+  }
   writer->record(logging::Event{240, contact_s, "collision", 2, "closing_speed_mps=8.00 delta_v_mps=3.00"});
   REQUIRE(writer->finish().has_value());
   return folder / "session.sqlite";
@@ -217,9 +221,9 @@ TEST_CASE("the figures in a film's pictures are those of the log's ticks") {
   }
 }
 
-TEST_CASE("a picture of two cameras is the halves of their own pictures") {
+TEST_CASE("a picture of two cameras is the halves of their own pictures though one of the two has vanished") {
   const TemporaryFolder folder;
-  const fs::path session = write_session(folder);
+  const fs::path session = write_session(folder, 147);
   const std::string head = "[[shot]]\nfrom_s = 1\nto_s = 1.5\n", left = "participant = \"ego\"\n",
                     right = "participant = \"crosser\"\nfield_of_view_deg = 40\n";
   std::ofstream(folder / "both.toml") << head << left << "[shot.beside]\n" << right;
