@@ -152,12 +152,24 @@ void add_drive_commands(CLI::App& app, Options& options) {
     };
   });
 
-  // The options of these four are those of the programs that they start, which explain them too.
+  // The options of these five are those of the programs that they start, which explain them too.
   auto* film_command = app.add_subcommand(
       "film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
   film_command->prefix_command();
   film_command->set_help_flag();
   film_command->callback([&] { options.work = [&] { return become("septet-film", options.passed_on); }; });
+
+  auto* accident_command = app.add_subcommand(
+      "accident", "Plan the film of a contact from the log, make it with stills and a page, or check one");
+  accident_command->prefix_command();
+  accident_command->set_help_flag();
+  accident_command->callback([&] {
+    options.work = [&] {
+      std::vector<std::string> words{"accident"};
+      words.insert(words.end(), options.passed_on.begin(), options.passed_on.end());
+      return become("septet-film", std::move(words));
+    };
+  });
 
   auto* sound_command =
       app.add_subcommand("sound", "Make the sound of a session: what the driver heard, as a WAV file");

@@ -53,6 +53,33 @@ Vec3 read_place(const toml::table& table, std::string_view file, Error& error) {
   return place_m;
 }
 
+/// Members that a shot and its second camera have in common.
+template <class Camera>
+void read_camera(Camera& camera, TableReader& reader, const toml::table& table, std::string_view file, Error& error) {
+  camera.participant = reader.get_string("participant", camera.participant);
+  if (const toml::table* place = reader.get_table("place"))
+    camera.place_m = read_place(*place, file, error);
+  else if (table.contains("place"))
+    reader.report("place", "shot.place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
+  if (camera.place_m && table.contains("participant"))
+    reader.report("participant", "a shot hangs on a participant or on a place, not on both", "leave one of them out");
+  camera.distance_m = reader.get_double("distance_m", 0.0, 0.0, 1000.0);
+  camera.bearings =
+      static_cast<Bearings>(reader.get_choice("bearings", camera.place_m ? 1 : 0, {"vehicle", "world", "gaze"}));
+  if (camera.distance_m > 0.0 && camera.bearings == Bearings::gaze)
+    reader.report("bearings", "a camera that looks at a participant from outside has no gaze of theirs",
+                  "leave distance_m out, or write \"vehicle\"");
+  if (camera.place_m && camera.bearings != Bearings::world)
+    reader.report("bearings", "a place has no heading that others could be counted from",
+                  "leave bearings out, or write \"world\"");
+  camera.heading_rad = get_angle(reader, "heading_deg", 0.0, 360.0);
+  camera.pitch_rad = get_angle(reader, "pitch_deg", 0.0, 90.0);
+  camera.field_of_view_rad =
+      radians * reader.get_double("field_of_view_deg", camera.field_of_view_rad / radians, 1.0, 150.0);
+  camera.interior = reader.get_bool("interior", camera.interior);
+  camera.title = reader.get_string("title", camera.title);
+}
+
 Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "shot", error);
   Shot shot;
@@ -62,32 +89,23 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
     reader.report("to_s", fmt::format("the shot lasts from {} to {} s", shot.from_s, shot.to_s),
                   "let to_s be later than from_s");
   shot.speed = reader.get_double("speed", 1.0, 0.01, 100.0);
-  shot.participant = reader.get_string("participant", shot.participant);
-  if (const toml::table* place = reader.get_table("place"))
-    shot.place_m = read_place(*place, file, error);
-  else if (table.contains("place"))
-    reader.report("place", "shot.place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
-  if (shot.place_m && table.contains("participant"))
-    reader.report("participant", "a shot hangs on a participant or on a place, not on both", "leave one of them out");
-  shot.distance_m = reader.get_double("distance_m", 0.0, 0.0, 1000.0);
-  shot.bearings =
-      static_cast<Bearings>(reader.get_choice("bearings", shot.place_m ? 1 : 0, {"vehicle", "world", "gaze"}));
-  if (shot.distance_m > 0.0 && shot.bearings == Bearings::gaze)
-    reader.report("bearings", "a camera that looks at a participant from outside has no gaze of theirs",
-                  "leave distance_m out, or write \"vehicle\"");
-  if (shot.place_m && shot.bearings != Bearings::world)
-    reader.report("bearings", "a place has no heading that others could be counted from",
-                  "leave bearings out, or write \"world\"");
-  shot.heading_rad = get_angle(reader, "heading_deg", 0.0, 360.0);
-  shot.pitch_rad = get_angle(reader, "pitch_deg", 0.0, 90.0);
-  shot.field_of_view_rad =
-      radians * reader.get_double("field_of_view_deg", shot.field_of_view_rad / radians, 1.0, 150.0);
+  read_camera(shot, reader, table, file, error);
   shot.f_number = reader.get_double("f_number", 0.0, 0.5, 128.0);
   shot.focus_m = reader.get_double("focus_m", shot.distance_m > 0.0 ? shot.distance_m : shot.focus_m, 0.1, 1e5);
   if (table.contains("focus_m") && !table.contains("f_number"))
     reader.report("focus_m", "a pinhole is sharp everywhere", "add f_number, or leave focus_m out");
   shot.shutter_rad = radians * reader.get_double("shutter_deg", 0.0, 0.0, 360.0);
-  shot.interior = reader.get_bool("interior", shot.interior);
+  shot.overlay = reader.get_bool("overlay", shot.overlay);
+  shot.paths = reader.get_bool("paths", shot.paths);
+  if (shot.paths && !shot.overlay)
+    reader.report("paths", "ways are a part of the overlay", "add overlay = true, or leave paths out");
+  if (const toml::table* beside = reader.get_table("beside")) {
+    TableReader of_second(*beside, file, "shot.beside", error);
+    read_camera(shot.beside.emplace(), of_second, *beside, file, error);
+    of_second.finish(documented_in);
+  } else if (table.contains("beside")) {
+    reader.report("beside", "shot.beside is not a table", "write [shot.beside] with the keys of its camera");
+  }
   Turn before{shot.from_s, shot.heading_rad, shot.pitch_rad, 0.0};
   const auto turns = reader.get_tables("turn");
   if (turns.size() > most_turns)
@@ -100,7 +118,50 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
   return shot;
 }
 
+std::vector<std::string> read_texts(TableReader& reader, std::string_view key) {
+  std::vector<std::string> texts;
+  const toml::array* list = reader.get_array(key);
+  if (!list) return texts;
+  if (list->size() > most_overlay_texts)
+    reader.report(key, fmt::format("there are more than {} of them", most_overlay_texts), "leave some out");
+  for (const toml::node& node : *list) {
+    const auto text = node.value<std::string>();
+    if (!text) reader.report(key, "it is not a list of texts", "write [\"one\", \"two\"]");
+    if (!text || texts.size() == most_overlay_texts) break;
+    texts.push_back(*text);
+  }
+  return texts;
+}
+
+Overlay read_overlay(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "overlay", error);
+  Overlay overlay;
+  if (table.contains("contact_s")) overlay.contact_s = reader.get_double("contact_s", 0.0, 0.0, longest_s);
+  overlay.contact = reader.get_string("contact", overlay.contact);
+  overlay.participants = read_texts(reader, "participants");
+  overlay.notes = read_texts(reader, "notes");
+  reader.finish(documented_in);
+  return overlay;
+}
+
 }  // namespace
+
+Shot shot_beside(const Shot& shot) {
+  Shot second = shot;
+  const SecondCamera& camera = shot.beside.value();
+  second.participant = camera.participant;
+  second.place_m = camera.place_m;
+  second.distance_m = camera.distance_m;
+  second.bearings = camera.bearings;
+  second.heading_rad = camera.heading_rad;
+  second.pitch_rad = camera.pitch_rad;
+  second.field_of_view_rad = camera.field_of_view_rad;
+  second.interior = camera.interior;
+  second.title = camera.title;
+  second.turns.clear();
+  second.beside.reset();
+  return second;
+}
 
 Expected<Script> read_script(std::string_view text, std::string_view name) {
   const auto document = document::parse_toml(text, name);
@@ -112,6 +173,10 @@ Expected<Script> read_script(std::string_view text, std::string_view name) {
   if (shots.empty()) reader.report("shot", "the film has no shot", "add a [[shot]]");
   if (shots.size() > most_shots)
     reader.report("shot", fmt::format("the film has more than {} shots", most_shots), "split it");
+  if (const toml::table* overlay = reader.get_table("overlay"))
+    script.overlay = read_overlay(*overlay, name, error);
+  else if (document->contains("overlay"))
+    reader.report("overlay", "overlay is not a table", "write [overlay] with its keys");
   for (const toml::table* table : shots) {
     if (!error.what.empty()) break;
     script.shots.push_back(read_shot(*table, name, error));

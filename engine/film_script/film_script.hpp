@@ -9,6 +9,7 @@
 namespace septet::film {
 
 inline constexpr std::size_t most_shots = 1000, most_turns = 1000;  ///< Limits of a script, and of a shot.
+inline constexpr std::size_t most_overlay_texts = 12;  ///< Limit of an overlay's participants, and of its notes.
 
 /// Parses the text of a script; `name` is used in messages. Unknown keys are errors, so that a misspelt one is noticed.
 Expected<Script> read_script(std::string_view toml, std::string_view name);

@@ -31,6 +31,19 @@ struct Turn {
   double sigma = 0.0;  ///< 1 begins at rest and speeds up, 0 is even, −1 slows down to rest (incremental_turn.hpp).
 };
 
+/// A second camera of a shot, at the same instants: its picture lies to the right of the first one's, each half as wide.
+/// It holds still.
+struct SecondCamera {
+  std::string participant = "driver";
+  std::optional<Vec3> place_m;
+  double distance_m = 0.0;
+  Bearings bearings = Bearings::vehicle;
+  double heading_rad = 0.0, pitch_rad = 0.0;
+  double field_of_view_rad = std::numbers::pi / 3.0;  ///< Across its half of the picture.
+  bool interior = false;
+  std::string title;
+};
+
 struct Shot {
   double from_s = 0.0, to_s = 0.0;  ///< Simulated time; a frame at from_s, none at to_s.
   double speed = 1.0;  ///< Rate of time: 0.25 is slow motion, in which a frame is a quarter as far from the next.
@@ -48,14 +61,31 @@ struct Shot {
   /// Shutter angle: the exposure, where a whole turn is the time to the next frame. 0: instantaneous.
   double shutter_rad = 0.0;
   bool interior = false;  ///< Through a participant's eyes: the car's inside is drawn, where there is a model of it.
-  std::string where;      ///< For messages: "shots.toml, shot 2".
+  std::optional<SecondCamera> beside;
+  std::string title;     ///< Over the picture, if the script has an overlay.
+  bool overlay = false;  ///< Clock, speeds and notes of the script's overlay lie over the picture.
+  /// With the overlay: the ways of its participants, and their outlines, as lines over the picture.
+  bool paths = false;
+  std::string where;  ///< For messages: "shots.toml, shot 2".
 };
+
+/// The shot of the second camera alone, which must be there.
+Shot shot_beside(const Shot& shot);
 
 /// Radius of the lens' opening; 0 of a pinhole.
 double lens_radius_m(const Shot& shot);
 
+/// What lies over the pictures of a script's shots besides the clock.
+struct Overlay {
+  std::optional<double> contact_s;        ///< The clock also counts to this instant,
+  std::string contact = "the contact";    ///< which is called so.
+  std::vector<std::string> participants;  ///< Those with speed, label and way: as Shot::participant, no models.
+  std::vector<std::string> notes;         ///< Lines at the bottom: what is measured, assumed, computed.
+};
+
 struct Script {
   std::vector<Shot> shots;
+  Overlay overlay{};
 };
 
 }  // namespace septet::film

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/render/renderer.hpp"
+#include "sim-client/film/drawn_frame.hpp"
 #include "sim-client/film/film_file.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_frames.hpp"
@@ -15,17 +16,6 @@ namespace septet::film {
 namespace fs = std::filesystem;
 namespace {
 
-Expected<render::Renderer> make_rasteriser(const FilmOptions& options, const scene::ResolvedScene& scene) {
-  render::RendererOptions target;
-  target.width = options.width_px;
-  target.height = options.height_px;
-  if (options.software) target.device = render::DevicePreference::software;
-  auto renderer = render::Renderer::create(target);
-  if (!renderer) return renderer;
-  if (auto uploaded = renderer->upload(scene); !uploaded) return tl::unexpected(uploaded.error());
-  return renderer;
-}
-
 /// Draws the frames that are missing, until all are there or `go_on` returns false.
 Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render::Renderer& rasteriser,
                          const FilmFolder& folder, FilmMade& made, const std::function<bool(const FilmMade&)>& go_on) {
@@ -36,10 +26,7 @@ Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render:
       ++made.frames, ++made.kept;
       continue;
     }
-    auto input = frames.input_of(frame);
-    if (!input) return tl::unexpected(input.error());
-    if (auto drawn = rasteriser.draw(std::move(*input)); !drawn) return tl::unexpected(drawn.error());
-    auto picture = rasteriser.read_back();
+    auto picture = draw_frame(frames, frame, rasteriser);
     if (!picture) return tl::unexpected(picture.error());
     if (auto queued = pictures.write(folder.picture(frame.number), std::move(*picture)); !queued) return queued;
     ++made.frames;
@@ -104,6 +91,10 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
     return tl::unexpected(is_free.error());
   auto frames = FilmFrames::open(options);
   if (!frames) return tl::unexpected(frames.error());
+  for (const Shot& shot : frames->plan().script.shots)
+    if (traced && (shot.overlay || shot.beside))
+      return failure("overlays and second cameras are drawn by the rasteriser alone", shot.where,
+                     "leave out --renderer traced, or overlay and beside");
   const auto record = film_record(options, frames->session());
   if (!record) return tl::unexpected(record.error());
   std::optional<render::Renderer> rasteriser;
@@ -135,7 +126,7 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   if (!whole) return tl::unexpected(whole.error());
   made.stopped = !*whole;
   std::error_code ignored;
-  if (*whole && options.exr == ExrNumbers::none) fs::remove_all(pictures_in, ignored);
+  if (*whole && options.exr == ExrNumbers::none && !options.keep_pictures) fs::remove_all(pictures_in, ignored);
   return made;
 }
 

@@ -37,8 +37,9 @@ struct FilmOptions {
   /// Folder for the pictures: created, or empty already; or a film file (film_file.hpp), whose pictures lie in a folder
   /// beside it until it is encoded.
   std::filesystem::path out;
-  bool sound = true;    ///< Adds the driver's sound to a film as one file (soundtrack/cut_track.hpp).
-  bool resume = false;  ///< Continues the same film in that folder: finished pictures stay (film_folder.hpp).
+  bool sound = true;           ///< Adds the driver's sound to a film as one file (soundtrack/cut_track.hpp).
+  bool resume = false;         ///< Continues the same film in that folder: finished pictures stay (film_folder.hpp).
+  bool keep_pictures = false;  ///< The pictures of a film as one file stay.
   double frames_per_second = 25.0;
   std::uint32_t width_px = 1280, height_px = 720;
   /// Draws on the processor even if there is a graphics card: the same pixels as an off-screen screen's.

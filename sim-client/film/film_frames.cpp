@@ -8,11 +8,15 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/check.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "logging/session/recorded_scene.hpp"
+#include "sim-client/film/last_seen.hpp"
+#include "sim-client/film/overlay/overlay_cast.hpp"
+#include "sim-client/film/overlay/overlay_drawing.hpp"
 #include "sim-client/frame/client_frame.hpp"
 
 namespace septet::film {
@@ -23,12 +27,6 @@ constexpr double time_slack_s = 1e-6;
 constexpr std::size_t longest_script_bytes = 1 << 22;
 constexpr std::size_t most_frames = 1'000'000;
 
-Expected<Snapshot> world_at(const logging::SessionReader& session, double instant_s) {
-  return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) {
-    return instants.at(instant_s);
-  });
-}
-
 /// Eye point of the driver, vehicle frame, from the session's rig.
 Vec3 driver_eye_m(const logging::SessionInfo& info) {
   for (const auto& source : info.files)
@@ -37,18 +35,36 @@ Vec3 driver_eye_m(const logging::SessionInfo& info) {
   return scenery::eye_in(vehicle_models().front());
 }
 
-/// Anchor of each shot's camera.
-Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
+/// Anchors of a shot's cameras.
+struct Pivots {
+  Pivot first;
+  std::optional<Pivot> beside;
+};
+
+/// The one direction of a second camera, which holds still.
+std::vector<Look> look_beside(const Shot& second) {
+  return {{{std::cos(second.heading_rad), std::sin(second.heading_rad)},
+           {std::cos(second.pitch_rad), std::sin(second.pitch_rad)}}};
+}
+
+/// Anchors of each shot's cameras.
+Expected<std::vector<Pivots>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
   const auto names = logging::participant_names(session);
   if (!names) return tl::unexpected(names.error());
   const Vec3 eye_m = driver_eye_m(session.info());
-  std::vector<Pivot> pivots;
+  std::vector<Pivots> pivots;
   for (std::size_t n = 0; n < plan.script.shots.size(); ++n) {
     const auto world = world_at(session, plan.script.shots[n].from_s);
     if (!world) return tl::unexpected(world.error());
-    const auto pivot = find_pivot(plan.script.shots[n], *world, eye_m, plan.paths[n], *names);
+    const Shot& shot = plan.script.shots[n];
+    const auto pivot = find_pivot(shot, *world, eye_m, plan.paths[n], *names);
     if (!pivot) return tl::unexpected(pivot.error());
-    pivots.push_back(*pivot);
+    pivots.push_back({*pivot, std::nullopt});
+    if (!shot.beside) continue;
+    const Shot second = shot_beside(shot);
+    const auto beside = find_pivot(second, *world, eye_m, look_beside(second), *names);
+    if (!beside) return tl::unexpected(beside.error());
+    pivots.back().beside = *beside;
   }
   return pivots;
 }
@@ -73,46 +89,6 @@ Expected<Script> choose_script(const FilmOptions& options, const logging::Sessio
   return script;
 }
 
-/// Waiting place of the camera for a participant that is gone: from the last tick of the shot that holds them. Reads on
-/// as instants ascend.
-class LastSeen {
- public:
-  static Expected<LastSeen> start(const logging::SessionReader& session, const Shot& shot, const Pivot& pivot) {
-    const auto world = world_at(session, shot.from_s);
-    if (!world) return tl::unexpected(world.error());
-    auto cursor = session.snapshots_from(shot.from_s);
-    if (!cursor) return tl::unexpected(cursor.error());
-    return LastSeen(shot, pivot, std::move(*cursor), viewpoint_at(shot, pivot, *world, {}));
-  }
-
-  /// Viewpoint at an instant not before the previous call's.
-  Expected<frame::Viewpoint> at(double instant_s) {
-    while (!ended_ && (!next_ || next_->simulated_time_s <= instant_s)) {
-      if (next_) viewpoint_ = viewpoint_at(*shot_, pivot_, *next_, viewpoint_);
-      auto next = cursor_.next();
-      if (!next) return tl::unexpected(next.error());
-      next_ = std::move(*next);
-      ended_ = !next_.has_value();
-    }
-    return viewpoint_;
-  }
-
- private:
-  LastSeen(const Shot& shot, const Pivot& pivot, logging::SnapshotCursor cursor, const frame::Viewpoint& viewpoint)
-      : shot_(&shot), pivot_(pivot), cursor_(std::move(cursor)), viewpoint_(viewpoint) {}
-
-  const Shot* shot_;
-  Pivot pivot_;
-  logging::SnapshotCursor cursor_;
-  std::optional<Snapshot> next_;
-  frame::Viewpoint viewpoint_;
-  bool ended_ = false;
-};
-
-}  // namespace
-
-namespace {
-
 /// Direction between two frames of a camera that turns evenly.
 Look between(const Look& from, const Look& to, double share) {
   const auto mixed = [share](const auto& a, const auto& b) {
@@ -128,7 +104,7 @@ Look between(const Look& from, const Look& to, double share) {
 struct FilmFrames::State {
   logging::SessionReader session;
   FilmPlan plan;
-  std::vector<Pivot> pivots;  ///< Indexed by shot.
+  std::vector<Pivots> pivots;  ///< Indexed by shot.
   scene::ResolvedScene scene;
   std::uint32_t width_px, height_px;
   double frames_per_second;
@@ -136,9 +112,33 @@ struct FilmFrames::State {
   std::optional<FilmFrame> last{};
   double last_instant_s = 0.0;
   std::optional<SessionInstants> instants{};
-  std::optional<LastSeen> last_seen{};
+  std::optional<LastSeen> last_seen{}, last_seen_beside{};
   frame::EffectsDrawing effects{};
+  OverlayCast cast{};
+  // Of the last frame, for its overlay and its second camera.
+  Snapshot world{};
+  std::vector<instant::FrameView> views{};
+
+  Expected<frame::Viewpoint> viewpoint(const Shot& shot, const Pivot& pivot, std::optional<LastSeen>& seen_last,
+                                       double instant_s);
 };
+
+/// Viewpoint in the last frame's world.
+Expected<frame::Viewpoint> FilmFrames::State::viewpoint(const Shot& shot, const Pivot& pivot,
+                                                        std::optional<LastSeen>& seen_last, double instant_s) {
+  frame::Viewpoint waiting;
+  if (pivot.participant && !find_participant(world, *pivot.participant)) {
+    if (!seen_last) {
+      auto started = LastSeen::start(session, shot, pivot);
+      if (!started) return tl::unexpected(started.error());
+      seen_last.emplace(std::move(*started));
+    }
+    const auto seen = seen_last->at(instant_s);
+    if (!seen) return tl::unexpected(seen.error());
+    waiting = *seen;
+  }
+  return viewpoint_at(shot, pivot, world, waiting);
+}
 
 FilmFrames::FilmFrames(std::unique_ptr<State> state) : state_(std::move(state)) {}
 FilmFrames::FilmFrames(FilmFrames&&) noexcept = default;
@@ -167,11 +167,15 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
     return failure("the film shows nothing between them", "--from, --to", "choose them within the script's shots");
   auto pivots = find_pivots(*session, *plan);
   if (!pivots) return tl::unexpected(pivots.error());
+  auto cast = OverlayCast::of(*session, plan->script);
+  if (!cast) return tl::unexpected(cast.error());
   scene::Store store;
   if (auto restored = logging::restore_scene(*session, store); !restored) return tl::unexpected(restored.error());
-  return FilmFrames(
+  auto state =
       std::unique_ptr<State>(new State{std::move(*session), std::move(*plan), std::move(*pivots), scene::resolve(store),
-                                       options.width_px, options.height_px, options.frames_per_second}));
+                                       options.width_px, options.height_px, options.frames_per_second});
+  state->cast = std::move(*cast);
+  return FilmFrames(std::move(state));
 }
 
 Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) {
@@ -200,7 +204,7 @@ Expected<instant::FrameInput> FilmFrames::input_after(const FilmFrame& film_fram
 Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, double instant_s, const Look& look) {
   State& state = *state_;
   const Shot& shot = state.plan.script.shots[film_frame.shot];
-  const Pivot& pivot = state.pivots[film_frame.shot];
+  const Pivot& pivot = state.pivots[film_frame.shot].first;
   const bool follows = state.last && state.last->shot == film_frame.shot && state.last->number <= film_frame.number &&
                        state.last_instant_s <= instant_s + time_slack_s;
   state.last.reset();  // After a read error the next frame starts afresh.
@@ -208,27 +212,55 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
     auto instants = SessionInstants::start(state.session, instant_s);
     if (!instants) return tl::unexpected(instants.error());
     state.instants.emplace(std::move(*instants));
-    state.last_seen.reset();
+    state.last_seen.reset(), state.last_seen_beside.reset();
   }
-  const auto world = state.instants->at(instant_s);
+  auto world = state.instants->at(instant_s);
   if (!world) return tl::unexpected(world.error());
-  frame::Viewpoint waiting;
-  if (pivot.participant && !find_participant(*world, *pivot.participant)) {
-    if (!state.last_seen) {
-      auto last_seen = LastSeen::start(state.session, shot, pivot);
-      if (!last_seen) return tl::unexpected(last_seen.error());
-      state.last_seen.emplace(std::move(*last_seen));
-    }
-    const auto seen = state.last_seen->at(instant_s);
-    if (!seen) return tl::unexpected(seen.error());
-    waiting = *seen;
-  }
-  auto input = frame::client_frame(*world, views_at(shot, pivot, look, state.width_px, state.height_px),
-                                   viewpoint_at(shot, pivot, *world, waiting), state.scene);
-  state.effects.show(*world, state.instants->history(), state.instants->tick_s(), state.scene);
+  state.world = std::move(*world);
+  const auto viewpoint = state.viewpoint(shot, pivot, state.last_seen, instant_s);
+  if (!viewpoint) return tl::unexpected(viewpoint.error());
+  const std::uint32_t width_px = shot.beside ? state.width_px / 2 : state.width_px;
+  auto input =
+      frame::client_frame(state.world, views_at(shot, pivot, look, width_px, state.height_px), *viewpoint, state.scene);
+  state.views = {input.views.front()};
+  state.effects.show(state.world, state.instants->history(), state.instants->tick_s(), state.scene);
   state.effects.add_to(input);
   state.last = film_frame, state.last_instant_s = instant_s;
   return input;
+}
+
+Expected<std::optional<instant::FrameInput>> FilmFrames::input_beside(const FilmFrame& film_frame) {
+  State& state = *state_;
+  const Shot& shot = state.plan.script.shots[film_frame.shot];
+  if (!shot.beside) return std::nullopt;
+  SEPTET_CHECK(state.last && state.last->number == film_frame.number, "frame {}", film_frame.number);
+  const Shot second = shot_beside(shot);
+  const Pivot& pivot = *state.pivots[film_frame.shot].beside;
+  const auto viewpoint = state.viewpoint(second, pivot, state.last_seen_beside, film_frame.instant_s);
+  if (!viewpoint) return tl::unexpected(viewpoint.error());
+  const std::uint32_t left_px = state.width_px / 2;
+  auto views = views_at(second, pivot, look_beside(second).front(), state.width_px - left_px, state.height_px);
+  for (instant::FrameView& view : views.views) view.viewport.x += static_cast<std::int32_t>(left_px);
+  auto input = frame::client_frame(state.world, views, *viewpoint, state.scene);
+  state.views.resize(1);
+  state.views.push_back(input.views.front());
+  state.effects.add_to(input);
+  return input;
+}
+
+void FilmFrames::draw_overlay(const FilmFrame& film_frame, image::Image& picture) const {
+  const State& state = *state_;
+  const Shot& shot = state.plan.script.shots[film_frame.shot];
+  if (!shot.overlay || !state.cast.font) return;
+  const OverlayMoment moment{.script = state.plan.script,
+                             .shot = shot,
+                             .world = state.world,
+                             .people = state.cast.people,
+                             .ways = state.cast.ways,
+                             .views = state.views,
+                             .width_px = picture.width,
+                             .height_px = picture.height};
+  draw(overlay_content(moment, *state.cast.font), *state.cast.font, picture);
 }
 
 Expected<FilmPlan> plan_film(Script script, double frames_per_second, std::pair<double, double> span_s) {

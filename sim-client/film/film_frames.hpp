@@ -4,6 +4,7 @@
 /// A frame is a function of the session, its shot and its number in it. Frames may be requested in any order, on any
 /// machine that has the session; ascending order is cheapest. One thread.
 
+#include "engine/image/image.hpp"
 #include "engine/instant/frame_input.hpp"
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film.hpp"
@@ -26,6 +27,11 @@ class FilmFrames {
 
   /// Input of a frame of the plan. Error: the session cannot be read there.
   Expected<instant::FrameInput> input_of(const FilmFrame& frame);
+  /// Input of a frame's second camera, of which the right half of the picture is drawn; empty: its shot has none. To be
+  /// called right after `input_of` of the same frame, of which the left half is drawn then.
+  Expected<std::optional<instant::FrameInput>> input_beside(const FilmFrame& frame);
+  /// Draws the overlay of a frame onto its picture, if its shot has one. To be called after `input_of` of that frame.
+  void draw_overlay(const FilmFrame& frame, image::Image& picture) const;
   /// Input at the instant at which the shot's shutter closes; empty if the shutter is open for no time.
   Expected<std::optional<instant::FrameInput>> input_as_shutter_closes(const FilmFrame& frame);
   /// Input at the next frame's instant, or at the end of its shot if that comes first.

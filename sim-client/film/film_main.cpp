@@ -9,6 +9,7 @@
 #include "engine/core/version.hpp"
 #include "program/command_line.hpp"
 #include "program/console.hpp"
+#include "sim-client/film/accident/accident_arguments.hpp"
 #include "sim-client/film/film_arguments.hpp"
 #include "sim-client/film/film_frames.hpp"
 #include "sim-client/film/film_program.hpp"
@@ -74,12 +75,17 @@ int main(int argc, char** argv) {
       app.add_subcommand("cancel", "Take films out of the queue, also one that is being made");
   add_folder(cancel_command);
   cancel_command->add_option("number", of_queue.numbers, "As septet film status tells")->required();
+  film::AccidentOptions accident;
+  CLI::App* const accident_command = app.add_subcommand(
+      "accident", "Plan and make the film of a contact, from the log alone: septet accident (docs/accident.md)");
+  film::add_accident_options(*accident_command, accident);
   return film::run_alone_or_by_mpirun([&](film::Machines* others) {
     const int status = program::run("septet", app, argc, argv, [&]() -> Expected<int> {
       of_queue.film = queue_command->remaining();
       if (*queue_command) return queue(of_queue);
       if (*status_command) return film::show_queue(of_queue);
       if (*cancel_command) return film::cancel_films(of_queue);
+      if (*accident_command) return film::run_accident(accident);
       if (auto settled = film::settle(app, arguments); !settled) return tl::unexpected(settled.error());
       return film::run_film(arguments, {argv + 1, argv + argc}, others);
     });

@@ -1,0 +1,182 @@
+#include "sim-client/film/accident/accident_facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "logging/session/participants.hpp"
+#include "logging/study/measures/collisions.hpp"
+
+namespace septet::film {
+namespace {
+
+constexpr double same_instant_s = 1e-6;
+
+/// Contacts of the driver's car, and of two others.
+bool tells_contact(const logging::Event& event) { return event.kind == "collision" || event.kind == "crash_of_others"; }
+
+WayPoint way_point(const Participant& participant, double time_s) {
+  return {time_s, participant.world_from_vehicle.position_m, heading_rad(participant.world_from_vehicle.orientation),
+          glm::length(Vec2(participant.velocity_mps))};
+}
+
+Vec2 middle_m(const Participant& participant) {
+  return Vec2(participant.world_from_vehicle * Vec3(vehicle_models()[participant.model].centre_x_m(), 0.0, 0.0));
+}
+
+/// The two that came nearest, and when: the driver's car and another one, or without it somebody whom the scenario
+/// names and another one.
+struct NearestTwo {
+  std::optional<ParticipantId> first, second;
+  double time_s = 0.0, distance_m = std::numeric_limits<double>::infinity();
+};
+
+void look_for_nearest(const Snapshot& world, const logging::ParticipantNames& names, NearestTwo& nearest) {
+  const bool has_driver = find_participant(world, world.driver_car.participant) != nullptr;
+  for (const Participant& one : world.participants) {
+    if (has_driver ? one.id != world.driver_car.participant : !names.contains(one.id)) continue;
+    if (!nearest.first) nearest.first = one.id, nearest.time_s = world.simulated_time_s;
+    for (const Participant& other : world.participants) {
+      const double distance_m = glm::length(middle_m(one) - middle_m(other));
+      if (other.id != one.id && distance_m < nearest.distance_m)
+        nearest = {one.id, other.id, world.simulated_time_s, distance_m};
+    }
+  }
+}
+
+/// Calls `visit` with each snapshot between the two instants.
+template <class Visit>
+Expected<void> for_each_world(const logging::SessionReader& session, std::pair<double, double> span_s,
+                              const Visit& visit) {
+  auto cursor = session.snapshots_from(span_s.first);
+  if (!cursor) return tl::unexpected(cursor.error());
+  for (;;) {
+    const auto world = cursor->next();
+    if (!world) return tl::unexpected(world.error());
+    if (!*world || (*world)->simulated_time_s > span_s.second + same_instant_s) return {};
+    if ((*world)->simulated_time_s >= span_s.first - same_instant_s) visit(**world);
+  }
+}
+
+/// First snapshot's driver.
+Expected<ParticipantId> driver_of(const logging::SessionReader& session) {
+  auto cursor = session.snapshots();
+  if (!cursor) return tl::unexpected(cursor.error());
+  const auto world = cursor->next();
+  if (!world) return tl::unexpected(world.error());
+  return *world ? (*world)->driver_car.participant : 0;
+}
+
+}  // namespace
+
+Contact contact_of(const logging::Event& event, ParticipantId driver) {
+  Contact contact{.time_s = event.simulated_time_s,
+                  .first = driver,
+                  .second = event.participant,
+                  .stands = {},
+                  .closing_mps = logging::number_in_detail(event.detail, "closing_speed_mps"),
+                  .delta_v_mps = logging::number_in_detail(event.detail, "delta_v_mps")};
+  const auto with = logging::number_in_detail(event.detail, "with");
+  if (event.participant && with && *with >= 0.0 && *with <= std::numeric_limits<ParticipantId>::max())
+    contact.first = *event.participant, contact.second = static_cast<ParticipantId>(*with);
+  if (!event.participant) {
+    // "guard rail closing_speed_mps=…": what stands is told before the first key.
+    std::string words = event.detail.substr(0, event.detail.find('='));
+    words.erase(std::min(words.size(), words.find_last_of(' ') == std::string::npos ? 0 : words.find_last_of(' ')));
+    contact.stands = words.empty() ? "something that stands" : words;
+  }
+  return contact;
+}
+
+std::string name_of(const Involved& involved) {
+  return involved.name.empty() ? std::to_string(involved.number) : involved.name;
+}
+
+Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std::optional<std::size_t> event) {
+  AccidentFacts facts;
+  const auto span_s = session.shown_span_s();
+  if (!span_s) return tl::unexpected(span_s.error());
+  facts.session_s = *span_s;
+  const auto names = logging::participant_names(session);
+  if (!names) return tl::unexpected(names.error());
+  const auto driver = driver_of(session);
+  if (!driver) return tl::unexpected(driver.error());
+  const auto events = session.events();
+  if (!events) return tl::unexpected(events.error());
+  for (const logging::Event& one : *events)
+    if (tells_contact(one) && one.simulated_time_s >= span_s->first && one.simulated_time_s <= span_s->second)
+      facts.contacts.push_back(contact_of(one, *driver));
+  std::ranges::stable_sort(facts.contacts, {}, &Contact::time_s);
+  if (event && (*event < 1 || *event > facts.contacts.size()))
+    return failure(facts.contacts.empty() ? std::string("the log tells of no contact")
+                                          : fmt::format("the log tells of {} contacts", facts.contacts.size()),
+                   fmt::format("--event {}", *event),
+                   facts.contacts.empty() ? "leave --event out: the nearest approach is filmed"
+                                          : fmt::format("choose 1 to {}", facts.contacts.size()));
+  std::vector<ParticipantId> numbers;
+  double middle_s = span_s->second;
+  if (!facts.contacts.empty()) {
+    facts.chosen = event.value_or(1) - 1;
+    const Contact& contact = facts.contacts[*facts.chosen];
+    middle_s = contact.time_s;
+    numbers.push_back(contact.first);
+    if (contact.second && *contact.second != contact.first) numbers.push_back(*contact.second);
+  } else {
+    NearestTwo nearest;
+    const auto looked = for_each_world(session, *span_s, [&](const Snapshot& world) {
+      if (logging::is_sample_due(world.tick, session.info().ticks_per_second)) look_for_nearest(world, *names, nearest);
+    });
+    if (!looked) return tl::unexpected(looked.error());
+    if (!nearest.first)
+      return failure("it holds neither a driver's car nor anybody whom a scenario names", session.path().string(),
+                     "film it by a script of your own: septet film --shots");
+    numbers.push_back(*nearest.first);
+    if (nearest.second) {
+      numbers.push_back(*nearest.second);
+      facts.nearest_s = middle_s = nearest.time_s;
+      facts.nearest_m = nearest.distance_m;
+    }
+  }
+  facts.window_s = {std::max(span_s->first, middle_s - before_contact_s),
+                    std::min(span_s->second, middle_s + after_contact_s)};
+  const auto kind = session.info().other.find("driver");
+  if (kind != session.info().other.end()) facts.driver = kind->second;
+  for (const ParticipantId number : numbers) {
+    const auto name = names->find(number);
+    facts.involved.push_back({.number = number, .name = name == names->end() ? std::string() : name->second});
+    facts.involved.back().moved_by = number == *driver
+                                         ? facts.driver.empty() ? MovedBy::person : MovedBy::simulated_driver
+                                     : name != names->end() ? MovedBy::scenario
+                                                            : MovedBy::traffic;
+  }
+  std::map<ParticipantId, Involved> others;
+  const auto read = for_each_world(session, facts.window_s, [&](const Snapshot& world) {
+    const Participant* first = find_participant(world, numbers.front());
+    for (const Participant& participant : world.participants) {
+      const auto one = std::ranges::find(facts.involved, participant.id, &Involved::number);
+      const WayPoint point = way_point(participant, world.simulated_time_s);
+      if (one != facts.involved.end()) {
+        one->model = participant.model;
+        one->way.push_back(point);
+      } else if (first && glm::length(first->world_from_vehicle.position_m - point.position_m) < bystanders_within_m) {
+        Involved& other = others[participant.id];
+        other.number = participant.id, other.model = participant.model;
+        other.way.push_back(point);
+      }
+    }
+  });
+  for (auto& [number, other] : others) facts.bystanders.push_back(std::move(other));
+  if (!read) return tl::unexpected(read.error());
+  std::erase_if(facts.involved, [](const Involved& one) { return one.way.empty(); });
+  if (facts.involved.empty())
+    return failure("nobody of the contact is in the session around it", session.path().string(),
+                   "choose another contact with --event");
+  return facts;
+}
+
+}  // namespace septet::film

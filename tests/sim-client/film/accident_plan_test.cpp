@@ -1,0 +1,189 @@
+#include "sim-client/film/accident/accident_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/film_script/film_script.hpp"
+#include "engine/film_script/script_text.hpp"
+#include "sim-client/film/accident/read_plan.hpp"
+#include "sim-client/film/film.hpp"
+#include "tests/logging/session_fixture.hpp"
+#include "tests/why_not.hpp"
+
+namespace septet::film {
+namespace {
+
+constexpr double picture_shape = 16.0 / 9.0;
+
+/// Two that cross at right angles: they meet at 6 s in the origin.
+Snapshot crossing_world(Tick tick, bool with_driver) {
+  Snapshot world;
+  world.tick = tick;
+  world.simulated_time_s = static_cast<double>(tick) / 120.0;
+  const double until_s = world.simulated_time_s - 6.0;
+  const auto add = [&](ParticipantId id, const Vec3& velocity_mps) {
+    Participant participant;
+    participant.id = id;
+    participant.model = *find_vehicle_model("saloon");
+    participant.world_from_vehicle = {until_s * velocity_mps,
+                                      orientation_from_angles(std::atan2(velocity_mps.y, velocity_mps.x), 0, 0)};
+    participant.velocity_mps = velocity_mps;
+    world.participants.push_back(participant);
+  };
+  if (with_driver) add(1, {15.0, 0.0, 0.0});
+  add(2, {0.0, 12.0, 0.0});
+  add(3, {-10.0, 0.5, 0.0});
+  world.driver_car.participant = with_driver ? 1 : 0;
+  return world;
+}
+
+PlannedAccident planned(const TemporaryFolder& folder, const std::vector<logging::Event>& events, bool with_driver,
+                        std::optional<std::size_t> event = std::nullopt) {
+  const auto file = folder / "session.sqlite";
+  std::filesystem::remove(file);
+  auto info = logging::example_info();
+  info.other["participant_names"] = R"({"1":"ego","2":"crosser"})";
+  info.other["driver"] = "novice";
+  auto writer = logging::SessionWriter::create(file, info);
+  REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
+  for (Tick tick = 0; tick <= 1200; tick += 1) writer->record(logging::taken(crossing_world(tick, with_driver)));
+  for (const logging::Event& one : events) writer->record(one);
+  REQUIRE(writer->finish().has_value());
+  const auto session = logging::must_open(file);
+  auto plan = read_plan(session, event, picture_shape);
+  REQUIRE_MESSAGE(plan.has_value(), why_not(plan));
+  return std::move(*plan);
+}
+
+logging::Event collision(double time_s, std::optional<ParticipantId> participant, const std::string& detail) {
+  return {static_cast<Tick>(std::lround(120.0 * time_s)), time_s, "collision", participant, detail};
+}
+
+std::size_t shots_of(const AccidentPlan& plan, const std::string& word) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      plan.script.shots, [&](const Shot& shot) { return shot.title.find(word) != std::string::npos; }));
+}
+
+/// What every plan keeps to, whoever took part.
+void check_is_a_film(const PlannedAccident& one) {
+  const AccidentPlan& plan = one.plan;
+  REQUIRE_FALSE(plan.script.shots.empty());
+  CHECK(plan.words.size() == plan.script.shots.size());
+  const std::string text = text_of(plan.script);
+  const auto read = read_script(text, "storyboard.toml");
+  REQUIRE_MESSAGE(read.has_value(), why_not(read));
+  CHECK(text_of(*read) == text);
+  const auto film = plan_film(*read, 25.0, one.facts.session_s);
+  REQUIRE_MESSAGE(film.has_value(), why_not(film));
+  for (const Shot& shot : plan.script.shots) {
+    CHECK(shot.overlay);
+    CHECK(shot.from_s >= one.facts.window_s.first);
+    CHECK(shot.to_s <= one.facts.window_s.second);
+  }
+  CHECK(plan.script.overlay.notes.size() == 3);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "an accident is planned from 5 s before its contact to 3 s after with each participant's eyes and both at once") {
+  const TemporaryFolder folder;
+  const auto one = planned(folder, {collision(6.0, 2, "closing_speed_mps=15.00 delta_v_mps=7.50")}, true);
+  check_is_a_film(one);
+  CHECK(one.facts.window_s == std::pair(1.0, 9.0));
+  REQUIRE(one.facts.involved.size() == 2);
+  CHECK(one.facts.involved[0].name == "ego");
+  CHECK(one.facts.involved[0].moved_by == MovedBy::simulated_driver);
+  CHECK(one.facts.involved[1].moved_by == MovedBy::scenario);
+  const AccidentPlan& plan = one.plan;
+  CHECK(plan.script.overlay.contact_s == 6.0);
+  CHECK(plan.script.shots.front().from_s == 1.0);
+  CHECK(plan.script.shots.front().to_s == 9.0);
+  CHECK(plan.script.shots.front().paths);
+  CHECK(shots_of(plan, "ego: eyes, gaze as logged") == 2);
+  CHECK(shots_of(plan, "crosser: eyes, gaze assumed straight on") == 1);
+  const auto both = std::ranges::find_if(plan.script.shots, [](const Shot& shot) { return shot.beside.has_value(); });
+  REQUIRE(both != plan.script.shots.end());
+  CHECK(both->participant == "ego");
+  CHECK(both->beside->participant == "crosser");
+  CHECK(std::ranges::count_if(plan.script.shots, [](const Shot& shot) { return shot.speed == 0.25; }) == 2);
+  CHECK(plan.title == "ego and crosser meet, 6.00 s");
+  const auto closing = std::ranges::find(plan.figures, "closing speed", &Figure::name);
+  REQUIRE(closing != plan.figures.end());
+  CHECK(closing->value == doctest::Approx(54.0));
+  CHECK(text_of(planned(folder, {collision(6.0, 2, "closing_speed_mps=15.00 delta_v_mps=7.50")}, true).plan.script) ==
+        text_of(plan.script));
+}
+
+TEST_CASE("from above all of both ways lies within the picture") {
+  const TemporaryFolder folder;
+  const auto one = planned(folder, {collision(6.0, 2, "closing_speed_mps=15.00")}, true);
+  const Shot& above = one.plan.script.shots.front();
+  REQUIRE(above.place_m.has_value());
+  const auto view = instant::symmetric_view(*above.place_m, above.heading_rad, above.pitch_rad, above.field_of_view_rad,
+                                            2.0 * std::atan(std::tan(0.5 * above.field_of_view_rad) / picture_shape));
+  for (const Involved& each : one.facts.involved)
+    for (const WayPoint& at : each.way) {
+      const auto clip = view.clip_from_eye_relative * glm::dvec4(at.position_m - view.eye_m, 1.0);
+      CHECK(clip.w > 0.0);
+      CHECK(std::abs(clip.x) < clip.w);
+      CHECK(std::abs(clip.y) < clip.w);
+    }
+}
+
+TEST_CASE("without a contact the nearest approach is planned and said to be one") {
+  const TemporaryFolder folder;
+  const auto one = planned(folder, {}, true);
+  check_is_a_film(one);
+  CHECK_FALSE(one.facts.chosen.has_value());
+  REQUIRE(one.facts.nearest_s.has_value());
+  CHECK(std::abs(*one.facts.nearest_s - 6.0) <= 0.1);
+  CHECK(one.plan.title.find("no contact") == 0);
+  REQUIRE(one.facts.involved.size() == 2);
+  CHECK(one.facts.involved[0].name == "ego");  // 2 and 3 come as near to each other.
+  CHECK(one.plan.script.overlay.contact == "the nearest approach");
+  CHECK(one.plan.script.overlay.notes[2].find("impact") == std::string::npos);
+}
+
+TEST_CASE("of three contacts the first is planned unless another is asked for by its number") {
+  const TemporaryFolder folder;
+  const std::vector events{collision(6.0, 2, "closing_speed_mps=15.00"),
+                           collision(7.0, std::nullopt, "guard rail closing_speed_mps=4.00"),
+                           collision(8.0, 3, "closing_speed_mps=2.00")};
+  CHECK(planned(folder, events, true).facts.involved[1].number == 2);
+  const auto third = planned(folder, events, true, 3);
+  check_is_a_film(third);
+  CHECK(third.facts.involved[1].number == 3);
+  CHECK(third.plan.script.overlay.participants == std::vector<std::string>{"ego", "3"});
+  const auto rail = planned(folder, events, true, 2);
+  check_is_a_film(rail);
+  CHECK(rail.facts.involved.size() == 1);
+  CHECK(rail.plan.title == "ego meets guard rail, 7.00 s");
+  const auto both =
+      std::ranges::find_if(rail.plan.script.shots, [](const Shot& shot) { return shot.beside.has_value(); });
+  REQUIRE(both != rail.plan.script.shots.end());
+  CHECK(both->beside->place_m.has_value());
+  const auto session = logging::must_open(folder / "session.sqlite");
+  const auto fourth = read_accident(session, 4);
+  CHECK(why_not(fourth).find("3 contacts") != std::string::npos);
+}
+
+TEST_CASE("a contact of two others is planned though there is no driver") {
+  const TemporaryFolder folder;
+  const logging::Event crash{720, 6.0, "crash_of_others", 2, "with=3 closing_speed_mps=12.00 delta_v_mps=6.00 by=2"};
+  const auto one = planned(folder, {crash}, false);
+  check_is_a_film(one);
+  REQUIRE(one.facts.involved.size() == 2);
+  CHECK(one.facts.involved[0].number == 2);
+  CHECK(one.facts.involved[1].number == 3);
+  CHECK(one.facts.involved[1].moved_by == MovedBy::traffic);
+  CHECK(shots_of(one.plan, "as logged") == 0);
+  CHECK(one.plan.script.overlay.notes[0].find("measured: nothing") != std::string::npos);
+  check_is_a_film(planned(folder, {}, false));
+}
+
+}  // namespace septet::film
