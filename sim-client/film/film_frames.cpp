@@ -11,9 +11,9 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scenery/vehicles/eye_point.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "sim-client/frame/client_frame.hpp"
+#include "sim-client/playback/driver_eye.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -24,24 +24,16 @@ constexpr std::size_t longest_script_bytes = 1 << 22;
 constexpr std::size_t most_frames = 1'000'000;
 
 Expected<Snapshot> world_at(const logging::SessionReader& session, double instant_s) {
-  return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) {
+  return playback::SessionInstants::start(session, instant_s).and_then([&](playback::SessionInstants instants) {
     return instants.at(instant_s);
   });
-}
-
-/// Eye point of the driver, vehicle frame, from the session's rig.
-Vec3 driver_eye_m(const logging::SessionInfo& info) {
-  for (const auto& source : info.files)
-    if (source.role == "rig")
-      if (const auto rig = rig::read_rig(source.content, source.name)) return rig->eye_point_m;
-  return scenery::eye_in(vehicle_models().front());
 }
 
 /// Anchor of each shot's camera.
 Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
   const auto names = logging::participant_names(session);
   if (!names) return tl::unexpected(names.error());
-  const Vec3 eye_m = driver_eye_m(session.info());
+  const Vec3 eye_m = playback::driver_eye_m(session.info());
   std::vector<Pivot> pivots;
   for (std::size_t n = 0; n < plan.script.shots.size(); ++n) {
     const auto world = world_at(session, plan.script.shots[n].from_s);
@@ -135,7 +127,7 @@ struct FilmFrames::State {
   // Previous frame's reading, reused from here on.
   std::optional<FilmFrame> last{};
   double last_instant_s = 0.0;
-  std::optional<SessionInstants> instants{};
+  std::optional<playback::SessionInstants> instants{};
   std::optional<LastSeen> last_seen{};
   frame::EffectsDrawing effects{};
 };
@@ -205,7 +197,7 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
                        state.last_instant_s <= instant_s + time_slack_s;
   state.last.reset();  // After a read error the next frame starts afresh.
   if (!follows) {
-    auto instants = SessionInstants::start(state.session, instant_s);
+    auto instants = playback::SessionInstants::start(state.session, instant_s);
     if (!instants) return tl::unexpected(instants.error());
     state.instants.emplace(std::move(*instants));
     state.last_seen.reset();
