@@ -152,7 +152,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
     };
   });
 
-  // The options of these four are those of the programs that they start, which explain them too.
+  // The options of these five are those of the programs that they start, which explain them too.
   auto* film_command = app.add_subcommand(
       "film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
   film_command->prefix_command();
@@ -164,6 +164,12 @@ void add_drive_commands(CLI::App& app, Options& options) {
   sound_command->prefix_command();
   sound_command->set_help_flag();
   sound_command->callback([&] { options.work = [&] { return become("septet-sound", options.passed_on); }; });
+
+  auto* sight_command = app.add_subcommand(
+      "sight", "Tell who was unobstructed for whom in a session, and since when: sentences, a table, a chart");
+  sight_command->prefix_command();
+  sight_command->set_help_flag();
+  sight_command->callback([&] { options.work = [&] { return become("septet-sight", options.passed_on); }; });
 
   auto* ice_command = app.add_subcommand("ice", "Draw an object of ice alone, turning, each part of it on or off");
   ice_command->prefix_command();
