@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
       ->check(number_between(1.0, 10000.0))
       ->capture_default_str();
   app.add_option("--pairs", options.pairs, "Most pairs; those that touch first, then the nearest")
-      ->check(CLI::Range(1, 1000))
+      ->check(CLI::Range(1u, 1000u))
       ->capture_default_str();
   app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")
       ->check(number_between(0.0, 1e6));
@@ -49,7 +49,8 @@ int main(int argc, char** argv) {
                  "Share of a silhouette's light from which it counts as unobstructed")
       ->check(number_between(0.0, 1.0))
       ->capture_default_str();
-  app.add_flag("!--no-mirrors", options.mirrors, "Leave mirrors out");
+  app.add_flag_callback(
+      "--no-mirrors", [&options] { options.mirrors = false; }, "Leave mirrors out");
   return program::run("septet", app, argc, argv, [&] {
     const auto out = options.out.empty() ? options.session.parent_path() / "sight" : options.out;
     program::write_only_below({std::filesystem::absolute(out)});
