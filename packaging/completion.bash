@@ -33,4 +33,4 @@ _septet_subcommands() { sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z-]*\) .*/\1/
 _septet_names() { "$1" list "$2" 2>/dev/null | awk '{print $1}'; }
 
 # Where nothing fits, files do.
-complete -o default -F _septet septet septet-server septet-screen septet-film septet-sound septet-ice septet-car
+complete -o default -F _septet septet septet-server septet-screen septet-film septet-sound septet-sight septet-ice septet-car

@@ -177,6 +177,12 @@ void add_drive_commands(CLI::App& app, Options& options) {
   sound_command->set_help_flag();
   sound_command->callback([&] { options.work = [&] { return become("septet-sound", options.passed_on); }; });
 
+  auto* sight_command = app.add_subcommand(
+      "sight", "Tell who was unobstructed for whom in a session, and since when: sentences, a table, a chart");
+  sight_command->prefix_command();
+  sight_command->set_help_flag();
+  sight_command->callback([&] { options.work = [&] { return become("septet-sight", options.passed_on); }; });
+
   auto* ice_command = app.add_subcommand("ice", "Draw an object of ice alone, turning, each part of it on or off");
   ice_command->prefix_command();
   ice_command->set_help_flag();

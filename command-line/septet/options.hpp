@@ -27,7 +27,7 @@ namespace septet::server {
 struct Options {
   DriveOptions drive, replay;
   bool verify = false;
-  std::vector<std::string> passed_on;  ///< Arguments for septet-film, septet-sound or septet-ice.
+  std::vector<std::string> passed_on;  ///< Arguments for septet-film, septet-sound, septet-sight or septet-ice.
   ReportOptions report;
   VehicleTestOptions track;
   double track_speed_kmh = 0.0;
@@ -47,9 +47,10 @@ struct Options {
 
 /// --data, of the commands that choose among rigs, scenarios and experiments.
 void add_data_option(CLI::App& command, std::vector<std::filesystem::path>& data);
-void add_drive_commands(CLI::App& app, Options& options);    ///< drive, operate, replay, film, accident, …, report.
-void add_track_commands(CLI::App& app, Options& options);    ///< vehicle, traffic.
-void add_session_commands(CLI::App& app, Options& options);  ///< session.
+void add_drive_commands(CLI::App& app,
+                        Options& options);  ///< drive, operate, replay, film, accident, sight, …, report.
+void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
+void add_session_commands(CLI::App& app, Options& options);     ///< session.
 void add_experiment_commands(CLI::App& app, Options& options);  ///< experiment.
 void add_file_commands(CLI::App& app, Options& options);        ///< road, rig, list, devices, check.
 

@@ -12,12 +12,12 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scenery/vehicles/eye_point.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "sim-client/film/last_seen.hpp"
 #include "sim-client/film/overlay/overlay_cast.hpp"
 #include "sim-client/film/overlay/overlay_drawing.hpp"
 #include "sim-client/frame/client_frame.hpp"
+#include "sim-client/playback/driver_eye.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -26,14 +26,6 @@ namespace {
 constexpr double time_slack_s = 1e-6;
 constexpr std::size_t longest_script_bytes = 1 << 22;
 constexpr std::size_t most_frames = 1'000'000;
-
-/// Eye point of the driver, vehicle frame, from the session's rig.
-Vec3 driver_eye_m(const logging::SessionInfo& info) {
-  for (const auto& source : info.files)
-    if (source.role == "rig")
-      if (const auto rig = rig::read_rig(source.content, source.name)) return rig->eye_point_m;
-  return scenery::eye_in(vehicle_models().front());
-}
 
 /// Anchors of a shot's cameras.
 struct Pivots {
@@ -51,7 +43,7 @@ std::vector<Look> look_beside(const Shot& second) {
 Expected<std::vector<Pivots>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
   const auto names = logging::participant_names(session);
   if (!names) return tl::unexpected(names.error());
-  const Vec3 eye_m = driver_eye_m(session.info());
+  const Vec3 eye_m = playback::driver_eye_m(session.info());
   std::vector<Pivots> pivots;
   for (std::size_t n = 0; n < plan.script.shots.size(); ++n) {
     const auto world = world_at(session, plan.script.shots[n].from_s);
@@ -111,7 +103,7 @@ struct FilmFrames::State {
   // Previous frame's reading, reused from here on.
   std::optional<FilmFrame> last{};
   double last_instant_s = 0.0;
-  std::optional<SessionInstants> instants{};
+  std::optional<playback::SessionInstants> instants{};
   std::optional<LastSeen> last_seen{}, last_seen_beside{};
   frame::EffectsDrawing effects{};
   OverlayCast cast{};
@@ -209,7 +201,7 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
                        state.last_instant_s <= instant_s + time_slack_s;
   state.last.reset();  // After a read error the next frame starts afresh.
   if (!follows) {
-    auto instants = SessionInstants::start(state.session, instant_s);
+    auto instants = playback::SessionInstants::start(state.session, instant_s);
     if (!instants) return tl::unexpected(instants.error());
     state.instants.emplace(std::move(*instants));
     state.last_seen.reset(), state.last_seen_beside.reset();

@@ -8,8 +8,8 @@
 #include "engine/instant/frame_input.hpp"
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film.hpp"
-#include "sim-client/film/session_instants.hpp"
 #include "sim-client/frame/effects_drawing.hpp"
+#include "sim-client/playback/session_instants.hpp"
 
 namespace septet::film {
 

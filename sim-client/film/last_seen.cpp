@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "sim-client/film/session_instants.hpp"
+#include "sim-client/playback/session_instants.hpp"
 
 namespace septet::film {
 
 Expected<Snapshot> world_at(const logging::SessionReader& session, double instant_s) {
-  return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) {
+  return playback::SessionInstants::start(session, instant_s).and_then([&](playback::SessionInstants instants) {
     return instants.at(instant_s);
   });
 }

@@ -15,7 +15,7 @@ import sys
 import tempfile
 import unittest
 
-PROGRAMS = ("septet", "septet-server", "septet-screen", "septet-film", "septet-sound", "septet-ice", "septet-car")
+PROGRAMS = ("septet", "septet-server", "septet-screen", "septet-film", "septet-sound", "septet-sight", "septet-ice", "septet-car")
 prefix = work = None  # The installed Septet; a folder of this test's own, where nothing of Septet's tree lies above.
 
 

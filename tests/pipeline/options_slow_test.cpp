@@ -30,8 +30,8 @@ bool has(const std::string& text, const std::string& words) { return text.find(w
 }  // namespace
 
 TEST_CASE("every program names its version with the revision") {
-  for (const char* program :
-       {"septet", "septet-server", "septet-screen", "septet-film", "septet-sound", "septet-ice", "septet-car"}) {
+  for (const char* program : {"septet", "septet-server", "septet-screen", "septet-film", "septet-sound", "septet-sight",
+                              "septet-ice", "septet-car"}) {
     CAPTURE(program);
     CHECK(output_of(std::string(program) + " --version") == version_text() + "\n");
   }

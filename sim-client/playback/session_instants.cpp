@@ -1,8 +1,8 @@
-#include "sim-client/film/session_instants.hpp"
+#include "sim-client/playback/session_instants.hpp"
 
 #include <algorithm>
 
-namespace septet::film {
+namespace septet::playback {
 namespace {
 
 // Effects have keyframes every few ticks: with these on both sides an instant lies between two of them.
@@ -28,8 +28,8 @@ Expected<Snapshot> SessionInstants::at(double instant_s) {
   // Ticks further back than `start` reads are dropped, so that the ticks around an instant are independent of earlier
   // calls.
   history_.forget_before(instant_s - ticks_before * tick_s_);
-  if (history_.empty()) return failure("the session ends before it", "film", "choose instants within the session");
+  if (history_.empty()) return failure("the session ends before it", "instant", "choose instants within the session");
   return frame::show(history_, instant_s, tick_s_).snapshot;
 }
 
-}  // namespace septet::film
+}  // namespace septet::playback

@@ -5,7 +5,7 @@
 #include "sim-client/frame/playout.hpp"
 #include "sim-client/frame/tick_history.hpp"
 
-namespace septet::film {
+namespace septet::playback {
 
 /// Reads forward as instants ascend. One thread; must not outlive its reader.
 class SessionInstants {
@@ -28,4 +28,4 @@ class SessionInstants {
   bool ended_ = false;
 };
 
-}  // namespace septet::film
+}  // namespace septet::playback
