@@ -42,7 +42,8 @@ std::map<std::string, std::string> parameters_of(const LoadedDrive& drive) {
 
 }  // namespace
 
-Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options, Tick first) {
+Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options, Tick first,
+                                        const SessionFile& file) {
   logging::SessionInfo info;
   info.septet_version = version;
   info.git_revision = revision;
@@ -62,12 +63,13 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
     if (auto added = add_to_subject(subject, text); !added) return tl::unexpected(added.error());
   info.other.merge(logging::meta_of(subject));
   info.other.merge(who_is_who(*drive.model));
+  for (const auto& [key, value] : file.meta) info.other[key] = value;
   logging::WriterOptions options;
   const bool real_time = !drive_options.lockstep && !drive_options.no_screens;
   // Queue for half a minute of a blocked disk, so that the driver does not notice. Drives that run as fast as they can
   // wait anyway.
   if (real_time) options.queue_bytes = std::size_t{256} << 20;
-  auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
+  auto writer = logging::SessionWriter::create(drive_options.out / file.name, info, options);
   if (!writer) return tl::unexpected(writer.error());
   SessionLog log(std::move(*writer), drive.model, real_time, drive_options.log_samples_only);
   log.digest_.add(info);
