@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
       ->type_name("NAME=VALUE")
       ->default_str("")
       ->allow_extra_args(false);
+  app.add_option("--motion", options.motion, "Table by which the driver's car goes (docs/given-motion.md)")
+      ->default_str("none: somebody drives");
   app.add_option("--vehicle", options.vehicle, "Vehicle file, or a name below vehicles/")->default_str("the rig's");
   app.add_option("--models", options.models, "Folder of your own glTF models: NAME.glb replaces NAME")
       ->default_str("none");

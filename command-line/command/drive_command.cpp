@@ -149,6 +149,7 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   };
   add_chosen("--eyes", options.eyes);
   add_chosen("--driver", options.driver);
+  add_chosen("--motion", options.motion);
   add_chosen("--vehicle", options.vehicle);
   add_chosen("--models", options.models.string());
   add_chosen("--participant", options.participant);

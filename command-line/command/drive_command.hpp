@@ -19,6 +19,7 @@ struct DriveOptions {
   std::uint64_t seed = 1;
   bool virtual_screens = false;
   std::string driver;                   ///< Simulated driver; empty: the rig's.
+  std::string motion;                   ///< Table by which the driver's car goes; empty: somebody drives.
   std::string vehicle;                  ///< A file, or a name below vehicles/; empty: the rig's.
   std::filesystem::path models;         ///< Folder of a person's own models; empty: none.
   std::string participant;              ///< The driver's code, for log, summary and report.

@@ -6,16 +6,11 @@
 
 #include <fmt/core.h>
 
-#include "engine/core/version.hpp"
-#include "engine/simulation/operator_command.hpp"
 #include "engine/simulation/server_step.hpp"
-#include "logging/session/input_hash.hpp"
-#include "logging/session/outcome.hpp"
 #include "logging/session/session_digest.hpp"
 #include "logging/session/session_reader.hpp"
-#include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/kept_state.hpp"
-#include "sim-server/drive/session_log.hpp"
+#include "sim-server/drive/recorded_drive.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
@@ -30,56 +25,6 @@ bool is_altered(const DriverInput& input, const DriverCar& car) {
   const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6; };
   return differ(input.steering_wheel_rad, car.steering_wheel_rad) || differ(input.accelerator, car.accelerator) ||
          differ(input.brake, car.brake) || differ(input.clutch, car.clutch);
-}
-
-/// True if the inputs are the driven ones, by the hash at the log's end; empty if the log was not closed.
-Expected<std::optional<bool>> are_original(const std::filesystem::path& file, const logging::SessionInfo& info,
-                                           const std::vector<logging::InputRecord>& inputs) {
-  const auto row = info.other.find("outcome");
-  if (row == info.other.end()) return std::optional<bool>();
-  const auto outcome = logging::read_outcome(row->second, file.string());
-  if (!outcome) return tl::unexpected(outcome.error());
-  StateHash hash;
-  for (const auto& input : inputs) logging::add_to_hash(input, hash);
-  return std::optional(hash.value() == outcome->inputs_hash);
-}
-
-/// Cause of a tick's wrong hash, as far as the log tells.
-std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
-  if (input_is_altered) return "the session's driver inputs are not those that were driven with: use an unaltered copy";
-  const auto compiler = info.other.find("compiler");
-  if (info.git_revision != revision || info.septet_version != version ||
-      (compiler != info.other.end() && compiler->second != __VERSION__))
-    return fmt::format("it was recorded by another build, Septet {} at {}; this is {} at {}: verify it with that one",
-                       info.septet_version, info.git_revision.empty() ? "an unknown revision" : info.git_revision,
-                       version, revision);
-  return "inputs and build are those of the recording: its hashes or files were altered, this tree was changed since "
-         "its revision, or the "
-         "processor's arithmetic differs";
-}
-
-struct LoggedCommand {
-  Tick before = 0;
-  simulation::OperatorCommand command;
-};
-
-/// An operator's changes during the drive, in order.
-Expected<std::vector<LoggedCommand>> commands_of(const std::filesystem::path& file,
-                                                 const logging::SessionReader& session) {
-  const auto events = session.events();
-  if (!events) return tl::unexpected(events.error());
-  std::vector<LoggedCommand> commands;
-  for (const auto& event : *events) {
-    if (event.kind != operator_command_event) continue;
-    auto command = simulation::parse_operator_command(event.detail);
-    if (!command)
-      return refused(
-          file,
-          fmt::format("an operator's command before tick {} cannot be read: {}", event.tick, describe(command.error())),
-          "use an unaltered copy");
-    commands.push_back({event.tick, std::move(*command)});
-  }
-  return commands;
 }
 
 struct Verified {
@@ -105,23 +50,15 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   if (!session) return tl::unexpected(session.error());
   const auto shown = session->shown_span_s();
   if (!shown) return tl::unexpected(shown.error());
-  const auto inputs = session->inputs();
-  if (!inputs) return tl::unexpected(inputs.error());
-  if (inputs->empty())
-    return refused(file, "the session holds no driver inputs: there is nothing to verify",
-                   "give a session that was driven");
-  const auto original = are_original(file, session->info(), *inputs);
-  if (!original) return tl::unexpected(original.error());
-  const auto drive = load_drive(session->info(), file.string());
-  if (!drive) return tl::unexpected(drive.error());
-  const auto& other = session->info().other;
-  const auto engine = other.find("traffic");
-  auto traffic = open_traffic(engine == other.end() ? "own" : engine->second, *drive->model);
+  const auto recorded_drive = read_recorded_drive(*session);
+  if (!recorded_drive) return tl::unexpected(recorded_drive.error());
+  const auto& model = *recorded_drive->loaded.model;
+  const auto& inputs = recorded_drive->inputs;
+  const std::optional<bool> original = recorded_drive->inputs_are_original;
+  auto traffic = open_traffic(recorded_drive->traffic, model);
   if (!traffic) return tl::unexpected(traffic.error());
-  const auto commands = commands_of(file, *session);
-  if (!commands) return tl::unexpected(commands.error());
   // A drive that began at a kept state is run again from there.
-  auto state = kept_state(*session, *drive->model, std::max(from_s, shown->first), std::move(*traffic));
+  auto state = kept_state(*session, model, std::max(from_s, shown->first), std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
   const auto scene = logging::is_scene_as_driven(*session);
   if (!scene) return tl::unexpected(scene.error());
@@ -145,8 +82,8 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
         file,
         fmt::format("tick {} gives state hash {:016x}, recorded is {:016x}", state->tick, hash,
                     (*snapshot)->state_hash),
-        cause_of(session->info(),
-                 original->has_value() ? !**original : state->tick > 0 && is_altered(input, (*snapshot)->driver_car)));
+        cause_of_other_hash(session->info(),
+                            original ? !*original : state->tick > 0 && is_altered(input, (*snapshot)->driver_car)));
   };
   const auto first = compare(simulation::hash_state(*state));
   if (!first) return tl::unexpected(first.error());
@@ -154,18 +91,14 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
     return refused(file, "the session holds no snapshots: there is nothing to compare with",
                    "give a session that was driven");
   std::vector<simulation::Event> events;
-  auto command = std::ranges::upper_bound(*commands, verified.first, {}, &LoggedCommand::before);
-  for (const auto& next : *inputs) {
+  std::size_t command = first_command_after(*recorded_drive, verified.first);
+  for (const auto& next : inputs) {
     if (next.tick <= verified.first) continue;
     input = next.input;
     events.clear();
-    for (; command != commands->end() && command->before <= state->tick + 1; ++command)
-      if (auto done = simulation::apply_operator_command(*drive->model, command->command, *state, events); !done)
-        return refused(file,
-                       fmt::format("the operator's command before tick {} cannot be done again: {}", command->before,
-                                   describe(done.error())),
-                       "use an unaltered copy");
-    const Snapshot snapshot = simulation::server_step(*drive->model, input, *state, events);
+    if (auto done = repeat_commands(*recorded_drive, file.string(), command, *state, events); !done)
+      return tl::unexpected(done.error());
+    const Snapshot snapshot = simulation::server_step(model, input, *state, events);
     if (auto error = state->traffic->take_error()) return tl::unexpected(std::move(*error));
     if (next.tick != state->tick) return gap("driver input");
     const auto agrees = compare(snapshot.state_hash);
@@ -173,8 +106,8 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
     if (!*agrees) break;  // The log was cut off between an input and its snapshot.
     ++verified.ticks;
   }
-  if (!session->ended_cleanly() && state->tick >= inputs->back().tick) {
-    const auto grown = has_grown(file, inputs->back().tick);
+  if (!session->ended_cleanly() && state->tick >= inputs.back().tick) {
+    const auto grown = has_grown(file, inputs.back().tick);
     if (!grown) return tl::unexpected(grown.error());
     verified.goes_on = *grown;
   }
@@ -188,7 +121,7 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   if (verified.ticks == 0)
     return refused(file, "no tick has both an input and a snapshot: there is nothing to compare",
                    "give a session that was driven");
-  if (!original->value_or(true))
+  if (!original.value_or(true))
     return refused(file, "the driver inputs are not those that were driven with, though every state hash agrees",
                    "use an unaltered copy");
   return verified;

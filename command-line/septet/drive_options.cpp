@@ -82,8 +82,15 @@ void add_drive_commands(CLI::App& app, Options& options) {
   drive_command->add_option("--log", options.drive.log, "whole, or samples: without what a replay needs")
       ->check(CLI::IsMember({"whole", "samples"}));
   drive_command->add_option("--seed", options.drive.seed, "Seed of everything random")->check(seed_number());
-  drive_command->add_option("--driver", options.drive.driver, "A simulated driver of septet list drivers drives")
-      ->default_str("the rig's");
+  auto* driver =
+      drive_command->add_option("--driver", options.drive.driver, "A simulated driver of septet list drivers drives")
+          ->default_str("the rig's");
+  drive_command
+      ->add_option("--motion", options.drive.motion,
+                   "Nobody drives: the car goes by a table, a path or an event data recorder's (docs/given-motion.md)")
+      ->type_name("FILE")
+      ->default_str("none")
+      ->excludes(driver);
   drive_command->add_flag("--start-now", options.drive.start_now,
                           "Do not wait until the driver presses a key or a pedal");
   drive_command->add_option("--traffic", options.drive.traffic,

@@ -15,6 +15,7 @@
 #include "command-line/command/session_participants.hpp"
 #include "command-line/command/traffic_command.hpp"
 #include "command-line/command/vehicle_command.hpp"
+#include "command-line/command/what_if_command.hpp"
 #include "engine/core/expected.hpp"
 
 namespace CLI {
@@ -37,6 +38,7 @@ struct Options {
   std::filesystem::path keys_out = "keys";
   CheckOptions check;
   ParticipantsOptions participants;
+  WhatIfCommandOptions what_if;
   AnswerOptions answer;
   StopOptions stop;
   ForgetOptions forget;
@@ -50,7 +52,7 @@ void add_data_option(CLI::App& command, std::vector<std::filesystem::path>& data
 void add_drive_commands(CLI::App& app,
                         Options& options);  ///< drive, operate, replay, film, accident, sight, …, report.
 void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
-void add_session_commands(CLI::App& app, Options& options);     ///< session.
+void add_session_commands(CLI::App& app, Options& options);     ///< session, what-if.
 void add_experiment_commands(CLI::App& app, Options& options);  ///< experiment.
 void add_file_commands(CLI::App& app, Options& options);        ///< road, rig, list, devices, check.
 

@@ -13,6 +13,7 @@
 #include "engine/roadside/ground_beside.hpp"
 #include "engine/simulation/car_impacts.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/ground_faces.hpp"
 #include "engine/simulation/step_edges.hpp"
 #include "engine/simulation/wheel_ground.hpp"
@@ -205,6 +206,7 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   auto ground = ground_below(model, state, events);
   if (set_on_ground(model, ground, state, events)) ground = ground_below(model, state, events);
   const std::uint32_t bad_before = state.car.bad_numbers;
+  const Vec2 before_mps(state.car.velocity_mps);
   const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
   auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m),
                                                            vehicle::hull_reach_m(model.car) + on_the_way_m)
@@ -226,6 +228,7 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   }
   for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel)
     note_damage(wheel, wheels_before[wheel].damage, squeeze_m[wheel], state, events);
+  follow_motion(model, !met.begun.empty(), before_mps, state);
   note_hull(met, state, events);
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const DrivenCar car = driven_car(model, state);

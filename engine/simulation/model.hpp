@@ -11,6 +11,7 @@
 #include "engine/roadside/obstacles.hpp"
 #include "engine/roadside/raised_areas.hpp"
 #include "engine/scenario/model/scenario.hpp"
+#include "engine/simulation/given_motion.hpp"
 #include "engine/traffic/yield_line.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/wire_snapshot.hpp"
@@ -42,6 +43,7 @@ struct Model {
   std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; null: none.
   std::vector<SwitchedLight> lights;                     ///< In the order of the road file.
   std::vector<traffic::YieldLine> yield_lines;           ///< Empty: no examiner (examiner.hpp).
+  std::shared_ptr<const GivenMotion> motion;             ///< Of the driver's car; null: somebody drives.
   std::uint64_t seed = 1;
   /// Hash of the texts that it was read from: models with equal ones are equal. 0: it was not read from texts.
   std::uint64_t sources_hash = 0;

@@ -56,6 +56,7 @@ SEPTET_MEMBERS(StruckVehicle, vehicle, point_m, normal, velocity_mps, angular_ve
 SEPTET_MEMBERS(CarImpact, vehicle, pulse, struck, due_s)
 SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
+SEPTET_MEMBERS(MotionState, start_x_m, start_y_m, start_heading_rad, is_over)
 SEPTET_MEMBERS(GameState, standing, next_move_s, random)
 SEPTET_MEMBERS(Fire, vehicle, flames, smoke, burning_s, burning)
 SEPTET_MEMBERS(PublishedEffect, id, tick, settled)
@@ -67,11 +68,12 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 // are only shown; keyframes follow from debris, and the rest caches where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, a game,
-// and an examiner are hashed where there are any.
+// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, a given
+// motion, a game, and an examiner are hashed where there are any.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
-                     left_out(scenario, traffic, effects), kept(game, examiner, input), hashed(diagnostics, touching))
+                     left_out(scenario, traffic, effects), kept(motion, game, examiner, input),
+                     hashed(diagnostics, touching))
 
 namespace {
 
@@ -173,6 +175,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   reader.require(std::ranges::is_sorted(state.touching), wrong);
   for (const CarImpact& running : state.impacts) reader.require(is_sound(running), wrong);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
+  reader.require(state.motion.has_value() == (model.motion != nullptr), wrong);
   reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
   reader.require(state.examiner.has_value() != model.yield_lines.empty(), wrong);
   if (state.examiner && state.examiner->front) road::require_on_roads(reader, model.roads, *state.examiner->front);
@@ -191,6 +194,7 @@ std::uint64_t hash_state(const State& state) {
   scenario::add_to_hash(state.scenario, hash);
   state.traffic->add_to_hash(hash);
   hash_members(hash, state.effects, state.effects.fires);
+  if (state.motion) hash_members(hash, *state.motion);
   if (state.game) hash_members(hash, *state.game);
   if (state.examiner) hash_members(hash, *state.examiner);
   if (state.faults.any()) hash_members(hash, state.faults);

@@ -13,6 +13,7 @@
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/examiner.hpp"
+#include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/game.hpp"
 #include "engine/simulation/lights_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
@@ -108,6 +109,7 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   const auto& entity = state.scenario.entities[model.driver_entity];
   if (!entity.active) return tl::unexpected(scenario::why_without_place(model.scenario, model.driver_entity));
   state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
+  begin_motion(model, state);
   const Participant car = driven_car(model, state).participant;
   apply_swarms(model, init, car, state);
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);

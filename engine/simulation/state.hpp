@@ -36,6 +36,12 @@ struct WheelStrike {
   double squeeze_m = 0.0;  ///< Largest squeeze of the tyre.
 };
 
+/// A car that goes by a table.
+struct MotionState {
+  double start_x_m = 0.0, start_y_m = 0.0, start_heading_rad = 0.0;  ///< Where the table's own plan begins, and along.
+  bool is_over = false;  ///< The table has ended, or the car has touched something: it is free.
+};
+
 struct State {
   Tick tick = 0;
   vehicle::VehicleState car;
@@ -51,6 +57,7 @@ struct State {
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
+  std::optional<MotionState> motion;      ///< Present where the car goes by a table (given_motion.hpp).
   std::optional<GameState> game;          ///< Present where the scenario is played as a game.
   std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.
   DriverInput input;                      ///< Input of the last step.

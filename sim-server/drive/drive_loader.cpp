@@ -12,6 +12,7 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "engine/simulation/given_motion.hpp"
 #include "engine/simulation/lights_stage.hpp"
 #include "logging/study/lesson/lesson.hpp"
 #include "program/resources.hpp"
@@ -51,8 +52,8 @@ std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources,
   return hash.value();
 }
 
-/// `vehicle` replaces the rig's vehicle, unless it is empty.
-Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std::string& vehicle,
+/// `vehicle` replaces the rig's vehicle, unless it is empty. `has_motion`: the car goes by a table.
+Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std::string& vehicle, bool has_motion,
                            std::vector<scenario::ParameterValue> parameters) {
   LoadedDrive drive;
   auto model = std::make_shared<simulation::Model>();
@@ -117,6 +118,13 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
   auto car = vehicle::read_vehicle(car_source->content, car_source->name);
   if (!car) return tl::unexpected(car.error());
   model->car = *car;
+  if (has_motion) {
+    const auto motion_source = take(std::string(motion_role), "");
+    if (!motion_source) return tl::unexpected(motion_source.error());
+    auto motion = simulation::read_motion(motion_source->content, motion_source->name);
+    if (!motion) return tl::unexpected(motion.error());
+    model->motion = std::make_shared<const simulation::GivenMotion>(std::move(*motion));
+  }
   for (const auto& finding : findings) drive.warnings.push_back(describe(finding.error));
   model->sources_hash = hash_of(drive.sources, parameters);
   drive.model = std::move(model);
@@ -166,6 +174,7 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
       [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
         if (role == "rig") return from_disk(role, files.rig);
         if (role == "scenario") return from_disk(role, files.scenario);
+        if (role == motion_role) return from_disk(role, files.motion);
         if (role == "vehicle")
           return program::find_resource(name, "vehicles", ".toml").and_then([&](const fs::path& path) {
             return from_disk(role, path);
@@ -183,7 +192,7 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
           });
         return from_disk(role, scenario_folder / name);
       },
-      files.seed, files.vehicle, files.parameters);
+      files.seed, files.vehicle, !files.motion.empty(), files.parameters);
   if (!drive) return drive;
   if (auto added = add_lesson(files.scenario, *drive); !added) return tl::unexpected(added.error());
   return drive;
@@ -202,7 +211,8 @@ Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std:
           if (source.role == role && (!role.starts_with("catalog") || source.name == name)) return source;
         return failure(fmt::format("the session holds no {} {}", role, name), where, altered);
       },
-      seed == session.seeds.end() ? 1 : seed->second, {}, std::move(parameters));
+      seed == session.seeds.end() ? 1 : seed->second, {},
+      std::ranges::count(session.files, motion_role, &logging::SourceFile::role) > 0, std::move(parameters));
   // Names the session first: the fault is in its copy of a file, and the file of that name on disk may be right.
   if (!drive && !drive.error().where.starts_with(where))
     return failure(drive.error().what, fmt::format("{}, its file {}", where, drive.error().where), altered);

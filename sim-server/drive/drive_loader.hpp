@@ -12,12 +12,16 @@
 
 namespace septet::server {
 
+/// Role of the table by which the driver's car goes, among a drive's sources.
+inline constexpr std::string_view motion_role = "motion";
+
 /// Files on disk that a drive is loaded from, and its options.
 struct DriveFiles {
   std::string scenario;  ///< Path of the .xosc.
   std::string rig;       ///< Path of the .toml.
   std::uint64_t seed = 1;
   std::string vehicle{};                               ///< A file or a name, instead of the rig's; empty: the rig's.
+  std::string motion{};                                ///< Table of the car's motion; empty: somebody drives.
   std::vector<scenario::ParameterValue> parameters{};  ///< Instead of the scenario's own values.
 };
 
@@ -25,7 +29,7 @@ struct DriveFiles {
 struct LoadedDrive {
   std::shared_ptr<const simulation::Model> model;
   rig::Rig rig;
-  std::vector<logging::SourceFile> sources;          ///< Roles: scenario, road, rig, vehicle, catalog.
+  std::vector<logging::SourceFile> sources;          ///< Roles: scenario, road, rig, vehicle, catalog, motion.
   std::vector<scenario::ParameterValue> parameters;  ///< Those given by the user.
   std::vector<std::string> warnings;                 ///< Unsupported contents of the files, by name and line.
 

@@ -75,6 +75,11 @@ void LiveDrive::log_to(SessionLog& log) {
 logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& controls) {
   logging::InputRecord record;
   record.tick = state_.tick + 1;
+  if (model_->motion) {
+    // Nobody drives; what comes free of its table rolls.
+    record.input.selector = GearSelector::neutral;
+    return record;
+  }
   if (controls) {
     held_ = *controls;
     heard_tick_ = state_.tick;
@@ -106,7 +111,7 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
 bool LiveDrive::driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) {
   if (controls) held_ = *controls;
   show_instruments(held_);
-  if (controls || seat_.is_driven_by_a_device()) return true;
+  if (controls || seat_.is_driven_by_a_device() || model_->motion) return true;
   if (!seat_.car) return false;
   device_from_drive_s_ = waited_s - state_.time_s();
   const auto reading = seat_.car->poll(waited_s);

@@ -124,16 +124,21 @@ Expected<simulation::State> first_state(const ServerOptions& options, const simu
 Expected<void> open_live(const ServerOptions& options, OpenedDrive& drive, program::ProgressLine& line) {
   auto parameters = read_parameters(options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
-  auto loaded = load_drive({options.scenario, options.rig, options.seed, options.vehicle, std::move(*parameters)});
+  auto loaded = load_drive({.scenario = options.scenario,
+                            .rig = options.rig,
+                            .seed = options.seed,
+                            .vehicle = options.vehicle,
+                            .motion = options.motion,
+                            .parameters = std::move(*parameters)});
   if (!loaded) return tl::unexpected(loaded.error());
   drive.loaded = std::move(*loaded);
   for (const auto& warning : drive.loaded.warnings) line.message("not used: " + warning);
   // Needed without screens too: a complete log contains the scene, so that the drive can be replayed.
   if (!options.no_screens || !options.log_samples_only)
     if (auto built = build_scene(options, drive, line); !built) return built;
-  auto seat = furnish_seat(options, drive, line);
+  auto seat = options.motion.empty() ? furnish_seat(options, drive, line) : Expected<DriverSeat>(DriverSeat{});
   if (!seat) return tl::unexpected(seat.error());
-  drive.by_person = !seat->is_driven_by_a_device();
+  drive.by_person = options.motion.empty() && !seat->is_driven_by_a_device();
   drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);
   if (!traffic) return tl::unexpected(traffic.error());

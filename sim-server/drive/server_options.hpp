@@ -23,6 +23,7 @@ struct ServerOptions {
   double seconds = 0.0;  ///< Simulated; 0: until stopped.
   std::uint64_t seed = 1;
   std::string driver;                   ///< A simulated driver, who replaces the rig's source; empty: the rig's.
+  std::string motion;                   ///< Table by which the driver's car goes; empty: somebody drives.
   std::string vehicle;                  ///< A file or a name; empty: the rig's.
   std::filesystem::path models;         ///< A user's folder of models; empty: none.
   std::string participant;              ///< The driver's code.

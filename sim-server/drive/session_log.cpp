@@ -18,8 +18,10 @@
 #include "logging/session/subject.hpp"
 #include "logging/study/best_list.hpp"
 #include "logging/study/lesson/debrief.hpp"
+#include "logging/study/lesson/lesson.hpp"
 #include "logging/study/report/report.hpp"
 #include "logging/study/report/summary.hpp"
+#include "sim-server/drive/what_if/braking_earlier.hpp"
 #include "sim-server/drive/who_is_who.hpp"
 
 namespace septet::server {
@@ -42,7 +44,8 @@ std::map<std::string, std::string> parameters_of(const LoadedDrive& drive) {
 
 }  // namespace
 
-Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options, Tick first) {
+Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options, Tick first,
+                                        const SessionFile& file) {
   logging::SessionInfo info;
   info.septet_version = version;
   info.git_revision = revision;
@@ -62,12 +65,13 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
     if (auto added = add_to_subject(subject, text); !added) return tl::unexpected(added.error());
   info.other.merge(logging::meta_of(subject));
   info.other.merge(who_is_who(*drive.model));
+  for (const auto& [key, value] : file.meta) info.other[key] = value;
   logging::WriterOptions options;
   const bool real_time = !drive_options.lockstep && !drive_options.no_screens;
   // Queue for half a minute of a blocked disk, so that the driver does not notice. Drives that run as fast as they can
   // wait anyway.
   if (real_time) options.queue_bytes = std::size_t{256} << 20;
-  auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
+  auto writer = logging::SessionWriter::create(drive_options.out / file.name, info, options);
   if (!writer) return tl::unexpected(writer.error());
   SessionLog log(std::move(*writer), drive.model, real_time, drive_options.log_samples_only);
   log.digest_.add(info);
@@ -237,9 +241,18 @@ Expected<std::vector<std::string>> write_standing(const LoadedDrive& drive, cons
   const auto session = logging::SessionReader::open(options.out / "session.sqlite");
   if (!session) return tl::unexpected(session.error());
   const std::string screen = options.no_screens ? "" : "screens/" + rig::screen_ahead(drive.rig).name;
-  const auto debrief = logging::write_debrief(*session, options.out, screen);
+  const bool is_lesson = std::ranges::count(drive.sources, logging::lesson_role, &logging::SourceFile::role) > 0;
+  std::string what_if;
+  // Nobody is there to learn from a drive without screens, unless it is a lesson.
+  if (is_lesson || !options.no_screens) {
+    const auto sentence = braking_earlier(*session);
+    if (sentence && *sentence) what_if = **sentence;
+    if (!sentence) lines.push_back("nothing is offered to learn from the collision: " + describe(sentence.error()));
+  }
+  const auto debrief = logging::write_debrief(*session, options.out, screen, what_if);
   if (!debrief) return tl::unexpected(debrief.error());
   if (*debrief) lines.push_back(fmt::format("{}: {}", (options.out / "debrief.html").string(), **debrief));
+  if (!what_if.empty()) lines.push_back(what_if);
   // A game that was abandoned has no place.
   if (!game || game->end == GameEnd::none) return lines;
   const std::string played =

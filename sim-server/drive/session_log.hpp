@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,10 +29,17 @@ namespace septet::server {
 /// affect.
 inline constexpr std::string_view operator_command_event = logging::operator_command_kind;
 
+/// The session file of a drive.
+struct SessionFile {
+  std::string name = "session.sqlite";
+  std::map<std::string, std::string> meta{};  ///< Further meta rows; they replace the drive's own of that name.
+};
+
 class SessionLog {
  public:
-  /// Creates session.sqlite in the drive's folder. `first`: the drive's first tick, not 0 if it begins at a kept state.
-  static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options, Tick first = 0);
+  /// Creates the session file in the drive's folder. `first`: the drive's first tick, not 0 if it begins at a kept state.
+  static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options, Tick first = 0,
+                                     const SessionFile& file = {});
 
   /// Sets listeners for samples and events, called in the order of the file. They must be fast.
   void watch(std::function<void(const logging::Sample&)> sampled, std::function<void(const logging::Event&)> happened) {

@@ -105,7 +105,7 @@ std::string why(const LessonTask& task, const TaskMark& mark) {
 }  // namespace
 
 Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
-                                                   const std::string& picture_folder) {
+                                                   const std::string& picture_folder, const std::string& what_if) {
   const auto& files = session.info().files;
   const auto source = std::ranges::find(files, lesson_role, &SourceFile::role);
   if (source == files.end()) return std::optional<std::string>();
@@ -121,7 +121,7 @@ Expected<std::optional<std::string>> write_debrief(const SessionReader& session,
   const auto page = debrief_page(
       *lesson, marks, *samples,
       {picture_folder, picture_folder.empty() ? std::vector<std::int64_t>() : picture_ticks_in(folder / picture_folder),
-       session.info().ticks_per_second});
+       session.info().ticks_per_second, what_if});
   if (auto written = document::write_text_file(folder / "debrief.html", page); !written)
     return tl::unexpected(written.error());
   return std::optional(marks_in_a_line(*lesson, marks));
@@ -164,6 +164,11 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
         "{:.0f}</code></figcaption></figure>\n",
         picture(marks.tasks[i].worst_s, place), i + 1, escaped(lesson.tasks[i].says), name_of(marks.tasks[i].severity),
         why(lesson.tasks[i], marks.tasks[i]), std::max(0.0, std::floor(marks.tasks[i].worst_s - 3.0)));
+  if (!place.what_if.empty())
+    html += fmt::format(
+        "<h2>What if</h2>\n<p>{} See it: <code style=\"white-space: nowrap\">septet what-if session.sqlite --change "
+        "brake:-0.5s</code></p>\n",
+        escaped(place.what_if));
   html += route(marks, samples);
   html += "<h2>All tasks</h2>\n<table><tr><th></th><th>Task</th><th>Mark</th><th>Fault</th><th>Worst</th></tr>\n";
   for (std::size_t i = 0; i < lesson.tasks.size(); ++i) {

@@ -19,15 +19,16 @@ struct DebriefPlace {
   std::string picture_folder;               ///< The screen ahead's, relative to the page, with pictures TICK.png.
   std::vector<std::int64_t> picture_ticks;  ///< Ticks with a picture, ascending: about one a second.
   double ticks_per_second = 120.0;
+  std::string what_if{};  ///< What would have followed from another act; empty: nothing is offered.
 };
 
 std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::span<const Sample> samples,
                          const DebriefPlace& place);
 
-/// Writes debrief.html into the folder, if the session holds a lesson; returns its marks in a line. Error: the session
-/// or the folder.
+/// Writes debrief.html into the folder, if the session holds a lesson; returns its marks in a line. `what_if`: DebriefPlace::what_if.
+/// Error: the session or the folder.
 Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
-                                                   const std::string& picture_folder);
+                                                   const std::string& picture_folder, const std::string& what_if = {});
 
 /// Marks in a line: "mark 7.3 of 10, passed; worst: look into a mirror …", or "too short to be marked; worst: …".
 std::string marks_in_a_line(const Lesson& lesson, const LessonMarks& marks);

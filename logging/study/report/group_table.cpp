@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/document/csv_cell.hpp"
 #include "engine/document/json.hpp"
 #include "logging/study/report/group_report.hpp"
 #include "logging/study/report/measure_json.hpp"
@@ -15,18 +16,8 @@
 namespace septet::logging {
 namespace {
 
+using document::csv_cell;
 using document::Json;
-
-/// As in RFC 4180. A cell that a spreadsheet would take for a formula is made a text by an apostrophe before it; so is
-/// one that begins with an apostrophe, so that removing the first one gives every text back.
-std::string cell(const std::string& text) {
-  std::string value =
-      !text.empty() && std::string_view("=+-@'").find(text[0]) != std::string_view::npos ? '\'' + text : text;
-  if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
-  std::string quoted = "\"";
-  for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 std::string number_cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
@@ -76,7 +67,7 @@ bool has_playing_time(const GroupReport& report, const std::string& label) {
 
 std::string time_cells(const std::optional<ObservedTime>& time, const std::string& reason) {
   return fmt::format("{},{},{}", number_cell(time ? std::optional(time->time_s) : std::nullopt),
-                     time ? (time->stopped ? "1" : "0") : "", cell(reason));
+                     time ? (time->stopped ? "1" : "0") : "", csv_cell(reason));
 }
 
 std::string answer_cells(const std::vector<std::string>& items, const std::map<std::string, double>& answers) {
@@ -105,29 +96,29 @@ std::string to_csv(const GroupReport& report) {
     for (const auto& item : items_of(report.subjects, label)) all_items.insert(item);
   const std::vector<std::string> items(all_items.begin(), all_items.end());
   std::string csv = "participant,group,driver,order,playing_time_s,stopped,reason";
-  for (const auto& column : columns) csv += ',' + cell("column." + column);
-  for (const auto& item : items) csv += ',' + cell("answer." + item);
+  for (const auto& column : columns) csv += ',' + csv_cell("column." + column);
+  for (const auto& item : items) csv += ',' + csv_cell("answer." + item);
   for (const auto& label : labels) {
     const std::string prefix = label.empty() ? "" : label + '.';
     if (const auto own = answers_prefix(labels, label); !own.empty()) {
-      csv += ',' + cell(own + "order");
+      csv += ',' + csv_cell(own + "order");
       if (has_playing_time(report, label))
-        for (const char* name : {"playing_time_s", "stopped", "reason"}) csv += ',' + cell(own + name);
+        for (const char* name : {"playing_time_s", "stopped", "reason"}) csv += ',' + csv_cell(own + name);
       for (const auto& item : items_of(report.subjects, label))
-        csv += ',' + cell(fmt::format("{}answer.{}", own, item));
+        csv += ',' + csv_cell(fmt::format("{}answer.{}", own, item));
     }
     for (const char* name : {"drives", "seeds", "ended_cleanly", "samples", "impossible_samples"})
-      csv += ',' + cell(prefix + name);
-    for (const auto& measure : keys) csv += ',' + cell(prefix + measure.key);
+      csv += ',' + csv_cell(prefix + name);
+    for (const auto& measure : keys) csv += ',' + csv_cell(prefix + measure.key);
   }
   csv += '\n';
   for (const PooledSubject& subject : report.subjects) {
-    csv += fmt::format("{},{},{},{},{}", cell(subject.subject.participant), cell(subject.subject.group),
-                       cell(subject.driver), cell(subject.subject.order),
+    csv += fmt::format("{},{},{},{},{}", csv_cell(subject.subject.participant), csv_cell(subject.subject.group),
+                       csv_cell(subject.driver), csv_cell(subject.subject.order),
                        time_cells(subject.playing_time, subject.reason));
     for (const auto& column : columns) {
       const auto own = subject.subject.columns.find(column);
-      csv += ',' + (own == subject.subject.columns.end() ? "" : cell(own->second));
+      csv += ',' + (own == subject.subject.columns.end() ? "" : csv_cell(own->second));
     }
     csv += answer_cells(items, subject.answers);
     for (const auto& label : labels) {
@@ -135,7 +126,7 @@ std::string to_csv(const GroupReport& report) {
       if (!answers_prefix(labels, label).empty()) {
         const PooledDrive nothing;
         const PooledDrive& own = drive ? *drive : nothing;
-        csv += ',' + cell(own.order);
+        csv += ',' + csv_cell(own.order);
         if (has_playing_time(report, label)) csv += ',' + time_cells(own.playing_time, own.reason);
         csv += answer_cells(items_of(report.subjects, label), own.answers);
       }
