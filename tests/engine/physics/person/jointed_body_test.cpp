@@ -93,7 +93,7 @@ TEST_CASE("a person's masses are those of a body: the whole, and a mass centre a
   for (const BodyKind kind : {BodyKind::person, BodyKind::bicycle, BodyKind::motorcycle}) {
     double whole = 0.0;
     for (const double share : plan_of(kind).mass_share) whole += share;
-    CHECK(whole == doctest::Approx(1.0).epsilon(1e-9));
+    CHECK(whole == relative(1.0, 1e-9));
     REQUIRE(plan_of(kind).mass_share.size() == plan_of(kind).stands_at_m.size());
     REQUIRE(plan_of(kind).mass_share.size() <= most_masses);
     for (const Rod& rod : plan_of(kind).rods) CHECK(rod.least_m > 0.1);
@@ -217,7 +217,7 @@ TEST_CASE("who stands is drawn where he stands, and a leg that is swung is drawn
   body.masses[5].position_m = hip + place.orientation * Vec3(thigh_m, 0.0, 0.0);
   body.masses[7].position_m = hip + place.orientation * Vec3(thigh_m + shin_m, 0.0, 0.0);
   pose = drawn_pose(body);
-  CHECK(pose.joints_rad[0] == doctest::Approx(1.5708).epsilon(0.01));
+  CHECK(pose.joints_rad[0] == relative(1.5708, 0.01));
   CHECK(std::abs(pose.joints_rad[2]) < 1e-6);
   for (const BodyKind kind : {BodyKind::bicycle, BodyKind::motorcycle}) {
     const DrawnPose machine = drawn_pose(standing_body(kind, 20.0, place, Vec3(0.0)));
