@@ -10,6 +10,7 @@
 
 #include "engine/instant/headlight_beam.hpp"
 #include "engine/instant/level_fade.hpp"
+#include "engine/instant/limb_pose.hpp"
 #include "engine/world/limbs.hpp"
 #include "engine/world/paint.hpp"
 
@@ -96,48 +97,6 @@ bool is_on(PartRole role, Lamps lamps) {
   }
 }
 
-/// Pose of a limb that hangs from `joint`, swung forward by `angle_rad`.
-RigidTransform swung(const RigidTransform& joint, double angle_rad) {
-  RigidTransform result = joint;
-  result.orientation = glm::angleAxis(-angle_rad, Vec3(0, 1, 0)) * result.orientation;
-  return result;
-}
-
-RigidTransform limb(const RigidTransform& joint, const LegAngles& leg, bool shin) {
-  const RigidTransform thigh = swung(joint, leg.thigh_rad);
-  if (!shin) return thigh;
-  RigidTransform knee = thigh;
-  knee.position_m = thigh * Vec3(0, 0, -thigh_m);
-  return swung(knee, -leg.knee_rad);
-}
-
-/// Pose of a limb, or of a cyclist's crank, now.
-RigidTransform limb_of(const scene::Instance& part, const DrawnParticipant& participant) {
-  const RigidTransform& at = part.world_from_object;
-  const double phase = participant.wheel_spin_rad, other = phase + std::numbers::pi;
-  const double share = gait_share(participant.speed_mps);
-  switch (part.role) {
-    case PartRole::leg_left:
-    case PartRole::shin_left:
-      return limb(at, walking_leg(phase, share), part.role == PartRole::shin_left);
-    case PartRole::leg_right:
-    case PartRole::shin_right:
-      return limb(at, walking_leg(other, share), part.role == PartRole::shin_right);
-    case PartRole::arm_left:
-      return swung(at, walking_arm_rad(phase, share));
-    case PartRole::arm_right:
-      return swung(at, walking_arm_rad(other, share));
-    case PartRole::pedalling_leg_left:
-    case PartRole::pedalling_shin_left:
-      return limb(at, pedalling_leg(phase), part.role == PartRole::pedalling_shin_left);
-    case PartRole::pedalling_leg_right:
-    case PartRole::pedalling_shin_right:
-      return limb(at, pedalling_leg(other), part.role == PartRole::pedalling_shin_right);
-    default:
-      return swung(at, -phase);
-  }
-}
-
 /// Horizontal intensity of a box that shines on all sides, averaged around it: a side is visible from half of all
 /// directions, with 2/π of its area in the mean.
 glm::vec3 shone_around(const scene::Instance& part, const MeshSummary& mesh) {
@@ -189,8 +148,8 @@ RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnPartici
     const double steer = wheel < 2 ? participant.front_steer_rad : 0.0;
     result.orientation = glm::angleAxis(steer, Vec3(0, 0, 1)) *
                          glm::angleAxis(participant.wheel_spin_rad, Vec3(0, 1, 0)) * result.orientation;
-  } else if (part.role >= PartRole::leg_left && part.role <= PartRole::crank) {
-    return limb_of(part, participant);
+  } else if (is_limb(part.role)) {
+    return vehicle_from_limb(part, participant);
   } else if (part.role == PartRole::steering_wheel) {
     // Its axis points forward and away from the driver: a turn to the left is counter-clockwise to him.
     result.orientation = result.orientation * glm::angleAxis(-participant.steering_wheel_rad, Vec3(1, 0, 0));
@@ -262,10 +221,16 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   drawn.lamps = participant.lamps;
   drawn.front_steer_rad = participant.front_steer_rad;
   drawn.wheel_spin_rad = participant.wheel_spin_rad;
-  drawn.wheel_lift_m = participant.wheel_lift_m;
   drawn.speed_mps = glm::length(participant.velocity_mps);
   drawn.number = participant.id;
   const VehicleModel& model = vehicle_models()[participant.model];
+  if (model.kind == ParticipantKind::pedestrian) {
+    drawn.thrown_rad = participant.wheel_lift_m;
+    // One who flies or slides does not walk, however fast.
+    drawn.speed_mps = participant.wheel_spin_radps * stride_m / (2.0 * std::numbers::pi);
+  } else {
+    drawn.wheel_lift_m = participant.wheel_lift_m;
+  }
   drawn.velocity_mps = participant.velocity_mps;
   drawn.yaw_rate_radps = participant.angular_velocity_radps.z;
   drawn.tail_x_m = -model.rear_overhang_m;

@@ -5,7 +5,7 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 27> role_names = {"fixed",
+constexpr std::array<std::string_view, 30> role_names = {"fixed",
                                                          "wheel_front_left",
                                                          "wheel_front_right",
                                                          "wheel_rear_left",
@@ -31,8 +31,11 @@ constexpr std::array<std::string_view, 27> role_names = {"fixed",
                                                          "pedalling_leg_right",
                                                          "pedalling_shin_left",
                                                          "pedalling_shin_right",
-                                                         "crank"};
-static_assert(role_names.size() == static_cast<std::size_t>(PartRole::crank) + 1);
+                                                         "crank",
+                                                         "foot_left",
+                                                         "foot_right",
+                                                         "trunk"};
+static_assert(role_names.size() == static_cast<std::size_t>(PartRole::trunk) + 1);
 
 }  // namespace
 

@@ -114,6 +114,9 @@ enum class PartRole : std::uint8_t {
   pedalling_shin_left,
   pedalling_shin_right,
   crank,
+  foot_left,  ///< Of a walking person, as are the next two. A foot stands at the place of its thigh, too.
+  foot_right,
+  trunk,  ///< Whatever rises and falls with the hips.
 };
 
 /// One placed mesh.

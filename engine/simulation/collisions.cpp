@@ -7,6 +7,7 @@
 
 #include "engine/simulation/car_impacts.hpp"
 #include "engine/simulation/effects/body_box.hpp"
+#include "engine/simulation/thrown_stage.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -40,6 +41,7 @@ void find_collisions(const Model& model, const Participant& car, const std::vect
     if (other.id == car.id) continue;
     const Vec2 apart = other.world_from_vehicle.position_m - car.world_from_vehicle.position_m;
     if (glm::dot(apart, apart) > apart_m * apart_m || !contact_of(body_box(car), body_box(other))) continue;
+    if (is_for_thrown_stage(state, car, other)) continue;
     touching.push_back(other.id);
     if (std::ranges::binary_search(state.touching, other.id)) continue;
     ++state.diagnostics.collisions;

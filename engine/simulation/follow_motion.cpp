@@ -13,7 +13,7 @@
 namespace septet::simulation {
 namespace {
 
-constexpr double road_reach_m = 60.0;  ///< A start farther from every road keeps the scenario's height.
+constexpr double height_reach_m = 60.0;  ///< A start farther from every road keeps the scenario's height.
 
 /// Turns and moves the car in plan to where its table has it now, with its velocity; height, roll and pitch stay those
 /// of its springs.
@@ -55,7 +55,7 @@ void begin_motion(const Model& model, State& state) {
   }
   const PlanMotion now = given_now(model, state);
   RigidTransform world_from_vehicle = state.scenario.entities[model.driver_entity].world_from_entity;
-  if (const auto place = road::locate(model.roads, now.place_m, nullptr, road_reach_m))
+  if (const auto place = road::locate(model.roads, now.place_m, nullptr, height_reach_m))
     world_from_vehicle.position_m.z = road::evaluate(model.roads, place->position).position_m.z;
   world_from_vehicle.position_m = Vec3(now.place_m, world_from_vehicle.position_m.z);
   world_from_vehicle.orientation = glm::angleAxis(now.heading_rad, Vec3(0.0, 0.0, 1.0));

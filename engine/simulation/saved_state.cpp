@@ -16,6 +16,7 @@
 #include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/road/position_members.hpp"
 #include "engine/scenario/run/save_scenario.hpp"
+#include "engine/simulation/save_thrown.hpp"
 #include "engine/world/world_members.hpp"
 
 namespace septet::debris {
@@ -68,9 +69,9 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 // are only shown; keyframes follow from debris, and the rest caches where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, a given
-// motion, a game, and an examiner are hashed where there are any.
-SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts),
+// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, thrown
+// bodies, a given motion, a game, and an examiner are hashed where there are any.
+SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, thrown),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
                      left_out(scenario, traffic, effects), kept(motion, game, examiner, input),
                      hashed(diagnostics, touching))
@@ -174,6 +175,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
   for (const CarImpact& running : state.impacts) reader.require(is_sound(running), wrong);
+  require_sound(reader, model.roads, state.thrown);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
   reader.require(state.motion.has_value() == (model.motion != nullptr), wrong);
   reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
@@ -199,6 +201,7 @@ std::uint64_t hash_state(const State& state) {
   if (state.examiner) hash_members(hash, *state.examiner);
   if (state.faults.any()) hash_members(hash, state.faults);
   for (const CarImpact& running : state.impacts) hash_members(hash, running);
+  for (const ThrownBody& thrown : state.thrown) hash_members(hash, thrown);
   return hash.value();
 }
 

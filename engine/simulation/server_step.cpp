@@ -17,6 +17,7 @@
 #include "engine/simulation/game.hpp"
 #include "engine/simulation/lights_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
+#include "engine/simulation/thrown_stage.hpp"
 #include "engine/simulation/way_ahead.hpp"
 
 namespace septet::simulation {
@@ -45,6 +46,7 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   participants.push_back(car);
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
   state.traffic->append_participants(participants);
+  show_thrown(state, participants);
   if (!std::ranges::is_sorted(participants, {}, &Participant::id))
     std::ranges::sort(participants, {}, &Participant::id);
   return participants;
@@ -133,6 +135,8 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});
   auto participants = participants_now(model, state, car.participant, std::move(old.participants));
+  advance_thrown(model, car, participants, state, events);
+  participants.front() = car.participant;
   run_effects(model, participants, state, car, events);
   participants.front() = car.participant;  // The lowest id; the effects may have pushed it.
   find_collisions(model, car.participant, participants, state, events);

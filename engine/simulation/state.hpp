@@ -18,6 +18,7 @@
 #include "engine/simulation/examiner_state.hpp"
 #include "engine/simulation/game_state.hpp"
 #include "engine/simulation/model.hpp"
+#include "engine/simulation/thrown_state.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 #include "engine/world/driver_input.hpp"
 #include "engine/world/snapshot.hpp"
@@ -48,6 +49,7 @@ struct State {
   CarFaults faults;  ///< Hashed where there is one.
   vehicle::HullState hull;
   std::vector<CarImpact> impacts;  ///< Running, in the order of their touches. Hashed where there is one.
+  std::vector<ThrownBody> thrown;  ///< People and machines that were thrown, ascending id. Hashed where there is one.
   /// Each wheel's last position, where the next search begins.
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};
   std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;      ///< One event a touch.

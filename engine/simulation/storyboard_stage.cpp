@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/thrown_stage.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -27,6 +28,7 @@ const char* name_of(scenario::ElementStatus status) {
 std::vector<traffic::ForeignVehicle> foreign_vehicles(const Model& model, const State& state, const Participant& car) {
   std::vector<Participant> others{car};
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
+  show_thrown(state, others);
   std::vector<traffic::ForeignVehicle> foreign;
   foreign.reserve(others.size());
   for (const Participant& p : others) foreign.push_back({p.id, p.model, p.world_from_vehicle, p.velocity_mps, p.lamps});

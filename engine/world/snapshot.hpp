@@ -35,7 +35,7 @@ struct Participant {
   /// Rolling angle of the wheels, in [0, 2π); phase of the step of a walking person (limbs.hpp).
   double wheel_spin_rad = 0.0;
   double wheel_spin_radps = 0.0;
-  /// Height of each wheel's centre over its rest position (front left, front right, rear left, rear right).
+  /// Height of each wheel's centre over rest (front left, right, rear left, right); ThrownJoints of a thrown pedestrian.
   std::array<double, 4> wheel_lift_m{};
 };
 

@@ -1,6 +1,6 @@
 /// Draws the vehicles and the road world to PNG files, for people to judge.
 ///
-///     scenery_preview OUT vehicles [MODEL…]              turntables
+///     scenery_preview OUT vehicles [MODEL…]              turntables; of the pedestrian also the phases of a step
 ///     scenery_preview OUT road ROAD.xodr [ROAD@]S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…
 ///
 /// S and T place the eye on the road of that id, else on the first one; the view is 44° × 30°, that of one screen of
@@ -31,6 +31,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "engine/world/paint.hpp"
 
 namespace septet {
 namespace {
@@ -124,6 +125,23 @@ void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene, co
              renderer.statistics().draws);
 }
 
+/// Eight pictures of one step at 10 m, each in a jacket of its own, and one who lies on his back.
+void steps(render::Renderer& renderer, const scene::ResolvedScene& scene, const std::filesystem::path& out) {
+  constexpr double away_m = 10.0, apart_m = 0.95;
+  auto input = frame(camera({0.0, 0.0, 1.5}, 0.0, -0.04), 30.0);
+  for (int i = 0; i < 9; ++i) {
+    RigidTransform pose{{away_m, (4 - i) * apart_m, 0.0}, orientation_from_angles(-0.5 * std::numbers::pi, 0.0, 0.0)};
+    if (i == 8)
+      pose = {{away_m - 1.5, 0.5, 0.13}, orientation_from_angles(0.5 * std::numbers::pi, -0.5 * std::numbers::pi, 0.0)};
+    auto walker = vehicle(scene, "pedestrian", pose, body_color(static_cast<std::uint8_t>(i)));
+    walker.wheel_spin_rad = 2.0 * std::numbers::pi * i / 8;
+    walker.speed_mps = i == 8 ? 0.0 : 1.4;
+    if (i == 8) walker.thrown_rad = {0.6, -0.1, 1.1, 0.3};
+    input.participants.push_back(walker);
+  }
+  must(image::write_png(out / "pedestrian-steps.png", drawn(renderer, input), image::PngEffort::fast));
+}
+
 /// Some traffic ahead of and beside the camera, so that scale can be judged.
 void add_traffic(instant::FrameInput& input, const scene::ResolvedScene& scene, const road::RoadNetwork& network,
                  double s) {
@@ -182,6 +200,7 @@ void vehicles(const std::filesystem::path& out, const std::vector<std::string>& 
   for (const VehicleModel& model : vehicle_models())
     if (names.empty() || std::find(names.begin(), names.end(), model.name) != names.end())
       turntable(renderer, scene, model, out);
+  if (names.empty() || std::find(names.begin(), names.end(), "pedestrian") != names.end()) steps(renderer, scene, out);
 }
 
 void road_views(const std::filesystem::path& out, const std::vector<std::string>& words) {

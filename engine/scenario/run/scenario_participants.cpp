@@ -39,8 +39,9 @@ void append_participants(const Scenario& scenario, const ScenarioState& state, P
     participant.id = first_id + i;
     participant.model = entity.model;
     const VehicleModel& model = vehicle_models()[entity.model];
-    // The standard's vehicles have no colour: private vehicles take the colours in turn.
-    if (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van)
+    // The standard's vehicles have no colour: private vehicles and people's jackets take the colours in turn.
+    if (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
+        model.kind == ParticipantKind::pedestrian)
       participant.paint = static_cast<std::uint8_t>(i % body_colors.size());
     participant.lamps = lamps_now(from, participant.id, state.time_s);
     participant.world_from_vehicle = from.world_from_entity;

@@ -70,25 +70,28 @@ geometry::PolygonMesh cranks(std::uint32_t sides) {
 
 VehicleParts bicycle_parts(const VehicleModel& model) {
   VehicleParts parts;
+  const bool ridden = model.name == "bicycle";
   const auto wheelbase = static_cast<float>(model.wheelbase_m), radius = static_cast<float>(model.wheel_radius_m);
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle, DetailLevel::far}) {
     MeshBuilder b;
     if (level == DetailLevel::far) {
       b.material = index_of(Finish::trim);
       add_limb(b, {0, 0, radius}, {wheelbase, 0, radius}, radius, radius, 3);
-      b.material = index_of(Finish::cloth_bright);
-      add_limb(b, {0.22f, 0, 0.75f}, {0.50f, 0, 1.42f}, 0.16f, 0.17f, 4);
-      b.material = index_of(Finish::skin);
-      add_blob(b, {0.61f, 0, 1.64f}, {0.11f, 0.09f, 0.12f}, 0);
+      if (ridden) {
+        b.material = index_of(Finish::cloth_bright);
+        add_limb(b, {0.22f, 0, 0.75f}, {0.50f, 0, 1.42f}, 0.16f, 0.17f, 4);
+        b.material = index_of(Finish::skin);
+        add_blob(b, {0.61f, 0, 1.64f}, {0.11f, 0.09f, 0.12f}, 0);
+      }
     } else {
       const bool fine = level == DetailLevel::near;
       add_frame(b, wheelbase, radius, fine ? 6 : 3);
-      add_trunk(b, fine ? 8 : 4, fine ? 2 : 0);
+      if (ridden) add_trunk(b, fine ? 8 : 4, fine ? 2 : 0);
     }
     VehicleParts of_level{{"rider", b.take(), 0, {Placement{}}}};
     if (level != DetailLevel::far) {
-      const std::uint32_t sides = level == DetailLevel::near ? 8 : 4;
-      add_legs(of_level, scene::PartRole::pedalling_leg_left, hips, sides);
+      const std::uint32_t sides = level == DetailLevel::near ? 8 : 3;
+      if (ridden) add_pedalling_legs(of_level, hips, sides);
       Placement place;
       place.parent_from_object.position_m = Vec3(bottom_bracket);
       place.role = scene::PartRole::crank;

@@ -27,7 +27,7 @@ struct Look {
 constexpr float lacquer = 1.0f;
 
 /// Looks in the order of Finish.
-constexpr std::array<Look, 32> looks{{
+constexpr std::array<Look, 34> looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.7f, 0.0f, {}, 1.0f, lacquer},
     {"glass", {0.012f, 0.016f, 0.018f}, 0.06f},
     {"trim", {0.022f, 0.022f, 0.024f}, 0.55f},
@@ -60,6 +60,8 @@ constexpr std::array<Look, 32> looks{{
     {"timber", {0.23f, 0.14f, 0.075f}, 0.9f},
     {"clear glass", {0.012f, 0.016f, 0.018f}, 0.06f, 0.0f, {0.0f, 0.0f, 0.0f}, 0.42f},
     {"mirror", {0.9f, 0.9f, 0.9f}, 0.02f, 1.0f},
+    {"cloth", {0.75f, 0.75f, 0.75f}, 0.9f},
+    {"hair", {0.035f, 0.02f, 0.012f}, 0.7f},
 }};
 
 constexpr std::uint32_t plate_columns = 4, plate_rows = 8, plate_width_px = 128, plate_height_px = 28;
@@ -131,7 +133,7 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     material.emission = look.emission;
     material.opacity = look.opacity;
     material.clear_coat = look.clear_coat;
-    material.takes_paint = i == index_of(Finish::paint);
+    material.takes_paint = i == index_of(Finish::paint) || i == index_of(Finish::cloth);
     const std::string name = std::string("vehicle/") + look.name;
     const auto with_image = [&](const Image& picture) {
       material.base_color_bitmap = builder.add_bitmap(name, picture.width, picture.height, picture.rgba);

@@ -40,6 +40,8 @@ enum class Finish : std::uint32_t {
   timber,
   clear_glass,  ///< Tinted and transparent.
   mirror,       ///< Silvered glass.
+  cloth,        ///< Of the participant's own colour.
+  hair,
 };
 
 constexpr std::uint32_t index_of(Finish finish) { return static_cast<std::uint32_t>(finish); }

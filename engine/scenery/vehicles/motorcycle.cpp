@@ -60,6 +60,7 @@ VehiclePart lamp(const char* name, PartRole role, Finish finish, const glm::vec3
 
 VehicleParts motorcycle_parts(const VehicleModel& model) {
   VehicleParts parts;
+  const bool ridden = model.name == "motorcycle";
   const auto wheelbase = static_cast<float>(model.wheelbase_m);
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle, DetailLevel::far}) {
     const char* suffix = level == DetailLevel::near ? " near" : level == DetailLevel::middle ? " middle" : " far";
@@ -68,16 +69,18 @@ VehicleParts motorcycle_parts(const VehicleModel& model) {
     if (level == DetailLevel::far) {
       b.material = index_of(Finish::paint);
       add_blob(b, {0.75f, 0, 0.65f}, {0.75f, 0.17f, 0.28f}, 0);
-      b.material = index_of(Finish::cloth_bright);
-      add_limb(b, {0.30f, 0, 0.9f}, {0.50f, 0, 1.16f}, 0.18f, 0.16f, 4);
-      b.material = index_of(Finish::white_panel);
-      add_blob(b, {0.64f, 0, 1.40f}, {0.145f, 0.125f, 0.135f}, 0);
+      if (ridden) {
+        b.material = index_of(Finish::cloth_bright);
+        add_limb(b, {0.30f, 0, 0.9f}, {0.50f, 0, 1.16f}, 0.18f, 0.16f, 4);
+        b.material = index_of(Finish::white_panel);
+        add_blob(b, {0.64f, 0, 1.40f}, {0.145f, 0.125f, 0.135f}, 0);
+      }
       b.material = index_of(Finish::tyre);
       for (const float x : {0.0f, wheelbase}) add_blob(b, {x, 0, 0.31f}, {0.31f, 0.06f, 0.31f}, 0);
     } else {
       const bool fine = level == DetailLevel::near;
       add_machine(b, wheelbase, fine ? 8 : 4, fine ? 2 : 0);
-      add_rider(b, fine ? 8 : 4, fine ? 2 : 0);
+      if (ridden) add_rider(b, fine ? 8 : 4, fine ? 2 : 0);
     }
     of_level.push_back({"machine", b.take(), 0, {Placement{}}});
     of_level.push_back(

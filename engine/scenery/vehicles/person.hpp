@@ -8,13 +8,15 @@
 
 namespace septet::scenery {
 
-/// Thigh, and shin with its shoe, hanging from the origin. `sides` sets the level of detail.
+/// Thigh, shin and shoe, hanging from the origin: hip, knee and ankle. `sides` sets the level of detail.
 geometry::PolygonMesh hanging_thigh(std::uint32_t sides);
 geometry::PolygonMesh hanging_shin(std::uint32_t sides);
+geometry::PolygonMesh shoe(std::uint32_t sides);
 
-/// Adds both legs as four parts that move by their roles, from the hips' middle; `first` is the left leg's role, and
-/// those of the right leg and the shins follow it (PartRole).
-void add_legs(VehicleParts& parts, scene::PartRole first, const glm::vec3& hips_m, std::uint32_t sides);
+/// Adds both legs as parts that move by their roles, from the hips' middle. Those who walk have feet that turn in the
+/// ankle; a cyclist's hang from the shins.
+void add_walking_legs(VehicleParts& parts, const glm::vec3& hips_m, std::uint32_t sides);
+void add_pedalling_legs(VehicleParts& parts, const glm::vec3& hips_m, std::uint32_t sides);
 
 /// Person from the hips up, belted in; the head's middle is at the origin, and faces ahead. `splits` as for
 /// geometry::icosphere, of the head.

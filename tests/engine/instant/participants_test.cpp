@@ -90,31 +90,100 @@ TEST_CASE("a film of 25 pictures a second has all of a beacon's light whenever i
   }
 }
 
-TEST_CASE("who walks puts one leg before the other, repeats himself each stride, and stands still when he stands") {
+namespace {
+
+/// Poses of a walker's left and right foot in the world at a phase: he goes on by a stride each turn of it.
+RigidTransform world_from_foot(bool left, double phase_rad, double speed_mps) {
+  Participant person;
+  person.model = *find_vehicle_model("pedestrian");
+  person.world_from_vehicle.position_m.x = phase_rad / (2.0 * std::numbers::pi) * stride_m;
+  person.velocity_mps = Vec3(speed_mps, 0.0, 0.0);
+  person.wheel_spin_rad = std::fmod(phase_rad, 2.0 * std::numbers::pi);
+  person.wheel_spin_radps = 2.0 * std::numbers::pi * speed_mps / stride_m;
+  scene::Instance foot;
+  foot.world_from_object.position_m = {0.1, left ? 0.09 : -0.09, hip_height_m};
+  foot.role = left ? PartRole::foot_left : PartRole::foot_right;
+  return person.world_from_vehicle * vehicle_from_part(foot, drawn_participant(person, 0));
+}
+
+const Vec3 heel_m(-heel_behind_m, 0.0, -ankle_height_m), toe_m(toe_ahead_m, 0.0, -ankle_height_m);
+
+}  // namespace
+
+TEST_CASE("the foot on the ground stays where it is for the whole stance, and the other is in the air") {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr int steps = 2000;
+  for (const double speed_mps : {0.8, 1.0, 1.4, 1.7, 2.0})
+    for (const bool left : {true, false}) {
+      CAPTURE(speed_mps);
+      // One stance: from the first to the last picture in which a point of the sole is on the ground.
+      double slide_m = 0.0, way_m = 0.0, deepest_m = 0.0, highest_ankle_m = 0.0, lowest_ankle_m = 1.0;
+      int on_ground = 0, flat = 0;
+      for (int i = 0; i < steps; ++i) {
+        const double phase = turn * (10.0 + double(i) / steps), next = phase + turn / steps;
+        const RigidTransform now = world_from_foot(left, phase, speed_mps),
+                             then = world_from_foot(left, next, speed_mps);
+        const bool heel_down = (now * heel_m).z < 0.002, toe_down = (now * toe_m).z < 0.002;
+        deepest_m = std::min({deepest_m, (now * heel_m).z, (now * toe_m).z});
+        on_ground += heel_down || toe_down;
+        if (!heel_down && !toe_down) continue;
+        const Vec3 point = heel_down ? heel_m : toe_m;
+        slide_m += std::abs((then * point).x - (now * point).x);
+        way_m += stride_m / steps;
+        if (!heel_down || !toe_down) continue;
+        ++flat;
+        const double ankle_m = now.position_m.z;
+        highest_ankle_m = std::max(highest_ankle_m, ankle_m), lowest_ankle_m = std::min(lowest_ankle_m, ankle_m);
+      }
+      CHECK(slide_m < 0.01);
+      CHECK(way_m > 0.7);
+      CHECK(on_ground > 0.54 * steps);
+      CHECK(on_ground < 0.64 * steps);
+      CHECK(flat > 0.25 * steps);
+      CHECK(highest_ankle_m < ankle_height_m + 0.01);
+      CHECK(lowest_ankle_m > ankle_height_m - 0.01);
+      CHECK(deepest_m > -0.005);
+    }
+}
+
+TEST_CASE("who walks bends his knees, rises and falls by some centimetres, and stands still when he stands") {
   DrawnParticipant walker;
   walker.speed_mps = 1.4;
-  scene::Instance shin;
-  shin.world_from_object.position_m = {0.1, 0.09, hip_height_m};
-  const auto foot = [&](PartRole role, double phase_rad) {
-    shin.role = role;
+  scene::Instance part;
+  part.world_from_object.position_m = {0.1, 0.09, hip_height_m};
+  const auto pose = [&](PartRole role, double phase_rad) {
+    part.role = role;
     walker.wheel_spin_rad = phase_rad;
-    return vehicle_from_part(shin, walker) * Vec3(0, 0, -shin_m);
+    return vehicle_from_part(part, walker);
   };
-  const double quarter = 0.5 * std::numbers::pi;
-  CHECK(foot(PartRole::shin_left, quarter).x - foot(PartRole::shin_right, quarter).x > 0.4);
-  CHECK(foot(PartRole::shin_left, 3 * quarter).x - foot(PartRole::shin_right, 3 * quarter).x < -0.4);
-  CHECK(glm::length(foot(PartRole::shin_left, 0.7) - foot(PartRole::shin_left, 0.7 + 4 * quarter)) < 1e-9);
-  for (int i = 0; i < 64; ++i) {
-    const double phase = i * 0.1;
-    // A foot is lifted, but no higher than a step, and one of the two is near the ground.
-    const double left = foot(PartRole::shin_left, phase).z, right = foot(PartRole::shin_right, phase).z;
-    CHECK(std::min(left, right) < 0.16);
-    CHECK(std::max(left, right) < 0.36);
-    CHECK(std::min(left, right) > 0.05);
+  double lowest_m = 2.0, highest_m = 0.0, most_bent = 0.0, least_bent = 4.0, highest_foot_m = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double phase = 2.0 * std::numbers::pi * i / 200;
+    const double hips_m = pose(PartRole::trunk, phase).position_m.z;
+    lowest_m = std::min(lowest_m, hips_m), highest_m = std::max(highest_m, hips_m);
+    const Vec3 thigh = pose(PartRole::leg_left, phase).orientation * Vec3(0, 0, -1),
+               shin = pose(PartRole::shin_left, phase).orientation * Vec3(0, 0, -1);
+    CHECK(thigh.x * shin.z - thigh.z * shin.x <= 1e-9);  // No knee bends forwards.
+    const double bent = std::acos(std::clamp(glm::dot(thigh, shin), -1.0, 1.0));
+    most_bent = std::max(most_bent, bent), least_bent = std::min(least_bent, bent);
+    highest_foot_m = std::max(highest_foot_m, pose(PartRole::foot_left, phase).position_m.z);
+    // No leg is torn out of its shoe, and all is smooth.
+    const RigidTransform foot = pose(PartRole::foot_left, phase), next = pose(PartRole::foot_left, phase + 0.001);
+    CHECK(glm::length(foot.position_m - pose(PartRole::shin_left, phase) * Vec3(0, 0, -shin_m)) < 1e-9);
+    CHECK(glm::length(next.position_m - foot.position_m) < 0.002);
   }
+  CHECK(highest_m - lowest_m > 0.03);
+  CHECK(highest_m - lowest_m < 0.06);
+  CHECK(most_bent > 0.8);
+  CHECK(most_bent < 1.4);
+  CHECK(least_bent < 0.35);
+  CHECK(highest_foot_m < 0.30);
+  CHECK(glm::length(pose(PartRole::foot_left, 0.7).position_m -
+                    pose(PartRole::foot_left, 0.7 + 2.0 * std::numbers::pi).position_m) < 1e-9);
   walker.speed_mps = 0.0;
-  CHECK(glm::length(foot(PartRole::shin_left, 0.3) - foot(PartRole::shin_left, 2.0)) < 1e-12);
-  CHECK(foot(PartRole::shin_left, 0.3).x == doctest::Approx(0.1));
+  CHECK(glm::length(pose(PartRole::foot_left, 0.3).position_m - pose(PartRole::foot_left, 2.0).position_m) < 1e-12);
+  CHECK(pose(PartRole::foot_left, 0.3).position_m.x == doctest::Approx(0.1));
+  CHECK(pose(PartRole::foot_left, 0.3).position_m.z == relative(ankle_height_m, 0.02));
 }
 
 TEST_CASE("a cyclist's feet stay on the pedals all the way round") {
