@@ -7,6 +7,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/relative.hpp"
+
 namespace septet::sight {
 namespace {
 
@@ -44,13 +46,13 @@ TEST_CASE("a wall before half of a body leaves half of its silhouette, and one b
   const Box body = box({20, 0, 1}, {0.1, 2, 2}, 0.0);
   const std::vector<Box> half{box({10, -5, 0}, {0.1, 10, 20})}, rear{box({30, 0, 0}, {0.1, 90, 90})},
       whole{box({10, 0, 0}, {0.1, 90, 90})};
-  CHECK(sight_of_box(eye_m, body, behind(half), 64).share() == doctest::Approx(0.5).epsilon(0.02));
+  CHECK(sight_of_box(eye_m, body, behind(half), 64).share() == relative(0.5, 0.02));
   CHECK(sight_of_box(eye_m, body, behind(rear), 64).share() == 1.0);
   CHECK(sight_of_box(eye_m, body, behind(whole), 64).share() == 0.0);
   const Sight alone = sight_of_box(eye_m, body, {}, 64);
   CHECK(alone.transmittance == 1.0);
-  CHECK(alone.nearest_m == doctest::Approx(19.95).epsilon(1e-4));
-  CHECK(alone.solid_angle_sr == doctest::Approx(4.0 / (19.95 * 19.95)).epsilon(0.01));
+  CHECK(alone.nearest_m == relative(19.95, 1e-3));
+  CHECK(alone.solid_angle_sr == relative(4.0 / (19.95 * 19.95), 0.03));
 }
 
 TEST_CASE("a body behind smoke keeps its share and loses light") {
@@ -59,7 +61,7 @@ TEST_CASE("a body behind smoke keeps its share and loses light") {
   smoke.step_m = 0.05;
   const Sight sight = sight_of_box({0, 0, 1}, box({40, 0, 1}, {1, 1, 1}), smoke);
   CHECK(sight.share() == 1.0);
-  CHECK(sight.transmittance == doctest::Approx(std::exp(-1.5)).epsilon(0.01));
+  CHECK(sight.transmittance == relative(std::exp(-1.5), 0.02));
 }
 
 TEST_CASE("the raster holds the whole body, near and far, and one around the eye too") {
