@@ -8,11 +8,10 @@
 
 #include "engine/document/chart_page.hpp"
 #include "engine/document/csv_cell.hpp"
+#include "engine/math/speed_units.hpp"
 
 namespace septet::server {
 namespace {
-
-constexpr double kmh_per_mps = 3.6;
 
 std::string number_cell(const std::optional<double>& value) { return value ? fmt::format("{:.4f}", *value) : ""; }
 

@@ -13,12 +13,13 @@
 #include "engine/core/printable.hpp"
 #include "engine/document/table_line.hpp"
 #include "engine/math/angle_units.hpp"
+#include "engine/math/gravity.hpp"
+#include "engine/math/speed_units.hpp"
 
 namespace septet::simulation {
 namespace {
 
 constexpr std::size_t most_rows = 100'000, most_named = 5;
-constexpr double gravity_mps2 = 9.81, kmh_per_mps = 3.6;
 constexpr double least_row_s = 1e-3;
 /// Slower than this a path has no direction.
 constexpr double directed_mps = 0.1;

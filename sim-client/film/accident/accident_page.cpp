@@ -8,6 +8,7 @@
 #include "engine/core/printable.hpp"
 #include "engine/document/chart.hpp"
 #include "engine/document/markup.hpp"
+#include "engine/math/speed_units.hpp"
 #include "logging/study/report/report_style.hpp"
 #include "sim-client/film/overlay/overlay_content.hpp"
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/printable.hpp"
+#include "engine/math/speed_units.hpp"
 #include "sim-client/film/overlay/overlay_content.hpp"
 
 namespace septet::film {

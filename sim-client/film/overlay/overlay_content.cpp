@@ -1,4 +1,5 @@
 #include "sim-client/film/overlay/overlay_content.hpp"
+#include "engine/math/speed_units.hpp"
 
 #include <algorithm>
 #include <array>

@@ -17,8 +17,6 @@
 
 namespace septet::film {
 
-inline constexpr double kmh_per_mps = 3.6;  ///< Speeds are told to people in km/h.
-
 /// Colour of the n-th participant of an overlay, of Okabe and Ito's set, which colour-blind people tell apart.
 image::Color color_of(std::size_t n);
 

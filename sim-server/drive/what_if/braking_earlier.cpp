@@ -6,12 +6,12 @@
 
 #include <fmt/core.h>
 
+#include "engine/math/speed_units.hpp"
 #include "sim-server/drive/what_if/variant.hpp"
 
 namespace septet::server {
 namespace {
 
-constexpr double kmh_per_mps = 3.6;
 /// A collision earlier than this leaves no time in which anything could have been done earlier.
 constexpr double least_before_s = 2.0;
 constexpr double whole_second_s = 1.0, usual_brake = 0.8;

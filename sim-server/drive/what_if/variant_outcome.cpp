@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/printable.hpp"
+#include "engine/math/speed_units.hpp"
 #include "engine/physics/impact/outline.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "logging/study/measures/collisions.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 /// Slower than this a car stands.
 constexpr double standing_mps = 0.05;
-constexpr double kmh_per_mps = 3.6;
 
 impact::Outline outline(const Participant& participant) {
   return simulation::outline_of(simulation::body_box(participant));
