@@ -1,5 +1,6 @@
 #pragma once
-/// A running impact of the driver's car with another vehicle. The stage that begins and advances it: car_impacts.hpp.
+/// A running impact of the driver's car with somebody who is no loose body. The stage that begins and advances it:
+/// car_impacts.hpp.
 
 #include "engine/physics/impact/pulse.hpp"
 #include "engine/world/snapshot.hpp"

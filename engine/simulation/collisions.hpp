@@ -1,17 +1,24 @@
 #pragma once
-/// Collisions of the driver's car with other participants.
+/// Collisions of all participants: who meets whom, by the law of all impacts (engine/physics/impact).
+///
+/// Pairs with the driver's car, with one of the scenario, or with a loose body are looked at; two of traffic are left
+/// to their engine. At the first touch at which the surfaces approach, either vehicle leaves its rails
+/// (bodies/bodies.hpp), and their engagement is advanced each tick until they are apart. People and two-wheelers stay
+/// on theirs: the driver's car takes its share of the impulse (car_impacts.hpp), everybody else is only told.
 
 #include <vector>
 
+#include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/state.hpp"
 
 namespace septet::simulation {
 
-/// Finds the participants that overlap `car`, as boxes with the corners of vehicles. A touch that begins is counted and
-/// logged as an event. Where the surfaces approach, its impact begins (car_impacts.hpp), and its parts and dents are for
-/// the effects' next step (advance_crashes). Call it once all participants have moved, before the snapshot is taken: its
-/// hash holds the result.
-void find_collisions(const Model& model, const Participant& car, const std::vector<Participant>& participants,
-                     State& state, std::vector<Event>& events);
+/// Finds those that overlap, as boxes with the corners of vehicles, and pushes the car and the bodies for this tick;
+/// `car` and `participants` (ascending id) are then as they stand. A touch of the car that begins is counted and logged
+/// as an event `collision`, one of two others as `crash_of_others`; what breaks and is dented is for the effects' next
+/// step (advance_crashes). Call it once all participants have moved, before the snapshot is taken: its hash holds the
+/// result.
+void find_collisions(const Model& model, DrivenCar& car, std::vector<Participant>& participants, State& state,
+                     std::vector<Event>& events);
 
 }  // namespace septet::simulation

@@ -106,6 +106,12 @@ void count(const Model& model, const scenario::GameSettings& settings, const Par
     standing.end = GameEnd::time;
 }
 
+/// Who ran into whom in the last collision: "other" where it was another participant, else "driver".
+const char* whose_crash(const std::vector<Event>& events) {
+  const auto last = std::ranges::find(events.rbegin(), events.rend(), "collision", &Event::kind);
+  return last != events.rend() && last->detail.ends_with("by=other") ? "other" : "driver";
+}
+
 }  // namespace
 
 GameState initial_game(const scenario::GameSettings& settings, std::uint64_t seed) {
@@ -125,10 +131,11 @@ void advance_game(const Model& model, const Participant& car, State& state, std:
     move_leader(model, settings, state);
   }
   if (state.diagnostics.collisions > 0) standing.end = GameEnd::crash;
-  if (standing.end != GameEnd::none)
-    events.push_back({"game", std::nullopt,
-                      fmt::format("state=over why={} level={} points={:.0f} survived_s={:.1f}", name_of(standing.end),
-                                  standing.level, standing.points, standing.survived_s)});
+  if (standing.end == GameEnd::none) return;
+  const std::string whose = standing.end == GameEnd::crash ? fmt::format(" by={}", whose_crash(events)) : "";
+  events.push_back({"game", std::nullopt,
+                    fmt::format("state=over why={}{} level={} points={:.0f} survived_s={:.1f}", name_of(standing.end),
+                                whose, standing.level, standing.points, standing.survived_s)});
 }
 
 }  // namespace septet::simulation

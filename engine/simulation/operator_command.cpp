@@ -11,6 +11,7 @@
 #include "engine/math/rigid_transform.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
@@ -138,6 +139,7 @@ Expected<void> apply(const Model& model, const SetTraffic& set, State& state, st
   auto wanted = *swarm;
   wanted.vehicle_count = set.vehicles;
   const Participant car = driven_car(model, state).participant;
+  drop_traffic_bodies(state);
   state.traffic->start(swarm_parameters(wanted), foreign_vehicles(model, state, car));
   return {};
 }
@@ -238,12 +240,14 @@ Expected<void> apply(const Model& model, const PutCar& put, State& state, std::v
   std::vector<Participant> others;
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
   state.traffic->append_participants(others);
+  append_bodies(state, others);
   for (const Participant& other : others)
     if (glm::distance(other.world_from_vehicle.position_m, point.road.position_m) < free_around_put_m)
       return failure("somebody stands there", "put", "choose another place, or wait");
   state.car = vehicle::standstill(model.car, road::world_from_lane(point), put.speed_mps);
   state.hull = {};
   state.impacts.clear();
+  std::erase_if(state.bodies.contacts, [](const BodyContact& contact) { return contact.first == driver_participant; });
   const road::RoadPosition here{lane->road, lane->s_m, point.t_m};
   state.wheel_roads.fill(here);
   state.kerbs = {};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 
 #include "engine/core/archive.hpp"
 #include "engine/core/hash.hpp"
@@ -52,10 +53,14 @@ SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(panes, keyframe, glass
 SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
 SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
 SEPTET_MEMBERS(DentState, vehicles, keyframe)
-SEPTET_MEMBERS(StruckVehicle, vehicle, point_m, normal, velocity_mps, angular_velocity_radps, closing_speed_mps, car_kg,
-               vehicle_kg)
+SEPTET_MEMBERS(CrashedVehicle, id, mass_kg, velocity_mps, angular_velocity_radps)
+SEPTET_MEMBERS(VehicleCrash, first, second, point_m, normal, closing_speed_mps)
 SEPTET_MEMBERS(CarImpact, vehicle, pulse, struck, due_s)
-SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
+SEPTET_MEMBERS(LooseBody, id, model, paint, lamps, front_steer_rad, wheel_spin_rad, body, height_m, up, climb_mps,
+               acceleration_mps2, road)
+SEPTET_MEMBERS(BodyContact, first, second, engagement)
+SEPTET_MEMBERS(BodiesState, bodies, contacts)
+SEPTET_MEMBERS(CrashMemory, struck_vehicles, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(MotionState, start_x_m, start_y_m, start_heading_rad, is_over)
 SEPTET_MEMBERS(GameState, standing, next_move_s, random)
@@ -69,9 +74,9 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 // are only shown; keyframes follow from debris, and the rest caches where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, thrown
-// bodies, a given motion, a game, and an examiner are hashed where there are any.
-SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, thrown),
+// Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, bodies,
+// thrown ones, a given motion, a game, and an examiner are hashed where there are any.
+SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
                      left_out(scenario, traffic, effects), kept(motion, game, examiner, input),
                      hashed(diagnostics, touching))
@@ -137,6 +142,30 @@ bool is_sound(const CarImpact& running) {
          impact::is_positive(running.struck.mass_kg) && impact::is_positive(running.struck.yaw_inertia_kgm2);
 }
 
+bool is_sound(const LooseBody& loose) {
+  constexpr double farthest = 1e7;  // In any unit.
+  return loose.model < vehicle_models().size() && loose.id != driver_participant &&
+         impact::is_positive(loose.body.mass_kg) && impact::is_positive(loose.body.yaw_inertia_kgm2) &&
+         impact::is_within(glm::length(loose.up), 0.99, 1.01) && loose.up.z > 0.05 &&
+         impact::is_within(loose.body.heading_rad, -farthest, farthest) &&
+         impact::is_within(loose.body.yaw_rate_radps, -farthest, farthest) &&
+         impact::is_within(loose.height_m, -farthest, farthest) && std::isfinite(loose.climb_mps) &&
+         glm::length(loose.body.mass_centre_m) < farthest && glm::length(loose.body.velocity_mps) < farthest;
+}
+
+/// As no contact is told of two that are one, and none twice.
+void require_sound(const Model& model, const BodiesState& bodies, StateReader& reader) {
+  for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
+    const LooseBody& loose = bodies.bodies[i];
+    reader.require(is_sound(loose) && std::ranges::count(bodies.bodies, loose.id, &LooseBody::id) == 1, wrong);
+    if (loose.road) road::require_on_roads(reader, model.roads, *loose.road);
+  }
+  const auto pair = [](const BodyContact& contact) { return std::pair(contact.first, contact.second); };
+  reader.require(std::ranges::is_sorted(bodies.contacts, std::ranges::less_equal{}, pair), wrong);
+  for (const BodyContact& contact : bodies.contacts)
+    reader.require(contact.first < contact.second && impact::is_sound(contact.engagement), wrong);
+}
+
 bool is_sound(const vehicle::HullTouch& touch) {
   return impact::is_sound(touch.engagement) && impact::is_positive(touch.car_kg) && std::abs(touch.side) == 1.0 &&
          impact::is_within(touch.crushed_m, 0.0, longest_crush_m);
@@ -175,6 +204,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
   for (const CarImpact& running : state.impacts) reader.require(is_sound(running), wrong);
+  require_sound(model, state.bodies, reader);
   require_sound(reader, model.roads, state.thrown);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
   reader.require(state.motion.has_value() == (model.motion != nullptr), wrong);
@@ -201,6 +231,7 @@ std::uint64_t hash_state(const State& state) {
   if (state.examiner) hash_members(hash, *state.examiner);
   if (state.faults.any()) hash_members(hash, state.faults);
   for (const CarImpact& running : state.impacts) hash_members(hash, running);
+  if (!state.bodies.empty()) hash_members(hash, state.bodies);
   for (const ThrownBody& thrown : state.thrown) hash_members(hash, thrown);
   return hash.value();
 }

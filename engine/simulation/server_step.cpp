@@ -9,6 +9,7 @@
 
 #include "engine/effects/smoke/visibility.hpp"
 #include "engine/physics/vehicle/ground.hpp"
+#include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/collisions.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
@@ -46,6 +47,7 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   participants.push_back(car);
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
   state.traffic->append_participants(participants);
+  append_bodies(state, participants);
   show_thrown(state, participants);
   if (!std::ranges::is_sorted(participants, {}, &Participant::id))
     std::ranges::sort(participants, {}, &Participant::id);
@@ -134,12 +136,13 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});
+  advance_bodies(model, state);
   auto participants = participants_now(model, state, car.participant, std::move(old.participants));
   advance_thrown(model, car, participants, state, events);
   participants.front() = car.participant;
   run_effects(model, participants, state, car, events);
   participants.front() = car.participant;  // The lowest id; the effects may have pushed it.
-  find_collisions(model, car.participant, participants, state, events);
+  find_collisions(model, car, participants, state, events);
   advance_game(model, car.participant, state, events);
   advance_examiner(model, participants, car.participant, state, events);
   look_ahead(model, participants, state.effects, state.scenario);

@@ -1,7 +1,7 @@
 #pragma once
 /// One tick of a drive. The stages, and the feedback from one tick to the next:
 ///
-///     driver input → car → storyboard → traffic → effects → collisions → snapshot
+///     driver input → car → storyboard → traffic → bodies → effects → collisions → snapshot
 ///
 /// `Model` is const after loading; `State` is everything that changes. No file, socket or clock here (a traffic engine
 /// that has a socket keeps it to itself): the same model, seed and inputs give the same state hash at every tick.

@@ -12,6 +12,7 @@
 #include "engine/physics/vehicle/vehicle.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
+#include "engine/simulation/bodies/bodies_state.hpp"
 #include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/car_impact_state.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
@@ -48,7 +49,9 @@ struct State {
   vehicle::VehicleState car;
   CarFaults faults;  ///< Hashed where there is one.
   vehicle::HullState hull;
-  std::vector<CarImpact> impacts;  ///< Running, in the order of their touches. Hashed where there is one.
+  /// With those that are no bodies of their own, running, in the order of their touches. Hashed where there is one.
+  std::vector<CarImpact> impacts;
+  BodiesState bodies;              ///< Hashed where there is one.
   std::vector<ThrownBody> thrown;  ///< People and machines that were thrown, ascending id. Hashed where there is one.
   /// Each wheel's last position, where the next search begins.
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};
@@ -73,8 +76,8 @@ struct State {
 /// An event of a step, for the log.
 struct Event {
   std::string
-      /// "scenario", "collision", "game", "kerb", "wheel_damage", "off_road", "bad_number", "traffic", "right_of_way",
-      /// ….
+      /// "scenario", "collision", "crash_of_others", "game", "kerb", "wheel_damage", "off_road", "bad_number",
+      /// "traffic", "right_of_way", ….
       kind;
   std::optional<ParticipantId> participant;
   std::string detail;

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 
@@ -28,10 +29,15 @@ const char* name_of(scenario::ElementStatus status) {
 std::vector<traffic::ForeignVehicle> foreign_vehicles(const Model& model, const State& state, const Participant& car) {
   std::vector<Participant> others{car};
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
+  append_bodies(state, others);
   show_thrown(state, others);
+  // The scenario's keep their turn when they leave their rails; traffic's come in as they do.
+  std::ranges::stable_sort(others, {}, [](const Participant& p) { return std::min(p.id, first_traffic_participant); });
   std::vector<traffic::ForeignVehicle> foreign;
   foreign.reserve(others.size());
-  for (const Participant& p : others) foreign.push_back({p.id, p.model, p.world_from_vehicle, p.velocity_mps, p.lamps});
+  for (const Participant& p : others)
+    foreign.push_back({p.id, p.model, p.world_from_vehicle, p.velocity_mps, p.lamps,
+                       find_loose(state, p.id) != nullptr || is_thrown(state, p.id)});
   return foreign;
 }
 
@@ -47,9 +53,13 @@ traffic::TrafficParameters swarm_parameters(const scenario::TrafficSwarmAction& 
 }
 
 void apply_swarms(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
-  for (const auto& swarm : step.swarms)
+  for (const auto& swarm : step.swarms) {
+    drop_traffic_bodies(state);
     state.traffic->start(swarm_parameters(swarm), foreign_vehicles(model, state, car));
-  if (!step.stopped_traffic.empty()) state.traffic->stop();
+  }
+  if (step.stopped_traffic.empty()) return;
+  drop_traffic_bodies(state);
+  state.traffic->stop();
 }
 
 void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
@@ -69,6 +79,7 @@ void apply_effects(const Model& model, const scenario::StepResult& step, const P
     if (action.kind != Kind::ignite) continue;
     std::vector<Participant> participants{car};
     scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
+    append_bodies(state, participants);
     if (const auto burning = std::ranges::find(participants, id, &Participant::id); burning != participants.end())
       ignite(model.roads, *burning, model.seed, state.effects.fires);
   }
@@ -77,6 +88,7 @@ void apply_effects(const Model& model, const scenario::StepResult& step, const P
 void advance_storyboard(const Model& model, const DrivenCar& car, State& state, std::vector<Event>& events) {
   scenario::place_external(model.roads, model.driver_entity, car.outputs.world_from_vehicle, car.outputs.velocity_mps,
                            car.outputs.acceleration_mps2, state.scenario);
+  place_in_storyboard(model, state);
   carry_out(model, scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario), car.participant,
             state, events);
 }

@@ -10,15 +10,16 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.hpp"
+#include "engine/math/gravity.hpp"
 #include "engine/physics/person/jointed_plans.hpp"
 #include "engine/physics/vehicle/ground.hpp"
+#include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/car_impacts.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 
 namespace septet::simulation {
 namespace {
 
-constexpr double gravity_mps2 = 9.81;
 /// Slower touches throw nobody: one steps aside.
 constexpr double least_closing_mps = 1.0;
 constexpr double rider_kg = 75.0, lightest_machine_kg = 12.0;  // bodies.toml: a bicycle's mass is its rider's.
@@ -33,10 +34,6 @@ ModelIndex model_named(const char* name) {
   const auto index = find_vehicle_model(name);
   SEPTET_CHECK(index.has_value(), "no vehicle model {}", name);
   return *index;
-}
-
-bool is_thrown(const State& state, ParticipantId id) {
-  return std::ranges::binary_search(state.thrown, id, {}, &ThrownBody::id);
 }
 
 person::MovingSolid solid_of(const Participant& vehicle, double mass_kg) {
@@ -80,31 +77,27 @@ void keep_ordered(ThrownBody body, std::vector<ThrownBody>& thrown) {
   thrown.insert(std::ranges::lower_bound(thrown, body.id, {}, &ThrownBody::id), std::move(body));
 }
 
-/// Takes a scripted entity off its script.
-void take_over_entity(ParticipantId id, State& state) {
-  const std::size_t entity = id - first_scripted_participant;
-  if (id >= first_scripted_participant && entity < state.scenario.entities.size())
-    state.scenario.entities[entity].external = true;
-}
-
 void note_crash(const Model& model, const Participant& car, const Participant& other, const person::Touches& touch,
                 State& state, std::vector<Event>& events) {
-  StruckVehicle struck;
-  struck.vehicle = other.id;
-  struck.point_m = touch.point_m;
+  const auto crashed = [&](const Participant& one) {
+    return CrashedVehicle{one.id, mass_kg(model, one), one.velocity_mps, one.angular_velocity_radps};
+  };
   const Vec2 level(touch.normal);
   const double length = glm::length(level);
-  struck.normal = length > 0.1 ? Vec3(-level / length, 0.0) : Vec3(-1.0, 0.0, 0.0);
-  struck.velocity_mps = car.velocity_mps;
-  struck.angular_velocity_radps = car.angular_velocity_radps;
-  struck.closing_speed_mps = touch.closing_mps;
-  struck.car_kg = mass_kg(model, car), struck.vehicle_kg = mass_kg(model, other);
-  state.effects.crashes.struck_by_driver.push_back(struck);
+  const Vec3 car_to_other = length > 0.1 ? Vec3(level / length, 0.0) : Vec3(1.0, 0.0, 0.0);
+  VehicleCrash crash;
+  crash.first = crashed(car), crash.second = crashed(other);
+  crash.point_m = touch.point_m;
+  crash.normal = -car_to_other;
+  crash.closing_speed_mps = touch.closing_mps;
+  state.effects.crashes.struck_vehicles.push_back(crash);
   ++state.diagnostics.collisions;
   // A person is taken along at once: the car's change of speed is that of a plastic impact of the two masses.
-  const double delta_v_mps = touch.closing_mps * struck.vehicle_kg / (struck.vehicle_kg + struck.car_kg);
+  const double delta_v_mps = touch.closing_mps * crash.second.mass_kg / (crash.second.mass_kg + crash.first.mass_kg);
+  const bool by_driver = glm::dot(car.velocity_mps, car_to_other) >= -glm::dot(other.velocity_mps, car_to_other);
   events.push_back({"collision", other.id,
-                    fmt::format("closing_speed_mps={:.2f} delta_v_mps={:.2f}", touch.closing_mps, delta_v_mps)});
+                    fmt::format("closing_speed_mps={:.2f} delta_v_mps={:.2f} by={}", touch.closing_mps, delta_v_mps,
+                                by_driver ? "driver" : "other")});
 }
 
 void begin_throws(const Model& model, const Participant& car, const std::vector<Participant>& participants,
@@ -122,7 +115,7 @@ void begin_throws(const Model& model, const Participant& car, const std::vector<
     }
     if (first.closing_mps < least_closing_mps) continue;
     for (ThrownBody& each : bodies) keep_ordered(std::move(each), state.thrown);
-    take_over_entity(other.id, state);
+    give_up_rails(model, other.id, car, state, events);
     note_crash(model, car, other, first, state, events);
   }
 }
@@ -147,6 +140,10 @@ person::Ground ground_below_body(const Model& model, const State& state, const V
 }
 
 }  // namespace
+
+bool is_thrown(const State& state, ParticipantId id) {
+  return std::ranges::binary_search(state.thrown, id, {}, &ThrownBody::id);
+}
 
 bool is_for_thrown_stage(const State& state, const Participant& car, const Participant& other) {
   if (is_thrown(state, other.id)) return true;

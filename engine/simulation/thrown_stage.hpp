@@ -4,7 +4,7 @@
 /// From the touch on such a participant is a body of State::thrown: it has left its script, flies, slides and lies, and
 /// stays there. A rider leaves the machine and is a participant of his own, with an id from first_rider_participant on.
 /// The car loses what bodies get, along its motion and not about it. Other vehicles push bodies and lose nothing. What a
-/// swarm moved goes on in its lane, unseen; for the other drivers its place is still taken.
+/// traffic engine does not give up goes on in its lane, unseen; for the other drivers its place is still taken.
 
 #include <vector>
 
@@ -15,6 +15,8 @@ namespace septet::simulation {
 
 /// Rider of the machine with id n: this and n.
 inline constexpr ParticipantId first_rider_participant = 8192;
+
+bool is_thrown(const State& state, ParticipantId id);
 
 /// True where this stage decides on what happens between the car and `other`: it was thrown, or will be at the touch.
 bool is_for_thrown_stage(const State& state, const Participant& car, const Participant& other);

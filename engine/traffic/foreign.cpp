@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -60,6 +61,60 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   }
 }
 
+/// What of a vehicle adrift lies on the lanes of a corridor.
+struct Lying {
+  double from_m = 0.0, to_m = 0.0;  ///< From the first point's x.
+  double right_m = 0.0, left_m = 0.0;
+  std::vector<int> lanes;
+};
+
+/// It stands in the way as it lies, in each lane that it reaches into; as one that stands, wherever it slides to. It is
+/// passed where there is room.
+void place_adrift(const road::RoadNetwork& network, const ForeignVehicle& vehicle, std::int32_t index,
+                  const road::RoadPosition* hint, const std::vector<CorridorTraffic>& corridors,
+                  std::vector<ForeignTraffic>& found) {
+  constexpr int along = 5;          // Less than a lane's width apart on the longest vehicle.
+  const VehicleModel& model = vehicle_models()[vehicle.model];
+  std::vector<road::Location> points;
+  for (int k = 0; k < along; ++k)
+    for (const double side : {-0.5, 0.5}) {
+      const double x_m = model.front_m() - model.length_m * k / (along - 1);
+      const Vec3 point_m = vehicle.world_from_vehicle * Vec3(x_m, side * model.width_m, 0.0);
+      const auto place = road::locate(network, Vec2(point_m), hint, 20.0, point_m.z);
+      if (place && place->lanes.lane != 0) points.push_back(*place);
+    }
+  for (std::size_t c = 0; c < corridors.size(); ++c) {
+    const CorridorTraffic& traffic = corridors[c];
+    Lying lying;
+    double first_x_m = 0.0;
+    for (const road::Location& point : points) {
+      const auto x = x_of(network, traffic.corridor, point.position, point.lanes.lane);
+      if (!x) continue;
+      const int lane = std::abs(point.lanes.lane);
+      const double left_m = piece_at(traffic.corridor, *x).along_s ? point.lanes.offset_m : -point.lanes.offset_m;
+      const double lateral_m = -lane * traffic.table.lane_width_m + left_m;
+      if (lying.lanes.empty()) {
+        first_x_m = *x;
+        lying.right_m = lying.left_m = lateral_m;
+      }
+      const double ahead_m = distance_m(traffic.corridor, first_x_m, *x);
+      lying.from_m = std::min(lying.from_m, ahead_m);
+      lying.to_m = std::max(lying.to_m, ahead_m);
+      lying.right_m = std::min(lying.right_m, lateral_m);
+      lying.left_m = std::max(lying.left_m, lateral_m);
+      if (std::ranges::find(lying.lanes, lane) == lying.lanes.end()) lying.lanes.push_back(lane);
+    }
+    LaneEntry entry;
+    entry.x_m = wrap_x(traffic.corridor, first_x_m + lying.to_m);
+    entry.length_m = static_cast<float>(lying.to_m - lying.from_m);
+    entry.lateral_m = static_cast<float>(0.5 * (lying.right_m + lying.left_m));
+    entry.half_width_m = static_cast<float>(0.5 * (lying.left_m - lying.right_m));
+    entry.vehicle = -1 - index;
+    entry.straddles = true;
+    for (const int lane : lying.lanes) found[c].entries.push_back({lane, entry});
+  }
+}
+
 }  // namespace
 
 std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std::span<const ForeignVehicle> foreign,
@@ -75,6 +130,11 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std:
     const Vec3 middle = foreign[i].world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.0);
     auto& hint = state.foreign_places[i];
     const auto place = road::locate(network, {middle.x, middle.y}, hint ? &*hint : nullptr);
+    if (foreign[i].adrift) {
+      if (place) hint = place->position;
+      place_adrift(network, foreign[i], static_cast<std::int32_t>(i), hint ? &*hint : nullptr, state.corridors, found);
+      continue;
+    }
     if (!place || place->lanes.lane == 0) continue;
     hint = place->position;
     const Signals signals = signals_of(foreign[i].lamps, dt_s, state.foreign_signals_s[i]);

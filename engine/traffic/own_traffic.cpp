@@ -30,6 +30,12 @@ class OwnTraffic final : public TrafficEngine {
           told_missing_ +
           std::max<std::size_t>(1, parameters_.count / 10));  // It thins out where the road is shorter than its radius.
   }
+  bool release(ParticipantId id) override {
+    if (!remove_vehicle(id, state_)) return false;
+    // It is not missed.
+    parameters_.count -= std::min<std::uint32_t>(parameters_.count, 1);
+    return true;
+  }
   void worsen(std::uint32_t more_vehicles) override { traffic::worsen(parameters_, more_vehicles, random_, state_); }
   std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
   std::uint32_t take_bad_numbers() override { return std::exchange(state_.bad_numbers, 0); }

@@ -85,8 +85,8 @@ void for_each_array(CorridorTraffic& a, CorridorTraffic& b, Visit visit) {
   visit(a.neighbour_hints, b.neighbour_hints);
 }
 
-/// Moves a vehicle from one corridor's arrays to the end of another's, in `lane` at x. A change of lane goes on.
-void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int lane, double x_m) {
+/// Moves a vehicle from one corridor's arrays to the end of another's, and out of its order.
+void hand_arrays(CorridorTraffic& from, std::size_t i, CorridorTraffic& to) {
   const auto self = static_cast<std::int32_t>(i), last = static_cast<std::int32_t>(from.size()) - 1;
   for (auto& entries : from.order.lanes) {
     std::erase_if(entries, [&](const LaneEntry& entry) { return entry.vehicle == self; });
@@ -98,6 +98,11 @@ void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int la
     source[i] = source.back();
     source.pop_back();
   });
+}
+
+/// Moves a vehicle from one corridor to another, in `lane` at x. A change of lane goes on.
+void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int lane, double x_m) {
+  hand_arrays(from, i, to);
   to.x_m.back() = x_m;
   to.lane.back() = to.from_lane.back() = static_cast<std::int16_t>(lane);
   to.lane_end_m.back() = lane_end_m(to.table, lane, std::max(x_m, 0.0));
@@ -161,6 +166,18 @@ void show_across_mouths(const TrafficState& state, std::vector<ForeignTraffic>& 
     show_unfinished(way, ramp, main.table.lane_width_m, seen[ramp.main]);
     show_last(main, ramp.entry.lane, ramp.entry.x_m, length - ramp.entry.x_m, ramp.lane, seen[ramp.way]);
   }
+}
+
+bool remove_vehicle(ParticipantId id, TrafficState& state) {
+  for (CorridorTraffic& traffic : state.corridors) {
+    const auto found = std::ranges::find(traffic.id, id);
+    if (found == traffic.id.end()) continue;
+    CorridorTraffic nowhere;
+    hand_arrays(traffic, static_cast<std::size_t>(found - traffic.id.begin()), nowhere);
+    state.removed_below = std::max(state.removed_below, id + 1);
+    return true;
+  }
+  return false;
 }
 
 void take_ramps(TrafficState& state) {

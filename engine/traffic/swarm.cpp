@@ -202,7 +202,7 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
 void worsen(TrafficParameters& parameters, std::uint32_t more, Random& random, TrafficState& state) {
   if (state.corridors.empty()) return;
   ++parameters.worsened;
-  ParticipantId next_id = parameters.first_id;
+  ParticipantId next_id = std::max(parameters.first_id, state.removed_below);
   for (CorridorTraffic& traffic : state.corridors)
     for (std::size_t i = 0; i < traffic.size(); ++i) {
       next_id = std::max(next_id, traffic.id[i] + 1);

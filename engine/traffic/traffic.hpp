@@ -67,6 +67,8 @@ struct ForeignVehicle {
   RigidTransform world_from_vehicle;
   Vec3 velocity_mps{0.0};
   Lamps lamps;
+  /// It has left the lanes after a crash: it lies as it lies, across several of them or beside.
+  bool adrift = false;
 };
 
 /// An emergency vehicle's demand on a driver.
@@ -131,7 +133,8 @@ struct TrafficState {
   std::vector<double> foreign_speeds_mps;                         ///< Speeds a tick ago.
   /// Time since each one's left and right indicator were lit.
   std::vector<std::array<double, 2>> foreign_signals_s;
-  std::uint32_t bad_numbers = 0;  ///< Accelerations that were NaN, and were replaced by 0.
+  std::uint32_t bad_numbers = 0;    ///< Accelerations that were NaN, and were replaced by 0.
+  ParticipantId removed_below = 0;  ///< Numbers of removed vehicles are less: they are not given again.
 };
 
 /// Vehicles around the first foreign vehicle (the driver's car), clear of all of them; on a ring all around it.
@@ -153,6 +156,9 @@ CorridorTraffic empty_corridor(const road::RoadNetwork& network, const road::Lan
 /// Adds a vehicle; the caller ensures that its place is free.
 void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver, int lane,
                  double x_m, double speed_mps);
+
+/// Takes a vehicle out for good; false: there is none of that number.
+bool remove_vehicle(ParticipantId id, TrafficState& state);
 
 /// Metres to the left of lane number 0's middle, with the corridor's nominal lane width: falls with the lane number.
 double lateral_m(const CorridorTraffic& traffic, std::size_t vehicle);

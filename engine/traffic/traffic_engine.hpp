@@ -33,8 +33,12 @@ class TrafficEngine {
   virtual void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) = 0;
   /// Removes all vehicles.
   virtual void stop() = 0;
-  /// Advances by one tick. `foreign` has the same vehicles in the same order each time.
+  /// Advances by one tick. `foreign` has the same vehicles in the same order each time;
+  /// new ones come last.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
+  /// Gives a vehicle up: from now on others move it, and it comes back as a foreign one, the last in their order.
+  /// False: it has none of that number, or keeps it.
+  virtual bool release(ParticipantId /*id*/) { return false; }
   /// Adds vehicles on the driver's side, and worsens all drivers' manners by a step (traffic.hpp). An engine without
   /// this ability ignores it.
   virtual void worsen(std::uint32_t /*more_vehicles*/) {}

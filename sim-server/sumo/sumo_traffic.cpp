@@ -25,6 +25,8 @@ bool is_emergency(const ForeignVehicle& vehicle) {
 }
 
 std::string type_name(ParticipantId id) { return fmt::format("type{}", id); }
+/// Of one that was SUMO's own and has a type there.
+std::string wreck_type_name(ParticipantId id) { return fmt::format("wreck{}", id); }
 
 }  // namespace
 
@@ -81,6 +83,7 @@ void SumoTraffic::stop() {
     if (running_) ok(client_->remove_vehicle(id));
   members_.clear();
   told_.clear();
+  given_up_.clear();
   corridors_.clear();
   before_.clear();
   after_.clear();
@@ -105,6 +108,18 @@ void SumoTraffic::enter(Member& member, int lane, double x_m) {
 void SumoTraffic::leave(Member& member) {
   member.stay = Member::Stay::outside;
   ok(client_->remove_vehicle(member.id));
+}
+
+bool SumoTraffic::release(ParticipantId id) {
+  const auto member = std::ranges::find(members_, id, &Member::id);
+  if (!running_ || member == members_.end() || member->stay != Member::Stay::on_road) return false;
+  leave(*member);
+  members_.erase(member);
+  for (auto* frame : {&before_, &after_})
+    std::erase_if(*frame, [&](const Participant& participant) { return participant.id == id; });
+  given_up_.push_back(id);
+  parameters_.count -= std::min<std::uint32_t>(parameters_.count, 1);
+  return true;
 }
 
 /// Placed anywhere within the swarm while it is being set out. Returns true if it was requested.
@@ -160,12 +175,13 @@ void SumoTraffic::recycle(Member& member, const road::RoadPosition& middle, doub
 
 void SumoTraffic::place_foreign(std::span<const ForeignVehicle> foreign, double ahead_s) {
   for (const ForeignVehicle& vehicle : foreign) {
+    if (std::ranges::find(given_up_, vehicle.id) != given_up_.end()) continue;
     const VehicleModel& model = vehicle_models()[vehicle.model];
     const Vec3 front = vehicle.world_from_vehicle * Vec3(model.front_m(), 0.0, 0.0) + ahead_s * vehicle.velocity_mps;
     if (std::ranges::find(told_, vehicle.id) == told_.end()) {
       if (network_.edges.empty()) return;
       told_.push_back(vehicle.id);
-      const auto type = type_name(vehicle.id);
+      const auto type = vehicle.adrift ? wreck_type_name(vehicle.id) : type_name(vehicle.id);
       ok(client_->define_type(
           {type, is_emergency(vehicle) ? "emergency" : "foreign", model.length_m, model.width_m, model.height_m, {}}));
       if (running_)
@@ -185,6 +201,7 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
     return;
   }
   ++steps_;
+  given_up_.clear();
   before_ = std::move(after_);
   after_.clear();
   std::optional<road::Location> middle;  // Middle of the swarm: the first foreign vehicle.

@@ -29,6 +29,7 @@ class SumoTraffic final : public traffic::TrafficEngine {
   void start(const traffic::TrafficParameters& parameters, std::span<const traffic::ForeignVehicle> foreign) override;
   void stop() override;
   void advance(std::span<const traffic::ForeignVehicle> foreign, double dt_s) override;
+  bool release(ParticipantId id) override;
   void append_participants(std::vector<Participant>& participants) const override;
   void add_to_hash(StateHash& hash) const override;
   std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
@@ -66,8 +67,10 @@ class SumoTraffic final : public traffic::TrafficEngine {
   Random random_;
   traffic::TrafficParameters parameters_;
   std::vector<traffic::CorridorTraffic> corridors_;
-  std::vector<Member> members_;              ///< Ascending id.
-  std::vector<ParticipantId> told_;          ///< Foreign vehicles that SUMO knows.
+  std::vector<Member> members_;      ///< Ascending id.
+  std::vector<ParticipantId> told_;  ///< Foreign vehicles that SUMO knows.
+  /// Given up since SUMO's last step: their numbers are taken there until its next one.
+  std::vector<ParticipantId> given_up_;
   std::vector<Participant> before_, after_;  ///< At SUMO's last step and at the one ahead; ascending id.
   double phase_s_ = 0.0;                     ///< Since `before_`.
   double time_s_ = 0.0;

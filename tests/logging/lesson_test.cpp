@@ -223,6 +223,19 @@ TEST_CASE("a collision is dangerous, whatever the rest is worth") {
   CHECK_FALSE(marks.passed);
 }
 
+TEST_CASE("the debrief says how many of those touched ran into the pupil's car") {
+  const Lesson lesson = lesson_of("collision", 0.0, 1.0);
+  const auto samples = good_drive();
+  const std::vector<Event> own{{1200, 10.0, "collision", 7, "closing_speed_mps=4.00 delta_v_mps=2.00 by=driver"}};
+  std::vector<Event> both = own;
+  both.push_back({1300, 10.8, "collision", 8, "closing_speed_mps=3.00 delta_v_mps=1.50 by=other"});
+  const auto page_of = [&](const std::vector<Event>& events) {
+    return debrief_page(lesson, mark_lesson(lesson, samples, events), samples, {});
+  };
+  CHECK(page_of(own).find("ran into") == std::string::npos);
+  CHECK(page_of(both).find("2 touched, the last at 10.8 s; 1 of them ran into the pupil") != std::string::npos);
+}
+
 TEST_CASE("a drive that ends too early has no mark, and line and debrief say that it was too short to be marked") {
   Lesson lesson = lesson_of("speed", 100.0, 10.0);
   const auto samples = good_drive();

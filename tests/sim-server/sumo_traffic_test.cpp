@@ -126,6 +126,24 @@ TEST_CASE("SUMO is told where the vehicles of others will be at its next step") 
   CHECK(scene.sumo->foreign[1].y == doctest::Approx(-2.0));
 }
 
+TEST_CASE("a vehicle that SUMO gives up comes back to it as one of others, once its number is free") {
+  Scene scene;
+  auto before = scene.tick();
+  const Participant hit = before.at(4);
+  REQUIRE(scene.traffic.release(hit.id));
+  CHECK_FALSE(scene.traffic.release(hit.id));
+  CHECK_FALSE(scene.sumo->vehicles.contains(hit.id));
+  scene.foreign.push_back({hit.id, hit.model, hit.world_from_vehicle, {}, {}, true});
+  const int steps = scene.sumo->steps;
+  while (scene.sumo->steps == steps) {
+    CHECK_FALSE(scene.sumo->foreign.contains(hit.id));
+    for (const Participant& one : scene.tick()) CHECK(one.id != hit.id);
+  }
+  for (int tick = 0; tick < 12; ++tick) scene.tick();
+  CHECK(scene.sumo->foreign.contains(hit.id));
+  CHECK(scene.tick().size() == 9);
+}
+
 TEST_CASE("a SUMO that goes away is one error and the traffic stands still from then on") {
   Scene scene;
   scene.sumo->steps_until_gone = 10;

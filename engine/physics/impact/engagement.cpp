@@ -63,12 +63,14 @@ double time_within_s(double dt_s, const Side& first, const Side& second, Excess&
 }
 
 /// The meeting again of bodies whose crushed outlines overlap, seen with all running pulses given.
-std::optional<Impact> meet_again(double friction, const Engagement& engagement, const Due& due, const Excess& excess,
-                                 double age_s, const Side& first, const Side& second) {
+std::optional<Impact> meet_again(double friction, const Engagement& engagement, const Due& due,
+                                 const Due& due_to_second, const Excess& excess, double age_s, const Side& first,
+                                 const Side& second) {
   Side own = first, other = second;
   for (const Pulse& pulse : engagement.pulses)
     exchange(pulse.impulse, 1.0 - share_at(pulse, pulse.age_s), own.body, other.body);
   give(due, own.body);
+  give(due_to_second, other.body);
   Outline whole = first.outline, other_whole = second.outline;
   whole.cuts = other_whole.cuts = {};
   const double from_m = first.crushed_m + second.crushed_m + excess.overlap_m +
@@ -97,8 +99,8 @@ void set_apart(const Excess& excess, Engagement& engagement, Side& first, Side& 
 }
 
 std::optional<Impact> first_meeting(double friction, double dt_s, Engagement& engagement, Side& first, Side& second,
-                                    const Due& due) {
-  auto impact = meet(first, second, friction, dt_s, due);
+                                    const Due& due, const Due& due_to_second) {
+  auto impact = meet(first, second, friction, dt_s, due, due_to_second);
   if (!impact) {
     // Found in each other, or stopped by another contact's pulse: crushed so far.
     if (const auto excess = excess_of(first, second)) crush(excess->overlap_m, excess->place.normal, first, second);
@@ -114,18 +116,18 @@ std::optional<Impact> first_meeting(double friction, double dt_s, Engagement& en
 }
 
 std::optional<Impact> go_on(double friction, double dt_s, Engagement& engagement, Side& first, Side& second,
-                            const Due& due) {
+                            const Due& due, const Due& due_to_second) {
   advance_pulses(dt_s, engagement, first, second);
   const auto excess = excess_of(first, second);
   if (!excess) return std::nullopt;
   Excess before = *excess;
   const double since_s = time_within_s(dt_s, first, second, before);
-  auto again = meet_again(friction, engagement, due, before, since_s, first, second);
+  auto again = meet_again(friction, engagement, due, due_to_second, before, since_s, first, second);
   if (again) {
     crush(*again, before.overlap_m, first, second);
     engagement.pulses.push_back(again->pulse);
     press(since_s, engagement.pulses.back(), engagement, first, second);
-  } else if (due.runs || !engagement.pulses.empty()) {
+  } else if (due.runs || due_to_second.runs || !engagement.pulses.empty()) {
     crush(excess->overlap_m, excess->place.normal, first, second);
   }
   return again;
@@ -149,12 +151,12 @@ void advance_pulses(double dt_s, Engagement& engagement, Side& first, Side& seco
 }
 
 std::optional<Impact> advance_engagement(double friction, double dt_s, Engagement& engagement, Side& first,
-                                         Side& second, const Due& due) {
+                                         Side& second, const Due& due, const Due& due_to_second) {
   const bool fresh = engagement.pulses.empty() && engagement.first.count == 0 && engagement.second.count == 0;
   first.outline.cuts = engagement.first;
   second.outline.cuts = engagement.second;
-  auto impact = fresh ? first_meeting(friction, dt_s, engagement, first, second, due)
-                      : go_on(friction, dt_s, engagement, first, second, due);
+  auto impact = fresh ? first_meeting(friction, dt_s, engagement, first, second, due, due_to_second)
+                      : go_on(friction, dt_s, engagement, first, second, due, due_to_second);
   if (auto excess = excess_of(first, second)) {
     const double found_m = sudden_m(dt_s, first, second, *excess);
     crush(found_m, excess->place.normal, first, second);

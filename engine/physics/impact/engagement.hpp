@@ -30,9 +30,9 @@ struct Engagement {
 /// Call it after each step in which both sides have moved by their motion before it, for every pair whose outlines may
 /// overlap and every pair that is engaged. Pushes, moves and turns both sides by what is due. Returns the impact that
 /// begins in this step, if one does. `friction`: of this pair of surfaces.
-/// Sides come with whole outlines. `due`: to the first body, by pulses of other engagements.
+/// Sides come with whole outlines. `due`, `due_to_second`: to either body, by pulses of other engagements.
 std::optional<Impact> advance_engagement(double friction, double dt_s, Engagement& engagement, Side& first,
-                                         Side& second, const Due& due = {});
+                                         Side& second, const Due& due = {}, const Due& due_to_second = {});
 
 /// Gives both what is due of the pulses that run, and looks for no meeting: for those whose outlines are apart.
 void advance_pulses(double dt_s, Engagement& engagement, Side& first, Side& second);

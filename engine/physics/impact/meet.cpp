@@ -36,6 +36,13 @@ double closing_time_s(const Side& first, const Side& second, double open_s, doub
   return closed_s;
 }
 
+/// Adds the motion of a body that stood before its share was given.
+void add_motion(const Body& moved, Due& due) {
+  due.velocity_mps += moved.velocity_mps;
+  due.yaw_rate_radps += moved.yaw_rate_radps;
+  due.runs = true;
+}
+
 }  // namespace
 
 Side carried(const Side& side, const Body& body) {
@@ -67,9 +74,13 @@ std::optional<Touch> touch_of(const Side& first, const Side& second, double back
 void add_due(const Pulse& pulse, const Body& first, Due& due) {
   Body own{first.mass_kg, first.yaw_inertia_kgm2}, other;
   exchange(pulse.impulse, 1.0 - share_at(pulse, pulse.age_s), own, other);
-  due.velocity_mps += own.velocity_mps;
-  due.yaw_rate_radps += own.yaw_rate_radps;
-  due.runs = true;
+  add_motion(own, due);
+}
+
+void add_due_to_second(const Pulse& pulse, const Body& second, Due& due) {
+  Body other, own{second.mass_kg, second.yaw_inertia_kgm2};
+  exchange(pulse.impulse, 1.0 - share_at(pulse, pulse.age_s), other, own);
+  add_motion(own, due);
 }
 
 void give(const Due& due, Body& body) {
@@ -101,13 +112,15 @@ std::optional<Impact> impact_at(const Touch& touch, const Side& first, const Sid
                 past.aside};
 }
 
-std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s, const Due& due) {
+std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s, const Due& due,
+                           const Due& due_to_second) {
   if (!std::isfinite(first.body.mass_kg) && !std::isfinite(second.body.mass_kg)) return std::nullopt;
   const auto touch = touch_of(first, second, back_s);
   if (!touch) return std::nullopt;
-  Side a = moved_back(first, touch->age_s);
+  Side a = moved_back(first, touch->age_s), b = moved_back(second, touch->age_s);
   give(due, a.body);
-  return impact_at(*touch, a, moved_back(second, touch->age_s), friction, first.crushed_m + second.crushed_m);
+  give(due_to_second, b.body);
+  return impact_at(*touch, a, b, friction, first.crushed_m + second.crushed_m);
 }
 
 }  // namespace septet::impact

@@ -28,7 +28,7 @@ struct Side {
   double crushed_m = 0.0;
 };
 
-/// What pulses of other contacts will still change of the first body's motion.
+/// What pulses of other contacts will still change of a body's motion.
 struct Due {
   Vec2 velocity_mps{0.0};
   double yaw_rate_radps = 0.0;
@@ -36,6 +36,8 @@ struct Due {
 };
 /// Adds what is left of a pulse, on its first body of these masses.
 void add_due(const Pulse& pulse, const Body& first, Due& due);
+/// Likewise on its second body.
+void add_due_to_second(const Pulse& pulse, const Body& second, Due& due);
 /// Gives a body all that is due to it.
 void give(const Due& due, Body& body);
 
@@ -63,10 +65,11 @@ struct Impact {
 };
 /// Empty where the outlines do not overlap, where the surfaces do not approach, or where both sides stand fast.
 /// Call it in the step in which two bodies that were apart overlap; `friction`: of this pair of surfaces.
-std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s, const Due& due = {});
+std::optional<Impact> meet(const Side& first, const Side& second, double friction, double back_s, const Due& due = {},
+                           const Due& due_to_second = {});
 
-/// What begins at a place that the outlines have reached, `from_m` of crush behind them. `first.body` with all that is
-/// due to it.
+/// What begins at a place that the outlines have reached, `from_m` of crush behind them. Both bodies with all that is
+/// due to them.
 std::optional<Impact> impact_at(const Touch& touch, const Side& first, const Side& second, double friction,
                                 double from_m);
 

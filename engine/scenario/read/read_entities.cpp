@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <array>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "engine/scenario/read/scenario_reading.hpp"
+#include "engine/world/breakable_names.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -57,6 +59,9 @@ void read_object(const Element& object, Entity& entity) {
   } else {
     entity.kind = EntityKind::misc_object;
     entity.category = object.text("miscObjectCategory");
+    if (std::ranges::find(breakable_names, entity.type_name) == breakable_names.end())
+      object.warning(fmt::format("an object called \"{}\" is not drawn, and nobody can hit it", entity.type_name),
+                     fmt::format("call it one of {}", fmt::join(breakable_names, ", ")));
   }
   entity.box = read_bounding_box(object);
   for (const Element& property : object.child("Properties").children("Property")) {

@@ -69,6 +69,18 @@ class Step {
     return "it is neither an act nor an event";
   }
 
+  void release(EntityState& entity) {
+    entity.external = true;
+    std::vector<ElementIndex> stopped;
+    each_control(entity, [&](auto& control) {
+      if (control.active && control.action != no_element) stopped.push_back(control.action);
+      control = {};
+    });
+    for (const ElementIndex action : stopped)
+      if (!anybody_follows(action)) finish(action, ElementTransition::stop, ElementStatus::complete);
+    settle();
+  }
+
   void move_entities(double dt_s) {
     std::vector<ElementIndex> ended;
     for (EntityIndex i = 0; i < state_.entities.size(); ++i) {
@@ -239,15 +251,17 @@ class Step {
     return found;
   }
 
-  void end_action(ElementIndex action) {
-    // An action of several actors ends with the last of them.
-    bool goes_on = false;
-    for (EntityState& entity : state_.entities) {
+  bool anybody_follows(ElementIndex action) {
+    bool follows = false;
+    for (EntityState& entity : state_.entities)
       each_control(entity,
-                   [&](const auto& control) { goes_on = goes_on || (control.active && control.action == action); });
-    }
-    if (goes_on) return;
-    finish(action, ElementTransition::end, ElementStatus::complete);
+                   [&](const auto& control) { follows = follows || (control.active && control.action == action); });
+    return follows;
+  }
+
+  /// An action of several actors ends with the last of them.
+  void end_action(ElementIndex action) {
+    if (!anybody_follows(action)) finish(action, ElementTransition::end, ElementStatus::complete);
   }
 
   void stop_event(const Event& event) {
@@ -409,6 +423,12 @@ StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& n
   }
   state.time_s += dt_s;
   return result;
+}
+
+void release_entity(const Scenario& scenario, const road::RoadNetwork& network, EntityIndex entity,
+                    ScenarioState& state, StepResult& result) {
+  SEPTET_CHECK(entity < state.entities.size(), "entity {} of {}", entity, state.entities.size());
+  Step(scenario, network, state, result).release(state.entities[entity]);
 }
 
 Expected<void> trigger_element(const Scenario& scenario, const road::RoadNetwork& network, ElementIndex element,

@@ -53,6 +53,12 @@ Error why_without_place(const Scenario& scenario, EntityIndex entity);
 void place_external(const road::RoadNetwork& network, EntityIndex entity, const RigidTransform& world_from_entity,
                     const Vec3& velocity_mps, const Vec3& acceleration_mps2, ScenarioState& state);
 
+/// Call between two steps: from now on the entity is moved from outside, as after a crash. Running actions of its are
+/// stopped, with those elements that have nothing left to do; later ones that would move it wait for ever. Its requests
+/// are added to `result`.
+void release_entity(const Scenario& scenario, const road::RoadNetwork& network, EntityIndex entity,
+                    ScenarioState& state, StepResult& result);
+
 /// Sets the obstacle in a scripted entity's path, each step anew; empty: its path is clear. It brakes for that and
 /// regains the speed of its script afterwards. `beside_is_taken`: the target place of its lateral action is occupied;
 /// the action then begins when that place is free. An entity without this call drives its script, into others too.

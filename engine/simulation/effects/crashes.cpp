@@ -45,27 +45,31 @@ void throw_parts(const Participant& car, debris::Crash& blow, const debris::Cont
   ++outcome.crashes;
   note_glass(car.id, blow.first, blow.point_m, report.closing_speed_mps, outcome);
   outcome.pieces += static_cast<int>(report.pieces.size());
-  outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   memory.parts[car.id] = std::move(blow.first.parts);
 }
 
-/// Uses the car's motion at the touch, too: the impact has slowed it since.
-void crash_with_vehicle(const Participant& car, const Participant& other, const StruckVehicle& struck,
-                        const debris::ContactWorld& world, CrashMemory& memory, debris::State& debris, Random& random,
-                        CrashOutcome& outcome) {
+Participant at_touch(const Participant& now, const CrashedVehicle& then) {
+  Participant vehicle = now;
+  vehicle.velocity_mps = then.velocity_mps;
+  vehicle.angular_velocity_radps = then.angular_velocity_radps;
+  return vehicle;
+}
+
+/// Uses both motions at the touch: the impact has changed them since.
+void crash_of_vehicles(const Participant& first, const Participant& second, const VehicleCrash& struck,
+                       ParticipantId driver, const debris::ContactWorld& world, CrashMemory& memory,
+                       debris::State& debris, Random& random, CrashOutcome& outcome) {
   if (struck.closing_speed_mps < debris::least_crash_speed_mps) return;
-  Participant striking = car;
-  striking.velocity_mps = struck.velocity_mps;
-  striking.angular_velocity_radps = struck.angular_velocity_radps;
   debris::Crash blow;
-  blow.first = body_of(striking, struck.car_kg, memory.parts);
-  blow.second = body_of(other, struck.vehicle_kg, memory.parts);
+  blow.first = body_of(at_touch(first, struck.first), struck.first.mass_kg, memory.parts);
+  blow.second = body_of(at_touch(second, struck.second), struck.second.mass_kg, memory.parts);
   blow.point_m = struck.point_m;
   blow.normal = struck.normal;
-  throw_parts(car, blow, world, memory, debris, random, outcome);
-  note_glass(other.id, blow.second, blow.point_m, struck.closing_speed_mps, outcome);
-  for (const MadeDent& dent : dents_of_crash(car, other, struck)) outcome.dents.push_back(dent);
-  memory.parts[other.id] = std::move(blow.second.parts);
+  throw_parts(first, blow, world, memory, debris, random, outcome);
+  if (first.id == driver) outcome.impulse_on_driver_ns += blow.first.impulse_ns;
+  note_glass(second.id, blow.second, blow.point_m, struck.closing_speed_mps, outcome);
+  for (const MadeDent& dent : dents_of_crash(first, second, struck)) outcome.dents.push_back(dent);
+  memory.parts[second.id] = std::move(blow.second.parts);
 }
 
 /// Uses the car's motion at the first touch; its hull has taken the impact itself.
@@ -83,6 +87,7 @@ void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch
                                     orientation_from_angles(std::atan2(touch.normal.y, touch.normal.x), 0.0, 0.0)};
   blow.second.box.half_size_m = Vec3(half_m);
   throw_parts(car, blow, world, memory, debris, random, outcome);
+  outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   for (const MadeDent& dent : dents_of_touch(car, touch)) outcome.dents.push_back(dent);
 }
 
@@ -108,14 +113,15 @@ CrashOutcome advance_crashes(const std::vector<Participant>& participants, Parti
                              Random& random) {
   CrashOutcome outcome;
   const auto find = [&](ParticipantId id) { return std::ranges::find(participants, id, &Participant::id); };
-  const auto car = find(driver);
-  if (car == participants.end()) return outcome;
-  for (const StruckVehicle& struck : memory.struck_by_driver)
-    if (const auto other = find(struck.vehicle); other != participants.end())
-      crash_with_vehicle(*car, *other, struck, world, memory, debris, random, outcome);
-  for (const vehicle::HullTouch& touch : memory.struck_standing)
-    crash_with_standing(*car, touch, world, memory, debris, random, outcome);
-  memory.struck_by_driver.clear();
+  for (const VehicleCrash& struck : memory.struck_vehicles) {
+    const auto first = find(struck.first.id), second = find(struck.second.id);
+    if (first != participants.end() && second != participants.end())
+      crash_of_vehicles(*first, *second, struck, driver, world, memory, debris, random, outcome);
+  }
+  if (const auto car = find(driver); car != participants.end())
+    for (const vehicle::HullTouch& touch : memory.struck_standing)
+      crash_with_standing(*car, touch, world, memory, debris, random, outcome);
+  memory.struck_vehicles.clear();
   memory.struck_standing.clear();
   return outcome;
 }

@@ -2,9 +2,8 @@
 /// Crashes for the effects: the pair in contact, the normal, and the parts broken off.
 ///
 /// Vehicles are boxes. The first tick of a contact is the crash; broken-off parts are remembered, so that no car loses
-/// the same bumper twice. The driver's car takes the impact of another vehicle in simulation/car_impacts, and that of
-/// obstacles beside the road in vehicle::advance_hull; all other participants are moved by traffic or by the
-/// storyboard.
+/// the same bumper twice. Vehicles take their impacts in simulation/collisions, the driver's car that of obstacles
+/// beside the road in vehicle::advance_hull.
 
 #include <map>
 #include <vector>
@@ -19,20 +18,25 @@ namespace septet::simulation {
 /// Parts that each crashed vehicle still carries.
 using MountedParts = std::map<ParticipantId, std::vector<debris::MountedPart>>;
 
-/// An impact of the driver's car with another vehicle, as it was at the touch: world frame.
-struct StruckVehicle {
-  ParticipantId vehicle = 0;
-  Vec3 point_m{0.0};
-  Vec3 normal{1.0, 0.0, 0.0};  ///< Unit length, level, from the other one to the driver's car.
-  Vec3 velocity_mps{0.0};      ///< Of the driver's car, at its origin.
+/// One of two in a crash, as it was at the touch.
+struct CrashedVehicle {
+  ParticipantId id = 0;
+  double mass_kg = 0.0;
+  Vec3 velocity_mps{0.0};  ///< At its origin, world frame.
   Vec3 angular_velocity_radps{0.0};
+};
+
+/// An impact of two vehicles as it was at the touch: world frame.
+struct VehicleCrash {
+  CrashedVehicle first, second;
+  Vec3 point_m{0.0};
+  Vec3 normal{1.0, 0.0, 0.0};      ///< Unit length, level, from the second to the first.
   double closing_speed_mps = 0.0;  ///< Along the normal, of the surfaces.
-  double car_kg = 0.0, vehicle_kg = 0.0;
 };
 
 struct CrashMemory {
-  /// Vehicles met by the driver's car since the effects' last step, in order of contact: for the next step.
-  std::vector<StruckVehicle> struck_by_driver;
+  /// Crashes of two vehicles since the effects' last step, in order of contact: for the next step.
+  std::vector<VehicleCrash> struck_vehicles;
   std::vector<vehicle::HullTouch> struck_standing;  ///< Obstacles beside the road, likewise.
   MountedParts parts;
 };
@@ -63,7 +67,7 @@ struct BoxContact {
 double contact_height_m(const debris::Box& a, const debris::Box& b);
 std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b);
 
-/// Computes the crashes of the driver's car that `memory` names.
+/// Computes the crashes that `memory` names; standing things are met by the driver's car.
 CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,
                              const debris::ContactWorld& world, CrashMemory& memory, debris::State& debris,
                              Random& random);

@@ -131,11 +131,11 @@ std::optional<DentingShape> denting_shape(ObstacleKind kind) {
 
 }  // namespace
 
-std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const StruckVehicle& struck) {
+std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const VehicleCrash& struck) {
   std::vector<MadeDent> made;
-  const double closing_mps = struck.closing_speed_mps, both_kg = struck.car_kg + struck.vehicle_kg;
-  const double first_m = debris::residual_crush_m(closing_mps * struck.vehicle_kg / both_kg),
-               second_m = debris::residual_crush_m(closing_mps * struck.car_kg / both_kg);
+  const double closing_mps = struck.closing_speed_mps, both_kg = struck.first.mass_kg + struck.second.mass_kg;
+  const double first_m = debris::residual_crush_m(closing_mps * struck.second.mass_kg / both_kg),
+               second_m = debris::residual_crush_m(closing_mps * struck.first.mass_kg / both_kg);
   const Vec2 away(struck.normal);
   if (!(glm::length(away) > 0.5)) return made;
   const Vec2 inwards = glm::normalize(away);

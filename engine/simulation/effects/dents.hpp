@@ -21,11 +21,11 @@ struct MadeDent {
   debris::Dent dent;
 };
 
-struct StruckVehicle;
+struct VehicleCrash;
 
-/// Dents of the driver's car, `first`, and of the vehicle that it struck: none in people and two-wheelers, nor at speeds
+/// Dents of two vehicles in a crash: none in people and two-wheelers, nor at speeds
 /// too low to leave one.
-std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const StruckVehicle& struck);
+std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const VehicleCrash& struck);
 /// Dents of a vehicle that meets an obstacle beside the road; none from a yielding one.
 std::vector<MadeDent> dents_of_touch(const Participant& vehicle, const vehicle::HullTouch& touch);
 

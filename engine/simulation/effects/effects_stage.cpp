@@ -1,7 +1,6 @@
 #include "engine/simulation/effects/effects_stage.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,13 +11,12 @@
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/save_debris.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
+#include "engine/world/breakable_names.hpp"
 
 namespace septet::simulation {
 namespace {
 
-/// Names in the order of debris::Part.
-constexpr std::array<std::string_view, debris::part_count> part_name_table{
-    "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab"};
+static_assert(breakable_names.size() == debris::part_count);
 
 Vec3 place_of(const debris::Piece& piece) { return debris::from_eigen(piece.body.position_m.front()); }
 
@@ -52,12 +50,12 @@ std::vector<EffectOffer> debris_offers(const debris::State& debris) {
 }  // namespace
 
 std::optional<debris::Part> part_of_name(std::string_view name) {
-  const auto found = std::ranges::find(part_name_table, name);
-  if (found == part_name_table.end()) return std::nullopt;
-  return static_cast<debris::Part>(found - part_name_table.begin());
+  const auto found = std::ranges::find(breakable_names, name);
+  if (found == breakable_names.end()) return std::nullopt;
+  return static_cast<debris::Part>(found - breakable_names.begin());
 }
 
-std::span<const std::string_view> part_names() { return part_name_table; }
+std::span<const std::string_view> part_names() { return breakable_names; }
 
 EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard,
                              std::uint64_t seed) {
@@ -83,7 +81,7 @@ void stand_part(debris::Part part, const RigidTransform& feet, EffectsState& sta
 std::vector<LyingPiece> lying_pieces(const EffectsState& state) {
   std::vector<LyingPiece> pieces;
   for (const debris::Piece& piece : state.debris.pieces)
-    pieces.push_back({piece.id, part_name_table[static_cast<std::size_t>(piece.part)], place_of(piece)});
+    pieces.push_back({piece.id, breakable_names[static_cast<std::size_t>(piece.part)], place_of(piece)});
   return pieces;
 }
 
@@ -110,7 +108,7 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
 
 bool effects_are_still(const EffectsState& state) {
   return state.debris.pieces.empty() && state.debris.shards.empty() && state.published.keyframes.empty() &&
-         state.crashes.struck_by_driver.empty() && state.crashes.struck_standing.empty() && !state.fires.smoke &&
+         state.crashes.struck_vehicles.empty() && state.crashes.struck_standing.empty() && !state.fires.smoke &&
          state.ice.still.empty() && state.ice.keyframe.data.empty() && state.ice.panes.empty();
 }
 

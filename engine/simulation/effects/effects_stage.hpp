@@ -32,7 +32,7 @@ struct EffectsReport {
 EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard,
                              std::uint64_t seed);
 
-/// "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab".
+/// One of breakable_names.
 std::optional<debris::Part> part_of_name(std::string_view name);
 
 /// The names of all parts, as users write them.

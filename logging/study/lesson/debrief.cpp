@@ -95,7 +95,8 @@ std::string how_often(const LessonTask& task, const TaskMark& mark) {
 std::string why(const LessonTask& task, const TaskMark& mark) {
   if (task.measure == LessonMeasure::collision)
     return mark.faults == 0 ? std::string("nobody touched")
-                            : fmt::format("{:.0f} touched, the last at {:.1f} s", mark.worst, mark.worst_s);
+                            : fmt::format("{:.0f} touched, the last at {:.1f} s{}{}", mark.worst, mark.worst_s,
+                                          mark.worst_at.empty() ? "" : "; ", mark.worst_at);
   return fmt::format("{}{}{} at {:.1f} s; asked: {} {}; {}", value_text(task, mark.worst),
                      mark.worst_at.empty() ? "" : " ", mark.worst_at, mark.worst_s,
                      is_at_most(task.measure) ? "at most" : "at least", value_text(task, task.bound),

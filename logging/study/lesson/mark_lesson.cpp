@@ -283,9 +283,13 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
       break;
   }
   std::vector<Moment> moments{{drive.samples.front().simulated_time_s, 0.0}};
-  double count = 0.0;
-  for (const Event& event : drive.events)
-    if (event.kind == "collision") moments.push_back({event.simulated_time_s, ++count});
+  double count = 0.0, by_others = 0.0;
+  for (const Event& event : drive.events) {
+    if (event.kind != "collision") continue;
+    if (event.detail.ends_with("by=other")) ++by_others;
+    moments.push_back({event.simulated_time_s, ++count,
+                       by_others > 0.0 ? fmt::format("{:.0f} of them ran into the pupil's car", by_others) : ""});
+  }
   return moments;
 }
 

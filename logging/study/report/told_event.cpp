@@ -34,6 +34,7 @@ Row row_of(std::string_view kind) {
                                                     {"scenario", storyboard},
                                                     {"game", games},
                                                     {"collision", collisions},
+                                                    {"crash_of_others", collisions},
                                                     {"kerb", collisions},
                                                     {"wheel_damage", collisions},
                                                     {"mirror_glance", glances},
@@ -113,7 +114,18 @@ std::string collision_text(const Event& event) {
   const auto closing = value_of(event.detail, "closing_speed_mps");
   const std::string_view before = std::string_view(event.detail).substr(0, event.detail.find(' '));
   const std::string with = before.empty() || before.find('=') != before.npos ? whom : fmt::format(" with {}", before);
-  return fmt::format("collision{}{}", with, closing ? " at a closing speed of " + kmh_of(*closing) : "");
+  const auto by = value_of(event.detail, "by");
+  return fmt::format("collision{}{}{}", with, closing ? " at a closing speed of " + kmh_of(*closing) : "",
+                     by && *by == "other" ? ", who ran into the driver's car" : "");
+}
+
+std::string crash_of_others_text(const Event& event) {
+  const auto with = value_of(event.detail, "with"), by = value_of(event.detail, "by"),
+             closing = value_of(event.detail, "closing_speed_mps");
+  if (!event.participant || !with || !by || !closing) return event.detail;
+  const std::string first = fmt::format("{}", *event.participant);
+  return fmt::format("participant {} ran into {} at a closing speed of {}", *by, *by == first ? *with : first,
+                     kmh_of(*closing));
 }
 
 /// The kind, and its `key=value` pairs verbatim.
@@ -135,6 +147,7 @@ std::string text_of(const Event& event) {
   if (event.kind == "lane_change") return lane_change_text(event);
   if (event.kind == "mirror_glance") return glance_text(event);
   if (event.kind == "collision") return collision_text(event);
+  if (event.kind == "crash_of_others") return crash_of_others_text(event);
   if (event.kind == "screen") return event.detail;
   if (event.kind == "speed_limit")
     if (const auto kmh = value_of(event.detail, "kmh"))

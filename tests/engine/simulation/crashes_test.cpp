@@ -31,11 +31,11 @@ std::vector<Participant> in_a_row(std::string_view ahead, double speed_mps, doub
 
 CrashOutcome crash(const std::vector<Participant>& participants) {
   CrashMemory memory;
-  memory.struck_by_driver = {struck(participants[0], participants[1])};
+  memory.struck_vehicles = {struck(participants[0], participants[1])};
   debris::State debris;
   Random random(1);
   const CrashOutcome outcome = advance_crashes(participants, 1, {}, memory, debris, random);
-  CHECK(memory.struck_by_driver.empty());
+  CHECK(memory.struck_vehicles.empty());
   return outcome;
 }
 

@@ -30,7 +30,7 @@ const VehicleModel& model_of(const Participant& p) { return vehicle_models()[p.m
 
 CrashOutcome run_into(const std::vector<Participant>& both) {
   CrashMemory memory;
-  memory.struck_by_driver = {struck(both[0], both[1])};
+  memory.struck_vehicles = {struck(both[0], both[1])};
   debris::State debris;
   Random random(1);
   return advance_crashes(both, both[0].id, {}, memory, debris, random);
@@ -167,7 +167,7 @@ TEST_CASE("a crash's dents are in every snapshot from then on, for who joins lat
       lane * Vec3(model_of(participants[0]).front_m() + model_of(participants[1]).rear_overhang_m - 0.1, 0.0, 0.0);
   EffectsState state;
   state.random = Random(3, 2);
-  state.crashes.struck_by_driver = {struck(participants[0], participants[1])};
+  state.crashes.struck_vehicles = {struck(participants[0], participants[1])};
   const Environment environment;
   const auto advance = [&](Tick tick) {
     return advance_effects({road::motorway(), nullptr, participants, environment, 1, 1.0, tick, 1.0 / 120.0}, state);

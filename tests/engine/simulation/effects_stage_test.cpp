@@ -141,7 +141,7 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   state.random = Random(1, 2);
   std::vector<Participant> participants{vehicle_on_lane(1, "volvo-s80", 900.0, -5, 22.0),
                                         vehicle_on_lane(7, "saloon", 904.4, -5, 2.0)};
-  state.crashes.struck_by_driver = {struck(participants[0], participants[1])};
+  state.crashes.struck_vehicles = {struck(participants[0], participants[1])};
   const EffectsReport report = run(participants, state, 2, 2);
   CHECK(report.crashes.crashes == 1);
   CHECK(report.crashes.pieces > 2);
@@ -157,7 +157,7 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   };
   CHECK(state.crashes.parts[1].size() < all_parts(0).size());
   // It hits the same car once more: loads and lying debris of both are unchanged.
-  state.crashes.struck_by_driver = {struck(participants[0], participants[1])};
+  state.crashes.struck_vehicles = {struck(participants[0], participants[1])};
   CHECK(run(participants, state, 4, 2).crashes.crashes == 1);
   double thrown = 0.0;
   for (const debris::Piece& piece : state.debris.pieces) thrown += elastic::total_mass_kg(piece.body);

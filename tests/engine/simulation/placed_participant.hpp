@@ -25,17 +25,14 @@ inline Participant placed_participant(ParticipantId id, std::string_view model, 
 }
 
 /// What the effects are told of a car that has run into another, with the masses of their kinds. They must overlap.
-inline StruckVehicle struck(const Participant& car, const Participant& other) {
+inline VehicleCrash struck(const Participant& car, const Participant& other) {
   const auto contact = contact_of(body_box(car), body_box(other)).value();
   const auto kind_kg = [](const Participant& p) { return vehicle_body(vehicle_models()[p.model].kind).mass_kg; };
-  return {other.id,
-          contact.point_m,
-          contact.normal,
-          car.velocity_mps,
-          car.angular_velocity_radps,
-          -glm::dot(car.velocity_mps - other.velocity_mps, contact.normal),
-          kind_kg(car),
-          kind_kg(other)};
+  const auto crashed = [&](const Participant& p) {
+    return CrashedVehicle{p.id, kind_kg(p), p.velocity_mps, p.angular_velocity_radps};
+  };
+  return {crashed(car), crashed(other), contact.point_m, contact.normal,
+          -glm::dot(car.velocity_mps - other.velocity_mps, contact.normal)};
 }
 
 }  // namespace septet::simulation

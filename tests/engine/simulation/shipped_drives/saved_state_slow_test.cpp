@@ -200,8 +200,10 @@ TEST_CASE("two states that are the same but for what only a later tick will show
   CHECK(differs_with(state.car.wheels[1].force_n.y, 1234.5));  // Bends the suspension in the next step.
   CHECK(differs_with(state.touching, std::vector<ParticipantId>{9999}));
   CHECK(differs_with(state.kerbs[2], KerbTouch{0.1, 1.0}));
-  CHECK(differs_with(state.effects.crashes.struck_by_driver, std::vector<StruckVehicle>{{.vehicle = 9999}}));
+  CHECK(differs_with(state.effects.crashes.struck_vehicles, std::vector<VehicleCrash>{{.first = {.id = 9999}}}));
   CHECK(differs_with(state.impacts, std::vector<CarImpact>{{.vehicle = 9999}}));
+  CHECK(differs_with(state.bodies.bodies, std::vector<LooseBody>{{.id = 9999}}));
+  CHECK(differs_with(state.bodies.contacts, std::vector<BodyContact>{{.first = 1, .second = 9999}}));
   CHECK(differs_with(state.hull.touches, std::vector<vehicle::HullTouch>{{.run = 9999}}));
   CHECK(differs_with(state.effects.random, Random(77)));
   scenario::EntityState& lorry = state.scenario.entities.back();
@@ -238,6 +240,16 @@ TEST_CASE("a state that was changed with care is refused or is one that can be d
       impact::crush_curve({car.mass_kg, passenger_car_crush()}, {other.mass_kg, passenger_car_crush()});
   for (ParticipantId id = 7; id < 27; ++id)
     drive.state.impacts.push_back({id, impact::pulse_of(*impulse, {1.0, 0.0}, curve, 0.1), other});
+  for (ParticipantId id = 2000; id < 2020; ++id) {
+    LooseBody& loose = drive.state.bodies.bodies.emplace_back();
+    loose.id = id;
+    loose.body = other;
+    loose.body.mass_centre_m += Vec2(30.0 * id, 0.0);
+    BodyContact& contact = drive.state.bodies.contacts.emplace_back();
+    contact.first = driver_participant;
+    contact.second = id;
+    contact.engagement.pulses.push_back(impact::pulse_of(*impulse, {1.0, 0.0}, curve, 0.1));
+  }
   for (std::uint32_t run = 0; run < 20; ++run) {
     vehicle::HullTouch& touch = drive.state.hull.touches.emplace_back();
     touch.run = run;

@@ -1,0 +1,32 @@
+#pragma once
+/// A vehicle as a loose body: from a participant, and back to one.
+
+#include "engine/physics/impact/meet.hpp"
+#include "engine/physics/vehicle/sliding.hpp"
+#include "engine/simulation/bodies/bodies_state.hpp"
+#include "engine/simulation/model.hpp"
+
+namespace septet::simulation {
+
+/// One mass a participant: of the driver's car its vehicle file's, of others that of the scenario where it gives one,
+/// else that of their kind (engine/world/bodies.toml).
+double mass_kg(const Model& model, const Participant& participant);
+
+/// A participant as a body that can be hit: its outline in plan, and the yaw inertia of an even box of its size.
+impact::Side impact_side(const Participant& participant, double mass_kg);
+
+/// True for vehicles on four wheels or more. People and two-wheelers are thrown, not turned: they are no loose bodies.
+bool can_be_loose(ParticipantKind kind);
+
+/// The participant as it leaves its rails.
+LooseBody loose_body(const Participant& participant, double mass_kg);
+/// The body as a participant: brake lamps lit, wheels locked.
+Participant participant_of(const LooseBody& loose);
+/// The body with its whole outline.
+impact::Side side_of(const LooseBody& loose);
+
+/// Its wheels with the friction under each; `friction` as their ground's peak.
+vehicle::LockedWheels locked_wheels(const VehicleModel& model,
+                                    const std::array<double, vehicle::wheel_count>& friction);
+
+}  // namespace septet::simulation
