@@ -54,15 +54,19 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   return participants;
 }
 
-/// Logs the driver's visibility once a second, where there is smoke around him.
+/// Logs once a second how far the driver sees along the road, where smoke ends it within 200 m: dark objects and lamps.
 void note_visibility(const State& state, std::vector<Event>& events) {
   if (!state.effects.fires.smoke || state.tick % static_cast<Tick>(tick_rate_hz) != 0) return;
-  const double extinction =
-      smoke::extinction_per_m(*state.effects.fires.smoke, state.car.world_from_body.position_m + Vec3(0.0, 0.0, 0.6));
-  const auto dull = smoke::visibility_m(extinction, false), shining = smoke::visibility_m(extinction, true);
-  if (dull && *dull < 200.0)
+  constexpr double farthest_m = 200.0, eye_m = 0.6;
+  const RigidTransform& body = state.car.world_from_body;
+  const auto seen_m = [&](bool shines) {
+    return smoke::distance_of_depth_m(*state.effects.fires.smoke, body * Vec3(0.0, 0.0, eye_m),
+                                      body * Vec3(farthest_m, 0.0, eye_m), smoke::visible_depth(shines))
+        .value_or(farthest_m);
+  };
+  if (const double dull = seen_m(false); dull < farthest_m)
     events.push_back(
-        {"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", *dull, *shining)});
+        {"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", dull, seen_m(true))});
 }
 
 void run_effects(const Model& model, const std::vector<Participant>& participants, State& state, DrivenCar& car,

@@ -83,28 +83,53 @@ void fill_steps(const CellVelocity* cells, const std::uint32_t* numbers, const M
   }
 }
 
+/// Joined particles crowd as their births would: each counts as many as the mean.
+Parameters crowd_of_joined(const State& state) {
+  Parameters parameters = state.parameters;
+  std::uint64_t births = 0;
+  for (const std::uint16_t n : state.particles.births) births += n;
+  if (births == state.particles.size()) return parameters;
+  const double mean = static_cast<double>(births) / static_cast<double>(state.particles.size());
+  parameters.crowd /= mean;
+  parameters.steepness *= mean;
+  return parameters;
+}
+
 void count_extinction(State& state) {
   const Particles& particles = state.particles;
   struct Look {
-    float area_m2, per_lifetime;
+    float area_m2, per_lifetime, warmth_j;
   };
   std::vector<Look> looks;
+  Warmth& warmth = state.warmth;
+  std::ranges::fill(warmth.slice_j, 0.0f);
+  std::ranges::fill(warmth.slice_j_cells, 0.0f);
+  warmth.of_emitter_j.fill(0.0f);
+  const auto per_loss_s = static_cast<float>(1.0 / state.parameters.warmth_loss_s);
   for (const Emitter& e : state.emitters)
-    looks.push_back(
-        {static_cast<float>(e.extinction_area_m2), e.lifetime_s > 0.0 ? static_cast<float>(1.0 / e.lifetime_s) : 0.0f});
+    looks.push_back({static_cast<float>(e.extinction_area_m2),
+                     e.lifetime_s > 0.0 ? static_cast<float>(1.0 / e.lifetime_s) : 0.0f,
+                     static_cast<float>(e.warmth_j)});
   std::fill(state.extinction_area_m2.begin(), state.extinction_area_m2.end(), 0.0f);
   for (std::size_t n = 0; n < particles.size(); ++n) {
     const Look& look = looks[particles.emitter[n]];
     const int cell = state.grid.index(static_cast<int>(particles.x[n]), static_cast<int>(particles.y[n]),
                                       static_cast<int>(particles.z[n]));
+    const auto births = static_cast<float>(particles.births[n]);
     state.extinction_area_m2[cell] +=
-        look.area_m2 * static_cast<float>(remaining_extinction(particles.age_s[n] * look.per_lifetime));
+        look.area_m2 * births * static_cast<float>(remaining_extinction(particles.age_s[n] * look.per_lifetime));
+    if (!(look.warmth_j > 0.0f)) continue;
+    const float left_j = look.warmth_j * births * remaining_warmth(particles.age_s[n], per_loss_s);
+    const auto slice = static_cast<std::size_t>(particles.x[n]);
+    warmth.slice_j[slice] += left_j;
+    warmth.slice_j_cells[slice] += left_j * particles.z[n];
+    warmth.of_emitter_j[particles.emitter[n]] += left_j;
   }
 }
 
-/// Density of particles around a cell: a particle is a ball with the deviation of one cell, as it is drawn. (Few come
+/// Cross-section in a cell and around it: a particle is a ball with the deviation of one cell, as it is drawn. (Few come
 /// into the cell itself, because walls repel.)
-float density_around(const State& state, std::uint32_t cell) {
+float area_around_m2(const State& state, std::uint32_t cell) {
   constexpr std::array<float, 5> weight{0.054f, 0.242f, 0.399f, 0.242f, 0.054f};
   const Grid& grid = state.grid;
   const int at = static_cast<int>(cell), i = at % grid.nx, j = at / grid.nx % grid.ny, k = at / (grid.nx * grid.ny);
@@ -112,30 +137,65 @@ float density_around(const State& state, std::uint32_t cell) {
   for (int dk = std::max(-2, -k); dk <= std::min(2, grid.nz - 1 - k); ++dk)
     for (int dj = std::max(-2, -j); dj <= std::min(2, grid.ny - 1 - j); ++dj)
       for (int di = std::max(-2, -i); di <= std::min(2, grid.nx - 1 - i); ++di)
-        if (const std::uint16_t density = state.density[grid.index(i + di, j + dj, k + dk)])
-          sum += weight[di + 2] * weight[dj + 2] * weight[dk + 2] * static_cast<float>(density);
+        if (const float area_m2 = state.extinction_area_m2[grid.index(i + di, j + dj, k + dk)]; area_m2 > 0.0f)
+          sum += weight[di + 2] * weight[dj + 2] * weight[dk + 2] * area_m2;
   return sum;
+}
+
+bool is_wall(const Grid& grid, int i, int j, int k) {
+  return grid.inside(i, j, k) ? grid.wall[grid.index(i, j, k)] != 0 : !is_open(grid, i, j, k);
+}
+
+bool touches_wall(const Grid& grid, int i, int j, int k) {
+  return is_wall(grid, i - 1, j, k) || is_wall(grid, i + 1, j, k) || is_wall(grid, i, j - 1, k) ||
+         is_wall(grid, i, j + 1, k) || is_wall(grid, i, j, k - 1) || is_wall(grid, i, j, k + 1);
 }
 
 /// Adds soot to a 32nd of the walls a tick, for 32 ticks' time.
 void leave_soot(State& state, double step_s) {
   constexpr std::size_t slices = 32;
   const std::size_t slice = state.tick % slices, count = state.beside_wall.size();
-  const auto rate = static_cast<float>(state.parameters.soot_per_s * slices * step_s / state.parameters.crowd);
-  for (std::size_t n = count * slice / slices; n < count * (slice + 1) / slices; ++n)
-    state.soot[n] = std::min(1.0f, state.soot[n] + rate * density_around(state, state.beside_wall[n]));
+  const double cell_m2 = state.grid.cell_m * state.grid.cell_m;
+  const auto per_area = static_cast<float>(state.parameters.deposition_mps * slices * step_s /
+                                           (full_layer_depth * cell_m2 * state.grid.cell_m));
+  double layers = 0.0;
+  for (std::size_t n = count * slice / slices; n < count * (slice + 1) / slices; ++n) {
+    const float more = per_area * area_around_m2(state, state.beside_wall[n]);
+    state.soot[n] += more;
+    layers += more;
+  }
+  state.ledger.on_walls_m2 += layers * full_layer_depth * cell_m2;
+  state.ledger.owed_to_walls_m2 += layers * full_layer_depth * cell_m2;
+}
+
+/// Takes the soot on the walls out of the air beside them, a birth at a time.
+void take_from_air(State& state) {
+  Particles& p = state.particles;
+  const Grid& grid = state.grid;
+  constexpr int tries_a_tick = 256;
+  const std::uint64_t key = mixed(state.seed + 2), first = state.tick * tries_a_tick;
+  for (int n = 0; n < tries_a_tick && state.ledger.owed_to_walls_m2 > 0.0 && p.size() > 0; ++n) {
+    const auto at = static_cast<std::size_t>(uniform_of(key, first + n)[0] * static_cast<float>(p.size()));
+    const Emitter& emitter = state.emitters[p.emitter[at]];
+    if (emitter.lifetime_s > 0.0 || emitter.extinction_area_m2 > state.ledger.owed_to_walls_m2) continue;
+    const int i = static_cast<int>(p.x[at]), j = static_cast<int>(p.y[at]), k = static_cast<int>(p.z[at]);
+    if (!touches_wall(grid, i, j, k)) continue;
+    const double taken = std::min<double>(
+        p.births[at], std::floor(state.ledger.owed_to_walls_m2 / std::max(1e-6, emitter.extinction_area_m2)));
+    state.ledger.owed_to_walls_m2 -= taken * emitter.extinction_area_m2;
+    p.births[at] = static_cast<std::uint16_t>(p.births[at] - static_cast<std::uint16_t>(taken));
+    if (p.births[at] > 0) continue;
+    --state.density[grid.index(i, j, k)];
+    remove_particle(p, at);
+  }
 }
 
 std::vector<std::uint32_t> cells_beside_walls(const Grid& grid) {
   std::vector<std::uint32_t> cells;
-  const auto is_wall = [&](int i, int j, int k) {
-    return grid.inside(i, j, k) ? grid.wall[grid.index(i, j, k)] != 0 : !is_open(grid, i, j, k);
-  };
   for (int k = 0; k < grid.nz; ++k)
     for (int j = 0; j < grid.ny; ++j)
       for (int i = 0; i < grid.nx; ++i)
-        if (!is_wall(i, j, k) && (is_wall(i - 1, j, k) || is_wall(i + 1, j, k) || is_wall(i, j - 1, k) ||
-                                  is_wall(i, j + 1, k) || is_wall(i, j, k - 1) || is_wall(i, j, k + 1)))
+        if (!is_wall(grid, i, j, k) && touches_wall(grid, i, j, k))
           cells.push_back(static_cast<std::uint32_t>(grid.index(i, j, k)));
   return cells;
 }
@@ -159,15 +219,21 @@ State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t 
   state.full = grid.wall;
   state.beside_wall = cells_beside_walls(grid);
   state.soot.assign(state.beside_wall.size(), 0.0f);
+  state.warmth.slice_j.assign(static_cast<std::size_t>(grid.nx), 0.0f);
+  state.warmth.slice_j_cells.assign(static_cast<std::size_t>(grid.nx), 0.0f);
   return state;
 }
 
 StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles, double step_s) {
   SEPTET_CHECK(step_s > 0.0 && step_s <= 0.1, "step of {} s", step_s);
   const int pushed = mark_full(state, obstacles) ? push_out_of_full_cells(state) : 0;
+  int joined = 0;
   const int born = emit(state, step_s);
-  if (state.tick % sorting_ticks == 0) sort_by_cell(state);
-  const std::vector<float> table = attraction_table(state.parameters);
+  if (state.tick % sorting_ticks == 0) {
+    sort_by_cell(state);
+    if (state.particles.size() > state.capacity - state.capacity / 16) joined = join_neighbours(state);
+  }
+  const std::vector<float> table = attraction_table(crowd_of_joined(state));
   update_velocity_field(state, table, state.field);
   Motion motion;
   motion.scale = static_cast<float>(step_s) * velocity_quantum;
@@ -182,8 +248,10 @@ StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obs
       state, step_s, [&](Block& block) { fill_steps(cells, state.particles.number.data(), motion, block); });
   report.pushed = pushed;
   report.born = born;
+  report.joined = joined;
   if (state.tick % extinction_ticks == 0) count_extinction(state);
   leave_soot(state, step_s);
+  take_from_air(state);
   return report;
 }
 

@@ -50,8 +50,9 @@ Vec3 mean_sample(const State& state, std::span<const float> table, int i, int j,
   for (const SampleOffset& s : sample_pattern()) {
     const int x = i + s.x, y = j + s.y, z = k + s.z;
     double f = -1.0;
-    if (grid.inside(x, y, z)) {
-      const int cell = grid.index(x, y, z);
+    const int mirrored = state.parameters.roof_mirrors ? mirrored_height(grid, x, y, z) : z;
+    if (grid.inside(x, y, mirrored)) {
+      const int cell = grid.index(x, y, mirrored);
       if (!state.full[cell]) f = table[std::min<std::size_t>(state.density[cell], table.size() - 1)];
     } else if (is_open(grid, x, y, z)) {
       f = 1.0;

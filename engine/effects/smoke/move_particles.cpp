@@ -7,13 +7,14 @@ namespace {
 
 /// Effect of a particle's age on it, by its emitter.
 struct Ageing {
-  std::array<float, 256> heat{}, per_cooling{}, lifetime_s{};  // As many as an index can name.
+  std::array<float, 256> heat{}, per_cooling{}, coldest{}, lifetime_s{};  // As many as an index can name.
 
   explicit Ageing(const State& state) {
     lifetime_s.fill(INFINITY);
     for (std::size_t n = 0; n < state.emitters.size(); ++n) {
       const Emitter& e = state.emitters[n];
       heat[n] = static_cast<float>(e.heat);
+      coldest[n] = -static_cast<float>(e.sinking);
       per_cooling[n] = e.cooling_s > 0.0 ? static_cast<float>(1.0 / e.cooling_s) : 1e9f;
       if (e.lifetime_s > 0.0) lifetime_s[n] = static_cast<float>(e.lifetime_s);
     }
@@ -63,7 +64,8 @@ void locate(const State& state, const Ageing& ageing, Block& block) {
   for (int n = 0; n < count; ++n)
     cell[n] = (static_cast<int>(z[n]) * ny + static_cast<int>(y[n])) * nx + static_cast<int>(x[n]);
   for (int n = 0; n < count; ++n)
-    bias[n] = 1.0f + ageing.heat[emitter[n]] * std::max(0.0f, 1.0f - age_s[n] * ageing.per_cooling[emitter[n]]);
+    bias[n] = 1.0f + std::max(ageing.coldest[emitter[n]],
+                              ageing.heat[emitter[n]] * (1.0f - age_s[n] * ageing.per_cooling[emitter[n]]));
 }
 
 /// Moves the particles that stay in their cell, which are most, and marks the others.
@@ -143,6 +145,9 @@ StepReport move_particles(State& state, double step_s, const std::function<void(
         left.push_back(block.first + n);
     }
   }
+  for (const std::size_t n : left)
+    if (const Emitter& e = state.emitters[state.particles.emitter[n]]; !(e.lifetime_s > 0.0))
+      state.ledger.left_m2 += e.extinction_area_m2 * state.particles.births[n];
   remove(state, left);
   report.left = static_cast<int>(left.size());
   ++state.tick;

@@ -43,7 +43,7 @@ void remove_particle(Particles& particles, std::size_t at) {
     values.pop_back();
   };
   drop(particles.x), drop(particles.y), drop(particles.z), drop(particles.age_s);
-  drop(particles.emitter), drop(particles.number);
+  drop(particles.emitter), drop(particles.births), drop(particles.number);
 }
 
 void sort_by_cell(State& state) {
@@ -63,7 +63,7 @@ void sort_by_cell(State& state) {
     values = std::move(sorted);
   };
   scatter(particles.x), scatter(particles.y), scatter(particles.z), scatter(particles.age_s);
-  scatter(particles.emitter), scatter(particles.number);
+  scatter(particles.emitter), scatter(particles.births), scatter(particles.number);
 }
 
 bool add_particle(State& state, const Vec3& grid_position, std::uint8_t emitter, float age_s) {
@@ -87,10 +87,49 @@ bool add_particle(State& state, const Vec3& grid_position, std::uint8_t emitter,
   particles.z.push_back(within(at.z, place->k));
   particles.age_s.push_back(std::max(age_s, 0.0f));
   particles.emitter.push_back(emitter);
+  particles.births.push_back(1);
   particles.number.push_back(particles.free_numbers.back());
   particles.free_numbers.pop_back();
   ++state.density[state.grid.index(place->i, place->j, place->k)];
   return true;
+}
+
+int join_neighbours(State& state) {
+  constexpr float furthest_cells = 2.0f;
+  constexpr int most_births = 1 << 14;
+  Particles& p = state.particles;
+  const std::size_t enough = state.capacity - state.capacity / 8;
+  const auto loss_s = static_cast<float>(state.parameters.warmth_loss_s);
+  std::vector<std::uint8_t> gone(p.size(), 0);
+  std::size_t left = p.size();
+  const auto join = [&](std::size_t into, std::size_t from) {
+    const auto a = static_cast<float>(p.births[into]), b = static_cast<float>(p.births[from]);
+    const float warmth =
+        (a * remaining_warmth(p.age_s[into], 1.0f / loss_s) + b * remaining_warmth(p.age_s[from], 1.0f / loss_s)) /
+        (a + b);
+    p.age_s[into] = 16.0f * loss_s * (std::pow(warmth, -0.0625f) - 1.0f);
+    p.births[into] = static_cast<std::uint16_t>(p.births[into] + p.births[from]);
+    gone[from] = 1;
+    --left;
+  };
+  for (int heaviest = 2; heaviest <= most_births && left > enough; heaviest *= 2) {
+    std::size_t last = p.size();  // The last one that is not joined yet.
+    for (std::size_t n = 0; n < p.size() && left > enough; ++n) {
+      if (gone[n] || state.emitters[p.emitter[n]].lifetime_s > 0.0) continue;
+      const bool fits = last < p.size() && p.emitter[last] == p.emitter[n] &&
+                        p.births[last] + p.births[n] <= heaviest && std::abs(p.x[last] - p.x[n]) < furthest_cells &&
+                        std::abs(p.y[last] - p.y[n]) < furthest_cells && std::abs(p.z[last] - p.z[n]) < furthest_cells;
+      if (fits) join(p.births[last] >= p.births[n] ? last : n, p.births[last] >= p.births[n] ? n : last);
+      last = fits ? p.size() : n;
+    }
+  }
+  const int joined = static_cast<int>(p.size() - left);
+  for (std::size_t n = gone.size(); n-- > 0;) {
+    if (!gone[n]) continue;
+    --state.density[state.grid.index(static_cast<int>(p.x[n]), static_cast<int>(p.y[n]), static_cast<int>(p.z[n]))];
+    remove_particle(p, n);
+  }
+  return joined;
 }
 
 int emit(State& state, double step_s) {
@@ -106,8 +145,11 @@ int emit(State& state, double step_s) {
       // Uniform in the ball: cosine of the polar angle, azimuth, cube root of the radius.
       const double z = 2.0 * u[0] - 1.0, azimuth = 2.0 * 3.14159265358979323846 * u[1];
       const double r = radius * std::cbrt(u[2]), across = r * std::sqrt(1.0 - z * z);
-      born += add_particle(state, centre + Vec3(across * std::cos(azimuth), across * std::sin(azimuth), r * z),
-                           static_cast<std::uint8_t>(e));
+      const Vec3 from_centre(across * std::cos(azimuth), across * std::sin(azimuth), r * z);
+      const bool is_born = add_particle(state, centre + from_centre, static_cast<std::uint8_t>(e));
+      born += is_born;
+      state.refused += !is_born;
+      if (is_born && !(emitter.lifetime_s > 0.0)) state.ledger.emitted_m2 += emitter.extinction_area_m2;
     }
   }
   return born;

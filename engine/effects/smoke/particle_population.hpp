@@ -36,6 +36,10 @@ void remove_particle(Particles& particles, std::size_t at);
 /// Puts the particles into the order of their cells. Numbers stay.
 void sort_by_cell(State& state);
 
+/// Joins neighbours of one emitter whose particles stay for ever, the lightest first, until an eighth of the capacity
+/// is free again; cross-sections and warmth stay. Wants particles in order (sort_by_cell). Returns the number joined.
+int join_neighbours(State& state);
+
 /// Adds the births of a step; returns their number.
 int emit(State& state, double step_s);
 

@@ -16,7 +16,7 @@ void add_puffs(const Keyframe& keyframe, double time_s, std::vector<Puff>& puffs
   for (const Keyframe::Particle& particle : keyframe.particles) {
     const Keyframe::Look& look = keyframe.looks[particle.look];
     const float age_s = particle.age_s + passed_s;
-    float area = look.extinction_area_m2 * (particle.newborn ? t : 1.0f);
+    float area = look.extinction_area_m2 * static_cast<float>(particle.births) * (particle.newborn ? t : 1.0f);
     if (look.lifetime_s > 0.0f) area *= static_cast<float>(remaining_extinction(age_s / look.lifetime_s));
     if (area <= 0.0f) continue;
     Puff puff;

@@ -6,19 +6,23 @@
 
 namespace septet::smoke {
 
-SEPTET_MEMBERS(Parameters, steepness, crowd, speed_cells_per_s, jitter_cells, most_in_cell, soot_per_s)
-SEPTET_MEMBERS(Emitter, position_m, radius_m, rate_per_s, heat, cooling_s, lifetime_s, albedo, extinction_area_m2, glow,
-               owed)
-SEPTET_MEMBERS(Particles, x, y, z, age_s, emitter, number, free_numbers, numbers)
+SEPTET_MEMBERS(Parameters, steepness, crowd, speed_cells_per_s, jitter_cells, most_in_cell, deposition_mps,
+               roof_mirrors, froude, warmth_loss_s)
+SEPTET_MEMBERS(Emitter, position_m, radius_m, rate_per_s, heat, cooling_s, sinking, warmth_j, lifetime_s, albedo,
+               extinction_area_m2, glow, owed)
+SEPTET_MEMBERS(Particles, x, y, z, age_s, emitter, births, number, free_numbers, numbers)
+SEPTET_MEMBERS(Warmth, slice_j, slice_j_cells, of_emitter_j)
+SEPTET_MEMBERS(Ledger, emitted_m2, left_m2, on_walls_m2, owed_to_walls_m2)
 SEPTET_MEMBERS(Grid, world_from_grid, cell_m, nx, ny, nz, open_faces, wall)
 SEPTET_MEMBERS(KeyframeTrack, first_chunk, chunks)
 SEPTET_MEMBERS(KeyframeTrack::Chunk, time_s, place, known, data)
 
 // Kept is the smoke's place and data that follows from the hashed; left out are the densities, which are counted again,
 // and a step's memory.
-SEPTET_MEMBER_GROUPS(State, kept(grid), hashed(parameters, emitters, particles, capacity, seed, tick, births, time_s),
-                     kept(beside_wall), hashed(soot), left_out(density), kept(extinction_area_m2, full),
-                     left_out(field))
+SEPTET_MEMBER_GROUPS(State, kept(grid),
+                     hashed(parameters, emitters, particles, capacity, seed, tick, births, refused, time_s),
+                     kept(beside_wall), hashed(soot, ledger), kept(warmth), left_out(density),
+                     kept(extinction_area_m2, full), left_out(field))
 
 namespace {
 
@@ -43,12 +47,14 @@ void require_whole(const State& state, StateReader& reader) {
                      parameters.steepness > 0.0 && state.emitters.size() <= max_emitters &&
                      state.capacity <= max_particles && count <= state.capacity && particles.numbers <= max_particles &&
                      state.extinction_area_m2.size() == cells && state.full.size() == cells &&
-                     state.soot.size() == state.beside_wall.size(),
+                     state.soot.size() == state.beside_wall.size() &&
+                     state.warmth.slice_j.size() == static_cast<std::size_t>(state.grid.nx) &&
+                     state.warmth.slice_j_cells.size() == state.warmth.slice_j.size(),
                  wrong);
   for (const auto* values : {&particles.y, &particles.z, &particles.age_s})
     reader.require(values->size() == count, wrong);
   reader.require(particles.emitter.size() == count && particles.number.size() == count &&
-                     particles.free_numbers.size() + count == particles.numbers,
+                     particles.births.size() == count && particles.free_numbers.size() + count == particles.numbers,
                  wrong);
   for (const std::uint32_t cell : state.beside_wall) reader.require(cell < cells, wrong);
   for (const Emitter& emitter : state.emitters)

@@ -13,6 +13,18 @@ Grid make_grid(const RigidTransform& world_from_grid, double cell_m, int nx, int
   return grid;
 }
 
+int mirrored_height(const Grid& grid, int i, int j, int k) {
+  const auto is_free = [&](int at) { return grid.inside(i, j, at) && !grid.wall[grid.index(i, j, at)]; };
+  if (is_free(k) || is_open(grid, i, j, k)) return k;
+  for (const int way : {-1, 1})
+    for (int deep = 1; deep <= 3; ++deep)
+      if (is_free(k + way * deep)) {
+        const int image = k + way * (2 * deep - 1);
+        return is_free(image) ? image : k;
+      }
+  return k;
+}
+
 void add_walls(Grid& grid, const std::function<bool(const Vec3& world_m)>& is_wall) {
   for (int k = 0; k < grid.nz; ++k)
     for (int j = 0; j < grid.ny; ++j)

@@ -50,6 +50,10 @@ inline bool is_open(const Grid& grid, int i, int j, int k) {
          beyond(j, grid.ny, open_y_low, open_y_high) && beyond(k, grid.nz, open_z_low, open_z_high);
 }
 
+/// Height (k) of the free cell whose image in the ceiling, or else in the floor, a wall cell is: k itself where the cell
+/// is free, where neither is within three cells of it, or where the image would be in a wall.
+int mirrored_height(const Grid& grid, int i, int j, int k);
+
 /// A box without walls. Sizes must be 1 to `max_cells_along` and `max_cells` in all (checked).
 Grid make_grid(const RigidTransform& world_from_grid, double cell_m, int nx, int ny, int nz, std::uint8_t open_faces);
 

@@ -10,7 +10,7 @@
 namespace septet::smoke {
 namespace {
 
-constexpr std::uint8_t version = 1;
+constexpr std::uint8_t version = 2;
 constexpr std::int32_t furthest = max_cells_along * steps_per_cell;
 constexpr int most_bits = 17;
 constexpr float endless_age_step_s = 0.25f;
@@ -31,13 +31,20 @@ struct Entry {
   std::size_t slot;      ///< Within the chunk.
   std::size_t particle;  ///< Its place in the state.
   Place from, to;
+  std::int32_t births;
   bool newborn;
 };
 
-std::array<Range, 6> ranges_of(const std::vector<Entry>& entries) {
-  std::array<Range, 6> ranges;
-  for (int n = 0; n < 6; ++n) {
-    const auto value = [&](const Entry& e) { return n < 3 ? e.to[n] : e.from[n - 3] - e.to[n - 3]; };
+/// Three coordinates, the three changes to them, and the births.
+constexpr int packed_numbers = 7;
+std::int32_t number_of(const Entry& e, int n) {
+  return n < 3 ? e.to[n] : n < 6 ? e.from[n - 3] - e.to[n - 3] : e.births;
+}
+
+std::array<Range, packed_numbers> ranges_of(const std::vector<Entry>& entries) {
+  std::array<Range, packed_numbers> ranges;
+  for (int n = 0; n < packed_numbers; ++n) {
+    const auto value = [&](const Entry& e) { return number_of(e, n); };
     std::int32_t low = value(entries.front()), high = low;
     for (const Entry& e : entries) low = std::min(low, value(e)), high = std::max(high, value(e));
     ranges[n] = {low, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(high - low)))};
@@ -81,10 +88,8 @@ Bytes encode(const State& state, std::uint32_t chunk, double duration_s, const s
   const int look_bits = std::bit_width(state.emitters.size() - 1);
   BitWriter packed(bytes);
   for (const Entry& e : entries) {
-    for (int n = 0; n < 6; ++n) {
-      const std::int32_t value = n < 3 ? e.to[n] : e.from[n - 3] - e.to[n - 3];
-      packed.put(static_cast<std::uint32_t>(value - ranges[n].low), ranges[n].bits);
-    }
+    for (int n = 0; n < packed_numbers; ++n)
+      packed.put(static_cast<std::uint32_t>(number_of(e, n) - ranges[n].low), ranges[n].bits);
     const std::uint8_t look = state.particles.emitter[e.particle];
     const float step = age_step_s(static_cast<float>(state.emitters[look].lifetime_s));
     packed.put(look, look_bits);
@@ -115,6 +120,7 @@ void renew(KeyframeTrack& track, const State& state, std::size_t number, std::sp
             n,
             {},
             {quantised(particles.x[n]), quantised(particles.y[n]), quantised(particles.z[n])},
+            particles.births[n],
             !known || particles.age_s[n] < duration_s};
     e.from = e.newborn ? e.to : chunk.place[slot];
     chunk.place[slot] = e.to;
@@ -186,7 +192,7 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   Keyframe keyframe;
   if (auto header = read_header(reader, keyframe); !header) return tl::unexpected(std::move(header).error());
-  std::array<Range, 6> ranges;
+  std::array<Range, packed_numbers> ranges;
   for (Range& range : ranges) {
     const std::int64_t low = reader.get_signed_varint();
     range.bits = reader.get<std::uint8_t>();
@@ -205,14 +211,17 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   keyframe.particles.reserve(count);
   for (std::size_t slot = 0; slot < chunk_slots; ++slot) {
     if ((alive[slot / 8] >> (slot % 8) & 1) == 0) continue;
-    std::array<std::int32_t, 6> value;
-    for (int n = 0; n < 6; ++n) value[n] = ranges[n].low + static_cast<std::int32_t>(packed.get(ranges[n].bits));
+    std::array<std::int32_t, packed_numbers> value;
+    for (int n = 0; n < packed_numbers; ++n)
+      value[n] = ranges[n].low + static_cast<std::int32_t>(packed.get(ranges[n].bits));
     Keyframe::Particle particle;
     particle.slot = static_cast<std::uint16_t>(slot);
     particle.look = static_cast<std::uint8_t>(packed.get(look_bits));
     if (particle.look >= keyframe.looks.size()) return refuse("look out of bounds");
     particle.age_s = static_cast<float>(packed.get(8)) * age_step_s(keyframe.looks[particle.look].lifetime_s);
     particle.newborn = packed.get(1) != 0;
+    if (!within(value[6], 1, 0xffff)) return refuse("births out of bounds");
+    particle.births = static_cast<std::uint16_t>(value[6]);
     for (int c = 0; c < 3; ++c) {
       particle.to[c] = static_cast<float>(value[c]) / steps_per_cell;
       particle.from[c] = static_cast<float>(value[c] + value[c + 3]) / steps_per_cell;

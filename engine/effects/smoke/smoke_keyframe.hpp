@@ -55,6 +55,7 @@ struct Keyframe {
     bool newborn = false;            ///< Since the last keyframe: fades in.
     float age_s = 0.0f;              ///< At `time_s`; steps of lifetime/255, or of a quarter second up to 64 s.
     glm::vec3 from{0.0f}, to{0.0f};  ///< Grid coordinates, cells.
+    std::uint16_t births = 1;        ///< Times its look's cross-section.
   };
   RigidTransform world_from_grid;
   float cell_m = 0.5f;

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint8_t soot_version = 1;
 
 std::uint8_t level_of(float soot) {
-  return static_cast<std::uint8_t>(std::lround(std::sqrt(soot) * (soot_levels - 1)));
+  return static_cast<std::uint8_t>(std::lround(std::sqrt(std::min(soot, 1.0f)) * (soot_levels - 1)));
 }
 
 /// The box of all cells with soot; empty (high below low) where there is none.

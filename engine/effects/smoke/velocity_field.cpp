@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/effects/smoke/ceiling.hpp"
 #include "engine/effects/smoke/smoke_state.hpp"
 
 namespace septet::smoke {
@@ -19,6 +20,24 @@ struct Padded {
   std::ptrdiff_t row(int j, int k) const { return static_cast<std::ptrdiff_t>(k + pad) * ny * nx + in_layer(j); }
   std::ptrdiff_t in_layer(int j) const { return static_cast<std::ptrdiff_t>(j + pad) * nx + pad; }
 };
+
+std::vector<MirroredRun> mirrored_runs(const Grid& grid, const Padded& padded) {
+  std::vector<MirroredRun> runs;
+  for (int k = -pad; k < grid.nz + pad; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        const int image = mirrored_height(grid, i, j, k);
+        if (image == k) continue;
+        const std::ptrdiff_t to = padded.row(j, k) + i, from = padded.row(j, image) + i;
+        const bool goes_on =
+            !runs.empty() && runs.back().to + runs.back().count == to && runs.back().from + runs.back().count == from;
+        if (goes_on)
+          ++runs.back().count;
+        else
+          runs.push_back({from, to, 1});
+      }
+  return runs;
+}
 
 /// Values outside the grid never change: written once, when the memory is made.
 void fill_outside(const Grid& grid, const Padded& padded, std::vector<float>& attraction) {
@@ -86,7 +105,7 @@ struct Around {
 
 /// The convolution along a span of a row of cells, in multiples of velocity_quantum.
 void convolve(int count, const Padded& padded, const float* attraction, const Around& around, float speed,
-              Span& __restrict out) {
+              const float* __restrict current, Span& __restrict out) {
   const std::ptrdiff_t y = padded.nx, z = y * padded.ny;
   const float* __restrict f = attraction;
   const auto of = [&](const std::vector<float>& sums) { return sums.data() + around.first; };
@@ -128,7 +147,7 @@ void convolve(int count, const Padded& padded, const float* attraction, const Ar
     magnitude += std::abs(f[i - 3]) + std::abs(f[i + 3]) + std::abs(f[i - 3 * y]) + std::abs(f[i + 3 * y]) +
                  std::abs(f[i - 3 * z]) + std::abs(f[i + 3 * z]);
     const float scale = speed / (velocity_quantum * (magnitude + 1e-6f));
-    out.rest_x[i] = rest_x * scale;
+    out.rest_x[i] = rest_x * scale + current[i];
     out.rest_y[i] = rest_y * scale;
     out.rest_z[i] = rest_z * scale;
     out.above_x[i] = above_x * scale;
@@ -197,8 +216,14 @@ void update_velocity_field(const State& state, std::span<const float> table, Vel
     field.cells.assign(static_cast<std::size_t>(grid.cells()), {});
     field.row_used.assign(static_cast<std::size_t>(grid.ny) * grid.nz, 0);
     fill_outside(grid, padded, field.attraction);
+    field.mirrored = state.parameters.roof_mirrors ? mirrored_runs(grid, padded) : std::vector<MirroredRun>{};
+    field.slices = tube_slices(grid);
+    field.current.assign(static_cast<std::size_t>(grid.nx) * grid.nz, 0.0f);
   }
   look_up(state, table, padded, field);
+  for (const MirroredRun& run : field.mirrored)
+    std::copy_n(field.attraction.data() + run.from, run.count, field.attraction.data() + run.to);
+  update_ceiling_current(state, field);
   const auto speed = static_cast<float>(state.parameters.speed_cells_per_s);
   Span span;
   sum_layer(grid, padded, -1, field);
@@ -211,7 +236,7 @@ void update_velocity_field(const State& state, std::span<const float> table, Vel
         const int count = std::min(span_cells, grid.nx - i);
         const float* const attraction = field.attraction.data() + padded.row(j, k) + i;
         convolve(count, padded, attraction, {layer(k + 1), layer(k), layer(k - 1), padded.in_layer(j) + i}, speed,
-                 span);
+                 field.current.data() + static_cast<std::ptrdiff_t>(k) * grid.nx + i, span);
         pack(count, span, attraction, field.cells.data() + grid.index(i, j, k));
       }
   }

@@ -14,6 +14,17 @@ namespace septet::smoke {
 
 struct State;
 
+/// Cells of a row in the roof or the floor and their mirror images, in the padded attraction.
+struct MirroredRun {
+  std::ptrdiff_t from, to;
+  int count;
+};
+
+/// Cross-section of a tube at one slice of cells: its floor and roof, in cells; none (0, 0) where it is blocked.
+struct TubeSlice {
+  float floor = 0.0f, roof = 0.0f, width = 0.0f;
+};
+
 /// One cell of the field: the velocity of a particle in it is (rest + bias·above), in multiples of `velocity_quantum`
 /// cells/s. Small, because a tick's time goes into reading these.
 struct CellVelocity {
@@ -40,6 +51,9 @@ struct VelocityField {
   LayerSums rows;                   ///< Over 3 cells along x; along_y is not used. Of one layer at a time.
   std::array<LayerSums, 3> layers;  ///< Over 3 × 3 cells; layer k is in place k mod 3.
   std::vector<std::uint8_t> row_used;
+  std::vector<MirroredRun> mirrored;  ///< Cells in the roof and the floor.
+  std::vector<TubeSlice> slices;
+  std::vector<float> current;  ///< Along x in each layer of each slice, x fastest, in velocity_quantum.
 };
 
 /// Computes the field from State::density and State::full.

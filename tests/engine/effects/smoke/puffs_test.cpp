@@ -131,28 +131,36 @@ TEST_CASE("a cell lets no more in than it holds and what is pushed finds room el
   CHECK(state.density[state.grid.index(5, 4, 4)] > 0);  // Its face reaches in by a tenth of a cell only.
 }
 
-TEST_CASE("a cell fills its walls with soot at the stated rate and never beyond") {
+TEST_CASE("walls take soot at the deposition speed and the air loses as much") {
   Emitter none;
   none.heat = 0.0;
   none.lifetime_s = 0.0;
   Parameters parameters;
   parameters.speed_cells_per_s = 0.0;
   parameters.jitter_cells = 0.0;
-  const auto soot_after = [&](double soot_per_s) {
-    parameters.soot_per_s = soot_per_s;
+  const auto soot_after = [&](double deposition_mps) {
+    parameters.deposition_mps = 0.0;
     State state = make_smoke(make_grid({}, 1.0, 9, 9, 9, 0), {none}, 3, 5000, parameters);
     // As dense as the crowd everywhere.
     for (int k = 0; k < 9; ++k)
       for (int j = 0; j < 9; ++j)
         for (int i = 0; i < 9; ++i)
           for (int n = 0; n < 5; ++n) REQUIRE(add_particle(state, {i + 0.5, j + 0.5, k + 0.5}, 0));
+    for (std::uint64_t tick = 0; tick < extinction_ticks; ++tick) advance_smoke(state, Vec3(0.0), {}, 1.0 / 64.0);
+    state.parameters.deposition_mps = deposition_mps;
     for (int tick = 0; tick < 64; ++tick) advance_smoke(state, Vec3(0.0), {}, 1.0 / 64.0);
+    double walls_m2 = 0.0;
+    for (const float layers : state.soot) walls_m2 += full_layer_depth * static_cast<double>(layers);
+    CHECK(state.ledger.on_walls_m2 == relative(walls_m2, 1e-4));
+    const double taken_m2 = none.extinction_area_m2 * static_cast<double>(5 * 9 * 9 * 9 - state.particles.size());
+    CHECK(taken_m2 + state.ledger.owed_to_walls_m2 == relative(walls_m2, 1e-4));
+    CHECK(state.ledger.owed_to_walls_m2 < none.extinction_area_m2);
     for (std::size_t n = 0; n < state.beside_wall.size(); ++n)
       if (static_cast<int>(state.beside_wall[n]) == state.grid.index(4, 4, 0)) return state.soot[n];
     return -1.0f;
   };
   // A wall halves the surroundings: of the ball's layers below the floor there are none.
   const double share = 0.399 + 0.242 + 0.054;
-  CHECK(soot_after(0.2) == relative(0.2 * share * std::pow(0.991, 2), 0.02));
-  CHECK(soot_after(50.0) == 1.0f);
+  const double extinction_per_m = 5.0 * none.extinction_area_m2;
+  CHECK(soot_after(0.01) == relative(0.01 * extinction_per_m * share * std::pow(0.991, 2) / full_layer_depth, 0.02));
 }

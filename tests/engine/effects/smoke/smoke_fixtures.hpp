@@ -21,7 +21,9 @@ inline State paper_room(std::uint64_t seed = 1) {
   fire.heat = 0.5;
   fire.cooling_s = 10.0;
   fire.lifetime_s = 0.0;
-  return make_smoke(make_grid({}, 1.0, 24, 24, 16, 0), {fire}, seed, 20000);
+  Parameters parameters;
+  parameters.deposition_mps = 0.0;
+  return make_smoke(make_grid({}, 1.0, 24, 24, 16, 0), {fire}, seed, 20000, parameters);
 }
 
 /// 120 m of a road tunnel, 11 m wide and 7 m high, with a burning car in the middle.

@@ -5,7 +5,6 @@
 
 #include "engine/effects/smoke/visibility.hpp"
 #include "smoke_fixtures.hpp"
-#include "tests/engine/effects/smoke/transmittance.hpp"
 
 using namespace septet;
 using namespace septet::smoke;
