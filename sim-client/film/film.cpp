@@ -38,6 +38,7 @@ Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render:
     }
     auto input = frames.input_of(frame);
     if (!input) return tl::unexpected(input.error());
+    if (auto uploaded = rasteriser.upload(frames.scene()); !uploaded) return uploaded;
     if (auto drawn = rasteriser.draw(std::move(*input)); !drawn) return tl::unexpected(drawn.error());
     auto picture = rasteriser.read_back();
     if (!picture) return tl::unexpected(picture.error());

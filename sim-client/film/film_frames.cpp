@@ -129,7 +129,9 @@ struct FilmFrames::State {
   logging::SessionReader session;
   FilmPlan plan;
   std::vector<Pivot> pivots;  ///< Indexed by shot.
-  scene::ResolvedScene scene;
+  logging::RecordedScene recorded;
+  scene::Store store;
+  scene::Resolver resolver;
   std::uint32_t width_px, height_px;
   double frames_per_second;
   // Previous frame's reading, reused from here on.
@@ -138,6 +140,18 @@ struct FilmFrames::State {
   std::optional<SessionInstants> instants{};
   std::optional<LastSeen> last_seen{};
   frame::EffectsDrawing effects{};
+
+  /// Brings the scene to a tick, later or earlier than before.
+  Expected<void> bring_scene_to(Tick tick) {
+    if (recorded.is_past(tick)) {
+      store = scene::Store();
+      recorded.begin_anew();
+      resolver.forget();
+    }
+    auto done = recorded.advance(tick, store);
+    resolver.update(store);
+    return done;
+  }
 };
 
 FilmFrames::FilmFrames(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -146,7 +160,7 @@ FilmFrames& FilmFrames::operator=(FilmFrames&&) noexcept = default;
 FilmFrames::~FilmFrames() = default;
 
 const FilmPlan& FilmFrames::plan() const { return state_->plan; }
-const scene::ResolvedScene& FilmFrames::scene() const { return state_->scene; }
+const scene::ResolvedScene& FilmFrames::scene() const { return state_->resolver.scene(); }
 const logging::SessionInfo& FilmFrames::session() const { return state_->session.info(); }
 
 Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
@@ -167,15 +181,18 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
     return failure("the film shows nothing between them", "--from, --to", "choose them within the script's shots");
   auto pivots = find_pivots(*session, *plan);
   if (!pivots) return tl::unexpected(pivots.error());
-  scene::Store store;
-  if (auto restored = logging::restore_scene(*session, store); !restored) return tl::unexpected(restored.error());
-  return FilmFrames(
-      std::unique_ptr<State>(new State{std::move(*session), std::move(*plan), std::move(*pivots), scene::resolve(store),
-                                       options.width_px, options.height_px, options.frames_per_second}));
+  auto recorded = logging::RecordedScene::open(*session);
+  if (!recorded) return tl::unexpected(recorded.error());
+  std::unique_ptr<State> state(new State{std::move(*session), std::move(*plan), std::move(*pivots),
+                                         std::move(*recorded), scene::Store(), scene::Resolver(), options.width_px,
+                                         options.height_px, options.frames_per_second});
+  if (auto begun = state->bring_scene_to(0); !begun) return tl::unexpected(begun.error());
+  return FilmFrames(std::move(state));
 }
 
 Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) {
-  return input_at(film_frame, film_frame.instant_s, state_->plan.paths[film_frame.shot][film_frame.number_in_shot]);
+  return input_at(film_frame, film_frame.instant_s, state_->plan.paths[film_frame.shot][film_frame.number_in_shot],
+                  true);
 }
 
 Expected<std::optional<instant::FrameInput>> FilmFrames::input_as_shutter_closes(const FilmFrame& film_frame) {
@@ -194,10 +211,11 @@ Expected<instant::FrameInput> FilmFrames::input_after(const FilmFrame& film_fram
   const std::vector<Look>& path = state_->plan.paths[film_frame.shot];
   const Look &from = path[film_frame.number_in_shot],
              &to = path[std::min(film_frame.number_in_shot + 1, path.size() - 1)];
-  return input_at(film_frame, instant_s, between(from, to, share));
+  return input_at(film_frame, instant_s, between(from, to, share), false);
 }
 
-Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, double instant_s, const Look& look) {
+Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, double instant_s, const Look& look,
+                                                   bool brings_scene) {
   State& state = *state_;
   const Shot& shot = state.plan.script.shots[film_frame.shot];
   const Pivot& pivot = state.pivots[film_frame.shot];
@@ -212,6 +230,8 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
   }
   const auto world = state.instants->at(instant_s);
   if (!world) return tl::unexpected(world.error());
+  if (brings_scene)
+    if (auto brought = state.bring_scene_to(world->tick); !brought) return tl::unexpected(brought.error());
   frame::Viewpoint waiting;
   if (pivot.participant && !find_participant(*world, *pivot.participant)) {
     if (!state.last_seen) {
@@ -224,8 +244,8 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
     waiting = *seen;
   }
   auto input = frame::client_frame(*world, views_at(shot, pivot, look, state.width_px, state.height_px),
-                                   viewpoint_at(shot, pivot, *world, waiting), state.scene);
-  state.effects.show(*world, state.instants->history(), state.instants->tick_s(), state.scene);
+                                   viewpoint_at(shot, pivot, *world, waiting), state.resolver.scene());
+  state.effects.show(*world, state.instants->history(), state.instants->tick_s(), state.resolver.scene());
   state.effects.add_to(input);
   state.last = film_frame, state.last_instant_s = instant_s;
   return input;
