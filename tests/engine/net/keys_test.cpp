@@ -114,7 +114,7 @@ TEST_CASE("the word edit behind a name gives the right to edit and another word 
   REQUIRE(clients.has_value());
   CHECK_FALSE(clients->at(0).may_edit);
   CHECK(clients->at(1).may_edit);
-  for (const std::string& words : {" lab edits\n", " lab edit hide\n"}) {
+  for (const char* words : {" lab edits\n", " lab edit hide\n"}) {
     std::ofstream(file) << a << " left\n" << b << words;
     const auto refused = load_allowed_clients(file);
     REQUIRE_FALSE(refused.has_value());
