@@ -241,6 +241,7 @@ void put_tick_header(ByteWriter& writer, const TickHeader& header) {
   writer.put(header.offset_s);
   writer.put(header.next_offset_s);
   writer.put(header.next_from_s);
+  writer.put_varint(header.scene_revision);
 }
 
 TickHeader get_tick_header(ByteReader& reader) {
@@ -249,6 +250,7 @@ TickHeader get_tick_header(ByteReader& reader) {
   header.offset_s = reader.get_double();
   header.next_offset_s = reader.get_double();
   header.next_from_s = reader.get_double();
+  header.scene_revision = reader.get_varint();
   for (const double value : {header.published_s, header.offset_s, header.next_offset_s, header.next_from_s})
     if (!std::isfinite(value)) reader.fail();
   return header;

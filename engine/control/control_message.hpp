@@ -22,7 +22,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Version of these messages; a program of another version is refused.
-inline constexpr std::uint16_t protocol_version = 5;
+inline constexpr std::uint16_t protocol_version = 6;
 
 /// Screen → server, first of all.
 struct Hello {
@@ -175,7 +175,8 @@ struct TickHeader {
   double published_s = 0.0;  ///< Server's clock.
   double offset_s = 0.0;     ///< Shown simulated time = server's clock − offset.
   double next_offset_s = 0.0;
-  double next_from_s = 0.0;  ///< Server's clock from which the next offset holds.
+  double next_from_s = 0.0;          ///< Server's clock from which the next offset holds.
+  std::uint64_t scene_revision = 0;  ///< Of the server's store, as the tick shows it.
 };
 void put_tick_header(ByteWriter& writer, const TickHeader& header);
 /// Puts the reader into its failed state where the header makes no sense.

@@ -16,6 +16,8 @@ MeshSummary summary_of(const scene::SurfaceMesh& mesh, const std::vector<scene::
     const glm::vec3 emission = materials[part.material].emission;
     if (emission.r + emission.g + emission.b > summary.emission.r + summary.emission.g + summary.emission.b)
       summary.emission = emission;
+    summary.has_light =
+        summary.has_light || emission != glm::vec3(0.0f) || materials[part.material].share_of_sky < 0.5f;
   }
   return summary;
 }
@@ -44,15 +46,9 @@ float least_share_of_sky(const scene::SurfaceMesh& mesh, const std::vector<scene
   return least;
 }
 
-}  // namespace
-
-SceneSummary summarise(const scene::ResolvedScene& scene) {
-  SceneSummary summary;
-  summary.prototypes = scene.prototypes;
-  for (const scene::SurfaceMesh& mesh : scene.meshes) summary.meshes.push_back(summary_of(mesh, scene.materials));
+void summarise_lights(SceneSummary& summary, const scene::ResolvedScene& scene) {
   summary.lamps = standing_lamps(scene);
-  for (const scene::Prototype& prototype : scene.prototypes)
-    summary.bodies.push_back(body_of(prototype, summary.meshes));
+  summary.roofs.clear();
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size()) continue;
     const scene::SurfaceMesh& mesh = scene.meshes[instance.mesh];
@@ -63,7 +59,62 @@ SceneSummary summarise(const scene::ResolvedScene& scene) {
     summary.roofs.push_back({inverse(instance.world_from_object), mesh.bounds_min_m * instance.scale - margin,
                              mesh.bounds_max_m * instance.scale + margin, share});
   }
+}
+
+void summarise_prototypes(SceneSummary& summary, const scene::ResolvedScene& scene) {
+  summary.prototypes = scene.prototypes;
+  summary.bodies.clear();
+  for (const scene::Prototype& prototype : scene.prototypes)
+    summary.bodies.push_back(body_of(prototype, summary.meshes));
+}
+
+}  // namespace
+
+SceneSummary summarise(const scene::ResolvedScene& scene) {
+  SceneSummary summary;
+  for (const scene::SurfaceMesh& mesh : scene.meshes) summary.meshes.push_back(summary_of(mesh, scene.materials));
+  summarise_lights(summary, scene);
+  summarise_prototypes(summary, scene);
   return summary;
+}
+
+bool renew(SceneSummary& summary, const scene::ResolvedScene& scene,
+           std::span<const scene::ChangeList<scene::SceneChange>::Change> changes) {
+  using Kind = scene::SceneChange::Kind;
+  bool lights = false, bodies = false;
+  std::vector<bool> new_materials;
+  const auto has_light = [&](std::uint32_t mesh) {
+    return mesh < summary.meshes.size() && summary.meshes[mesh].has_light;
+  };
+  const auto renew_mesh = [&](std::uint32_t index) {
+    const bool before = has_light(index);
+    summary.meshes[index] = summary_of(scene.meshes[index], scene.materials);
+    lights = lights || before || has_light(index);
+  };
+  summary.meshes.resize(scene.meshes.size());
+  for (const auto& [revision, change] : changes) {
+    if (change.kind == Kind::mesh && change.index < scene.meshes.size()) {
+      renew_mesh(change.index);
+      bodies = true;
+    } else if (change.kind == Kind::prototype) {
+      bodies = true;
+    } else if (change.kind == Kind::material && change.index < scene.materials.size()) {
+      new_materials.resize(scene.materials.size());
+      new_materials[change.index] = true;
+    }
+  }
+  if (!new_materials.empty())
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i)
+      if (std::ranges::any_of(scene.meshes[i].parts, [&](const scene::MeshPart& part) {
+            return part.material < new_materials.size() && new_materials[part.material];
+          }))
+        renew_mesh(i);
+  for (const auto& [revision, change] : changes)
+    if (change.kind == Kind::instance && change.index < scene.instances.size())
+      lights = lights || has_light(change.mesh_before) || has_light(scene.instances[change.index].mesh);
+  if (lights) summarise_lights(summary, scene);
+  if (bodies) summarise_prototypes(summary, scene);
+  return lights;
 }
 
 float share_of_sky(const SceneSummary& scene, const Vec3& position_m) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "engine/instant/placed_mesh.hpp"
@@ -17,6 +18,7 @@ struct MeshSummary {
   MeshBounds bounds;
   glm::vec3 emission{0.0f};                    ///< Emission of its brightest material.
   std::uint32_t first_material = no_material;  ///< Material of its first part with triangles.
+  bool has_light = false;  ///< True if it may be a lamp, a roof or a roofed wall: lights depend on it.
 };
 
 /// Body of a prototype that hides the sky from the ground: the bounds of its fixed parts, in the vehicle's frame.
@@ -40,6 +42,11 @@ struct SceneSummary {
 
 /// Summarises a scene. Instances and materials that point outside the scene are left out.
 SceneSummary summarise(const scene::ResolvedScene& scene);
+
+/// Brings a summary up to these changes of its scene; returns true if its lamps and roofs are new. They are found anew
+/// where something that shines or roofs changed, at the cost of the whole scene; all else costs what changed.
+bool renew(SceneSummary& summary, const scene::ResolvedScene& scene,
+           std::span<const scene::ChangeList<scene::SceneChange>::Change> changes);
 
 /// Share of the sky at a place of the world: less than 1 under a roof.
 float share_of_sky(const SceneSummary& scene, const Vec3& position_m);

@@ -129,9 +129,9 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     std::istringstream words(line);
-    std::string key, name;
+    std::string key, name, right, more;
     if (!(words >> key) || key.starts_with('#')) continue;
-    words >> name;
+    words >> name >> right >> more;
     const std::string where = fmt::format("{}:{}", file.string(), number);
     auto parsed = parse_public_key(key, where);
     if (!parsed) return tl::unexpected(parsed.error());
@@ -144,7 +144,10 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
         return failure(fmt::format("a second key for {}", name), where,
                        "remove the line of the key that no longer counts");
     }
-    clients.push_back({*parsed, name});
+    if (!(right.empty() || right == "edit") || !more.empty())
+      return failure(fmt::format("\"{}\" is no right", more.empty() ? right : more), where,
+                     "write `KEY NAME` for a client that looks, `KEY NAME edit` for one that may change the scene");
+    clients.push_back({*parsed, name, right == "edit"});
   }
   return clients;
 }

@@ -68,10 +68,11 @@ Expected<PublicKey> load_public_key(const std::filesystem::path& file);
 
 struct AllowedClient {
   PublicKey key{};
-  std::string name;  ///< Name of the screen in the rig, or "car"; it is also the only role allowed to this key.
+  std::string name;       ///< Name of the screen in the rig, or "car"; it is also the only role allowed to this key.
+  bool may_edit = false;  ///< True if it may change the scene.
 };
 
-/// Reads lines `KEY NAME`; blank lines and lines that begin with # are skipped. Error: a key or name that stands twice.
+/// Reads lines `KEY NAME [edit]`; blank lines and lines that begin with # are skipped. Error: a key or name that stands twice.
 Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem::path& file);
 
 }  // namespace septet::net

@@ -33,7 +33,7 @@ struct Frame {
 bool renew_lamps(RendererState& state, const Vec3& eye_m) {
   LampField& lamps = state.lamps;
   const Vec2 corner_m = lamp_field_corner(eye_m);
-  const std::uint64_t revision = state.scene.revision.value_or(0);
+  const std::uint64_t revision = state.scene.lamps_revision;
   if (state.lamps_revision && state.lamps_revision == revision && corner_m == lamps.corner_m) return false;
   const bool were_there = !state.lamps_revision || lamps.open || lamps.roofed;
   lamps = lamp_field(state.scene.summary.lamps, corner_m);
@@ -225,7 +225,7 @@ void draw_frame(RendererState& state, const Instant& instant, const std::vector<
   state.exposure = instant.exposure;
   const bool new_lamps = renew_lamps(state, world_eye(instant.views.front()));
   FrameTargets& targets = state.targets;
-  const SeenFrame seen = seen_frame(instant, state.scene.revision.value_or(0));
+  const SeenFrame seen = seen_frame(instant, state.scene.whole_revision);
   const glm::vec2 offset_px = state.temporal_pass.present() ? begin_frame(state.temporal_pass, seen) : glm::vec2(0.0f);
   Frame frame{state,
               context,

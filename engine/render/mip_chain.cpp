@@ -34,11 +34,16 @@ const Transfer& transfer_of(bool srgb) {
   return srgb ? of_srgb : of_linear;
 }
 
-MipLevel half(const MipLevel& from, const Transfer& transfer) {
-  MipLevel to{std::max(1u, from.width / 2), std::max(1u, from.height / 2), {}};
-  to.rgba.resize(std::size_t{4} * to.width * to.height);
-  for (std::uint32_t y = 0; y < to.height; ++y)
-    for (std::uint32_t x = 0; x < to.width; ++x) {
+/// Pixels of a level that are owned by another.
+struct SeenLevel {
+  std::uint32_t width = 0, height = 0;
+  std::span<const std::uint8_t> rgba;
+};
+
+/// Computes the pixels of `rect` of the next level.
+void halve(const SeenLevel& from, MipLevel& to, const MipRect& rect, const Transfer& transfer) {
+  for (std::uint32_t y = rect.y; y < rect.y + rect.height; ++y)
+    for (std::uint32_t x = rect.x; x < rect.x + rect.width; ++x) {
       std::array<const std::uint8_t*, 4> from_pixels;
       for (std::uint32_t corner = 0; corner < 4; ++corner) {
         const std::uint32_t sx = std::min(2 * x + (corner & 1), from.width - 1);
@@ -59,6 +64,12 @@ MipLevel half(const MipLevel& from, const Transfer& transfer) {
       }
       pixel[3] = static_cast<std::uint8_t>((alpha + 2) / 4);
     }
+}
+
+MipLevel half(const MipLevel& from, const Transfer& transfer) {
+  MipLevel to{std::max(1u, from.width / 2), std::max(1u, from.height / 2), {}};
+  to.rgba.resize(std::size_t{4} * to.width * to.height);
+  halve({from.width, from.height, from.rgba}, to, {0, 0, to.width, to.height}, transfer);
   return to;
 }
 
@@ -90,6 +101,24 @@ bool has_holes(std::span<const std::uint8_t> rgba) {
   for (std::size_t i = 3; i < rgba.size(); i += 4)
     if (rgba[i] < cut) return true;
   return false;
+}
+
+std::vector<MipRect> renew_mips(std::span<MipLevel> levels, std::span<const std::uint8_t> rgba, MipRect rect,
+                                bool srgb) {
+  const Transfer& transfer = transfer_of(srgb);
+  std::vector<MipRect> rects{rect};
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const MipLevel& from = levels[i - 1];
+    MipLevel& to = levels[i];
+    // Of an odd side, the last pixels have none below.
+    const std::uint32_t x = std::min(rect.x / 2, to.width - 1), y = std::min(rect.y / 2, to.height - 1);
+    const std::uint32_t right = std::min((rect.x + rect.width + 1) / 2, to.width),
+                        lower = std::min((rect.y + rect.height + 1) / 2, to.height);
+    rect = {x, y, std::max(right, x + 1) - x, std::max(lower, y + 1) - y};
+    halve({from.width, from.height, i == 1 ? rgba : std::span<const std::uint8_t>(from.rgba)}, to, rect, transfer);
+    rects.push_back(rect);
+  }
+  return rects;
 }
 
 std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,

@@ -23,6 +23,17 @@ double linear_of_code(std::size_t code, bool srgb);
 std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                                 bool srgb);
 
+/// Rectangle of pixels of each level.
+struct MipRect {
+  std::uint32_t x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Renews the levels below the full image, from a rectangle of it that changed; returns the changed rectangle of every
+/// level, the full image's first. `levels` is a chain of an image without holes, whose first level may be without pixels
+/// since `rgba` holds them.
+std::vector<MipRect> renew_mips(std::span<MipLevel> levels, std::span<const std::uint8_t> rgba, MipRect rect,
+                                bool srgb);
+
 /// True if any pixel falls below the cut at ½.
 bool has_holes(std::span<const std::uint8_t> rgba);
 

@@ -44,7 +44,13 @@ Expected<Renderer> Renderer::create(const RendererOptions& options) {
 Expected<void> Renderer::upload(const scene::ResolvedScene& scene) {
   if (state_->scene.revision == scene.revision) return {};
   try {
-    wait_for_frames(state_->ring, state_->device);
+    const auto wait = [&] { wait_for_frames(state_->ring, state_->device); };
+    const auto changes = state_->scene.revision ? scene.changes.since(*state_->scene.revision) : std::nullopt;
+    if (changes) {
+      renew_scene(state_->scene, scene, *changes, state_->device, state_->memory, wait);
+      return {};
+    }
+    wait();
     upload_scene(state_->scene, scene, state_->device, state_->memory);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);

@@ -1,5 +1,8 @@
 #include "engine/replication/message.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include <fmt/core.h>
 #include <zstd.h>
 
@@ -45,13 +48,18 @@ struct Put {
   ByteWriter& out;
   void operator()(const Hello& m) const { out.put(m.token), out.put_varint(m.received); }
   void operator()(const Welcome& m) const {
-    out.put(m.token), out.put(static_cast<std::uint8_t>(m.resumed)), out.put_varint(m.received);
+    out.put(m.token), out.put(static_cast<std::uint8_t>(m.resumed)), out.put_varint(m.received),
+        out.put_varint(m.first_id);
   }
   void operator()(const CommandBatch& m) const {
-    out.put_varint(m.sequence), out.put_varint(m.received), put_commands(out, m.commands);
+    out.put_varint(m.sequence), out.put_varint(m.received), out.put_varint(m.tick), put_commands(out, m.commands);
   }
   void operator()(const Complete& m) const { out.put_varint(m.revision), out.put_varint(m.answered); }
   void operator()(const Received& m) const { out.put_varint(m.sequence); }
+  void operator()(const Refused& m) const {
+    out.put_varint(m.sequence), out.put_varint(m.index);
+    out.put_bytes(std::as_bytes(std::span(m.why).first(std::min(m.why.size(), max_refusal_bytes))));
+  }
 };
 
 Message get(ByteReader& in, std::uint8_t kind) {
@@ -67,11 +75,15 @@ Message get(ByteReader& in, std::uint8_t kind) {
       const auto resumed = in.get<std::uint8_t>();
       if (resumed > 1) in.fail();
       m.resumed = resumed == 1, m.received = in.get_varint();
+      const std::uint64_t first_id = in.get_varint();
+      if (first_id > std::numeric_limits<scene::NodeId>::max() - ids_per_session) in.fail();
+      m.first_id = static_cast<scene::NodeId>(first_id);
       return m;
     }
     case 2: {
       CommandBatch m;
-      m.sequence = in.get_varint(), m.received = in.get_varint(), m.commands = get_commands(in);
+      m.sequence = in.get_varint(), m.received = in.get_varint(), m.tick = in.get_varint();
+      m.commands = get_commands(in);
       return m;
     }
     case 3: {
@@ -81,6 +93,13 @@ Message get(ByteReader& in, std::uint8_t kind) {
     }
     case 4:
       return Received{in.get_varint()};
+    case 5: {
+      Refused m;
+      m.sequence = in.get_varint(), m.index = in.get_varint();
+      const auto why = in.take(std::min(in.remaining(), max_refusal_bytes));
+      m.why.assign(reinterpret_cast<const char*>(why.data()), why.size());
+      return m;
+    }
     default:
       in.fail();
       return Hello{};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -19,6 +21,16 @@ using namespace scene;
 namespace {
 
 constexpr std::size_t batch_bytes = 32 * 1024;
+
+/// Commands kept back at most, by their bytes; beyond that they are shown early.
+constexpr std::size_t most_held_bytes = 64u << 20;
+
+/// Commands that a later tick shows.
+struct HeldBatch {
+  std::uint64_t tick = 0;
+  std::size_t bytes = 0;
+  std::vector<Command> commands;
+};
 
 struct SentBatch {
   std::uint64_t sequence = 0;
@@ -46,6 +58,12 @@ struct ReplicationClient::State {
 
   bool ever_complete = false;
   std::uint64_t answered = 0, revision = 0;
+  NodeId own_ids = 0;
+  std::vector<Refused> refusals;
+  std::optional<std::uint64_t> shown_tick;
+  std::deque<HeldBatch> held;
+  std::size_t held_bytes = 0;
+  std::map<NodeId, NodeType> held_nodes;  ///< Created by what is held.
 
   Store& mirror() { return filling ? *filling : *shown; }
   bool complete() const { return ever_complete && queued.empty() && answered == sent; }
@@ -59,6 +77,8 @@ struct ReplicationClient::State {
     subscribed_parts.clear();
     ever_complete = false;
     owes_acknowledgement = false;
+    drop_held();
+    shown_tick.reset();
     filling = std::make_unique<Store>(limits);
     if (shown->revision() == 0) show();  // No older mirror exists to keep: this one is shown as it fills.
     queue(NodeIndexSubscribe{policy.node_types});
@@ -66,6 +86,27 @@ struct ReplicationClient::State {
   void show() {
     shown = std::move(filling);
     ++generation;
+  }
+  void drop_held() {
+    held.clear();
+    held_nodes.clear();
+    held_bytes = 0;
+  }
+  Expected<void> apply_held(std::uint64_t tick) {
+    while (!held.empty() && held.front().tick <= tick) {
+      const HeldBatch batch = std::move(held.front());
+      held.pop_front();
+      held_bytes -= batch.bytes;
+      for (const Command& command : batch.commands)
+        if (auto applied = mirror().apply(command); !applied) return applied;
+    }
+    if (held.empty()) held_nodes.clear();
+    return {};
+  }
+  std::optional<NodeType> type_of(NodeId id) {
+    if (const Node* node = mirror().find(id)) return node->type();
+    const auto found = held_nodes.find(id);
+    return found == held_nodes.end() ? std::nullopt : std::optional(found->second);
   }
 
   // ---- subscriptions
@@ -100,7 +141,8 @@ struct ReplicationClient::State {
     } else if (const auto* destroyed = std::get_if<NodeDestroy>(&command)) {
       forget_parts(destroyed->node);
     } else if (const auto* group = std::get_if<TagGroupSet>(&command)) {
-      subscribe(group->node, mirror().find(group->node)->type(), PartKind::tag_group, group->group, group->name);
+      if (const auto type = type_of(group->node))
+        subscribe(group->node, *type, PartKind::tag_group, group->group, group->name);
     } else if (const auto* no_group = std::get_if<TagGroupDestroy>(&command)) {
       subscribed_parts.erase({no_group->node, PartKind::tag_group, no_group->group});
     } else if (const auto* layer = std::get_if<GeometryLayerSet>(&command)) {
@@ -119,6 +161,7 @@ struct ReplicationClient::State {
   Expected<void> operator()(const Welcome& message) {
     if (welcomed) return failure("a second welcome", "replication server", "welcome a client once");
     welcomed = true;
+    own_ids = message.first_id;
     if (!message.resumed || message.token != token || token == 0) {
       start_anew(message.token);
       return {};
@@ -134,12 +177,27 @@ struct ReplicationClient::State {
     if (message.sequence != received + 1)
       return failure(fmt::format("batch {} follows {}", message.sequence, received), "replication server",
                      "connect again");
+    const bool is_held = !held.empty() || (shown_tick && !filling && message.tick > *shown_tick);
+    HeldBatch batch{message.tick, message.commands.size(), {}};
     ByteReader in(message.commands);
     while (!in.at_end()) {
-      const auto command = scene::decode(in);
+      auto command = scene::decode(in);
       if (!command) return tl::unexpected(command.error());
-      if (auto applied = mirror().apply(*command); !applied) return applied;
+      if (!is_held) {
+        if (auto applied = mirror().apply(*command); !applied) return applied;
+        learn_from(*command);
+        continue;
+      }
+      // Subscribed to at once, so that a new node's content is there when its tick is.
+      if (const auto* created = std::get_if<NodeCreate>(&*command)) held_nodes[created->node] = created->type;
       learn_from(*command);
+      batch.commands.push_back(std::move(*command));
+    }
+    if (is_held) {
+      held_bytes += batch.bytes;
+      held.push_back(std::move(batch));
+      if (held_bytes > most_held_bytes)
+        if (auto applied = apply_held(std::numeric_limits<std::uint64_t>::max()); !applied) return applied;
     }
     received = message.sequence;
     owes_acknowledgement = true;
@@ -158,8 +216,21 @@ struct ReplicationClient::State {
     acknowledge(message.sequence);
     return {};
   }
+  Expected<void> operator()(const Refused& message) {
+    constexpr std::size_t most_refusals = 1000;
+    if (refusals.size() < most_refusals) refusals.push_back(message);
+    return {};
+  }
   Expected<void> operator()(const Hello&) {
     return failure("a message that only a client sends", "replication server", "connect to a server");
+  }
+
+  /// A mirror that missed a change is discarded.
+  void begin_anew() {
+    token = 0;
+    welcomed = false;
+    hello_due = true;
+    drop_held();
   }
 
   void acknowledge(std::uint64_t sequence) {
@@ -202,17 +273,34 @@ Expected<void> ReplicationClient::receive(std::span<const std::byte> message) {
   // Until the welcome, messages of an earlier session may still be on their way.
   if (decoded && !state_->welcomed && !std::holds_alternative<Welcome>(*decoded)) return {};
   auto done = decoded ? std::visit(*state_, *decoded) : Expected<void>(tl::unexpected(decoded.error()));
-  if (!done) {
-    // A mirror that missed a change is discarded.
-    state_->token = 0;
-    state_->welcomed = false;
-    state_->hello_due = true;
-  }
+  if (!done) state_->begin_anew();
+  return done;
+}
+
+Expected<void> ReplicationClient::show(std::uint64_t tick) {
+  state_->shown_tick = tick;
+  auto done = state_->apply_held(tick);
+  if (!done) state_->begin_anew();
   return done;
 }
 
 void ReplicationClient::pump(const Send& send) { state_->pump(send); }
 void ReplicationClient::request(const Command& command) { state_->queue(command); }
+
+Expected<std::uint64_t> ReplicationClient::request_batch(std::span<const Command> changes) {
+  Bytes bytes;
+  for (const Command& command : changes) scene::encode(command, bytes);
+  if (bytes.empty() || bytes.size() > max_batch_bytes)
+    return failure(fmt::format("a batch of {} bytes", bytes.size()), "changes of the scene",
+                   fmt::format("send 1 to {} bytes at once", max_batch_bytes));
+  state_->close_batch();
+  state_->queued = std::move(bytes);
+  state_->close_batch();
+  return state_->sent;
+}
+
+NodeId ReplicationClient::own_ids() const { return state_->own_ids; }
+std::vector<Refused> ReplicationClient::take_refusals() { return std::exchange(state_->refusals, {}); }
 const Store& ReplicationClient::store() const { return *state_->shown; }
 std::uint64_t ReplicationClient::generation() const { return state_->generation; }
 bool ReplicationClient::complete() const { return state_->complete(); }

@@ -22,6 +22,9 @@ namespace {
 
 constexpr int nodes_listed_at_once = 256;
 constexpr int requests_per_pump = 8192;
+constexpr std::size_t most_refusals = 100;
+/// Sessions' own ids lie above those that the server assigns, and begin again after many sessions.
+constexpr NodeId first_own_id = 0x40000000u, sessions_with_ids = 0xA000u;
 
 /// A batch on its way: its content, to be repeated if it does not arrive.
 struct Unacknowledged {
@@ -48,6 +51,9 @@ struct Session {
   std::size_t unacknowledged_bytes = 0;
   bool told_complete = false;
   std::uint64_t told_revision = 0, told_answered = 0;
+  NodeId own_ids = 0;
+  std::uint64_t changed_at = 0;  ///< First tick that shows the newest change.
+  std::deque<Refused> refusals;  ///< To be sent.
 
   bool wants(const Subject& subject) const {
     const auto node = subscriptions.find(subject.node);
@@ -106,7 +112,8 @@ struct ReplicationServer::State {
 
   // ---- changes of the store
 
-  void tell(Session& session, const Change& change, const Command& command) {
+  void tell(Session& session, const Change& change, const Command& command, std::uint64_t tick) {
+    session.changed_at = std::max(session.changed_at, tick);
     const NodeId node = change.subject.node;
     if (change.subject.kind == SubjectKind::existence) {
       if (const auto* created = std::get_if<NodeCreate>(&command)) {
@@ -223,8 +230,11 @@ struct ReplicationServer::State {
       connection.session = std::make_unique<Session>();
       connection.session->token = std::max<std::uint64_t>(1, token.value());
       connection.session->identity = connection.identity;
+      connection.session->own_ids =
+          first_own_id + static_cast<NodeId>(sessions_made % sessions_with_ids) * ids_per_session;
     }
-    connection.unsent = encode(Welcome{connection.session->token, resumed, connection.session->received});
+    connection.unsent =
+        encode(Welcome{connection.session->token, resumed, connection.session->received, connection.session->own_ids});
     return {};
   }
 
@@ -281,9 +291,15 @@ struct ReplicationServer::State {
       session.unacknowledged_bytes += batch.bytes;
       session.unacknowledged.push_back(std::move(batch));
       session.owes_acknowledgement = false;
-      if (!offer(encode(CommandBatch{session.sent, session.received, std::move(commands)}))) return pumped;
+      if (!offer(encode(CommandBatch{session.sent, session.received, std::move(commands), session.changed_at})))
+        return pumped;
     }
 
+    while (!session.refusals.empty()) {
+      const Refused refused = std::move(session.refusals.front());
+      session.refusals.pop_front();
+      if (!offer(encode(refused))) return pumped;
+    }
     const bool all_said = session.outbox.empty() && session.requests.empty() && session.next_listed == no_node;
     const bool news = !session.told_complete || session.told_revision != store.revision() ||
                       session.told_answered != session.received;
@@ -343,12 +359,29 @@ Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connectio
                  "send hello, commands or received");
 }
 
-void ReplicationServer::applied(const Command& command) {
+std::uint64_t ReplicationServer::last_batch(ConnectionId connection) const {
+  const auto found = state_->connections.find(connection);
+  return found == state_->connections.end() || !found->second.session ? 0 : found->second.session->received;
+}
+
+NodeId ReplicationServer::own_ids(ConnectionId connection) const {
+  const auto found = state_->connections.find(connection);
+  return found == state_->connections.end() || !found->second.session ? 0 : found->second.session->own_ids;
+}
+
+void ReplicationServer::refuse(ConnectionId connection, std::uint64_t batch, std::size_t index, std::string why) {
+  const auto found = state_->connections.find(connection);
+  if (found == state_->connections.end() || !found->second.session) return;
+  std::deque<Refused>& refusals = found->second.session->refusals;
+  if (refusals.size() < most_refusals) refusals.push_back({batch, index, std::move(why)});
+}
+
+void ReplicationServer::applied(const Command& command, std::uint64_t tick) {
   const auto change = change_of(command, state_->store);
   if (!change) return;
   for (auto& [id, connection] : state_->connections)
-    if (connection.session) state_->tell(*connection.session, *change, command);
-  for (auto& session : state_->lost) state_->tell(*session, *change, command);
+    if (connection.session) state_->tell(*connection.session, *change, command, tick);
+  for (auto& session : state_->lost) state_->tell(*session, *change, command, tick);
 }
 
 ReplicationServer::Pumped ReplicationServer::pump(ConnectionId connection, std::size_t max_bytes, const Send& send) {

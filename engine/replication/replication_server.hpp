@@ -52,8 +52,17 @@ class ReplicationServer {
   /// is to be dropped.
   Expected<std::vector<scene::Command>> receive(ConnectionId connection, std::span<const std::byte> message);
 
-  /// Call after every command that the store accepted.
-  void applied(const scene::Command& command);
+  /// Number of the client's last batch, by which a refusal names it.
+  std::uint64_t last_batch(ConnectionId connection) const;
+  /// The first of the ids that are this client's own; 0: it has not said hello.
+  scene::NodeId own_ids(ConnectionId connection) const;
+  /// Tells a client that nothing of its batch was done, because of one command of it. Beyond a hundred that wait, no more
+  /// are told. A connection that is gone is told nothing.
+  void refuse(ConnectionId connection, std::uint64_t batch, std::size_t index, std::string why);
+
+  /// Call after every command that the store accepted. `tick`: the first that shows it; mirrors that show ticks keep it
+  /// back until then. 0: at once. Ticks rise.
+  void applied(const scene::Command& command, std::uint64_t tick = 0);
 
   struct Pumped {
     std::size_t messages = 0;

@@ -37,11 +37,12 @@ std::uint8_t pixel(PixelType type, const std::uint8_t* tile, std::uint32_t i) {
   return 0;
 }
 
-void fill_channel(TextureImage& image, std::size_t channel, const BitmapLayer& layer) {
+/// `rect` begins at a tile's corner.
+void fill_channel(TextureImage& image, std::size_t channel, const BitmapLayer& layer, const PixelRect& rect) {
   const std::size_t columns = tile_columns(image.width);
   const PixelType type = layer.type;
-  for (std::uint32_t y = 0; y < image.height; ++y)
-    for (std::uint32_t left = 0; left < image.width; left += tile_side) {
+  for (std::uint32_t y = rect.y; y < rect.y + rect.height; ++y)
+    for (std::uint32_t left = rect.x; left < rect.x + rect.width; left += tile_side) {
       const std::size_t tile = (y / tile_side) * columns + left / tile_side;
       const std::uint8_t* pixels = &layer.tiles[tile * tile_bytes(type)];
       std::uint8_t* target = &image.rgba[(std::size_t{y} * image.width + left) * 4 + channel];
@@ -50,7 +51,39 @@ void fill_channel(TextureImage& image, std::size_t channel, const BitmapLayer& l
     }
 }
 
+using Channels = std::array<const BitmapLayer*, 4>;
+Channels channels_of(const BitmapData& bitmap) {
+  return {find_layer(bitmap, "color_r"), find_layer(bitmap, "color_g"), find_layer(bitmap, "color_b"),
+          find_layer(bitmap, "alpha")};
+}
+
 }  // namespace
+
+std::optional<PixelRect> renew_tiles(TextureImage& image, const Node& node, PartId layer, std::uint32_t first_tile,
+                                     std::uint32_t tiles) {
+  const auto* bitmap = std::get_if<BitmapData>(&node.data);
+  if (!bitmap || image.rgba.empty() || image.width != bitmap->width || image.height != bitmap->height)
+    return std::nullopt;
+  const auto changed = bitmap->layers.find(layer);
+  if (changed == bitmap->layers.end()) return std::nullopt;
+  const Channels channels = channels_of(*bitmap);
+  const auto channel = std::ranges::find(channels, &changed->second);
+  const auto columns = static_cast<std::uint32_t>(tile_columns(image.width));
+  const std::uint64_t first = first_tile,
+                      end = std::min<std::uint64_t>(first + tiles, tile_count(image.width, image.height, 1));
+  if (channel == channels.end() || first >= end) return PixelRect{};
+  const auto first_row = static_cast<std::uint32_t>(first / columns),
+             last_row = static_cast<std::uint32_t>((end - 1) / columns);
+  PixelRect rect{0, first_row * tile_side, image.width, (last_row - first_row + 1) * tile_side};
+  if (first_row == last_row) {
+    rect.x = static_cast<std::uint32_t>(first % columns) * tile_side;
+    rect.width = static_cast<std::uint32_t>(end - first) * tile_side;
+  }
+  rect.width = std::min(rect.width, image.width - rect.x);
+  rect.height = std::min(rect.height, image.height - rect.y);
+  fill_channel(image, static_cast<std::size_t>(channel - channels.begin()), changed->second, rect);
+  return rect;
+}
 
 TextureImage image_of_bitmap(const Node& node) {
   TextureImage image;
@@ -58,8 +91,7 @@ TextureImage image_of_bitmap(const Node& node) {
   if (!bitmap) return image;
   if (const TagValue* srgb = find_tag(node, "image", "srgb"))
     if (const bool* value = std::get_if<bool>(srgb)) image.srgb = *value;
-  const std::array<const BitmapLayer*, 4> channels = {find_layer(*bitmap, "color_r"), find_layer(*bitmap, "color_g"),
-                                                      find_layer(*bitmap, "color_b"), find_layer(*bitmap, "alpha")};
+  const Channels channels = channels_of(*bitmap);
   if ((!channels[0] && !channels[1] && !channels[2]) || bitmap->depth == 0) return image;
   image.width = bitmap->width;
   image.height = bitmap->height;
@@ -67,7 +99,7 @@ TextureImage image_of_bitmap(const Node& node) {
   if (!channels[3])
     for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   for (std::size_t c = 0; c < 4; ++c)
-    if (channels[c]) fill_channel(image, c, *channels[c]);
+    if (channels[c]) fill_channel(image, c, *channels[c], {0, 0, image.width, image.height});
   return image;
 }
 

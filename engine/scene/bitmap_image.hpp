@@ -1,6 +1,9 @@
 #pragma once
 /// A bitmap node as an image (CONVENTIONS.md, "Bitmaps").
 
+#include <cstdint>
+#include <optional>
+
 #include "engine/scene/node.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
@@ -8,5 +11,10 @@ namespace septet::scene {
 
 /// Empty where the node has no colour layer. The revision is left at zero.
 TextureImage image_of_bitmap(const Node& node);
+
+/// Renews the image's pixels of `tiles` tiles of a layer; returns the rectangle that holds them, empty if the layer is not
+/// drawn. Nothing where the image is not of the bitmap's size.
+std::optional<PixelRect> renew_tiles(TextureImage& image, const Node& bitmap, PartId layer, std::uint32_t first_tile,
+                                     std::uint32_t tiles);
 
 }  // namespace septet::scene

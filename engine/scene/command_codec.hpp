@@ -14,8 +14,6 @@
 
 namespace septet::scene {
 
-inline constexpr std::uint8_t command_format_version = 1;
-
 /// Limits of one command; the store's limits on the whole are in store.hpp.
 inline constexpr std::size_t max_name_bytes = 255;
 inline constexpr std::size_t max_tag_string_bytes = 4096;

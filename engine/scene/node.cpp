@@ -1,5 +1,7 @@
 #include "engine/scene/node.hpp"
 
+#include <string_view>
+
 namespace septet::scene {
 namespace {
 
@@ -11,6 +13,8 @@ auto find_by_name(const Layers& layers, std::string_view name) -> const typename
 }
 
 }  // namespace
+
+bool is_drawn_tag_group(std::string_view name) { return name == "draw" || name == "surface" || name == "image"; }
 
 const TagValue* find_tag(const Node& node, std::string_view group, std::string_view tag) {
   const TagGroup* in_group = find_by_name(node.tag_groups, group);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -182,9 +183,17 @@ struct Node {
   std::map<PartId, TagGroup> tag_groups;
   NodeData data;
   std::uint64_t revision = 0;
+  /// Revision of the last change of anything that a picture may show: not of names (but a prototype's), of light, nor of
+  /// tags outside the groups of CONVENTIONS.md.
+  std::uint64_t drawn_revision = 0;
 
   NodeType type() const { return static_cast<NodeType>(data.index()); }
 };
+
+/// True for a tag group that a picture may depend on (CONVENTIONS.md).
+bool is_drawn_tag_group(std::string_view name);
+/// Objects of this name's prefix are prototypes of participants (CONVENTIONS.md).
+inline constexpr std::string_view prototype_prefix = "model/";
 
 /// The value of a tag by its names, or null.
 const TagValue* find_tag(const Node& node, std::string_view group, std::string_view tag);

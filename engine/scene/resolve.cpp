@@ -3,241 +3,63 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "engine/core/parallel_for.hpp"
 #include "engine/scene/bitmap_image.hpp"
 #include "engine/scene/material_evaluation.hpp"
-#include "engine/scene/part_role.hpp"
+#include "engine/scene/placed_objects.hpp"
+#include "engine/scene/slots.hpp"
 #include "engine/scene/surface_mesh.hpp"
 
 namespace septet::scene {
 namespace {
 
-constexpr int deepest_child = 32;
-/// Limit of objects in one update: children shared again and again multiply.
-constexpr std::size_t most_visits = 1u << 20;
-constexpr std::string_view prototype_prefix = "model/";
+/// More changes than these at once are read as a whole.
+constexpr std::size_t most_separate_changes = 2000;
 
-/// Content of an object node, read once per change of it.
-struct DrawnObject {
-  std::uint64_t revision = 0;
-  std::string name;
-  Transform transform;
-  bool hidden = false;
-  NodeId geometry = no_node;
-  std::vector<std::pair<std::uint32_t, NodeId>> materials;  ///< Materials by face material index, rising.
-  std::vector<NodeId> children;
-  float visible_from_m = 0.0f, visible_to_m = 1e9f;
-  PartRole role = PartRole::fixed;
-  bool casts_shadow = true;
-  std::uint32_t mesh = 0;  ///< Slot at its last placement.
-};
-
-/// Meshes are shared by objects that have geometry and materials in common.
-using MeshKey = std::pair<NodeId, std::vector<std::pair<std::uint32_t, NodeId>>>;
-
-struct MeshSlot {
-  MeshKey key;
-  std::uint64_t made_from = 0;  ///< The geometry node's revision.
-  std::uint64_t last_used = 0;  ///< Last pass of place_instances in which an instance used it.
-};
-
-template <class T>
-T draw_tag(const Node& node, const char* name, T otherwise) {
-  const TagValue* value = find_tag(node, "draw", name);
-  const T* typed = value ? std::get_if<T>(value) : nullptr;
-  return typed ? *typed : otherwise;
+bool same(const SurfaceMaterial& a, const SurfaceMaterial& b) {
+  return a.base_color == b.base_color && a.base_color_image == b.base_color_image && a.roughness == b.roughness &&
+         a.metallic == b.metallic && a.opacity == b.opacity && a.refraction_index == b.refraction_index &&
+         a.emission == b.emission && a.takes_paint == b.takes_paint && a.wettable == b.wettable &&
+         a.stripe == b.stripe && a.retroreflection == b.retroreflection && a.picture_columns == b.picture_columns &&
+         a.picture_rows == b.picture_rows && a.share_of_sky == b.share_of_sky && a.clear_coat == b.clear_coat &&
+         a.two_sided == b.two_sided && a.ambient_share == b.ambient_share && a.lit_by_night == b.lit_by_night &&
+         a.in_street == b.in_street;
 }
-
-DrawnObject read_object(const Node& node) {
-  const auto& data = std::get<ObjectData>(node.data);
-  DrawnObject object;
-  object.revision = node.revision;
-  object.name = node.name;
-  object.transform = data.transform;
-  object.transform.rotation = glm::normalize(data.transform.rotation);
-  object.hidden = data.hidden;
-  for (const auto& [id, link] : data.links) {
-    if (link.label == "geometry" && object.geometry == no_node) object.geometry = link.target;
-    if (link.label == "material") object.materials.emplace_back(link.target_id, link.target);
-    if (link.label == "child") object.children.push_back(link.target);
-  }
-  std::stable_sort(object.materials.begin(), object.materials.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  object.visible_from_m = static_cast<float>(draw_tag(node, "from_m", 0.0));
-  object.visible_to_m = static_cast<float>(draw_tag(node, "to_m", 1e9));
-  object.role = part_role(draw_tag(node, "role", std::string()));
-  object.casts_shadow = draw_tag(node, "casts_shadow", true);
-  return object;
-}
-
-/// Slots of one of ResolvedScene's arrays, by their source.
-template <class Key, class Content>
-class Slots {
- public:
-  /// The slot of `key`, made where it does not exist.
-  std::uint32_t of(const Key& key, std::vector<Content>& contents) {
-    const auto [found, added] = by_key_.try_emplace(key, 0);
-    if (!added) return found->second;
-    if (free_.empty()) {
-      found->second = static_cast<std::uint32_t>(contents.size());
-      contents.emplace_back();
-    } else {
-      found->second = *free_.begin();
-      free_.erase(free_.begin());
-    }
-    return found->second;
-  }
-  void release(const Key& key) {
-    const auto found = by_key_.find(key);
-    free_.insert(found->second);
-    by_key_.erase(found);
-  }
-  const std::map<Key, std::uint32_t>& all() const { return by_key_; }
-
- private:
-  std::map<Key, std::uint32_t> by_key_;
-  std::set<std::uint32_t> free_;
-};
 
 }  // namespace
 
 struct Resolver::State {
   ResolvedScene scene;
-  std::uint64_t seen = 0;        ///< The store's revision at the last update.
-  std::uint64_t seen_index = 0;  ///< The store's index revision at that update.
-  std::uint64_t placing = 0;     ///< Counts the passes of place_instances.
+  std::uint64_t seen = 0;  ///< The store's revision at the last update.
+  bool is_whole = true;    ///< True if the next update reads everything.
 
-  std::map<NodeId, DrawnObject> objects;
-  Slots<MeshKey, SurfaceMesh> mesh_slots;
-  std::vector<MeshSlot> meshes;
+  PlacedObjects placed;
   Slots<NodeId, SurfaceMaterial> material_slots;
   Slots<NodeId, TextureImage> image_slots;
+  std::set<NodeId> changed_materials, changed_images;  ///< Of those with a slot: to be made.
   std::map<NodeId, std::uint64_t> image_made_from;
-  std::size_t pending = 0;
 
   State() { scene.materials.emplace_back(); }  // Slot 0: parts without a material are neutral grey.
 
   std::uint64_t next_revision() { return ++scene.revision; }
-
-  // ---- changes
-
-  struct Changes {
-    bool objects = false, materials = false, bitmaps = false, geometries = false;
-  };
-
-  Changes read_changes(const Store& store) {
-    Changes changes;
-    const bool index = store.index_revision() > seen_index;
-    if (index) {
-      std::erase_if(objects, [&](const auto& entry) { return !store.find(entry.first); });
-      changes = {true, true, true, true};
-    }
-    for (const auto& [id, node] : store.nodes()) {
-      if (node.revision <= seen) continue;
-      switch (node.type()) {
-        case NodeType::object:
-          objects[id] = read_object(node);
-          changes.objects = true;
-          break;
-        case NodeType::geometry:
-          changes.geometries = true;
-          break;
-        case NodeType::material:
-          changes.materials = true;
-          break;
-        case NodeType::bitmap:
-          changes.bitmaps = true;
-          break;
-        default:
-          break;
-      }
-    }
-    seen = store.revision();
-    seen_index = store.index_revision();
-    return changes;
-  }
-
-  // ---- objects to instances
-
-  std::uint32_t mesh_slot(DrawnObject& object) {
-    const auto is_of = [&](const MeshSlot& slot) {
-      return slot.last_used != 0 && slot.key.first == object.geometry && slot.key.second == object.materials;
-    };
-    if (object.mesh >= meshes.size() || !is_of(meshes[object.mesh])) {
-      const MeshKey key{object.geometry, object.materials};
-      object.mesh = mesh_slots.of(key, scene.meshes);
-      if (object.mesh >= meshes.size()) meshes.resize(object.mesh + 1);
-      if (!is_of(meshes[object.mesh])) meshes[object.mesh] = {key, 0, placing};
-    }
-    meshes[object.mesh].last_used = placing;
-    return object.mesh;
-  }
-
-  struct Placement {
-    RigidTransform world_from_object;
-    glm::vec3 scale{1.0f};
-  };
-
-  static Placement child_of(const Placement& parent, const Transform& t) {
-    Placement placed;
-    placed.world_from_object.position_m = parent.world_from_object * (glm::dvec3(parent.scale) * t.position_m);
-    placed.world_from_object.orientation = parent.world_from_object.orientation * t.rotation;
-    placed.scale = parent.scale * t.scale;
-    return placed;
-  }
-
-  /// Appends an object and everything below it. `path` holds the objects above.
-  void place(DrawnObject& object, NodeId id, const Placement& parent, std::vector<NodeId>& path, std::size_t& visits,
-             std::vector<Instance>& into) {
-    if (object.hidden || path.size() >= deepest_child || ++visits > most_visits) return;
-    if (std::find(path.begin(), path.end(), id) != path.end()) return;
-    const Placement placed = child_of(parent, object.transform);
-    if (object.geometry != no_node)
-      into.push_back({mesh_slot(object), placed.world_from_object, placed.scale, object.visible_from_m,
-                      object.visible_to_m, object.casts_shadow, object.role});
-    path.push_back(id);
-    for (const NodeId child : object.children)
-      if (const auto found = objects.find(child); found != objects.end())
-        place(found->second, child, placed, path, visits, into);
-    path.pop_back();
-  }
-
-  void place_instances() {
-    ++placing;
-    std::vector<NodeId> children;
-    for (const auto& [id, object] : objects)
-      children.insert(children.end(), object.children.begin(), object.children.end());
-    std::sort(children.begin(), children.end());
-    scene.instances.clear();
-    scene.prototypes.clear();
-    std::vector<NodeId> path;
-    std::size_t visits = 0;
-    for (auto& [id, object] : objects) {
-      if (std::binary_search(children.begin(), children.end(), id)) continue;
-      if (object.name.starts_with(prototype_prefix)) {
-        Prototype& prototype = scene.prototypes.emplace_back();
-        prototype.name = object.name.substr(prototype_prefix.size());
-        place(object, id, {}, path, visits, prototype.parts);
-      } else {
-        place(object, id, {}, path, visits, scene.instances);
-      }
-    }
-    for (MeshSlot& slot : meshes) {
-      if (slot.last_used == 0 || slot.last_used == placing) continue;
-      const std::uint32_t index = mesh_slots.all().at(slot.key);
-      scene.meshes[index] = {};
-      scene.meshes[index].revision = next_revision();
-      mesh_slots.release(slot.key);
-      slot = {};
-    }
-    next_revision();
-  }
+  void tell(const SceneChange& change) { scene.changes.add(next_revision(), change); }
 
   // ---- meshes
 
-  std::uint32_t material_slot(NodeId id) { return material_slots.of(id, scene.materials); }
+  std::uint32_t material_slot(NodeId id) {
+    if (!material_slots.all().contains(id)) changed_materials.insert(id);
+    return material_slots.of(id, scene.materials);
+  }
+
+  bool is_of_prototype(std::uint32_t mesh) const {
+    return std::ranges::any_of(scene.prototypes, [&](const Prototype& prototype) {
+      return std::ranges::any_of(prototype.parts, [&](const Instance& part) { return part.mesh == mesh; });
+    });
+  }
 
   void make_meshes(const Store& store, std::size_t budget) {
     struct Task {
@@ -245,18 +67,15 @@ struct Resolver::State {
       const Node* node;                                                ///< Null: there is no geometry.
       std::vector<std::pair<std::uint32_t, std::uint32_t>> materials;  ///< Slots by face material index.
     };
-    pending = 0;
     std::vector<Task> tasks;
-    for (std::uint32_t index = 0; index < meshes.size(); ++index) {
-      MeshSlot& slot = meshes[index];
-      if (slot.last_used == 0) continue;
+    std::set<std::uint32_t>& stale = placed.stale();
+    while (!stale.empty() && tasks.size() < budget) {
+      const std::uint32_t index = *stale.begin();
+      stale.erase(stale.begin());
+      MeshSlot& slot = placed.meshes()[index];
       const Node* node = store.find(slot.key.first);
-      const std::uint64_t revision = node ? node->revision : 0;
+      const std::uint64_t revision = node ? node->drawn_revision : 0;
       if (slot.made_from == revision) continue;
-      if (tasks.size() == budget) {
-        ++pending;
-        continue;
-      }
       slot.made_from = revision;
       Task& task = tasks.emplace_back(Task{index, node, {}});
       for (const auto& [face, material] : slot.key.second) task.materials.emplace_back(face, material_slot(material));
@@ -270,64 +89,118 @@ struct Resolver::State {
       };
       scene.meshes[task.index] = task.node ? surface_of_geometry(*task.node, material_of) : SurfaceMesh{};
     });
-    for (const Task& task : tasks) scene.meshes[task.index].revision = next_revision();
+    for (const Task& task : tasks) {
+      scene.meshes[task.index].revision = next_revision();
+      scene.changes.add(scene.revision, {SceneChange::Kind::mesh, task.index});
+      if (is_of_prototype(task.index)) scene.prototypes_revision = scene.revision;
+    }
   }
 
   // ---- materials and images
 
   void evaluate_materials(const Store& store) {
     const auto image_of = [&](NodeId bitmap) {
+      if (!image_slots.all().contains(bitmap)) changed_images.insert(bitmap);
       return static_cast<std::int32_t>(image_slots.of(bitmap, scene.images));
     };
-    for (const auto& [id, slot] : material_slots.all()) {
-      SurfaceMaterial& current = scene.materials[slot];
+    for (const NodeId id : std::exchange(changed_materials, {})) {
+      const auto slot = material_slots.all().find(id);
+      if (slot == material_slots.all().end()) continue;
+      SurfaceMaterial& current = scene.materials[slot->second];
       const Node* node = store.find(id);
       SurfaceMaterial made = node ? evaluate_material(*node, image_of) : SurfaceMaterial{};
       made.revision = current.revision;
       if (current.revision != 0 && same(made, current)) continue;
-      made.revision = next_revision();
+      tell({SceneChange::Kind::material, slot->second});
+      made.revision = scene.revision;
       current = made;
     }
   }
 
-  static bool same(const SurfaceMaterial& a, const SurfaceMaterial& b) {
-    return a.base_color == b.base_color && a.base_color_image == b.base_color_image && a.roughness == b.roughness &&
-           a.metallic == b.metallic && a.opacity == b.opacity && a.refraction_index == b.refraction_index &&
-           a.emission == b.emission && a.takes_paint == b.takes_paint && a.wettable == b.wettable &&
-           a.stripe == b.stripe && a.retroreflection == b.retroreflection && a.picture_columns == b.picture_columns &&
-           a.picture_rows == b.picture_rows && a.share_of_sky == b.share_of_sky && a.clear_coat == b.clear_coat &&
-           a.two_sided == b.two_sided && a.ambient_share == b.ambient_share && a.lit_by_night == b.lit_by_night &&
-           a.in_street == b.in_street;
-  }
-
   void make_images(const Store& store) {
     std::vector<std::pair<std::uint32_t, const Node*>> tasks;
-    for (const auto& [id, slot] : image_slots.all()) {
+    for (const NodeId id : std::exchange(changed_images, {})) {
+      const auto slot = image_slots.all().find(id);
+      if (slot == image_slots.all().end()) continue;
       const Node* node = store.find(id);
-      const std::uint64_t revision = node ? node->revision : 0;
+      const std::uint64_t revision = node ? node->drawn_revision : 0;
       const auto [made, added] = image_made_from.try_emplace(id, 0);
       if (!added && made->second == revision) continue;
       made->second = revision;
-      tasks.emplace_back(slot, node);
+      tasks.emplace_back(slot->second, node);
     }
     parallel_for(tasks.size(), [&](std::size_t i) {
       const auto [slot, node] = tasks[i];
       scene.images[slot] = node ? image_of_bitmap(*node) : TextureImage{};
     });
-    for (const auto& task : tasks) scene.images[task.first].revision = next_revision();
+    for (const auto& task : tasks) {
+      tell({SceneChange::Kind::image, task.first});
+      scene.images[task.first].revision = scene.revision;
+    }
+  }
+
+  /// Renews the pixels of some tiles; false where the image has to be made as a whole.
+  bool renew_tiles(const Node& node, const NodeChange& change) {
+    const auto slot = image_slots.all().find(node.id);
+    if (slot == image_slots.all().end()) return true;
+    TextureImage& image = scene.images[slot->second];
+    const auto pixels = scene::renew_tiles(image, node, change.layer, change.first_tile, change.tiles);
+    if (!pixels) return false;
+    image_made_from[node.id] = node.drawn_revision;
+    if (pixels->width == 0 || pixels->height == 0) return true;
+    tell({SceneChange::Kind::image, slot->second, no_mesh, *pixels});
+    image.revision = scene.revision;
+    return true;
+  }
+
+  // ---- updates
+
+  void read_everything(const Store& store) {
+    placed.place_all(store, scene);
+    for (std::uint32_t index = 0; index < placed.meshes().size(); ++index)
+      if (placed.meshes()[index].used) placed.stale().insert(index);
+    for (const auto& entry : material_slots.all()) changed_materials.insert(entry.first);
+    for (const auto& entry : image_slots.all()) changed_images.insert(entry.first);
+  }
+
+  void read_changes(const Store& store, std::span<const ChangeList<NodeChange>::Change> changes) {
+    std::set<NodeId> objects;
+    for (const auto& [revision, change] : changes) {
+      const Node* node = store.find(change.node);
+      if (node && node->drawn_revision <= seen) continue;
+      // A destroyed node may have been of any type.
+      if (!node || node->type() == NodeType::object) objects.insert(change.node);
+      if (!node || node->type() == NodeType::geometry) placed.spoil(change.node);
+      if (!node || node->type() == NodeType::material) changed_materials.insert(change.node);
+      if (!node || node->type() == NodeType::bitmap) changed_images.insert(change.node);
+    }
+    // Tiles are renewed where nothing else of their bitmap changed.
+    std::set<NodeId> whole_images;
+    for (const auto& [revision, change] : changes)
+      if (change.tiles == 0 && changed_images.contains(change.node)) whole_images.insert(change.node);
+    for (const auto& [revision, change] : changes) {
+      if (change.tiles == 0 || !changed_images.contains(change.node) || whole_images.contains(change.node)) continue;
+      if (!renew_tiles(*store.find(change.node), change)) whole_images.insert(change.node);
+    }
+    changed_images = std::move(whole_images);
+    if (!objects.empty()) placed.place_changed(store, objects, scene);
   }
 
   bool update(const Store& store, std::size_t mesh_budget) {
-    if (store.revision() == seen && pending == 0) return false;
+    if (!is_whole && store.revision() == seen && placed.stale().empty()) return false;
     const std::uint64_t before = scene.revision;
-    const std::size_t materials_before = material_slots.all().size();
-    const Changes changes = read_changes(store);
-    if (changes.objects) place_instances();
-    if (changes.objects || changes.geometries || pending > 0) make_meshes(store, mesh_budget);
-    const bool new_materials = material_slots.all().size() != materials_before;
-    const std::size_t images_before = image_slots.all().size();
-    if (changes.materials || new_materials) evaluate_materials(store);
-    if (changes.bitmaps || image_slots.all().size() != images_before) make_images(store);
+    const auto changes = is_whole ? std::nullopt : store.changes().since(seen);
+    const bool separate = changes && changes->size() <= most_separate_changes;
+    if (separate)
+      read_changes(store, *changes);
+    else
+      read_everything(store);
+    seen = store.revision();
+    is_whole = false;
+    make_meshes(store, mesh_budget);
+    evaluate_materials(store);
+    make_images(store);
+    if (!separate) scene.changes.forget(scene.revision);
     return scene.revision != before;
   }
 };
@@ -341,19 +214,21 @@ bool Resolver::update(const Store& store, std::size_t mesh_budget) { return stat
 
 void Resolver::forget() {
   // Existing content stays in its slot until the next update frees or makes it again.
-  state_->seen = state_->seen_index = 0;
-  state_->objects.clear();
+  state_->is_whole = true;
+  state_->seen = 0;
   state_->image_made_from.clear();
-  for (MeshSlot& slot : state_->meshes) slot.made_from = ~std::uint64_t{0};
+  for (MeshSlot& slot : state_->placed.meshes()) slot.made_from = ~std::uint64_t{0};
 }
 
 const ResolvedScene& Resolver::scene() const { return state_->scene; }
-std::size_t Resolver::pending() const { return state_->pending; }
+std::size_t Resolver::pending() const { return state_->placed.stale().size(); }
 
 ResolvedScene resolve(const Store& store) {
   Resolver resolver;
   resolver.update(store);
-  return resolver.scene();
+  ResolvedScene scene = resolver.scene();
+  scene.changes = ChangeList<SceneChange>(ChangeList<SceneChange>::knows_nothing);  // Its copy may be changed by hand.
+  return scene;
 }
 
 }  // namespace septet::scene

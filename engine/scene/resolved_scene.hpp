@@ -6,6 +6,7 @@
 /// revision: a renderer uploads content with a higher one than it last saw.
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/math/rigid_transform.hpp"
+#include "engine/scene/change_list.hpp"
 
 namespace septet::scene {
 
@@ -119,15 +121,24 @@ enum class PartRole : std::uint8_t {
   trunk,  ///< Whatever rises and falls with the hips.
 };
 
+/// Mesh of an instance that is no more: it keeps its index for others to come, and nothing is drawn of it.
+inline constexpr std::uint32_t no_mesh = std::numeric_limits<std::uint32_t>::max();
+
 /// One placed mesh.
 struct Instance {
-  std::uint32_t mesh = 0;
+  std::uint32_t mesh = 0;            ///< Indexes ResolvedScene::meshes; left out where it points outside.
   RigidTransform world_from_object;  ///< Pose; vehicle_from_object in a prototype.
   glm::vec3 scale{1.0f};
   float visible_from_m = 0.0f;  ///< Drawn while the eye's distance is in [visible_from_m, visible_to_m).
   float visible_to_m = 1e9f;
   bool casts_shadow = true;
   PartRole role = PartRole::fixed;
+  bool operator==(const Instance& other) const {
+    return mesh == other.mesh && world_from_object.position_m == other.world_from_object.position_m &&
+           world_from_object.orientation == other.world_from_object.orientation && scale == other.scale &&
+           visible_from_m == other.visible_from_m && visible_to_m == other.visible_to_m &&
+           casts_shadow == other.casts_shadow && role == other.role;
+  }
 };
 
 /// The drawing of every participant of one model ("model/NAME").
@@ -136,13 +147,38 @@ struct Prototype {
   std::vector<Instance> parts;
 };
 
+/// Pixels of an image, from the upper left.
+struct PixelRect {
+  std::uint32_t x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const PixelRect&) const = default;
+};
+
+/// One part that changed.
+struct SceneChange {
+  enum class Kind : std::uint8_t { instance, mesh, material, image, prototype };
+  Kind kind = Kind::instance;
+  std::uint32_t index = 0;              ///< In the array of its kind.
+  std::uint32_t mesh_before = no_mesh;  ///< Of an instance.
+  PixelRect pixels{};                   ///< Of an image of the same size; no width: the whole image.
+  bool operator==(const SceneChange&) const = default;
+};
+
 struct ResolvedScene {
   std::uint64_t revision = 0;  ///< Highest of all parts below.
+  std::uint64_t prototypes_revision =
+      0;  ///< Of the newest change of prototypes and their meshes; 0: `revision` counts.
   std::vector<SurfaceMesh> meshes;
   std::vector<SurfaceMaterial> materials;
   std::vector<TextureImage> images;
   std::vector<Instance> instances;
   std::vector<Prototype> prototypes;
+  /// What changed, for a renderer that follows the scene of one resolver; a scene made otherwise knows nothing.
+  ChangeList<SceneChange> changes{ChangeList<SceneChange>::knows_nothing};
 };
+
+/// Revision of prototypes and their meshes, for what is made from their shapes.
+inline std::uint64_t shape_revision(const ResolvedScene& scene) {
+  return scene.prototypes_revision != 0 ? scene.prototypes_revision : scene.revision;
+}
 
 }  // namespace septet::scene

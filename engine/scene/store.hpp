@@ -10,6 +10,7 @@
 #include <map>
 
 #include "engine/core/expected.hpp"
+#include "engine/scene/change_list.hpp"
 #include "engine/scene/command.hpp"
 
 namespace septet::scene {
@@ -20,6 +21,14 @@ struct StoreLimits {
   std::uint32_t polygons = 1u << 22;
   std::uint32_t bitmap_side = 8192;
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< Limit of all content together.
+};
+
+/// A node that changed or was destroyed; where tiles alone changed, which.
+struct NodeChange {
+  NodeId node = no_node;
+  PartId layer = 0;
+  std::uint32_t first_tile = 0, tiles = 0;  ///< No tiles: anything of the node.
+  bool operator==(const NodeChange&) const = default;
 };
 
 class Store {
@@ -42,6 +51,8 @@ class Store {
   /// The revision at which a node was last created or destroyed.
   std::uint64_t index_revision() const { return index_revision_; }
   std::uint64_t content_bytes() const { return content_bytes_; }
+  /// The nodes by the revisions that changed them.
+  const ChangeList<NodeChange>& changes() const { return changes_; }
 
  private:
   struct Application;  // Application of one command: store_apply.cpp.
@@ -52,6 +63,7 @@ class Store {
   std::uint64_t revision_ = 0;
   std::uint64_t index_revision_ = 0;
   std::uint64_t content_bytes_ = 0;
+  ChangeList<NodeChange> changes_;
 };
 
 /// The commands that build this node, or the whole store, in an empty store, in runs of at most `run_values` numbers.

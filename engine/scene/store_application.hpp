@@ -42,38 +42,44 @@ struct Store::Application {
     store.content_bytes_ = total;
     return {};
   }
-  std::uint64_t touch(Node& changed) const { return changed.revision = ++store.revision_; }
+  /// Gives the node the next revision. `drawn`: a picture may show the change.
+  std::uint64_t touch(Node& changed, bool drawn = true) const {
+    changed.revision = ++store.revision_;
+    if (drawn) changed.drawn_revision = changed.revision;
+    store.changes_.add(changed.revision, {changed.id, 0, 0, 0});
+    return changed.revision;
+  }
 
   /// Sets one entry of a map of parts.
   template <class Key, class Part>
-  Expected<void> set_part(Node& owner, std::map<Key, Part>& parts, Key id, const Part& value) const {
+  Expected<void> set_part(Node& owner, std::map<Key, Part>& parts, Key id, const Part& value, bool drawn = true) const {
     const auto found = parts.find(id);
     if (auto ok = charge(found == parts.end() ? 0 : weight(found->second), weight(value)); !ok) return ok;
     if (found == parts.end())
       parts.emplace(id, value);
     else
       found->second = value;
-    touch(owner);
+    touch(owner, drawn);
     return {};
   }
   /// Destroys a part; false where it does not exist.
   template <class Key, class Part>
-  bool destroy_part(Node& owner, std::map<Key, Part>& parts, Key id) const {
+  bool destroy_part(Node& owner, std::map<Key, Part>& parts, Key id, bool drawn = true) const {
     const auto found = parts.find(id);
     if (found == parts.end()) return false;
     store.content_bytes_ -= weight(found->second);
     parts.erase(found);
-    touch(owner);
+    touch(owner, drawn);
     return true;
   }
 
   /// Finds the object and applies `change` to it.
   template <class Change>
-  Expected<void> with_object(NodeId id, Change change) const {
+  Expected<void> with_object(NodeId id, Change change, bool drawn = true) const {
     const auto object = node_with<ObjectData>(id);
     if (!object) return tl::unexpected(object.error());
     change(*object->second);
-    touch(*object->first);
+    touch(*object->first, drawn);
     return {};
   }
   /// Copies a run into an array that must contain it; `first` and the run count single values.

@@ -48,6 +48,7 @@ Expected<void> Store::Application::operator()(const NodeDestroy& c) const {
   store.content_bytes_ -= weight(found->second);
   store.nodes_.erase(found);
   store.index_revision_ = ++store.revision_;
+  store.changes_.add(store.revision_, {c.node, 0, 0, 0});
   return {};
 }
 
@@ -55,8 +56,9 @@ Expected<void> Store::Application::operator()(const NodeNameSet& c) const {
   const auto named = node(c.node);
   if (!named) return tl::unexpected(named.error());
   if (auto ok = charge((*named)->name.size(), c.name.size()); !ok) return ok;
+  const bool drawn = (*named)->name.starts_with(prototype_prefix) || c.name.starts_with(prototype_prefix);
   (*named)->name = c.name;
-  touch(**named);
+  touch(**named, drawn);
   return {};
 }
 
@@ -69,15 +71,19 @@ Expected<void> Store::Application::operator()(const TagGroupSet& c) const {
   if (auto ok = charge(exists ? found->second.name.size() : 0, c.name.size() + (exists ? 0 : container_bytes)); !ok)
     return ok;
   TagGroup& group = groups[c.group];
+  const bool drawn = is_drawn_tag_group(group.name) || is_drawn_tag_group(c.name);
   group.name = c.name;
-  group.revision = touch(**owner);
+  group.revision = touch(**owner, drawn);
   return {};
 }
 
 Expected<void> Store::Application::operator()(const TagGroupDestroy& c) const {
   const auto owner = node(c.node);
   if (!owner) return tl::unexpected(owner.error());
-  destroy_part(**owner, (*owner)->tag_groups, c.group);
+  const auto group = (*owner)->tag_groups.find(c.group);
+  if (group == (*owner)->tag_groups.end()) return {};
+  const bool drawn = is_drawn_tag_group(group->second.name);
+  destroy_part(**owner, (*owner)->tag_groups, c.group, drawn);
   return {};
 }
 
@@ -86,7 +92,8 @@ Expected<void> Store::Application::operator()(const TagSet& c) const {
   if (!owner) return tl::unexpected(owner.error());
   const auto group = (*owner)->tag_groups.find(c.group);
   if (group == (*owner)->tag_groups.end()) return no("there is no such tag group", "set the group's name first");
-  if (auto ok = set_part(**owner, group->second.tags, c.tag, c.value); !ok) return ok;
+  const bool drawn = is_drawn_tag_group(group->second.name);
+  if (auto ok = set_part(**owner, group->second.tags, c.tag, c.value, drawn); !ok) return ok;
   group->second.revision = store.revision_;
   return {};
 }
@@ -96,7 +103,8 @@ Expected<void> Store::Application::operator()(const TagDestroy& c) const {
   if (!owner) return tl::unexpected(owner.error());
   const auto group = (*owner)->tag_groups.find(c.group);
   if (group == (*owner)->tag_groups.end()) return {};
-  if (destroy_part(**owner, group->second.tags, c.tag)) group->second.revision = store.revision_;
+  const bool drawn = is_drawn_tag_group(group->second.name);
+  if (destroy_part(**owner, group->second.tags, c.tag, drawn)) group->second.revision = store.revision_;
   return {};
 }
 
@@ -105,7 +113,8 @@ Expected<void> Store::Application::operator()(const TransformSet& c) const {
 }
 
 Expected<void> Store::Application::operator()(const LightSet& c) const {
-  return with_object(c.node, [&](ObjectData& object) { object.light = c.light; });
+  return with_object(
+      c.node, [&](ObjectData& object) { object.light = c.light; }, false);
 }
 
 Expected<void> Store::Application::operator()(const HideSet& c) const {

@@ -182,7 +182,10 @@ Expected<void> Store::Application::operator()(const BitmapTilesSet& c) const {
   const std::uint32_t size = tile_bytes(layer->second.type);
   if (c.tiles.size() % size != 0) return no("a tile is incomplete", "send whole tiles");
   if (auto ok = copy_run(c.tiles, std::uint64_t{c.first_tile} * size, layer->second.tiles); !ok) return ok;
-  layer->second.revision = touch(*found->first);
+  Node& node = *found->first;
+  layer->second.revision = node.revision = node.drawn_revision = ++store.revision_;
+  const auto tiles = static_cast<std::uint32_t>(c.tiles.size() / size);
+  if (tiles > 0) store.changes_.add(node.revision, {node.id, c.layer, c.first_tile, tiles});
   return {};
 }
 

@@ -35,6 +35,7 @@ Expected<image::Image> draw_frame(FilmFrames& frames, const FilmFrame& frame, re
   };
   auto input = frames.input_of(frame);
   if (!input) return tl::unexpected(input.error());
+  if (auto uploaded = rasteriser.upload(frames.scene()); !uploaded) return tl::unexpected(uploaded.error());
   auto picture = drawn(std::move(*input));
   if (!picture) return picture;
   auto beside = frames.input_beside(frame);

@@ -97,7 +97,9 @@ struct FilmFrames::State {
   logging::SessionReader session;
   FilmPlan plan;
   std::vector<Pivots> pivots;  ///< Indexed by shot.
-  scene::ResolvedScene scene;
+  logging::RecordedScene recorded;
+  scene::Store store;
+  scene::Resolver resolver;
   std::uint32_t width_px, height_px;
   double frames_per_second;
   // Previous frame's reading, reused from here on.
@@ -113,6 +115,18 @@ struct FilmFrames::State {
 
   Expected<frame::Viewpoint> viewpoint(const Shot& shot, const Pivot& pivot, std::optional<LastSeen>& seen_last,
                                        double instant_s);
+
+  /// Brings the scene to a tick, later or earlier than before.
+  Expected<void> bring_scene_to(Tick tick) {
+    if (recorded.is_past(tick)) {
+      store = scene::Store();
+      recorded.begin_anew();
+      resolver.forget();
+    }
+    auto done = recorded.advance(tick, store);
+    resolver.update(store);
+    return done;
+  }
 };
 
 /// Viewpoint in the last frame's world.
@@ -138,7 +152,7 @@ FilmFrames& FilmFrames::operator=(FilmFrames&&) noexcept = default;
 FilmFrames::~FilmFrames() = default;
 
 const FilmPlan& FilmFrames::plan() const { return state_->plan; }
-const scene::ResolvedScene& FilmFrames::scene() const { return state_->scene; }
+const scene::ResolvedScene& FilmFrames::scene() const { return state_->resolver.scene(); }
 const logging::SessionInfo& FilmFrames::session() const { return state_->session.info(); }
 
 Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
@@ -161,17 +175,19 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   if (!pivots) return tl::unexpected(pivots.error());
   auto cast = OverlayCast::of(*session, plan->script);
   if (!cast) return tl::unexpected(cast.error());
-  scene::Store store;
-  if (auto restored = logging::restore_scene(*session, store); !restored) return tl::unexpected(restored.error());
-  auto state =
-      std::unique_ptr<State>(new State{std::move(*session), std::move(*plan), std::move(*pivots), scene::resolve(store),
-                                       options.width_px, options.height_px, options.frames_per_second});
+  auto recorded = logging::RecordedScene::open(*session);
+  if (!recorded) return tl::unexpected(recorded.error());
+  std::unique_ptr<State> state(new State{std::move(*session), std::move(*plan), std::move(*pivots),
+                                         std::move(*recorded), scene::Store(), scene::Resolver(), options.width_px,
+                                         options.height_px, options.frames_per_second});
   state->cast = std::move(*cast);
+  if (auto begun = state->bring_scene_to(0); !begun) return tl::unexpected(begun.error());
   return FilmFrames(std::move(state));
 }
 
 Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) {
-  return input_at(film_frame, film_frame.instant_s, state_->plan.paths[film_frame.shot][film_frame.number_in_shot]);
+  return input_at(film_frame, film_frame.instant_s, state_->plan.paths[film_frame.shot][film_frame.number_in_shot],
+                  true);
 }
 
 Expected<std::optional<instant::FrameInput>> FilmFrames::input_as_shutter_closes(const FilmFrame& film_frame) {
@@ -190,10 +206,11 @@ Expected<instant::FrameInput> FilmFrames::input_after(const FilmFrame& film_fram
   const std::vector<Look>& path = state_->plan.paths[film_frame.shot];
   const Look &from = path[film_frame.number_in_shot],
              &to = path[std::min(film_frame.number_in_shot + 1, path.size() - 1)];
-  return input_at(film_frame, instant_s, between(from, to, share));
+  return input_at(film_frame, instant_s, between(from, to, share), false);
 }
 
-Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, double instant_s, const Look& look) {
+Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, double instant_s, const Look& look,
+                                                   bool brings_scene) {
   State& state = *state_;
   const Shot& shot = state.plan.script.shots[film_frame.shot];
   const Pivot& pivot = state.pivots[film_frame.shot].first;
@@ -209,13 +226,15 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
   auto world = state.instants->at(instant_s);
   if (!world) return tl::unexpected(world.error());
   state.world = std::move(*world);
+  if (brings_scene)
+    if (auto brought = state.bring_scene_to(state.world.tick); !brought) return tl::unexpected(brought.error());
   const auto viewpoint = state.viewpoint(shot, pivot, state.last_seen, instant_s);
   if (!viewpoint) return tl::unexpected(viewpoint.error());
   const std::uint32_t width_px = shot.beside ? state.width_px / 2 : state.width_px;
-  auto input =
-      frame::client_frame(state.world, views_at(shot, pivot, look, width_px, state.height_px), *viewpoint, state.scene);
+  auto input = frame::client_frame(state.world, views_at(shot, pivot, look, width_px, state.height_px), *viewpoint,
+                                   state.resolver.scene());
   state.views = {input.views.front()};
-  state.effects.show(state.world, state.instants->history(), state.instants->tick_s(), state.scene);
+  state.effects.show(state.world, state.instants->history(), state.instants->tick_s(), state.resolver.scene());
   state.effects.add_to(input);
   state.last = film_frame, state.last_instant_s = instant_s;
   return input;
@@ -233,7 +252,7 @@ Expected<std::optional<instant::FrameInput>> FilmFrames::input_beside(const Film
   const std::uint32_t left_px = state.width_px / 2;
   auto views = views_at(second, pivot, look_beside(second).front(), state.width_px - left_px, state.height_px);
   for (instant::FrameView& view : views.views) view.viewport.x += static_cast<std::int32_t>(left_px);
-  auto input = frame::client_frame(state.world, views, *viewpoint, state.scene);
+  auto input = frame::client_frame(state.world, views, *viewpoint, state.resolver.scene());
   state.views.resize(1);
   state.views.push_back(input.views.front());
   state.effects.add_to(input);

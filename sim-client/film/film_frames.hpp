@@ -22,6 +22,8 @@ class FilmFrames {
   ~FilmFrames();
 
   const FilmPlan& plan() const;  ///< Its frames are those between the options' `from_s` and `to_s`.
+  /// The scene at the frame that `input_of` was asked for last; at first of the session's beginning. Its revision rises when
+  /// it changes.
   const scene::ResolvedScene& scene() const;
   const logging::SessionInfo& session() const;
 
@@ -41,7 +43,8 @@ class FilmFrames {
   struct State;
   /// Input at this share of a frame's time later.
   Expected<instant::FrameInput> input_after(const FilmFrame& frame, double share);
-  Expected<instant::FrameInput> input_at(const FilmFrame& frame, double instant_s, const Look& look);
+  /// `brings_scene`: the scene becomes that of the instant.
+  Expected<instant::FrameInput> input_at(const FilmFrame& frame, double instant_s, const Look& look, bool brings_scene);
   explicit FilmFrames(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

@@ -38,7 +38,7 @@ void DentDrawing::show(const Snapshot& instant, const scene::ResolvedScene& scen
   const auto effect = std::ranges::lower_bound(instant.effects, debris::dent_effect_id, {}, &EffectKeyframe::id);
   const bool there = effect != instant.effects.end() && effect->id == debris::dent_effect_id &&
                      effect->kind == debris::dent_keyframe_kind;
-  const bool same_scene = std::exchange(scene_revision_, scene.revision) == scene.revision;
+  const bool same_scene = std::exchange(scene_revision_, scene::shape_revision(scene)) == scene::shape_revision(scene);
   if (!there) {
     made_.clear();
     data_.clear();

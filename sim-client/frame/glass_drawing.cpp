@@ -101,8 +101,9 @@ void GlassDrawing::show(const Snapshot& instant, const scene::ResolvedScene& sce
     data_ = effect->data;
     panes_ = ice::decode_glass(data_).value_or(std::vector<ice::Pane>());
   }
-  if (scene.revision != scene_revision_) made_.clear();
-  scene_revision_ = scene.revision;
+  const std::uint64_t shapes = scene::shape_revision(scene);
+  if (shapes != scene_revision_) made_.clear();
+  scene_revision_ = shapes;
   for (auto& [vehicle, made] : made_) made.shown = false;
   for (const ice::Pane& pane : panes_) {
     const Participant* vehicle = find_participant(instant, pane.vehicle);

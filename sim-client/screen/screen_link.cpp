@@ -104,6 +104,10 @@ void ScreenLink::on_control(std::span<const std::byte> bytes, double now_s) {
   }
 }
 
+void ScreenLink::show_scene(Tick tick) {
+  if (auto shown = scene_.show(tick); !shown) refusal_ = shown.error();
+}
+
 void ScreenLink::pump_scene() {
   if (lane_.state() != net::ClientState::connected) return;
   scene_.pump([&](std::span<const std::byte> message) {

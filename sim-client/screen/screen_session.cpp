@@ -290,6 +290,8 @@ Expected<void> Session::draw_lockstep() {
   if (!link_.scene_arrived() || link_.history().empty()) return {};
   const Tick tick = link_.history().newest().snapshot.tick;
   if (drawn_tick_ && *drawn_tick_ >= tick) return {};
+  if (!link_.has_scene_of(link_.history().newest())) return {};
+  link_.show_scene(tick);
   last_shown_ = link_.history().newest().snapshot;  // The history goes on meanwhile.
   if (auto scene = bring_scene_up(); !scene || has_begun_anew()) return scene;
   take_effects(*last_shown_);
@@ -310,6 +312,8 @@ Expected<void> Session::draw_real_time(double now_s) {
     wait(0.002);
     return {};
   }
+  const auto due = link_.history().around(*frame::playout_time_s(link_.history(), frame::frame_number(*server_s)));
+  if (due.before) link_.show_scene(due.before->snapshot.tick);
   if (auto scene = bring_scene_up(); !scene || has_begun_anew()) return scene;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
   const auto shown =

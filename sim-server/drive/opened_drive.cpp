@@ -39,7 +39,10 @@ Expected<void> open_replay(const ServerOptions& options, OpenedDrive& drive) {
     if (!eyes) return tl::unexpected(eyes.error());
     drive.eyes = std::move(*eyes);
   }
-  if (auto restored = logging::restore_scene(*drive.session, drive.store); !restored) return restored;
+  auto scene = logging::RecordedScene::open(*drive.session);
+  if (!scene) return tl::unexpected(scene.error());
+  drive.recorded_scene.emplace(std::move(*scene));
+  if (auto begun = drive.recorded_scene->advance(0, drive.store); !begun) return begun;
   auto source = ReplaySource::start(*drive.session, options.replay_from_s);
   if (!source) return tl::unexpected(source.error());
   drive.source = std::move(*source);

@@ -7,6 +7,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/scene/store.hpp"
 #include "logging/session/participants.hpp"
+#include "logging/session/recorded_scene.hpp"
 #include "logging/session/session_reader.hpp"
 #include "program/console.hpp"
 #include "sim-server/drive/drive_loader.hpp"
@@ -20,10 +21,11 @@ namespace septet::server {
 struct OpenedDrive {
   LoadedDrive loaded;  ///< For a replay, the rig alone.
   scene::Store store;
-  std::optional<logging::SessionReader> session;  ///< Set for a replay.
-  std::optional<logging::Stay> eyes;              ///< Of a replay: whose eyes the screens show; empty: the driver's.
-  bool by_person = false;                         ///< A person drives, not a simulated driver.
-  std::shared_ptr<RemoteCar> remote_car;          ///< The driver's car, if it is on another machine.
+  std::optional<logging::SessionReader> session;         ///< Set for a replay.
+  std::optional<logging::RecordedScene> recorded_scene;  ///< Of a replay: what is still to come of it.
+  std::optional<logging::Stay> eyes;      ///< Of a replay: whose eyes the screens show; empty: the driver's.
+  bool by_person = false;                 ///< A person drives, not a simulated driver.
+  std::shared_ptr<RemoteCar> remote_car;  ///< The driver's car, if it is on another machine.
   std::unique_ptr<TickSource> source;
   LiveDrive* live = nullptr;  ///< The source, if it is a drive; null for a replay.
 };

@@ -80,14 +80,18 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
 }
 
 void SessionLog::record_scene(const scene::Store& store) {
+  scene::describe_store(store, [&](const scene::Command& command) { record_edits(0, std::span(&command, 1)); });
+}
+
+void SessionLog::record_edits(Tick from, std::span<const scene::Command> changes) {
   if (samples_only_) return;
-  scene::describe_store(store, [&](const scene::Command& command) {
+  for (const scene::Command& command : changes) {
     Bytes bytes;
     scene::encode(command, bytes);
-    logging::SceneEdit edit{0, std::move(bytes)};
+    logging::SceneEdit edit{from, std::move(bytes)};
     digest_.add(edit);
     writer_.record(std::move(edit));
-  });
+  }
 }
 
 void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events) {

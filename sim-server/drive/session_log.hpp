@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,8 @@ class SessionLog {
     happened_ = std::move(happened);
   }
   void record_scene(const scene::Store& store);
+  /// Records changes of the scene that hold from this tick on.
+  void record_edits(Tick from, std::span<const scene::Command> changes);
   void record_input(logging::InputRecord input);
   /// Records the tick's snapshot and events, and at 10 Hz a sample with the events that it completes (lane changes,
   /// glances).

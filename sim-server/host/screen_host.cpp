@@ -56,6 +56,7 @@ ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
     : options_(std::move(options)),
       lane_(lane_socket, {options_.identity, options_.session, options_.allowed, options_.limits}),
       publisher_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}),
+      store_(store),
       scene_(store, instance_of(options_.session)),
       planner_(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz) {
   if (options_.welcome.group_ip != 0)
@@ -160,9 +161,7 @@ void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
   baselines_.heard(event.client, now_s);
   switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
     case LaneMessage::scene:
-      // Screens are read-only: a change that one requests is not made.
-      if (const auto requests = scene_.receive(event.client, std::span(event.bytes).subspan(1)); !requests)
-        lane_.disconnect(event.client, requests.error().what);
+      on_scene(event, now_s);
       break;
     case LaneMessage::control:
       if (const auto message = decode_control(event.bytes))
@@ -170,6 +169,42 @@ void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
       else
         lane_.disconnect(event.client, message.error().what);
   }
+}
+
+void ScreenHost::on_scene(const net::ServerEvent& event, double now_s) {
+  auto changes = scene_.receive(event.client, std::span(event.bytes).subspan(1));
+  if (!changes) {
+    lane_.disconnect(event.client, changes.error().what);
+    return;
+  }
+  if (changes->empty()) return;
+  SceneRequest request{event.client, clients_.at(event.client), scene_.last_batch(event.client),
+                       scene_.own_ids(event.client), std::move(*changes)};
+  const auto listed = std::ranges::find(options_.allowed, request.name, &net::AllowedClient::name);
+  if (listed == options_.allowed.end() || !listed->may_edit)
+    return refuse_scene(
+        request, 0,
+        fmt::format("the key of {0} may look, not edit: allowed-clients needs `KEY {0} edit`", request.name), now_s);
+  if (request.changes.size() > most_edits - edits_waiting_)
+    return refuse_scene(request, 0, fmt::format("{} changes wait for this tick already: send fewer", edits_waiting_),
+                        now_s);
+  edits_waiting_ += request.changes.size();
+  scene_requests_.push_back(std::move(request));
+}
+
+std::vector<SceneRequest> ScreenHost::take_scene_requests() {
+  edits_waiting_ = 0;
+  return std::exchange(scene_requests_, {});
+}
+
+void ScreenHost::refuse_scene(const SceneRequest& request, std::size_t index, const std::string& why, double now_s) {
+  scene_.refuse(request.client, request.batch, index, why);
+  const std::string_view what = index < request.changes.size() ? scene::name_of(request.changes[index]) : "nothing";
+  if (clients_.contains(request.client))
+    tell(request.client,
+         fmt::format("{}: nothing of its {} changes of the scene was done, for command {} ({}): {}", request.name,
+                     request.changes.size(), index + 1, what, why),
+         now_s);
 }
 
 void ScreenHost::on_control(net::ClientId client, const ControlMessage& message, double now_s) {
@@ -340,7 +375,9 @@ void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_
   }
   Bytes payload;
   ByteWriter writer(payload);
-  put_tick_header(writer, planner_.header(now_s, taken->snapshot().simulated_time_s));
+  TickHeader header = planner_.header(now_s, taken->snapshot().simulated_time_s);
+  header.scene_revision = store_.revision();
+  put_tick_header(writer, header);
   encode_snapshot(taken->wire(), baseline, payload);
   last_tick_bytes_ = payload.size();
   publisher_.publish(taken->snapshot().tick, payload);

@@ -7,7 +7,8 @@
 ///
 /// Holders of a key in the list may send anything in any order: a client is bound to the name of its key, can be that
 /// screen or that car and nothing else, and its messages affect only itself. Its texts are made printable and limited
-/// in number.
+/// in number. A client whose key has the right to edit may ask for changes of the scene; the host hands them over and makes
+/// none itself.
 
 #include <deque>
 #include <map>
@@ -23,6 +24,7 @@
 #include "engine/net/secure_server.hpp"
 #include "engine/net/tick_publisher.hpp"
 #include "engine/replication/replication_server.hpp"
+#include "engine/scene/command.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/world/taken_snapshot.hpp"
 #include "logging/session/drive_end.hpp"
@@ -44,6 +46,17 @@ struct ScreenHostOptions {
   double least_playout_delay_s = 2.0 / 120.0;
   std::size_t max_datagram_bytes = 1200;
 };
+
+/// A client's batch of changes of the scene: done whole or not at all.
+struct SceneRequest {
+  net::ClientId client = 0;
+  std::string name;  ///< Of its key.
+  std::uint64_t batch = 0;
+  scene::NodeId own_ids = 0;  ///< First of the ids that it may give to new nodes.
+  std::vector<scene::Command> changes;
+};
+/// Commands that may wait for the next tick.
+inline constexpr std::size_t most_edits = 50'000;
 
 /// Maximum number of moments kept of each kind.
 inline constexpr std::size_t most_moments = 100;
@@ -89,7 +102,18 @@ class ScreenHost {
   bool has_backlog() const { return lane_.has_backlog(); }
 
   /// Sets the clients that may connect. A connected client that is no longer in the list is disconnected at once.
-  void set_allowed(std::vector<net::AllowedClient> allowed) { lane_.set_allowed(std::move(allowed)); }
+  void set_allowed(std::vector<net::AllowedClient> allowed) {
+    options_.allowed = allowed;
+    lane_.set_allowed(std::move(allowed));
+  }
+
+  /// The batches of scene changes that clients have asked for since the last call, in the order of their arrival. Those of
+  /// clients without the right, and those beyond `most_edits` waiting, are refused already.
+  std::vector<SceneRequest> take_scene_requests();
+  /// Call after every command that was applied to the store; `from`: the first tick that shows it.
+  void scene_changed(const scene::Command& command, Tick from) { scene_.applied(command, from); }
+  /// Tells the client, and the operator, that nothing of a batch was done. `index`: of the command that could not be.
+  void refuse_scene(const SceneRequest& request, std::size_t index, const std::string& why, double now_s);
 
   /// Sends one tick to all screens, as a difference to a tick that all live screens hold. `now_s`: time when the tick
   /// began, by reading the driver's controls.
@@ -141,6 +165,7 @@ class ScreenHost {
   void leave_behind(HostedScreen& screen, Tick tick);
   void on_connected(const net::ServerEvent& event);
   void on_message(const net::ServerEvent& event, double now_s);
+  void on_scene(const net::ServerEvent& event, double now_s);
   void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);
   void on_hello(net::ClientId client, const control::Hello& hello, double now_s);
   void add_unicast(net::ClientId client, std::uint16_t port);
@@ -160,6 +185,7 @@ class ScreenHost {
   net::SecureServer lane_;
   net::TickPublisher publisher_;
   net::BaselineTracker baselines_;
+  const scene::Store& store_;
   replication::ReplicationServer scene_;
   PlayoutPlanner planner_;
   std::vector<HostedScreen> screens_;
@@ -180,6 +206,8 @@ class ScreenHost {
   bool is_finishing_ = false;
   std::size_t last_tick_bytes_ = 0;
   std::vector<std::string> messages_;
+  std::vector<SceneRequest> scene_requests_;
+  std::size_t edits_waiting_ = 0;  ///< Their commands.
 };
 
 /// The host's screens; empty without a host.

@@ -1,9 +1,6 @@
 #include "engine/render/passes/device_scene.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <initializer_list>
 
 #include "engine/core/hash.hpp"
@@ -43,6 +40,8 @@ bool indices_hold(const SurfaceMesh& mesh) {
                      [&](std::uint32_t index) { return index < mesh.vertices.size(); });
 }
 
+}  // namespace
+
 void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, std::span<const DeviceMaterial> materials,
                  vulkan::Upload& upload) {
   destroy_buffer(upload.memory(), target.buffer);
@@ -64,7 +63,7 @@ void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, std::span<const De
                                        {vertices, std::as_bytes(std::span(mesh.indices))});
 }
 
-DeviceMaterial device_material(const SurfaceMaterial& material, const std::vector<DeviceTexture>& textures) {
+DeviceMaterial device_material(const SurfaceMaterial& material, std::span<const DeviceTexture> textures) {
   DeviceMaterial result;
   const bool textured = material.base_color_image >= 0 &&
                         static_cast<std::size_t>(material.base_color_image) < textures.size() &&
@@ -89,14 +88,24 @@ DeviceMaterial device_material(const SurfaceMaterial& material, const std::vecto
   return result;
 }
 
-void place_instances(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still) {
+void place_instances(DeviceScene& scene, const ResolvedScene& source) {
   scene.placed.clear();
-  for (const scene::Instance& instance : source.instances)
-    if (instance.mesh < source.meshes.size() && !still[instance.mesh])
-      scene.placed.push_back(place(instance, scene.summary.meshes[instance.mesh].bounds, instance.world_from_object));
-  std::stable_sort(scene.placed.begin(), scene.placed.end(),
-                   [](const PlacedMesh& a, const PlacedMesh& b) { return a.mesh < b.mesh; });
+  scene.vacated = 0;
+  scene.placed_at.assign(source.instances.size(), nowhere);
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < source.instances.size(); ++i) {
+    const std::uint32_t mesh = source.instances[i].mesh;
+    if (mesh < source.meshes.size() && !scene.is_still(mesh)) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return source.instances[i].mesh; });
+  for (const std::uint32_t i : order) {
+    const scene::Instance& instance = source.instances[i];
+    scene.placed_at[i] = static_cast<std::uint32_t>(scene.placed.size());
+    scene.placed.push_back(place(instance, scene.summary.meshes[instance.mesh].bounds, instance.world_from_object));
+  }
 }
+
+namespace {
 
 /// Hash of everything that static geometry is made of.
 std::uint64_t hash_of_still(const ResolvedScene& source, const std::vector<bool>& still) {
@@ -118,6 +127,10 @@ std::uint64_t hash_of_still(const ResolvedScene& source, const std::vector<bool>
 
 void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still,
                   vulkan::Upload& upload) {
+  scene.still_instance.assign(source.meshes.size(), nowhere);
+  for (std::uint32_t i = 0; i < source.instances.size(); ++i)
+    if (const std::uint32_t mesh = source.instances[i].mesh; mesh < still.size() && still[mesh])
+      scene.still_instance[mesh] = i;
   const std::uint64_t hash = hash_of_still(source, still);
   if (hash == scene.still_hash) return;
   for (Buffer& vertices : scene.still_vertices) destroy_buffer(upload.memory(), vertices);
@@ -130,94 +143,18 @@ void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::ve
         create_filled_buffer(upload, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, {std::as_bytes(std::span(block.vertices))});
     block.vertices = {};
   }
+  scene.still_piece.assign(source.meshes.size(), nowhere);
+  for (std::uint32_t i = 0; i < scene.still.pieces.size(); ++i)
+    scene.still_piece[scene.still.pieces[i].placed.mesh] = i;
   scene.still_hash = hash;
-}
-
-/// Table from 8-bit codes to the square root of linear light: the shader decodes it by a square, whereas decoding sRGB
-/// texels costs a software rasteriser more than all other shading.
-std::array<std::uint8_t, 256> square_root_code(bool srgb) {
-  std::array<std::uint8_t, 256> code;
-  for (std::size_t i = 0; i < code.size(); ++i)
-    code[i] = static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(linear_of_code(i, srgb))));
-  return code;
-}
-
-void upload_textures(DeviceScene& scene, const ResolvedScene& source, vulkan::Upload& upload) {
-  const std::uint32_t largest = upload.device().properties.limits.maxImageDimension2D;
-  while (scene.textures.size() > source.images.size()) {
-    destroy_image(upload.memory(), scene.textures.back().image);
-    scene.textures.pop_back();
-  }
-  scene.textures.resize(source.images.size());
-  std::vector<std::size_t> changed;
-  for (std::size_t i = 0; i < source.images.size(); ++i)
-    if (!scene.textures[i].image.image || scene.textures[i].revision != source.images[i].revision) changed.push_back(i);
-  std::vector<std::vector<MipLevel>> levels(changed.size());
-  parallel_for(changed.size(), [&](std::size_t i) {
-    const scene::TextureImage& image = source.images[changed[i]];
-    const bool holds = image.width > 0 && image.height > 0 && image.width <= largest && image.height <= largest &&
-                       image.rgba.size() == std::size_t{4} * image.width * image.height;
-    if (holds) levels[i] = texture_levels(image.width, image.height, image.rgba, image.srgb);
-  });
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    DeviceTexture& texture = scene.textures[changed[i]];
-    destroy_image(upload.memory(), texture.image);
-    texture = {source.images[changed[i]].revision, false, {}};
-    if (levels[i].empty()) continue;
-    texture.holes = has_holes(source.images[changed[i]].rgba);
-    texture.image = create_texture(upload, levels[i]);
-  }
 }
 
 }  // namespace
 
-std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                                     bool srgb) {
-  std::vector<MipLevel> levels = mip_chain(width, height, rgba, srgb);
-  const std::array<std::uint8_t, 256> code = square_root_code(srgb);
-  for (MipLevel& level : levels)
-    for (std::size_t i = 0; i < level.rgba.size(); i += 4)
-      for (std::size_t c = i; c < i + 3; ++c) level.rgba[c] = code[level.rgba[c]];
-  return levels;
-}
-
-vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels) {
-  std::uint64_t bytes = 0;
-  for (const MipLevel& level : levels) bytes += level.rgba.size();
-  const vulkan::HostArena::Slice staged = upload.stage(bytes);
-  std::vector<VkBufferImageCopy> regions;
-  std::uint64_t at = 0;
-  for (const MipLevel& level : levels) {
-    std::memcpy(staged.data + at, level.rgba.data(), level.rgba.size());
-    VkBufferImageCopy region{};
-    region.bufferOffset = staged.offset + at;
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(regions.size()), 0, 1};
-    region.imageExtent = {level.width, level.height, 1};
-    regions.push_back(region);
-    at += level.rgba.size();
-  }
-  vulkan::ImageDescription description;
-  description.width = levels.front().width;
-  description.height = levels.front().height;
-  description.format = VK_FORMAT_R8G8B8A8_UNORM;
-  description.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  description.mip_levels = static_cast<std::uint32_t>(levels.size());
-  vulkan::DeviceImage image = create_image(upload.memory(), description);
-  upload.add([image, source = staged.buffer, regions = std::move(regions)](VkCommandBuffer commands) {
-    vulkan::ImageBarrier barrier{&image, VK_NULL_HANDLE, Access::none, Access::transfer_destination, true};
-    vulkan::record_barriers(commands, {&barrier, 1});
-    vkCmdCopyBufferToImage(commands, source, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                           static_cast<std::uint32_t>(regions.size()), regions.data());
-    barrier = {&image, VK_NULL_HANDLE, Access::transfer_destination, Access::sampled, false};
-    vulkan::record_barriers(commands, {&barrier, 1});
-  });
-  return image;
-}
-
 void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan::Device& device,
                   vulkan::MemoryPool& memory) {
   vulkan::Upload upload(device, memory);
-  upload_textures(scene, source, upload);
+  upload_textures(scene.textures, source.images, upload);
   scene.materials.clear();
   for (const SurfaceMaterial& material : source.materials)
     scene.materials.push_back(device_material(material, scene.textures));
@@ -226,7 +163,9 @@ void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan:
     scene.meshes.pop_back();
   }
   scene.meshes.resize(source.meshes.size());
-  const std::vector<bool> still = placed_once(source);
+  std::vector<bool> still = placed_once(source);
+  scene.edited.resize(still.size());
+  for (std::size_t i = 0; i < still.size(); ++i) still[i] = still[i] && !scene.edited[i];
   for (std::size_t i = 0; i < source.meshes.size(); ++i) {
     const SurfaceMesh& mesh = source.meshes[i];
     if (still[i]) {
@@ -237,9 +176,10 @@ void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan:
     }
   }
   scene.summary = summarise(source);
-  place_instances(scene, source, still);
   upload_still(scene, source, still, upload);
+  place_instances(scene, source);
   upload.finish();
+  scene.lamps_revision = scene.whole_revision = source.revision;
   scene.revision = source.revision;
 }
 

@@ -201,12 +201,19 @@ Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path&
   return told;
 }
 
-/// Prepares the tracer for one frame.
+/// Prepares the tracer for one frame; it and the summary are made anew where the scene has changed since `revision`.
 Expected<void> begin_frame(FilmFrames& frames, std::size_t frame, const FilmOptions& options,
-                           const instant::SceneSummary& summary, raytrace::RayTracer& tracer) {
+                           instant::SceneSummary& summary, raytrace::RayTracer& tracer, std::uint64_t& revision) {
   const FilmFrame& of_film = frames.plan().frames[frame];
   auto input = frames.input_of(of_film);
   if (!input) return tl::unexpected(input.error());
+  if (frames.scene().revision != revision) {
+    auto renewed = raytrace::RayTracer::create(frames.scene());
+    if (!renewed) return tl::unexpected(renewed.error());
+    tracer = std::move(*renewed);
+    summary = instant::summarise(frames.scene());
+    revision = frames.scene().revision;
+  }
   auto closing = frames.input_as_shutter_closes(of_film);
   if (!closing) return tl::unexpected(closing.error());
   const bool opens_at_all = closing->has_value();
@@ -263,7 +270,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
                                 const program::ProcessMark& master_process) {
   auto tracer = raytrace::RayTracer::create(frames.scene());
   if (!tracer) return tl::unexpected(tracer.error());
-  const instant::SceneSummary summary = instant::summarise(frames.scene());
+  instant::SceneSummary summary = instant::summarise(frames.scene());
+  std::uint64_t scene_revision = frames.scene().revision;
   const auto tiles = tiles_of(options);
   TracingThreads tracing(*tracer, tiles, options, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
@@ -297,7 +305,7 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       begun_s = program::monotonic_s();
       photons.reset();
       frame.reset();
-      if (auto done = begin_frame(frames, *target, options, summary, *tracer); !done) return done;
+      if (auto done = begin_frame(frames, *target, options, summary, *tracer, scene_revision); !done) return done;
       photons.emplace(*tracer, *target, threads);
     }
     if (photons) {

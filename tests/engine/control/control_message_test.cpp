@@ -163,11 +163,11 @@ TEST_CASE("the first byte tells control messages from those of the scene") {
   CHECK_FALSE(lane_of({}).has_value());
 }
 
-TEST_CASE("a tick's header is four times in their order and none of them may be no number") {
+TEST_CASE("a tick's header is four times and a revision in their order and no time may be no number") {
   Bytes bytes;
   ByteWriter writer(bytes);
-  put_tick_header(writer, {0.25, 0.5, 0.75, 1.0});
-  CHECK(bytes == bytes_of("000000000000d03f 000000000000e03f 000000000000e83f 000000000000f03f"));
+  put_tick_header(writer, {0.25, 0.5, 0.75, 1.0, 300});
+  CHECK(bytes == bytes_of("000000000000d03f 000000000000e03f 000000000000e83f 000000000000f03f ac02"));
   ByteReader reader(bytes);
   const TickHeader header = get_tick_header(reader);
   CHECK(reader.ok());
@@ -175,6 +175,7 @@ TEST_CASE("a tick's header is four times in their order and none of them may be 
   CHECK(header.offset_s == 0.5);
   CHECK(header.next_offset_s == 0.75);
   CHECK(header.next_from_s == 1.0);
+  CHECK(header.scene_revision == 300);
   for (std::size_t i = 0; i < 4; ++i) {
     Bytes bad = bytes, nan;
     ByteWriter(nan).put(std::nan(""));

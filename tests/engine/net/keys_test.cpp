@@ -105,6 +105,24 @@ TEST_CASE("the list of allowed clients is read and its faults are named by line"
   }
 }
 
+TEST_CASE("the word edit behind a name gives the right to edit and another word is refused") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "allowed-clients";
+  const std::string a = to_text(identity_of(5).public_key()), b = to_text(identity_of(6).public_key());
+  std::ofstream(file) << a << " left\n" << b << " lab edit\n";
+  const auto clients = load_allowed_clients(file);
+  REQUIRE(clients.has_value());
+  CHECK_FALSE(clients->at(0).may_edit);
+  CHECK(clients->at(1).may_edit);
+  for (const char* words : {" lab edits\n", " lab edit hide\n"}) {
+    std::ofstream(file) << a << " left\n" << b << words;
+    const auto refused = load_allowed_clients(file);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().where == file.string() + ":2");
+    CHECK(refused.error().what.find("is no right") != std::string::npos);
+  }
+}
+
 TEST_CASE("a list that changes is read anew when it is whole and the known one holds while it is bad") {
   const TemporaryFolder folder;
   const fs::path file = folder / "allowed-clients";

@@ -1,5 +1,10 @@
 #include "engine/render/mip_chain.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include "engine/core/random.hpp"
@@ -40,6 +45,29 @@ TEST_CASE("foliage keeps the share that passes the cut on smaller levels") {
     const std::size_t pixels = levels[level].rgba.size() / 4;
     for (std::size_t i = 0; i < pixels; ++i) passing += levels[level].rgba[4 * i + 3] >= 128;
     CHECK(static_cast<double>(passing) / static_cast<double>(pixels) == relative(0.3, 0.4));
+  }
+}
+
+TEST_CASE("levels renewed from a rectangle are those of the whole image") {
+  Random random(8);
+  constexpr std::uint32_t width = 77, height = 42;
+  std::vector<std::uint8_t> rgba(std::size_t{4} * width * height, 255);
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    if (i % 4 != 3) rgba[i] = static_cast<std::uint8_t>(random.below(256));
+  std::vector<MipLevel> levels = mip_chain(width, height, rgba, true);
+  for (int change = 0; change < 60; ++change) {
+    const auto x = static_cast<std::uint32_t>(random.below(width)),
+               y = static_cast<std::uint32_t>(random.below(height));
+    const MipRect rect{x, y, std::min<std::uint32_t>(width - x, 1 + static_cast<std::uint32_t>(random.below(20))),
+                       std::min<std::uint32_t>(height - y, 1 + static_cast<std::uint32_t>(random.below(9)))};
+    for (std::uint32_t row = rect.y; row < rect.y + rect.height; ++row)
+      for (std::uint32_t at = rect.x; at < rect.x + rect.width; ++at)
+        for (std::size_t c = 0; c < 3; ++c)
+          rgba[(std::size_t{row} * width + at) * 4 + c] = static_cast<std::uint8_t>(random.below(256));
+    const std::vector<MipRect> rects = renew_mips(levels, rgba, rect, true);
+    REQUIRE(rects.size() == levels.size());
+    const std::vector<MipLevel> whole = mip_chain(width, height, rgba, true);
+    for (std::size_t i = 1; i < whole.size(); ++i) REQUIRE(levels[i].rgba == whole[i].rgba);
   }
 }
 

@@ -1,0 +1,36 @@
+#pragma once
+/// Images of a scene on the device, with mip levels, as the square root of linear light.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/render/mip_chain.hpp"
+#include "engine/render/vulkan/commands.hpp"
+#include "engine/scene/resolved_scene.hpp"
+
+namespace septet::render {
+
+struct DeviceTexture {
+  std::uint64_t revision = 0;
+  bool holes = false;
+  vulkan::DeviceImage image;
+  /// Levels of an image without holes, the full one without its pixels, so that a part of it can be renewed.
+  std::vector<MipLevel> levels;
+};
+
+/// All levels of a texture as the device keeps them: the square root of linear light.
+std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                     bool srgb);
+
+/// Creates a sampled image; the upload fills it with these levels.
+vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels);
+
+/// Makes anew those textures whose images have another revision.
+void upload_textures(std::vector<DeviceTexture>& textures, std::span<const scene::TextureImage> images,
+                     vulkan::Upload& upload);
+/// Brings a rectangle of a texture up to its image; false where it has to be made anew, since it has holes.
+bool renew_texture(DeviceTexture& texture, const scene::TextureImage& image, const scene::PixelRect& pixels,
+                   vulkan::Upload& upload);
+
+}  // namespace septet::render

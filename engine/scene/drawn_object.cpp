@@ -1,0 +1,44 @@
+#include "engine/scene/drawn_object.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <variant>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/scene/part_role.hpp"
+
+namespace septet::scene {
+namespace {
+
+template <class T>
+T draw_tag(const Node& node, const char* name, T otherwise) {
+  const TagValue* value = find_tag(node, "draw", name);
+  const T* typed = value ? std::get_if<T>(value) : nullptr;
+  return typed ? *typed : otherwise;
+}
+
+}  // namespace
+
+DrawnObject read_object(const Node& node) {
+  const auto& data = std::get<ObjectData>(node.data);
+  DrawnObject object;
+  if (node.name.starts_with(prototype_prefix)) object.prototype = node.name.substr(prototype_prefix.size());
+  object.transform = data.transform;
+  object.transform.rotation = glm::normalize(data.transform.rotation);
+  object.hidden = data.hidden;
+  for (const auto& [id, link] : data.links) {
+    if (link.label == "geometry" && object.geometry == no_node) object.geometry = link.target;
+    if (link.label == "material") object.materials.emplace_back(link.target_id, link.target);
+    if (link.label == "child") object.children.push_back(link.target);
+  }
+  std::stable_sort(object.materials.begin(), object.materials.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  object.visible_from_m = static_cast<float>(draw_tag(node, "from_m", 0.0));
+  object.visible_to_m = static_cast<float>(draw_tag(node, "to_m", 1e9));
+  object.role = part_role(draw_tag(node, "role", std::string()));
+  object.casts_shadow = draw_tag(node, "casts_shadow", true);
+  return object;
+}
+
+}  // namespace septet::scene

@@ -1,0 +1,35 @@
+#pragma once
+/// Content of an object node as a picture needs it, read once per change of it (CONVENTIONS.md).
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/node.hpp"
+#include "engine/scene/resolved_scene.hpp"
+
+namespace septet::scene {
+
+/// Materials by face material index, rising.
+using FaceMaterials = std::vector<std::pair<std::uint32_t, NodeId>>;
+
+struct DrawnObject {
+  std::optional<std::string> prototype;  ///< Name of the prototype that it is; none: it is placed in the world.
+  Transform transform;
+  bool hidden = false;
+  NodeId geometry = no_node;
+  FaceMaterials materials;
+  std::vector<NodeId> children;
+  float visible_from_m = 0.0f, visible_to_m = 1e9f;
+  PartRole role = PartRole::fixed;
+  bool casts_shadow = true;
+
+  bool operator==(const DrawnObject&) const = default;
+};
+
+/// `node` is an object.
+DrawnObject read_object(const Node& node);
+
+}  // namespace septet::scene

@@ -1,0 +1,276 @@
+#include "engine/scene/placed_objects.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace septet::scene {
+namespace {
+
+constexpr std::size_t deepest_child = 32;
+/// Limit of objects placed: children shared again and again multiply.
+constexpr std::size_t most_visits = 1u << 20;
+/// Unused instances from which on all are placed anew, if they are the greater part.
+constexpr std::size_t many_unused = 4096;
+
+}  // namespace
+
+// ---- meshes
+
+std::uint32_t PlacedObjects::use_mesh(Object& object, ResolvedScene& scene) {
+  const DrawnObject& drawn = object.drawn;
+  const auto is_of = [&](const MeshSlot& slot) {
+    return slot.used && slot.key.first == drawn.geometry && slot.key.second == drawn.materials;
+  };
+  if (object.mesh >= meshes_.size() || !is_of(meshes_[object.mesh])) {
+    const MeshKey key{drawn.geometry, drawn.materials};
+    object.mesh = mesh_slots_.of(key, scene.meshes);
+    if (object.mesh >= meshes_.size()) meshes_.resize(object.mesh + 1);
+    if (!is_of(meshes_[object.mesh])) {
+      meshes_[object.mesh] = {key, 0, 0, true};
+      stale_.insert(object.mesh);
+    }
+  }
+  ++meshes_[object.mesh].uses;
+  return object.mesh;
+}
+
+void PlacedObjects::leave_mesh(std::uint32_t mesh) {
+  if (mesh >= meshes_.size()) return;
+  if (--meshes_[mesh].uses == 0) left_.insert(mesh);
+}
+
+void PlacedObjects::free_unused(ResolvedScene& scene) {
+  for (const std::uint32_t mesh : std::exchange(left_, {})) {
+    MeshSlot& slot = meshes_[mesh];
+    if (!slot.used || slot.uses > 0) continue;
+    scene.meshes[mesh] = {};
+    scene.meshes[mesh].revision = ++scene.revision;
+    scene.changes.add(scene.revision, {SceneChange::Kind::mesh, mesh});
+    mesh_slots_.release(slot.key);
+    stale_.erase(mesh);
+    slot = {};
+  }
+}
+
+void PlacedObjects::spoil(NodeId geometry) {
+  const auto& all = mesh_slots_.all();
+  for (auto at = all.lower_bound({geometry, {}}); at != all.end() && at->first.first == geometry; ++at)
+    stale_.insert(at->second);
+}
+
+// ---- one root
+
+PlacedObjects::Placement PlacedObjects::child_of(const Placement& parent, const Transform& t) {
+  Placement placed;
+  placed.world_from_object.position_m = parent.world_from_object * (glm::dvec3(parent.scale) * t.position_m);
+  placed.world_from_object.orientation = parent.world_from_object.orientation * t.rotation;
+  placed.scale = parent.scale * t.scale;
+  return placed;
+}
+
+/// Appends an object and everything below it. `path` holds the objects above.
+void PlacedObjects::place(Object& object, NodeId id, const Placement& parent, std::vector<NodeId>& path,
+                          std::size_t& visits, std::vector<Instance>& into, ResolvedScene& scene) {
+  const DrawnObject& drawn = object.drawn;
+  if (drawn.hidden || path.size() >= deepest_child || visits_ + ++visits > most_visits) return;
+  if (std::find(path.begin(), path.end(), id) != path.end()) return;
+  const Placement placed = child_of(parent, drawn.transform);
+  if (drawn.geometry != no_node)
+    into.push_back({use_mesh(object, scene), placed.world_from_object, placed.scale, drawn.visible_from_m,
+                    drawn.visible_to_m, drawn.casts_shadow, drawn.role});
+  path.push_back(id);
+  for (const NodeId child : drawn.children)
+    if (const auto found = objects_.find(child); found != objects_.end())
+      place(found->second, child, placed, path, visits, into, scene);
+  path.pop_back();
+}
+
+void PlacedObjects::set_instance(std::uint32_t index, const Instance& instance, ResolvedScene& scene) {
+  Instance& current = scene.instances[index];
+  if (current == instance) return;
+  if (current.mesh == no_mesh) --unused_instances_;
+  if (instance.mesh == no_mesh) ++unused_instances_;
+  scene.changes.add(scene.revision, {SceneChange::Kind::instance, index, current.mesh});
+  current = instance;
+}
+
+void PlacedObjects::clear(const Root& root, ResolvedScene& scene) {
+  Instance none;
+  none.mesh = no_mesh;
+  for (std::uint32_t i = root.first; i < root.first + root.capacity; ++i) set_instance(i, none, scene);
+  if (root.capacity > 0) free_ranges_.emplace(root.capacity, root.first);
+}
+
+/// Writes the root's instances to its range, or to another one if they are too many for it.
+void PlacedObjects::keep(Root& root, const std::vector<Instance>& instances, ResolvedScene& scene) {
+  const auto count = static_cast<std::uint32_t>(instances.size());
+  if (count > root.capacity) {
+    clear(root, scene);
+    root.capacity = count;
+    if (const auto fits = free_ranges_.find(count); fits != free_ranges_.end()) {
+      root.first = fits->second;
+      free_ranges_.erase(fits);
+    } else {
+      root.first = static_cast<std::uint32_t>(scene.instances.size());
+      Instance none;
+      none.mesh = no_mesh;
+      scene.instances.resize(scene.instances.size() + count, none);
+      unused_instances_ += count;
+    }
+  }
+  Instance none;
+  none.mesh = no_mesh;
+  for (std::uint32_t i = 0; i < root.capacity; ++i)
+    set_instance(root.first + i, i < count ? instances[i] : none, scene);
+}
+
+bool PlacedObjects::place_prototype(Root& root, const Object& object, std::vector<Instance> parts,
+                                    ResolvedScene& scene) {
+  Prototype& prototype = scene.prototypes[root.prototype];
+  if (prototype.name != *object.drawn.prototype) return false;
+  for (const Instance& part : prototype.parts) leave_mesh(part.mesh);
+  if (prototype.parts == parts) return true;
+  prototype.parts = std::move(parts);
+  scene.prototypes_revision = scene.revision;
+  scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
+  return true;
+}
+
+bool PlacedObjects::place_root(NodeId id, ResolvedScene& scene) {
+  const auto found = objects_.find(id);
+  const auto known = roots_.find(id);
+  const bool is_root = found != objects_.end() && !parents_.contains(id);
+  const bool is_prototype = is_root && found->second.drawn.prototype;
+  const bool was_prototype = known != roots_.end() && known->second.is_prototype;
+  if (is_prototype != was_prototype) return false;
+  if (known == roots_.end() && !is_root) return true;
+
+  std::vector<std::uint32_t> meshes_before;
+  if (known != roots_.end() && !was_prototype)
+    for (std::uint32_t i = 0; i < known->second.capacity; ++i)
+      meshes_before.push_back(scene.instances[known->second.first + i].mesh);
+  Root& root = known != roots_.end() ? known->second : roots_[id];
+  visits_ -= std::exchange(root.visits, 0);
+  std::vector<Instance> instances;
+  std::vector<NodeId> path;
+  if (is_root) place(found->second, id, {}, path, root.visits, instances, scene);
+  visits_ += root.visits;
+  ++scene.revision;
+  if (is_prototype) return place_prototype(root, found->second, std::move(instances), scene);
+  if (is_root) {
+    keep(root, instances, scene);
+  } else {
+    clear(root, scene);
+    roots_.erase(id);
+  }
+  for (const std::uint32_t mesh : meshes_before)
+    if (mesh != no_mesh) leave_mesh(mesh);
+  return true;
+}
+
+// ---- objects
+
+void PlacedObjects::link_children(NodeId parent, const std::vector<NodeId>& children) {
+  for (const NodeId child : children) parents_[child].push_back(parent);
+}
+
+void PlacedObjects::unlink_children(NodeId parent, const std::vector<NodeId>& children) {
+  for (const NodeId child : children) {
+    const auto found = parents_.find(child);
+    found->second.erase(std::find(found->second.begin(), found->second.end(), parent));
+    if (found->second.empty()) parents_.erase(found);
+  }
+}
+
+void PlacedObjects::add_roots_above(NodeId id, std::set<NodeId>& roots) const {
+  std::vector<NodeId> open{id};
+  std::set<NodeId> seen{id};
+  while (!open.empty()) {
+    const NodeId at = open.back();
+    open.pop_back();
+    const auto above = parents_.find(at);
+    if (above == parents_.end()) {
+      roots.insert(at);
+      continue;
+    }
+    for (const NodeId parent : above->second)
+      if (seen.insert(parent).second) open.push_back(parent);
+  }
+}
+
+/// Reads one object, and adds the objects to be placed; false where nothing of it is drawn otherwise.
+bool PlacedObjects::read(const Store& store, NodeId id, std::set<NodeId>& to_place) {
+  const Node* node = store.find(id);
+  const bool is_object = node && node->type() == NodeType::object;
+  const auto found = objects_.find(id);
+  if (!is_object && found == objects_.end()) return false;
+  DrawnObject drawn;
+  if (is_object) drawn = read_object(*node);
+  if (is_object && found != objects_.end() && found->second.drawn == drawn) return false;
+  const std::vector<NodeId> before = found == objects_.end() ? std::vector<NodeId>{} : found->second.drawn.children;
+  if (before != drawn.children) {
+    unlink_children(id, before);
+    link_children(id, drawn.children);
+    to_place.insert(before.begin(), before.end());
+    to_place.insert(drawn.children.begin(), drawn.children.end());
+  }
+  if (is_object)
+    objects_[id].drawn = std::move(drawn);
+  else
+    objects_.erase(found);
+  to_place.insert(id);
+  return true;
+}
+
+void PlacedObjects::place_changed(const Store& store, const std::set<NodeId>& changed, ResolvedScene& scene) {
+  std::set<NodeId> to_place, roots;
+  for (const NodeId id : changed) read(store, id, to_place);
+  for (const NodeId id : to_place) {
+    if (roots_.contains(id)) roots.insert(id);  // It may be a child now.
+    add_roots_above(id, roots);
+  }
+  bool whole = false;
+  for (const NodeId id : roots) whole = !place_root(id, scene) || whole;
+  if (whole || (unused_instances_ > many_unused && unused_instances_ > scene.instances.size() / 2))
+    place_all(store, scene);
+  else
+    free_unused(scene);
+}
+
+void PlacedObjects::place_all(const Store& store, ResolvedScene& scene) {
+  objects_.clear(), parents_.clear(), roots_.clear(), free_ranges_.clear();
+  visits_ = unused_instances_ = 0;
+  for (const auto& [id, node] : store.nodes())
+    if (node.type() == NodeType::object) {
+      Object& object = objects_[id];
+      object.drawn = read_object(node);
+      link_children(id, object.drawn.children);
+    }
+  for (MeshSlot& slot : meshes_) slot.uses = 0;
+  scene.instances.clear();
+  scene.prototypes.clear();
+  std::vector<NodeId> path;
+  for (auto& [id, object] : objects_) {
+    if (parents_.contains(id)) continue;
+    Root& root = roots_[id];
+    root.is_prototype = object.drawn.prototype.has_value();
+    if (root.is_prototype) {
+      root.prototype = static_cast<std::uint32_t>(scene.prototypes.size());
+      Prototype& prototype = scene.prototypes.emplace_back();
+      prototype.name = *object.drawn.prototype;
+      place(object, id, {}, path, root.visits, prototype.parts, scene);
+    } else {
+      root.first = static_cast<std::uint32_t>(scene.instances.size());
+      place(object, id, {}, path, root.visits, scene.instances, scene);
+      root.capacity = static_cast<std::uint32_t>(scene.instances.size()) - root.first;
+    }
+    visits_ += root.visits;
+  }
+  for (std::uint32_t i = 0; i < meshes_.size(); ++i)
+    if (meshes_[i].used && meshes_[i].uses == 0) left_.insert(i);
+  free_unused(scene);
+  scene.prototypes_revision = ++scene.revision;
+  scene.changes.forget(scene.revision);
+}
+
+}  // namespace septet::scene

@@ -1,0 +1,176 @@
+#include "sim-server/drive/scene_gate.hpp"
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/control/control_message.hpp"
+#include "engine/net/secure_client.hpp"
+#include "engine/net/udp_socket.hpp"
+#include "engine/replication/replication_client.hpp"
+#include "engine/scene/builder.hpp"
+#include "sim-server/host/screen_host.hpp"
+
+namespace septet::server {
+namespace {
+
+using scene::Command;
+using scene::NodeId;
+
+net::UdpSocket socket_here() { return *net::UdpSocket::open({.bind = {net::loopback_ip, 0}}); }
+
+/// A client of the scene lane that no rig knows: a key and a mirror.
+struct Client {
+  net::Identity identity = net::Identity::generate();
+  net::UdpSocket socket = socket_here();
+  net::SecureClient lane;
+  replication::ReplicationClient scene;
+
+  Client(const net::Address& server, const net::PublicKey& key, const net::Identity& own)
+      : identity(own), lane(socket, {server, key, identity, {}}) {}
+  void pump(double now_s) {
+    for (const net::ClientEvent& event : lane.pump(now_s)) {
+      if (event.kind == net::ClientEvent::Kind::connected) scene.connected();
+      if (event.kind == net::ClientEvent::Kind::lost) scene.disconnected();
+      if (event.kind == net::ClientEvent::Kind::message && control::lane_of(event.bytes) == control::LaneMessage::scene)
+        REQUIRE(scene.receive(std::span(event.bytes).subspan(1)).has_value());
+    }
+    if (lane.state() == net::ClientState::connected)
+      scene.pump([&](std::span<const std::byte> message) {
+        return lane.send(control::scene_message(message), net::Reliability::reliable) == net::SendResult::queued;
+      });
+  }
+};
+
+/// A host with its store, and the gate between two pumps, over real sockets.
+struct Stage {
+  scene::Store store;
+  scene::SceneBuilder build{store};
+  NodeId tree = build.add_object("tree", {});
+  net::Identity server = net::Identity::generate(), editor_key = net::Identity::generate(),
+                looker_key = net::Identity::generate();
+  net::UdpSocket lane = socket_here(), ticks = socket_here();
+  ScreenHost host{lane,
+                  ticks,
+                  store,
+                  {.identity = server,
+                   .allowed = {{editor_key.public_key(), "lab", true}, {looker_key.public_key(), "guest", false}},
+                   .screens = {"screen"}}};
+  Client editor{lane.local_address(), server.public_key(), editor_key},
+      looker{lane.local_address(), server.public_key(), looker_key};
+  std::vector<Command> logged;
+  std::vector<std::string> told;
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
+
+  void step() {
+    const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    host.pump(now_s);
+    for (const SceneRequest& request : host.take_scene_requests()) {
+      const auto refused = pass_gate(store, request.changes, request.own_ids,
+                                     [&](const Command& command) { host.scene_changed(command, 0); });
+      if (refused)
+        host.refuse_scene(request, refused->index, refused->why, now_s);
+      else
+        logged.insert(logged.end(), request.changes.begin(), request.changes.end());
+    }
+    for (auto& text : host.take_messages()) told.push_back(std::move(text));
+    editor.pump(now_s), looker.pump(now_s);
+  }
+  bool until(const std::function<bool()>& holds) {
+    for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+         std::chrono::steady_clock::now() < end;) {
+      step();
+      if (holds()) return true;
+    }
+    return false;
+  }
+  bool all_equal() {
+    return until([&] {
+      return editor.scene.complete() && looker.scene.complete() && scene::same_content(editor.scene.store(), store) &&
+             scene::same_content(looker.scene.store(), store);
+    });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an editor creates and fills a node in one batch and all mirrors have it") {
+  Stage stage;
+  REQUIRE(stage.all_equal());
+  const NodeId own = stage.editor.scene.own_ids();
+  const std::vector<Command> batch = {scene::NodeCreate{own, scene::NodeType::object}, scene::NodeNameSet{own, "deer"},
+                                      scene::TransformSet{own, {{40.0, 2.0, 0.0}}}, scene::HideSet{stage.tree, true}};
+  REQUIRE(stage.editor.scene.request_batch(batch).has_value());
+  REQUIRE(stage.until([&] { return stage.store.find(own) != nullptr; }));
+  REQUIRE(stage.all_equal());
+  CHECK(stage.looker.scene.store().find(own)->name == "deer");
+  CHECK(stage.logged == batch);
+  CHECK(stage.editor.scene.take_refusals().empty());
+}
+
+TEST_CASE("of a batch that cannot be done nothing is done and its client is told the command and why") {
+  Stage stage;
+  REQUIRE(stage.all_equal());
+  const NodeId own = stage.editor.scene.own_ids();
+  const scene::Store before = stage.store;
+  const std::vector<std::vector<Command>> bad = {
+      {scene::NodeCreate{own, scene::NodeType::object}, scene::HideSet{stage.tree, true},
+       scene::HideSet{own + 7, true}},
+      {scene::HideSet{stage.tree, true}, scene::NodeCreate{stage.tree + 1, scene::NodeType::object}},
+      {scene::HideSet{stage.tree, true}, scene::NodeCreate{scene::no_node, scene::NodeType::object}}};
+  const std::vector<std::pair<std::uint64_t, std::string>> why = {
+      {2, "there is no such node"}, {1, "is not one of this editor's ids"}, {1, "is not one of this editor's ids"}};
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    const auto number = stage.editor.scene.request_batch(bad[i]);
+    REQUIRE(number.has_value());
+    std::vector<replication::Refused> refusals;
+    REQUIRE(stage.until([&] { return !(refusals = stage.editor.scene.take_refusals()).empty(); }));
+    CHECK(refusals.front().sequence == *number);
+    CHECK(refusals.front().index == why[i].first);
+    CHECK(refusals.front().why.find(why[i].second) != std::string::npos);
+    CHECK(scene::same_content(stage.store, before));
+  }
+  CHECK(stage.logged.empty());
+  CHECK(stage.told.size() >= 3);
+}
+
+TEST_CASE("a key without the right to edit changes nothing and is told the line that it needs") {
+  Stage stage;
+  REQUIRE(stage.all_equal());
+  const scene::Store before = stage.store;
+  stage.looker.scene.request(scene::HideSet{stage.tree, true});
+  std::vector<replication::Refused> refusals;
+  REQUIRE(stage.until([&] { return !(refusals = stage.looker.scene.take_refusals()).empty(); }));
+  CHECK(refusals.front().why == "the key of guest may look, not edit: allowed-clients needs `KEY guest edit`");
+  CHECK(scene::same_content(stage.store, before));
+  CHECK(stage.looker.lane.state() == net::ClientState::connected);
+  // The right may be given while the server runs.
+  stage.host.set_allowed(
+      {{stage.editor_key.public_key(), "lab", true}, {stage.looker_key.public_key(), "guest", true}});
+  stage.looker.scene.request(scene::HideSet{stage.tree, true});
+  CHECK(stage.until([&] { return !scene::same_content(stage.store, before); }));
+}
+
+TEST_CASE("an editor that floods is refused beyond what waits for one tick and the host keeps its memory") {
+  Stage stage;
+  REQUIRE(stage.all_equal());
+  const std::vector<Command> many(30'000, scene::HideSet{stage.tree, true});
+  for (int i = 0; i < 8; ++i) REQUIRE(stage.editor.scene.request_batch(many).has_value());
+  std::size_t most = 0, refused = 0;
+  // The host is busy: no tick takes the requests.
+  for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+       std::chrono::steady_clock::now() < end && refused < 7;) {
+    const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage.begun).count();
+    stage.host.pump(now_s);
+    stage.editor.pump(now_s);
+    refused += stage.editor.scene.take_refusals().size();
+  }
+  for (const SceneRequest& request : stage.host.take_scene_requests()) most += request.changes.size();
+  CHECK(refused == 7);
+  CHECK(most == 30'000);
+}
+
+}  // namespace septet::server
