@@ -14,7 +14,7 @@
 #include "engine/physics/person/jointed_plans.hpp"
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
-#include "engine/simulation/car_impacts.hpp"
+#include "engine/simulation/bodies/loose_body.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 
 namespace septet::simulation {

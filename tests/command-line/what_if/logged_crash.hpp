@@ -20,6 +20,8 @@
 
 namespace septet::server {
 
+inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 inline std::string crash_scenario(double van_s_m) {
   const auto vehicle = [](const char* name, const char* model, const char* kind, double length_m, double wheelbase_m) {
     return fmt::format(

@@ -29,8 +29,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("one change is told in a sentence, and lies as a table and a session beside the drive") {

@@ -42,8 +42,6 @@ logging::SessionReader opened(const std::filesystem::path& file) {
   return std::move(*session);
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// Ticks 1 to 400 of a driver who accelerates until tick 200 and brakes, ever harder, from tick 241 on.
 std::vector<logging::InputRecord> braking_at_241() {
   std::vector<logging::InputRecord> records;

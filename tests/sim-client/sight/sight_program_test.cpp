@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Tick last_tick = 240;
-constexpr ParticipantId driver = 1, walker = 4;
+constexpr ParticipantId driver = 1, crosser = 4;
 
 /// The driver's car drives along x towards a walker who comes from the right behind a wall; they touch at tick 228.
 Snapshot crossing(Tick tick) {
@@ -38,7 +38,7 @@ Snapshot crossing(Tick tick) {
     world.participants.push_back(participant);
   };
   add(driver, "volvo-s80", {10.0 * world.simulated_time_s, 0.0, 0.0}, 0.0);
-  add(walker, "pedestrian", {23.0, -3.0 + 1.5 * world.simulated_time_s, 0.0}, 1.5707963);
+  add(crosser, "pedestrian", {23.0, -3.0 + 1.5 * world.simulated_time_s, 0.0}, 1.5707963);
   world.driver_car.participant = driver;
   return world;
 }
@@ -65,7 +65,7 @@ fs::path record_crossing(const fs::path& file, bool with_scene) {
   writer->record(logging::Event{.tick = 228,
                                 .simulated_time_s = 1.9,
                                 .kind = "collision",
-                                .participant = walker,
+                                .participant = crosser,
                                 .detail = "closing_speed_mps=10.00"});
   REQUIRE(writer->finish().has_value());
   return file;
@@ -117,8 +117,8 @@ TEST_CASE("a session's sight is told both ways, and sentence, table and ticks ag
     ParticipantId observer, target;
     const char *observer_name, *target_name;
   };
-  for (const Way& way : {Way{driver, walker, "1 ego (volvo-s80)", "4 walker (pedestrian)"},
-                         Way{walker, driver, "4 walker (pedestrian)", "1 ego (volvo-s80)"}}) {
+  for (const Way& way : {Way{driver, crosser, "1 ego (volvo-s80)", "4 walker (pedestrian)"},
+                         Way{crosser, driver, "4 walker (pedestrian)", "1 ego (volvo-s80)"}}) {
     const Row *before = nullptr, *first = nullptr;
     for (const Row& row : rows)
       if (row.observer == way.observer && row.target == way.target && !first)
