@@ -73,7 +73,7 @@ struct Lying {
 void place_adrift(const road::RoadNetwork& network, const ForeignVehicle& vehicle, std::int32_t index,
                   const road::RoadPosition* hint, const std::vector<CorridorTraffic>& corridors,
                   std::vector<ForeignTraffic>& found) {
-  constexpr int along = 5;          // Less than a lane's width apart on the longest vehicle.
+  constexpr int along = 5;  // Less than a lane's width apart on the longest vehicle.
   const VehicleModel& model = vehicle_models()[vehicle.model];
   std::vector<road::Location> points;
   for (int k = 0; k < along; ++k)

@@ -18,6 +18,7 @@
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "tests/command-line/what_if/logged_crash.hpp"
+#include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
 namespace septet::server {
@@ -85,7 +86,7 @@ TEST_CASE("a recorder's table gives the way of its speeds, and a contact sets th
   const MotionDrive far(400.0, slowing_table);
   const double start_m = far.car().world_from_vehicle.position_m.x;
   for (int tick = 1; tick <= 480; ++tick) REQUIRE(far.live->next({}).has_value());
-  CHECK(far.car().world_from_vehicle.position_m.x - start_m == doctest::Approx(64.0).epsilon(1e-3));
+  CHECK(far.car().world_from_vehicle.position_m.x - start_m == relative(64.0, 1e-3));
   CHECK_FALSE(far.live->state().motion->is_over);
 
   const MotionDrive near(60.0, slowing_table);

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
 using namespace septet;
@@ -57,7 +58,7 @@ TEST_CASE("a path's cubic keeps to a circle within a millimetre and a tenth of a
       const Vec2 right(circle_m * std::sin(angle), circle_m * (1.0 - std::cos(angle)));
       farthest_m = std::max(farthest_m, glm::distance(now.place_m, right));
       most_turned_rad = std::max(most_turned_rad, std::abs(now.heading_rad - angle));
-      CHECK(glm::length(now.velocity_mps) == doctest::Approx(circle_mps).epsilon(0.002));
+      CHECK(glm::length(now.velocity_mps) == relative(circle_mps, 0.002));
     }
     CHECK(farthest_m < 1e-3);
     CHECK(most_turned_rad * 180.0 / std::numbers::pi < 0.1);
@@ -85,8 +86,8 @@ TEST_CASE("a recorder's table is integrated to the distance of its speeds and to
     driven_m += glm::distance(now.place_m, before);
     before = now.place_m;
   }
-  CHECK(driven_m == doctest::Approx(way_m).epsilon(1e-3));
-  CHECK(motion_at(motion, 5.0).heading_rad * 180.0 / std::numbers::pi == doctest::Approx(turned_deg).epsilon(1e-3));
+  CHECK(driven_m == relative(way_m, 1e-3));
+  CHECK(motion_at(motion, 5.0).heading_rad * 180.0 / std::numbers::pi == relative(turned_deg, 1e-3));
 }
 
 TEST_CASE("rows that no tyre can bring about are named by their lines") {
