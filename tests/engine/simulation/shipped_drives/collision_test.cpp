@@ -100,11 +100,13 @@ TEST_CASE("a drive that is saved while the car runs into traffic goes on with th
   CHECK(hash_state(again) == hash_state(*state));
   std::vector<Event> others;
   Snapshot last;
+  bool has_ended = false;  // Others may run into them afterwards.
   for (int i = 0; i < 240; ++i) {
     last = server_step(*drive.model, {}, *state, events);
+    has_ended = has_ended || !runs();
     CHECK(server_step(*drive.model, {}, again, others).state_hash == last.state_hash);
   }
-  CHECK(!runs());
+  CHECK(has_ended);
   CHECK(find_participant(last, struck) != nullptr);
   const auto event = std::ranges::find(events, "collision", &Event::kind);
   REQUIRE(event != events.end());
