@@ -5,10 +5,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/math/gravity.hpp"
+
 namespace septet::vehicle {
 namespace {
 
-constexpr double gravity_mps2 = 9.81;
 constexpr int steps = 8;
 constexpr double creep_mps = 0.05;  ///< Slower wheels are held by less than the whole friction.
 constexpr double still_mps = 0.002, still_radps = 0.002;
