@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -73,8 +72,8 @@ std::vector<ThrownBody> bodies_of(const Model& model, const Participant& other) 
   return {own, rider};
 }
 
-void keep_ordered(ThrownBody body, std::vector<ThrownBody>& thrown) {
-  thrown.insert(std::ranges::lower_bound(thrown, body.id, {}, &ThrownBody::id), std::move(body));
+void keep_ordered(const ThrownBody& body, std::vector<ThrownBody>& thrown) {
+  thrown.insert(std::ranges::lower_bound(thrown, body.id, {}, &ThrownBody::id), body);
 }
 
 void note_crash(const Model& model, const Participant& car, const Participant& other, const person::Touches& touch,
@@ -105,7 +104,7 @@ void begin_throws(const Model& model, const Participant& car, const std::vector<
   for (const Participant& other : participants) {
     if (other.id == car.id || !can_be_thrown(kind_of(other)) || is_thrown(state, other.id)) continue;
     if (!is_near(car, other.world_from_vehicle.position_m)) continue;
-    std::vector<ThrownBody> bodies = bodies_of(model, other);
+    const std::vector<ThrownBody> bodies = bodies_of(model, other);
     person::Touches first;
     for (const ThrownBody& each : bodies) {
       person::JointedBody trial = each.body;
@@ -114,7 +113,7 @@ void begin_throws(const Model& model, const Participant& car, const std::vector<
       if (touch.closing_mps > first.closing_mps) first = touch;
     }
     if (first.closing_mps < least_closing_mps) continue;
-    for (ThrownBody& each : bodies) keep_ordered(std::move(each), state.thrown);
+    for (const ThrownBody& each : bodies) keep_ordered(each, state.thrown);
     give_up_rails(model, other.id, car, state, events);
     note_crash(model, car, other, first, state, events);
   }
