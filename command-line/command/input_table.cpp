@@ -61,13 +61,10 @@ Expected<std::vector<const Column*>> read_header(const std::vector<std::string_v
 Expected<std::vector<vehicle::TimedInput>> read_input_table(std::string_view text, std::string_view name) {
   std::vector<const Column*> header;
   std::vector<vehicle::TimedInput> rows;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const auto end = text.find('\n');
-    const std::string_view line = document::trimmed(text.substr(0, end));
-    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
-    if (line.empty() || line.front() == '#') continue;
-    const std::string where = fmt::format("{}:{}", name, number);
-    const auto cells = document::cells_of(line);
+  document::TableLines lines(text);
+  while (const auto line = lines.next()) {
+    const std::string where = fmt::format("{}:{}", name, line->number);
+    const auto& cells = line->cells;
     if (header.empty()) {
       auto read = read_header(cells, where);
       if (!read) return tl::unexpected(read.error());

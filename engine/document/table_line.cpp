@@ -20,4 +20,15 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
+std::optional<TableLine> TableLines::next() {
+  while (!text_.empty()) {
+    ++number_;
+    const auto end = text_.find('\n');
+    const std::string_view line = trimmed(text_.substr(0, end));
+    text_ = end == std::string_view::npos ? std::string_view{} : text_.substr(end + 1);
+    if (!line.empty() && line.front() != '#') return TableLine{number_, cells_of(line)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace septet::document

@@ -1,7 +1,8 @@
 #pragma once
-/// One line of a table of comma-separated values.
+/// Lines of a table of comma-separated values.
 
 #include <charconv>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,23 @@ std::string_view trimmed(std::string_view text);
 
 /// Cells between the commas, trimmed; an empty line has one empty cell. Septet's tables have no quotes.
 std::vector<std::string_view> cells_of(std::string_view line);
+
+struct TableLine {
+  std::size_t number = 0;  ///< In the text, from 1.
+  std::vector<std::string_view> cells;
+};
+
+/// The lines of a text that hold cells, in order: empty ones and remarks (`#`) are passed over. The text outlives it.
+class TableLines {
+ public:
+  explicit TableLines(std::string_view text) : text_(text) {}
+  /// Empty at the text's end.
+  std::optional<TableLine> next();
+
+ private:
+  std::string_view text_;
+  std::size_t number_ = 0;
+};
 
 /// The number in a cell, and empty where the cell holds anything else or more.
 template <class Number>

@@ -181,7 +181,7 @@ class Contacts {
   }
 
   bool may_loosen(const Participant& one) const {
-    return is_driver(one) || can_be_loose(vehicle_models()[one.model].kind);
+    return is_driver(one) || has_four_wheels(vehicle_models()[one.model].kind);
   }
   /// True where it is, or becomes, a body that contacts push.
   bool loosen(const Participant& one) {

@@ -69,10 +69,7 @@ void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double s
 /// Ground under each wheel, road or land, and its friction.
 vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event>& events) {
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
-  const Environment& sky = state.scenario.environment;
-  const RoadWeather weather{sky.road_wetness,        sky.snow_cover,
-                            sky.temperature_k,       state.scenario.friction_scale,
-                            state.effects.ice.black, state.effects.ice.still.thawed_kh};
+  const RoadWeather weather = road_weather(state);
   const Vec2 heading{state.car.world_from_body.orientation * Vec3(1.0, 0.0, 0.0)};
   const Vec2 ahead = glm::length(heading) > 0.1 ? glm::normalize(heading) : Vec2(1.0, 0.0);
   const double way_m = std::max(0.0, glm::dot(Vec2(state.car.velocity_mps), ahead)) * tick_s;

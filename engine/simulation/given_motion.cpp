@@ -187,13 +187,10 @@ Expected<void> check_possible(const GivenMotion& motion, std::string_view name) 
 Expected<GivenMotion> read_motion(std::string_view text, std::string_view name) {
   std::vector<ReadColumn> header;
   GivenMotion motion;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const auto end = text.find('\n');
-    const std::string_view line = document::trimmed(text.substr(0, end));
-    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
-    if (line.empty() || line.front() == '#') continue;
-    const std::string where = fmt::format("{}:{}", name, number);
-    const auto cells = document::cells_of(line);
+  document::TableLines lines(text);
+  while (const auto line = lines.next()) {
+    const std::string where = fmt::format("{}:{}", name, line->number);
+    const auto& cells = line->cells;
     if (header.empty()) {
       auto read = read_columns(cells, where);
       if (!read) return tl::unexpected(read.error());
@@ -207,7 +204,7 @@ Expected<GivenMotion> read_motion(std::string_view text, std::string_view name) 
     if (cells.size() != header.size())
       return failure(fmt::format("{} numbers for {} columns", cells.size(), header.size()), where,
                      "give each column one");
-    MotionRow row{.line = number};
+    MotionRow row{.line = line->number};
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const Column& column = *header[i].column;
       const auto value = document::number_in<double>(cells[i]);

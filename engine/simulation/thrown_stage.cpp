@@ -121,9 +121,7 @@ void begin_throws(const Model& model, const Participant& car, const std::vector<
 
 person::Ground ground_below_body(const Model& model, const State& state, const Vec3& at_m, ThrownBody& thrown) {
   const Environment& sky = state.scenario.environment;
-  const RoadWeather weather{sky.road_wetness,        sky.snow_cover,
-                            sky.temperature_k,       state.scenario.friction_scale,
-                            state.effects.ice.black, state.effects.ice.still.thawed_kh};
+  const RoadWeather weather = road_weather(state);
   vehicle::WheelGround found;
   road::RoadPosition place = thrown.road.value_or(road::RoadPosition{});
   const auto outside_m =

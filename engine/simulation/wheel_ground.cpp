@@ -22,6 +22,13 @@ double ground_height_m(const roadside::RaisedAreas* raised, const Vec2& at, doub
 
 }  // namespace
 
+RoadWeather road_weather(const State& state) {
+  const Environment& sky = state.scenario.environment;
+  return {sky.road_wetness,        sky.snow_cover,
+          sky.temperature_k,       state.scenario.friction_scale,
+          state.effects.ice.black, state.effects.ice.still.thawed_kh};
+}
+
 double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather) {
   const auto kind = material ? kind_of(*material) : vehicle::SurfaceKind::dry;
   double friction = 0.0;

@@ -14,8 +14,7 @@
 #include "engine/road/road_position.hpp"
 #include "engine/roadside/raised_areas.hpp"
 #include "engine/roadside/terrain.hpp"
-#include "engine/simulation/effects/black_ice.hpp"
-#include "engine/world/snapshot.hpp"
+#include "engine/simulation/state.hpp"
 
 namespace septet::simulation {
 
@@ -28,6 +27,8 @@ struct RoadWeather {
   std::span<const BlackIce> black_ice;
   double thawed_kh = 0.0;
 };
+/// That of a state, which outlives it.
+RoadWeather road_weather(const State& state);
 
 /// Finds the ground under a wheel with its centre at `centre_m`. `place` is the wheel's last place (read where
 /// `has_place`) and becomes the present one. Returns its distance outside the lanes, where the surface continues from

@@ -53,6 +53,19 @@ constexpr std::array<VehicleModel, 35> models{{
 }};
 }  // namespace
 
+bool has_four_wheels(ParticipantKind kind) {
+  switch (kind) {
+    case ParticipantKind::car:
+    case ParticipantKind::van:
+    case ParticipantKind::lorry:
+    case ParticipantKind::bus:
+    case ParticipantKind::ambulance:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::span<const VehicleModel> vehicle_models() { return models; }
 
 std::optional<ModelIndex> find_vehicle_model(std::string_view name) {

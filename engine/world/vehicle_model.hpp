@@ -28,6 +28,9 @@ struct VehicleModel {
   double centre_x_m() const { return length_m / 2.0 - rear_overhang_m; }
 };
 
+/// True for those who drive a body of sheet metal on four wheels: no two-wheelers, people or objects.
+bool has_four_wheels(ParticipantKind kind);
+
 std::span<const VehicleModel> vehicle_models();
 std::optional<ModelIndex> find_vehicle_model(std::string_view name);
 

@@ -97,9 +97,7 @@ const Vec3& ObservedWorld::eye_m() const { return parts_->eye_m; }
 OnLine ObservedWorld::along(const Line& line, ParticipantId target, double from_m) const {
   const Parts& p = *parts_;
   const raytrace::World& world = *p.moving;
-  raytrace::Ray ray;
-  ray.origin_m = glm::vec3(line.from_m - world.origin_m());
-  ray.direction = glm::vec3(line.direction);
+  raytrace::Ray ray = ray_in(world, line);
   ray.from_m = static_cast<float>(from_m);
   OnLine met;
   double passes = 1.0;
@@ -130,22 +128,12 @@ OnLine ObservedWorld::along(const Line& line, ParticipantId target, double from_
 double ObservedWorld::transmittance(const Line& line, double length_m) const {
   const Parts& p = *parts_;
   const raytrace::World& world = *p.moving;
-  raytrace::Ray ray;
-  ray.origin_m = glm::vec3(line.from_m - world.origin_m());
-  ray.direction = glm::vec3(line.direction);
+  raytrace::Ray ray = ray_in(world, line);
   ray.to_m = static_cast<float>(length_m);
-  double passes = std::exp(-static_cast<double>(p.smoke.optical_depth(ray)) -
-                           static_cast<double>(p.instant.extinction_per_m) * length_m);
-  raytrace::Hit hit;
-  raytrace::SurfacePoint point;
-  for (int n = 0; n < most_surfaces && world.geometry().intersect(ray, hit); ++n) {
-    world.point(ray, hit, point);
-    passes *= 1.0 - static_cast<double>(point.opacity);
-    if (passes < opaque_below) return 0.0;
-    ray.from_m = beyond_m(hit.distance_m);
-    if (!(ray.from_m < ray.to_m)) break;
-  }
-  return passes * p.standing.transmittance(line, length_m);
+  const double in_air = std::exp(-static_cast<double>(p.smoke.optical_depth(ray)) -
+                                 static_cast<double>(p.instant.extinction_per_m) * length_m);
+  const double passes = left_behind_surfaces(world, ray, in_air);
+  return passes > 0.0 ? passes * p.standing.transmittance(line, length_m) : 0.0;
 }
 
 }  // namespace septet::sight

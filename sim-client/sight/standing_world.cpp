@@ -43,23 +43,30 @@ Expected<std::unique_ptr<const StandingWorld>> StandingWorld::create(const Scene
   return std::unique_ptr<const StandingWorld>(new StandingWorld(std::move(parts)));
 }
 
-double StandingWorld::transmittance(const Line& line, double length_m) const {
-  const raytrace::World& world = *parts_->world;
+raytrace::Ray ray_in(const raytrace::World& world, const Line& line) {
   raytrace::Ray ray;
   ray.origin_m = glm::vec3(line.from_m - world.origin_m());
   ray.direction = glm::vec3(line.direction);
-  ray.to_m = static_cast<float>(length_m);
-  double passes = 1.0;
+  return ray;
+}
+
+double left_behind_surfaces(const raytrace::World& world, raytrace::Ray ray, double share) {
   raytrace::Hit hit;
   raytrace::SurfacePoint point;
   for (int n = 0; n < most_surfaces && world.geometry().intersect(ray, hit); ++n) {
     world.point(ray, hit, point);
-    passes *= 1.0 - static_cast<double>(point.opacity);
-    if (passes < opaque_below) return 0.0;
+    share *= 1.0 - static_cast<double>(point.opacity);
+    if (share < opaque_below) return 0.0;
     ray.from_m = beyond_m(hit.distance_m);
     if (!(ray.from_m < ray.to_m)) break;
   }
-  return passes;
+  return share;
+}
+
+double StandingWorld::transmittance(const Line& line, double length_m) const {
+  raytrace::Ray ray = ray_in(*parts_->world, line);
+  ray.to_m = static_cast<float>(length_m);
+  return left_behind_surfaces(*parts_->world, ray, 1.0);
 }
 
 }  // namespace septet::sight

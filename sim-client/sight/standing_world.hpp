@@ -51,4 +51,10 @@ inline float beyond_m(float distance_m) { return distance_m * (1.0f + 2e-6f) + 1
 /// Surfaces on one line at most, as many as the ray tracer passes on one edge.
 inline constexpr int most_surfaces = 64;
 
+/// A line as a world of the ray tracer takes it.
+raytrace::Ray ray_in(const raytrace::World& world, const Line& line);
+
+/// What is left of a share of light behind all surfaces on a ray; 0 where it falls below `opaque_below`.
+double left_behind_surfaces(const raytrace::World& world, raytrace::Ray ray, double share);
+
 }  // namespace septet::sight

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "engine/effects/smoke/smoke_state.hpp"
+#include "engine/math/gravity.hpp"
 
 namespace septet::smoke {
 namespace {
 
-constexpr float gravity_mps2 = 9.81f;
+constexpr float g_mps2 = static_cast<float>(gravity_mps2);
 /// ρ·c·T of air: for a gas of two atoms 3.5 times its pressure, whatever its temperature.
 constexpr float warmth_per_m3_j = 3.5f * 101'325.0f;
 /// Slices whose mean makes the layer smooth: as long as it is broad.
@@ -80,7 +81,7 @@ void update_ceiling_current(const State& state, VelocityField& field) {
     if (!(warmth_j[i] > 0.0f) || !(tube.width > 0.0f)) continue;
     const float high = tube.roof - tube.floor;
     const float layer = std::clamp(2.0f * (tube.roof - height[i] / warmth_j[i]), std::min(1.0f, 0.5f * high), high);
-    const float head = gravity_mps2 * warmth_j[i] / (warmth_per_m3_j * tube.width * cell_m * cell_m);
+    const float head = g_mps2 * warmth_j[i] / (warmth_per_m3_j * tube.width * cell_m * cell_m);
     const float mps = froude * std::sqrt(head * (1.0f - layer / high));
     const float towards = way_out(state, (static_cast<float>(i) + 0.5f) * cell_m);
     const float out = mps * towards / (cell_m * velocity_quantum), back = -out * layer / std::max(high - layer, layer);

@@ -19,10 +19,7 @@ bool moves(const impact::Body& body) { return body.velocity_mps != Vec2(0.0) || 
 
 /// Ground below one wheel, or the body's own level where there is none.
 vehicle::WheelGround ground_below(const Model& model, const State& state, const Vec3& centre_m, LooseBody& loose) {
-  const Environment& sky = state.scenario.environment;
-  const RoadWeather weather{sky.road_wetness,        sky.snow_cover,
-                            sky.temperature_k,       state.scenario.friction_scale,
-                            state.effects.ice.black, state.effects.ice.still.thawed_kh};
+  const RoadWeather weather = road_weather(state);
   vehicle::WheelGround ground;
   ground.point_m = Vec3(Vec2(centre_m), loose.height_m);
   ground.friction = surface_friction(nullptr, weather);
@@ -82,7 +79,7 @@ bool give_up_rails(const Model& model, ParticipantId id, const Participant& car,
 
 bool leave_rails(const Model& model, const Participant& participant, const Participant& car, State& state,
                  std::vector<Event>& events) {
-  if (!can_be_loose(vehicle_models()[participant.model].kind)) return false;
+  if (!has_four_wheels(vehicle_models()[participant.model].kind)) return false;
   if (!give_up_rails(model, participant.id, car, state, events)) return false;
   state.bodies.bodies.push_back(loose_body(participant, mass_kg(model, participant)));
   return true;

@@ -23,7 +23,7 @@ bool give_up_rails(const Model& model, ParticipantId id, const Participant& car,
                    std::vector<Event>& events);
 
 /// Takes a vehicle off its rails as it moves now. False, and nothing has changed: its kind is never loose
-/// (can_be_loose), or its traffic engine keeps it. Events are appended.
+/// (has_four_wheels), or its traffic engine keeps it. Events are appended.
 bool leave_rails(const Model& model, const Participant& participant, const Participant& car, State& state,
                  std::vector<Event>& events);
 

@@ -51,19 +51,6 @@ impact::Side impact_side(const Participant& participant, double mass_kg) {
   return side;
 }
 
-bool can_be_loose(ParticipantKind kind) {
-  switch (kind) {
-    case ParticipantKind::car:
-    case ParticipantKind::van:
-    case ParticipantKind::lorry:
-    case ParticipantKind::bus:
-    case ParticipantKind::ambulance:
-      return true;
-    default:
-      return false;
-  }
-}
-
 LooseBody loose_body(const Participant& participant, double mass_kg) {
   LooseBody loose;
   loose.id = participant.id;

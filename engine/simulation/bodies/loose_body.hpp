@@ -15,9 +15,6 @@ double mass_kg(const Model& model, const Participant& participant);
 /// A participant as a body that can be hit: its outline in plan, and the yaw inertia of an even box of its size.
 impact::Side impact_side(const Participant& participant, double mass_kg);
 
-/// True for vehicles on four wheels or more. People and two-wheelers are thrown, not turned: they are no loose bodies.
-bool can_be_loose(ParticipantKind kind);
-
 /// The participant as it leaves its rails.
 LooseBody loose_body(const Participant& participant, double mass_kg);
 /// The body as a participant: brake lamps lit, wheels locked.

@@ -21,19 +21,6 @@ using Outline = std::vector<Vec2>;  ///< Convex, counter-clockwise, in plan.
 constexpr double narrowest_dent_m = 0.08;         ///< Half its width.
 constexpr double longer_than_a_vehicle_m = 10.0;  ///< Half the length of a wall or rail, as far as a dent goes.
 
-bool can_be_dented(const Participant& participant) {
-  switch (vehicle_models()[participant.model].kind) {
-    case ParticipantKind::car:
-    case ParticipantKind::van:
-    case ParticipantKind::lorry:
-    case ParticipantKind::bus:
-    case ParticipantKind::ambulance:
-      return true;
-    default:
-      return false;
-  }
-}
-
 Outline rectangle(const Vec2& middle_m, const Vec2& ahead, double half_length_m, double half_width_m) {
   const Vec2 left(-ahead.y, ahead.x);
   const Vec2 along = half_length_m * ahead, across = half_width_m * left;
@@ -77,7 +64,7 @@ std::pair<double, double> extent(const Outline& outline, const Vec2& axis) {
 /// depth of `depth_m`.
 void add_dent(const Participant& vehicle, const Vec2& inwards, double depth_m, const Outline& other, double top_m,
               std::vector<MadeDent>& made) {
-  if (!(depth_m > 0.0) || !can_be_dented(vehicle)) return;
+  if (!(depth_m > 0.0) || !has_four_wheels(vehicle_models()[vehicle.model].kind)) return;
   const Outline own = outline_of(vehicle);
   const Vec2 along(-inwards.y, inwards.x);
   const Outline crushed = common(own, other);
