@@ -22,6 +22,7 @@
 #include "sim-client/frame/playout.hpp"
 #include "sim-client/frame/screen_frames.hpp"
 #include "sim-client/screen/departure.hpp"
+#include "sim-client/screen/even_times.hpp"
 #include "sim-client/screen/frame_times.hpp"
 #include "sim-client/screen/pause_request.hpp"
 #include "sim-client/screen/picture_rate.hpp"
@@ -104,7 +105,7 @@ class Session {
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_, large_pictures_{large_picture};
-  std::optional<double> looked_s_;                   ///< Due time of the newest large picture.
+  EvenTimes looks_{control::look_every_s};           ///< Of large pictures.
   static constexpr double thumbnails_apart_s = 0.7;  ///< At least: a window's come once a second, give or take.
   double thumbnail_s_ = -thumbnails_apart_s;         ///< Time of the newest thumbnail.
   FrameTimes frame_times_, submit_times_;
@@ -264,13 +265,12 @@ Expected<void> Session::keep_picture(Tick tick) {
 
 Expected<void> Session::show_closely(Tick tick, double now_s) {
   if (!link_.is_looked_at(now_s)) {
-    looked_s_.reset();
+    looks_.reset();
     return {};
   }
-  if (looked_s_ && now_s - *looked_s_ < control::look_every_s) return {};
-  // Counted from one due time to the next, so that five pictures a second stay five.
-  looked_s_ =
-      looked_s_ && now_s - *looked_s_ < 2.0 * control::look_every_s ? *looked_s_ + control::look_every_s : now_s;
+  // Where the last one is still being made the next frame is taken.
+  if (!looks_.is_due(now_s) || !large_pictures_.is_idle()) return {};
+  looks_.done(now_s);
   const auto picture = display_->renderer().read_back();
   if (!picture) return tl::unexpected(picture.error());
   large_pictures_.take(tick, *picture);

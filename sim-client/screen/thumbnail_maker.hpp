@@ -30,6 +30,8 @@ image::Image thumbnail_of(const image::Image& picture, const PictureLimits& limi
 class ThumbnailMaker {
  public:
   explicit ThumbnailMaker(const PictureLimits& limits = {});
+  /// True: a picture that is taken now would not be dropped.
+  bool is_idle() { return thread_.is_idle(); }
   void take(Tick tick, const image::Image& picture) {
     if (thread_.is_idle()) thread_.give_if_idle({tick, picture});
   }

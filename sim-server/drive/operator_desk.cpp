@@ -117,6 +117,16 @@ void OperatorDesk::log_to(SessionLog& log) {
       });
 }
 
+/// True if a watched screen has sent a large picture since the last call.
+bool OperatorDesk::has_new_large_picture(const std::vector<HostedScreen>& screens) {
+  std::vector<std::shared_ptr<const std::string>> pictures;
+  pictures.reserve(screens.size());
+  for (const HostedScreen& screen : screens) pictures.push_back(screen.large_picture);
+  if (pictures == large_pictures_) return false;
+  large_pictures_ = std::move(pictures);
+  return true;
+}
+
 /// Takes the newest picture of the screen ahead, for the stills of faults.
 void OperatorDesk::keep_still(const std::vector<HostedScreen>& screens) {
   if (!lesson_) return;
@@ -133,7 +143,8 @@ void OperatorDesk::attend(const std::shared_ptr<const TakenSnapshot>& newest, co
   if (brake_until_s_ && now_s > *brake_until_s_) hold_brake({}, false);
   if (const auto trouble = speaker_.attend(); trouble && log_) log_->record_message("screen", *trouble);
   for (const auto& wish : page_->take_wishes()) page_->answer(wish, fulfil(wish));
-  if (shown_s_ && now_s - *shown_s_ < show_every_s) return;
+  // Two large pictures within one interval are both shown: a watched screen moves at the rate at which it is sent.
+  if (!has_new_large_picture(screens) && shown_s_ && now_s - *shown_s_ < show_every_s) return;
   if (!shown_s_ || now_s - since_s_ >= 1.0) {
     const double time_s = drive_.state().time_s();
     if (shown_s_) real_time_factor_ = (time_s - since_time_s_) / (now_s - since_s_);

@@ -32,7 +32,8 @@ class OperatorDesk {
   const std::string& url() const { return page_->url(); }
   /// `log` outlives the desk; its events are shown on the page.
   void log_to(SessionLog& log);
-  /// Executes the requests since the last call, and updates the page ten times a second. `screens` may be empty.
+  /// Executes the requests since the last call, and updates the page ten times a second and with each large picture.
+  /// `screens` may be empty.
   void attend(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what,
               const std::vector<HostedScreen>& screens, double now_s);
 
@@ -71,6 +72,7 @@ class OperatorDesk {
   std::optional<std::string> put_back(const page::OperatorWish& wish, double seconds);
   std::optional<std::string> restart(const page::OperatorWish& wish, double at_s);
   std::optional<std::string> say(const page::OperatorWish& wish, const page::Say& word);
+  bool has_new_large_picture(const std::vector<HostedScreen>& screens);
   void keep_still(const std::vector<HostedScreen>& screens);
   std::optional<std::string> rate(const page::OperatorWish& wish, int value);
 
@@ -84,6 +86,7 @@ class OperatorDesk {
   double now_s_ = 0.0;                             ///< Time of the newest `attend`.
   std::unique_ptr<LessonWatch> lesson_;            ///< Null if the drive is not a lesson.
   std::shared_ptr<const std::string> seen_ahead_;  ///< Newest picture of the screen ahead, handed to the lesson.
+  std::vector<std::shared_ptr<const std::string>> large_pictures_;  ///< Newest one of each screen.
   const LoadedDrive& loaded_;
   LiveDrive& drive_;
   double begun_s_;                         ///< Simulated; not 0 where the drive began at a kept state.
