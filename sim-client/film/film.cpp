@@ -62,6 +62,8 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   if (others && !traced)
     return failure("mpirun shares out what is traced alone", "--renderer raster",
                    "add --renderer traced, or leave mpirun out");
+  if (others && !options.ghosts.empty())
+    return failure("a film with ghosts is traced by one program", "--ghost", "leave mpirun, --ranks and --hosts out");
   if (!traced && options.exr != ExrNumbers::none)
     return failure("only what is traced has OpenEXR pictures", "--exr", "add --renderer traced, or leave --exr out");
   if (options.exr == ExrNumbers::none && !options.layers.empty())

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "engine/raytrace/bucket_schedule.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
@@ -33,6 +34,8 @@ enum class Layer : std::uint8_t { depth, object, participant, normal, albedo, mo
 
 struct FilmOptions {
   std::filesystem::path session;
+  /// Other sessions whose participants are shown where they went another way (ghosts.hpp).
+  std::vector<std::filesystem::path> ghosts;
   std::filesystem::path shots;  ///< Script; empty: the default one.
   /// Folder for the pictures: created, or empty already; or a film file (film_file.hpp), whose pictures lie in a folder
   /// beside it until it is encoded.

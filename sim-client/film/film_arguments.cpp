@@ -6,8 +6,11 @@
 #include <string>
 #include <system_error>
 
+#include <fmt/core.h>
+
 #include "program/command_line.hpp"
 #include "sim-client/film/film_program.hpp"
+#include "sim-client/film/ghosts.hpp"
 #include "sim-client/film/traced/layers.hpp"
 
 namespace septet::film {
@@ -22,6 +25,13 @@ void add_film_options(CLI::App& app, FilmArguments& arguments) {
   FilmOptions& options = arguments.film;
   app.add_option("session", options.session, "Session file of a drive");
   app.add_option("--shots", options.shots, "Script with the film's shots")->default_str("");
+  app.add_option("--ghost", options.ghosts,
+                 "Another session of the same roads, such as one of what-if: who went another way in it is shown too;\n"
+                 "several times for several")
+      ->type_name("SESSION")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->default_str("");
   app.add_option(
          "--out", options.out,
          "New or empty folder for the pictures, or a film: .mp4 (H.264), .mkv (FFV1, without loss); ffmpeg makes it")
@@ -124,6 +134,9 @@ Expected<void> settle(const CLI::App& app, FilmArguments& arguments) {
   FilmOptions& options = arguments.film;
   if (options.session.empty())
     return failure("it is not said which session", "septet film", "give the session file of a drive");
+  if (options.ghosts.size() > most_ghost_sessions)
+    return failure(fmt::format("more than {} sessions are shown as ghosts", most_ghost_sessions), "--ghost",
+                   "leave some out");
   options.renderer = arguments.renderer == "traced" ? FilmRenderer::traced : FilmRenderer::raster;
   options.filter = arguments.filter == "box"         ? raytrace::Filter::box
                    : arguments.filter == "tent"      ? raytrace::Filter::tent

@@ -19,6 +19,7 @@
 #include "engine/document/text_file.hpp"
 #include "engine/exr/exr.hpp"
 #include "engine/image/png.hpp"
+#include "logging/session/session_reader.hpp"
 #include "program/clock.hpp"
 #include "program/stop_signal.hpp"
 #include "sim-client/film/traced/layers.hpp"
@@ -34,6 +35,25 @@ std::string hash_of(std::string_view text) {
   StateHash hash;
   hash.add_bytes(std::as_bytes(std::span(text)));
   return fmt::format("{:016x}", hash.value());
+}
+
+/// When a session was driven, and a hash of what it was driven with.
+std::string identity_of(const logging::SessionInfo& session) {
+  std::string drive = session.git_revision;
+  for (const auto& [name, seed] : session.seeds) drive += fmt::format("\n{} {}", name, seed);
+  for (const auto& [name, value] : session.other) drive += fmt::format("\n{} {}", name, value);
+  for (const auto& file : session.files) drive += fmt::format("\n{}\n{}", file.role, file.content);
+  return fmt::format("{} {}", session.started_utc, hash_of(drive));
+}
+
+Expected<std::string> ghosts_of(const FilmOptions& options) {
+  std::string ghosts;
+  for (const fs::path& path : options.ghosts) {
+    const auto session = logging::SessionReader::open(path);
+    if (!session) return tl::unexpected(session.error());
+    ghosts += (ghosts.empty() ? "" : ", ") + identity_of(session->info());
+  }
+  return ghosts;
 }
 
 /// Session and, for a film without a script, the stretch of it that is shown.
@@ -72,12 +92,12 @@ Expected<void> check_is_same(const FilmRecord& film, const fs::path& file) {
 Expected<FilmRecord> film_record(const FilmOptions& options, const logging::SessionInfo& session) {
   const auto shots = shots_of(options);
   if (!shots) return tl::unexpected(shots.error());
-  std::string drive = session.git_revision;
-  for (const auto& [name, seed] : session.seeds) drive += fmt::format("\n{} {}", name, seed);
-  for (const auto& file : session.files) drive += "\n" + file.role + "\n" + file.content;
+  const auto ghosts = ghosts_of(options);
+  if (!ghosts) return tl::unexpected(ghosts.error());
   FilmRecord record{{"septet", version_text()},
-                    {"session", fmt::format("{} {}", session.started_utc, hash_of(drive))},
+                    {"session", identity_of(session)},
                     {"shots", *shots},
+                    {"ghosts", *ghosts},
                     {"frames_per_second", fmt::format("{}", options.frames_per_second)},
                     {"size", fmt::format("{}x{}", options.width_px, options.height_px)},
                     {"renderer", options.renderer == FilmRenderer::traced ? "traced" : "raster"}};

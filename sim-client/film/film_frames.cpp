@@ -13,6 +13,7 @@
 #include "engine/film_script/film_script.hpp"
 #include "engine/scene/resolve.hpp"
 #include "logging/session/recorded_scene.hpp"
+#include "sim-client/film/ghosts.hpp"
 #include "sim-client/film/last_seen.hpp"
 #include "sim-client/film/overlay/overlay_cast.hpp"
 #include "sim-client/film/overlay/overlay_drawing.hpp"
@@ -98,6 +99,7 @@ struct FilmFrames::State {
   FilmPlan plan;
   std::vector<Pivots> pivots;  ///< Indexed by shot.
   logging::RecordedScene recorded;
+  Ghosts ghosts;
   scene::Store store;
   scene::Resolver resolver;
   std::uint32_t width_px, height_px;
@@ -177,10 +179,16 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   if (!cast) return tl::unexpected(cast.error());
   auto recorded = logging::RecordedScene::open(*session);
   if (!recorded) return tl::unexpected(recorded.error());
+  auto ghosts = Ghosts::open(options.ghosts, session->info());
+  if (!ghosts) return tl::unexpected(ghosts.error());
   std::unique_ptr<State> state(new State{std::move(*session), std::move(*plan), std::move(*pivots),
-                                         std::move(*recorded), scene::Store(), scene::Resolver(), options.width_px,
-                                         options.height_px, options.frames_per_second});
+                                         std::move(*recorded), std::move(*ghosts), scene::Store(), scene::Resolver(),
+                                         options.width_px, options.height_px, options.frames_per_second});
   state->cast = std::move(*cast);
+  std::size_t ghosts_named = 0;
+  if (state->cast.font)
+    for (const ParticipantId driver : state->ghosts.drivers())
+      state->cast.people.push_back({driver, fmt::format("ghost {}", ++ghosts_named)});
   if (auto begun = state->bring_scene_to(0); !begun) return tl::unexpected(begun.error());
   return FilmFrames(std::move(state));
 }
@@ -222,12 +230,14 @@ Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, 
     if (!instants) return tl::unexpected(instants.error());
     state.instants.emplace(std::move(*instants));
     state.last_seen.reset(), state.last_seen_beside.reset();
+    state.ghosts.begin_shot();
   }
   auto world = state.instants->at(instant_s);
   if (!world) return tl::unexpected(world.error());
   state.world = std::move(*world);
   if (brings_scene)
     if (auto brought = state.bring_scene_to(state.world.tick); !brought) return tl::unexpected(brought.error());
+  if (auto added = state.ghosts.add_to(state.world, instant_s); !added) return tl::unexpected(added.error());
   const auto viewpoint = state.viewpoint(shot, pivot, state.last_seen, instant_s);
   if (!viewpoint) return tl::unexpected(viewpoint.error());
   const std::uint32_t width_px = shot.beside ? state.width_px / 2 : state.width_px;
