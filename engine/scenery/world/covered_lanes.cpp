@@ -1,5 +1,7 @@
 #include "engine/scenery/world/covered_lanes.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -54,18 +56,30 @@ void add_covered(const Quad& quad, const Vec2& p, double most_m, std::vector<Cov
   }
 }
 
-/// Adds lanes below a quad so narrow that it lies between their places: the middles of its triangles are tested.
+/// Adds lanes below a quad that lie between their places: its triangles are tested on a grid, of 0.9 m where they are not
+/// large.
 void add_between_places(const WorldContext& world, const RoadTile& tile, double s, const Quad& quad,
                         std::vector<Covered>& covered) {
+  constexpr double apart_m = 0.9;
+  constexpr int most_parts = 5;
   const road::RoadNetwork& network = world.roads.network();
-  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-    const std::array<Vec3*, 3> corners = quad.without(left_out);
-    const Vec2 middle((*corners[0] + *corners[1] + *corners[2]) / 3.0);
-    for (const road::Location& location : road::roads_holding(network, middle)) {
+  const auto test = [&](const Vec2& p) {
+    for (const road::Location& location : road::roads_holding(network, p)) {
       const bool own = location.position.road == tile.road && std::abs(location.position.s_m - s) < over_itself_m;
       const double most_m = road::evaluate(network, location.position).position_m.z;
-      if (!own && most_m + road::least_rise_m > quad.high.z) add_covered(quad, middle, most_m, covered);
+      if (!own && most_m + road::least_rise_m > quad.high.z) add_covered(quad, p, most_m, covered);
     }
+  };
+  const int parts =
+      std::clamp(static_cast<int>(std::ceil(glm::length(Vec2(quad.high - quad.low)) / apart_m)), 1, most_parts);
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    const auto [a, b, c] = quad.without(left_out);
+    // Middles of those of its parts that stand as it does.
+    for (int i = 0; i < parts; ++i)
+      for (int j = 0; i + j < parts; ++j) {
+        const double u = (i + 1.0 / 3.0) / parts, v = (j + 1.0 / 3.0) / parts;
+        test(Vec2(*a) * (1.0 - u - v) + Vec2(*b) * u + Vec2(*c) * v);
+      }
   }
 }
 
