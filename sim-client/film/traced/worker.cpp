@@ -7,7 +7,6 @@
 #include <deque>
 #include <fstream>
 #include <mutex>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -18,6 +17,7 @@
 
 #include "program/clock.hpp"
 #include "program/temporary_folder.hpp"
+#include "sim-client/film/traced/frame_tracers.hpp"
 #include "sim-client/film/traced/messages.hpp"
 #include "sim-client/film/traced/photon_exchange.hpp"
 #include "sim-client/film/traced/statistics.hpp"
@@ -32,9 +32,9 @@ constexpr std::chrono::microseconds pause{1000};
 /// Threads that trace the tiles of a run one by one, in order.
 class TracingThreads {
  public:
-  TracingThreads(const raytrace::RayTracer& tracer, std::span<const instant::PixelRectangle> tiles,
+  TracingThreads(const FrameTracers& tracers, std::span<const instant::PixelRectangle> tiles,
                  const FilmOptions& options, unsigned threads, std::optional<double> pace)
-      : tracer_(tracer), tiles_(tiles), options_(options), pace_(pace) {
+      : tracers_(tracers), tiles_(tiles), options_(options), pace_(pace) {
     for (unsigned n = 0; n < threads; ++n) threads_.emplace_back([this] { work(); });
   }
   ~TracingThreads() {
@@ -74,9 +74,9 @@ class TracingThreads {
 
  private:
   raytrace::Bucket trace(std::uint32_t tile) const {
-    if (options_.sample_sets == 1) return tracer_.trace(tiles_[tile]);
+    if (options_.sample_sets == 1) return tracers_.trace(tiles_[tile], std::nullopt);
     const auto of_set = static_cast<std::uint32_t>(tiles_.size() / options_.sample_sets);
-    return tracer_.trace(tiles_[tile], raytrace::sample_set(options_.samples, tile / of_set, options_.sample_sets));
+    return tracers_.trace(tiles_[tile], raytrace::sample_set(options_.samples, tile / of_set, options_.sample_sets));
   }
   void work() {
     std::unique_lock lock(mutex_);
@@ -108,7 +108,7 @@ class TracingThreads {
     }
   }
 
-  const raytrace::RayTracer& tracer_;
+  const FrameTracers& tracers_;
   std::span<const instant::PixelRectangle> tiles_;
   const FilmOptions& options_;
   std::optional<double> pace_;
@@ -201,45 +201,6 @@ Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path&
   return told;
 }
 
-/// Prepares the tracer for one frame; it and the summary are made anew where the scene has changed since `revision`.
-Expected<void> begin_frame(FilmFrames& frames, std::size_t frame, const FilmOptions& options,
-                           instant::SceneSummary& summary, raytrace::RayTracer& tracer, std::uint64_t& revision) {
-  const FilmFrame& of_film = frames.plan().frames[frame];
-  auto input = frames.input_of(of_film);
-  if (!input) return tl::unexpected(input.error());
-  if (frames.scene().revision != revision) {
-    auto renewed = raytrace::RayTracer::create(frames.scene());
-    if (!renewed) return tl::unexpected(renewed.error());
-    tracer = std::move(*renewed);
-    summary = instant::summarise(frames.scene());
-    revision = frames.scene().revision;
-  }
-  auto closing = frames.input_as_shutter_closes(of_film);
-  if (!closing) return tl::unexpected(closing.error());
-  const bool opens_at_all = closing->has_value();
-  if (!opens_at_all && options.layers.contains(Layer::motion)) {
-    auto next = frames.input_of_next(of_film);
-    if (!next) return tl::unexpected(next.error());
-    *closing = std::move(*next);
-  }
-  raytrace::TraceSettings settings;
-  settings.samples = options.samples;
-  settings.error = static_cast<float>(options.error);
-  settings.filter = options.filter;
-  settings.photons.caustic = options.caustic_photons, settings.photons.global = options.gather_photons;
-  settings.seed = of_film.number;  // Another noise in each frame.
-  const Shot& shot = frames.plan().script.shots[of_film.shot];
-  settings.lens_radius_m = static_cast<float>(lens_radius_m(shot));
-  settings.focus_m = static_cast<float>(shot.focus_m);
-  settings.blurs = opens_at_all;
-  if (opens_at_all) settings.motion_scale = static_cast<float>(2.0 * std::numbers::pi / shot.shutter_rad);
-  instant::Instant opens = instant::describe(std::move(*input), summary);
-  std::optional<instant::Instant> closes;
-  if (*closing) closes = instant::describe(std::move(**closing), summary, opens.light);
-  tracer.begin(std::move(opens), settings, {}, closes ? &*closes : nullptr);
-  return {};
-}
-
 Expected<void> serve(Machines& machines, program::ProcessMark& master_process) {
   const unsigned threads = program::share_of_processors();
   machines.send(master, hello_message(threads));
@@ -268,12 +229,10 @@ std::optional<double> pace_of_test() {
 
 Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads,
                                 const program::ProcessMark& master_process) {
-  auto tracer = raytrace::RayTracer::create(frames.scene());
-  if (!tracer) return tl::unexpected(tracer.error());
-  instant::SceneSummary summary = instant::summarise(frames.scene());
-  std::uint64_t scene_revision = frames.scene().revision;
+  auto tracers = FrameTracers::create(frames);
+  if (!tracers) return tl::unexpected(tracers.error());
   const auto tiles = tiles_of(options);
-  TracingThreads tracing(*tracer, tiles, options, threads, pace_of_test());
+  TracingThreads tracing(*tracers, tiles, options, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
   std::optional<std::size_t> frame, soon;
   std::optional<PhotonGathering> photons;  ///< Photons of a frame in preparation.
@@ -305,8 +264,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       begun_s = program::monotonic_s();
       photons.reset();
       frame.reset();
-      if (auto done = begin_frame(frames, *target, options, summary, *tracer, scene_revision); !done) return done;
-      photons.emplace(*tracer, *target, threads);
+      if (auto done = tracers->begin(frames, *target, options); !done) return done;
+      photons.emplace(tracers->light(), *target, threads);
     }
     if (photons) {
       if (auto question = photons->question()) machines.send(master, std::move(*question));
@@ -314,7 +273,7 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       if (photons->is_whole()) {
         frame = photons->frame();
         photons.reset();
-        tracing.begin_frame(*frame, facts_of(tracer->instant()));
+        tracing.begin_frame(*frame, facts_of(tracers->light().instant()));
         Bytes bytes = message(Word::ready);
         ByteWriter writer(bytes);
         writer.put(std::uint64_t{*frame}), writer.put(program::monotonic_s() - begun_s);

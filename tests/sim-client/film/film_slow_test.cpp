@@ -20,6 +20,9 @@
 #include "engine/image/image.hpp"
 #include "engine/image/png.hpp"
 #include "engine/light/tone_curve.hpp"
+#include "engine/scene/builder.hpp"
+#include "engine/scene/command_codec.hpp"
+#include "engine/scenery/vehicles/vehicles.hpp"
 #include "sim-client/film/film.hpp"
 #include "sim-client/film/film_file.hpp"
 #include "sim-client/soundtrack/wav_file.hpp"
@@ -213,6 +216,44 @@ TEST_CASE("OpenEXR pictures hold the light of the pictures and stay those of a f
   }
   CHECK(light_is_that);
   CHECK(sky_is_nothing);
+}
+
+TEST_CASE("the layer of motion changes no pixel and tells the ways of what moves") {
+  const TemporaryFolder folder;
+  {
+    auto writer = logging::must_create(folder / "session.sqlite");
+    scene::Store store;
+    scene::SceneBuilder builder(store, [&](const scene::Command& command) {
+      Bytes bytes;
+      scene::encode(command, bytes);
+      writer.record(logging::SceneEdit{0, std::move(bytes)});
+    });
+    scenery::build_vehicles(builder);
+    for (Tick tick = 0; tick <= 60; ++tick) writer.record(logging::taken(logging::drive_snapshot(tick)));
+    REQUIRE(writer.finish().has_value());
+  }
+  std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0.2\nto_s = 0.3\nparticipant = \"1\"\ndistance_m = 9\n";
+  FilmOptions options{.session = folder / "session.sqlite",
+                      .shots = folder / "shots.toml",
+                      .out = folder / "without",
+                      .width_px = 160,
+                      .height_px = 120,
+                      .renderer = FilmRenderer::traced,
+                      .samples = 9,
+                      .exr = ExrNumbers::single_precision,
+                      .to_s = 0.26};
+  REQUIRE(refusal_of(options) == "");
+  options.out = folder / "with";
+  options.layers = {Layer::motion};
+  REQUIRE(refusal_of(options) == "");
+  for (const char* name : {"000001", "000002"}) {
+    const auto picture = fmt::format("{}.png", name), light = fmt::format("{}.exr", name);
+    CHECK(bytes_of(folder / "with" / picture) == bytes_of(folder / "without" / picture));
+    Imf::InputFile with((folder / "with" / light).c_str()), without((folder / "without" / light).c_str());
+    CHECK(channel<float>(with, "R", Imf::FLOAT) == channel<float>(without, "R", Imf::FLOAT));
+    const std::vector<float> across = channel<float>(with, "motion.X", Imf::FLOAT);
+    CHECK(std::ranges::any_of(across, [](float px) { return std::abs(px) > 0.5f; }));
+  }
 }
 
 TEST_CASE("OpenEXR pictures are refused where there are none and layers without them") {
