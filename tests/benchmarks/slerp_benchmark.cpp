@@ -1,5 +1,8 @@
-/// Turning an orientation in 4096 steps, one channel, double. Items are steps. `slerp_quadratic` against
-/// `slerp_trigonometric` (the same angles by sine and cosine) and `slerp_glm`.
+/// Turning an orientation in 4096 steps, double. Items are steps of one orientation. One channel: `slerp_quadratic`, and
+/// slowing down, against `slerp_trigonometric` (the same angles by sine and cosine), `slerp_chebyshev` (equal angles alone)
+/// and `slerp_glm`. `slerp_channels` turns 64 at once.
+
+#include <array>
 
 #include <benchmark/benchmark.h>
 
@@ -7,6 +10,7 @@
 
 #include "engine/math/incremental_turn.hpp"
 #include "tests/engine/math/orientation_turn.hpp"
+#include "tests/engine/math/other_turns.hpp"
 
 using namespace septet;
 
@@ -29,9 +33,9 @@ void time_walk(benchmark::State& run, Walk walk) {
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(steps));
 }
 
-void slerp_quadratic_steps(benchmark::State& run) {
-  time_walk(run, [](Path& path) {
-    auto turn = *turn_between(from, to, steps, sigma);
+void slerp_quadratic_steps(benchmark::State& run, double by_sigma) {
+  time_walk(run, [by_sigma](Path& path) {
+    auto turn = *turn_between(from, to, steps, by_sigma);
     for (auto& q : path) {
       turn.advance();
       q = turn.value();
@@ -66,7 +70,38 @@ void slerp_glm(benchmark::State& run) {
   });
 }
 
-BENCHMARK(slerp_quadratic_steps)->Name("slerp_quadratic")->Unit(benchmark::kMicrosecond);
+void slerp_chebyshev(benchmark::State& run) {
+  time_walk(run, [](Path& path) {
+    ChebyshevTurn<4> turn({from.w, from.x, from.y, from.z}, {to.w, to.x, to.y, to.z}, steps);
+    for (auto& q : path) {
+      turn.advance();
+      q = turn.value();
+    }
+  });
+}
+
+void slerp_channels(benchmark::State& run) {
+  using Channels = TurnChannels<64>;
+  std::array<Channels::Channel, 64> channels;
+  channels.fill({{from.w, from.x, from.y, from.z}, {to.w, to.x, to.y, to.z}, sigma});
+  std::array<Channels::Row, 4> components{};
+  for (auto _ : run) {
+    Channels all(channels, steps);
+    for (std::size_t step = 0; step < steps; ++step) {
+      all.advance();
+      for (std::size_t n = 0; n < 4; ++n) all.write(n, components[n]);
+      benchmark::DoNotOptimize(components);
+    }
+  }
+  run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(steps * channels.size()));
+}
+
+BENCHMARK_CAPTURE(slerp_quadratic_steps, speeding_up, sigma)->Name("slerp_quadratic")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(slerp_quadratic_steps, slowing_down, -sigma)
+    ->Name("slerp_quadratic/slowing_down")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(slerp_chebyshev)->Unit(benchmark::kMicrosecond);
+BENCHMARK(slerp_channels)->Unit(benchmark::kMicrosecond);
 BENCHMARK(slerp_trigonometric)->Unit(benchmark::kMicrosecond);
 BENCHMARK(slerp_glm)->Unit(benchmark::kMicrosecond);
 

@@ -15,6 +15,7 @@
 #include "engine/document/chart_page.hpp"
 #include "engine/document/text_file.hpp"
 #include "tests/benchmarks/figures/ice_figures.hpp"
+#include "tests/benchmarks/figures/motion_figures.hpp"
 #include "tests/benchmarks/figures/swinging_cube.hpp"
 #include "tests/engine/physics/elastic/beam.hpp"
 
@@ -210,20 +211,28 @@ Plot time_figure() {
 
 int main(int argc, char** argv) {
   using namespace septet::figures;
-  CLI::App app{"Draws figures 3, 8, 9, 10 and 11 of the paper on elastic materials as SVG"};
+  CLI::App app{"Draws figures of the papers on elastic materials, ice, turning and face normals from measurements"};
   std::string folder;
   app.add_option("folder", folder, "where the files go")->required();
   bool ice_alone = false;
   app.add_flag("--ice", ice_alone, "those of the paper on ice alone");
+  bool motion_alone = false;
+  app.add_flag("--motion", motion_alone, "those of the papers on turning and on face normals alone");
   CLI11_PARSE(app, argc, argv);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  for (const auto& draw_ice : {draw_ice_pictures, draw_ice_times})
-    if (const auto drawn = draw_ice(folder); !drawn) {
-      fmt::print(stderr, "{}\n", describe(drawn.error()));
-      return 1;
-    }
+  const auto draw_all = [&](std::initializer_list<septet::Expected<void> (*)(const std::filesystem::path&)> draws) {
+    for (const auto draw : draws)
+      if (const auto drawn = draw(folder); !drawn) {
+        fmt::print(stderr, "{}\n", describe(drawn.error()));
+        return false;
+      }
+    return true;
+  };
+  if (motion_alone) return draw_all({draw_turns, draw_normals}) ? 0 : 1;
+  if (!draw_all({draw_ice_pictures, draw_ice_times})) return 1;
   if (ice_alone) return 0;
+  if (!draw_all({draw_turns, draw_normals})) return 1;
   for (const auto& [name, make] :
        {std::pair{"elastic-3-swinging-cube", &swinging_cube_figure}, std::pair{"elastic-8-pull", &pull_figure},
         std::pair{"elastic-9-twist", &twist_figure}, std::pair{"elastic-10-energy", &energy_figure},

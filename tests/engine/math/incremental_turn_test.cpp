@@ -1,9 +1,15 @@
 #include "engine/math/incremental_turn.hpp"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include "engine/math/spherical_interpolation.hpp"
 #include "tests/engine/math/orientation_turn.hpp"
+#include "tests/engine/math/other_turns.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;
@@ -118,4 +124,41 @@ TEST_CASE("a turn refuses sigma beyond one and no steps and vectors that are not
   CHECK(!Turn::between({1, 0, 0}, {0, 1, 0}, 0));
   CHECK(!Turn::between({1, 0, 0}, {0, 0, 0}, 5));
   CHECK(!Turn::between({1, 0, 0}, {std::nan(""), 1, 0}, 5));
+}
+
+TEST_CASE("Chebyshev's recurrence turns by equal angles, and its error grows with steps over angle") {
+  const double theta = 1.3;
+  for (const auto& [steps, most_rad] : {std::pair(50, 1e-12), std::pair(4096, 1e-8)}) {
+    CAPTURE(steps);
+    ChebyshevTurn<2> turn({1, 0}, {std::cos(theta), std::sin(theta)}, static_cast<std::size_t>(steps));
+    double worst_rad = 0.0;
+    for (int n = 0; n <= steps; ++n, turn.advance())
+      worst_rad = std::max(worst_rad, std::abs(angle_of<double>(turn.value()) - theta * n / steps));
+    CHECK(worst_rad < most_rad);
+  }
+}
+
+TEST_CASE("many orientations turn in step as each does alone, speeding up and slowing down") {
+  constexpr std::size_t steps = 200;
+  std::array<TurnChannels<9>::Channel, 9> channels;
+  for (int i = 0; i < 9; ++i) {
+    const Quat from = orientation_from_angles(0.3 * i, 0.2, -0.4),
+               to = orientation_from_angles(0.3 * i + 1.0, -0.5, 0.9);
+    channels[static_cast<std::size_t>(i)] = {
+        {from.w, from.x, from.y, from.z}, {to.w, to.x, to.y, to.z}, 0.25 * i - 1.0};
+  }
+  TurnChannels<9> all(channels, steps);
+  TurnChannels<9>::Row component{};
+  std::vector<IncrementalTurn<double, 4>> each;
+  each.reserve(channels.size());
+  for (const auto& channel : channels)
+    each.push_back(*IncrementalTurn<double, 4>::between(channel.from, channel.to, steps, channel.sigma));
+  for (std::size_t step = 0; step < steps; ++step) {
+    all.advance();
+    for (auto& turn : each) turn.advance();
+    for (std::size_t n = 0; n < 4; ++n) {
+      all.write(n, component);
+      for (std::size_t i = 0; i < each.size(); ++i) REQUIRE(std::abs(component[i] - each[i].value()[n]) < 1e-12);
+    }
+  }
 }
