@@ -5,8 +5,8 @@
 namespace septet {
 namespace {
 
-template <int Degree>
-void unit_polynomial(const float* const* planes, std::size_t count, float t, float* const* out) {
+template <int Degree, bool Unit>
+void polynomial(const float* const* planes, std::size_t count, float t, float* const* out) {
   const float* __restrict p[3 * (Degree + 1)];
   for (int n = 0; n < 3 * (Degree + 1); ++n) p[n] = planes[n];
   float* __restrict x = out[0];
@@ -22,7 +22,7 @@ void unit_polynomial(const float* const* planes, std::size_t count, float t, flo
       c = c * t + p[3 * n + 2][i];
     }
     // The smallest addend keeps a vector of length zero from dividing by it.
-    const float scale = 1.0f / std::sqrt(a * a + b * b + c * c + 1e-35f);
+    const float scale = Unit ? 1.0f / std::sqrt(a * a + b * b + c * c + 1e-35f) : 1.0f;
     x[i] = a * scale;
     y[i] = b * scale;
     z[i] = c * scale;
@@ -31,14 +31,17 @@ void unit_polynomial(const float* const* planes, std::size_t count, float t, flo
 
 }  // namespace
 
+void polynomial_2(const float* const* planes, std::size_t count, float t, float* const* out) {
+  polynomial<2, false>(planes, count, t, out);
+}
 void unit_polynomial_1(const float* const* planes, std::size_t count, float t, float* const* out) {
-  unit_polynomial<1>(planes, count, t, out);
+  polynomial<1, true>(planes, count, t, out);
 }
 void unit_polynomial_2(const float* const* planes, std::size_t count, float t, float* const* out) {
-  unit_polynomial<2>(planes, count, t, out);
+  polynomial<2, true>(planes, count, t, out);
 }
 void unit_polynomial_3(const float* const* planes, std::size_t count, float t, float* const* out) {
-  unit_polynomial<3>(planes, count, t, out);
+  polynomial<3, true>(planes, count, t, out);
 }
 
 }  // namespace septet

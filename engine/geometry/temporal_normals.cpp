@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/core/check.hpp"
 #include "engine/geometry/face_normal_loops.hpp"
 
 namespace septet {
@@ -127,11 +128,23 @@ TemporalNormals::TemporalNormals(NormalMethod method, std::span<const MovingFace
   }
 }
 
+std::array<const float*, 12> TemporalNormals::planes() const {
+  std::array<const float*, 12> planes{};
+  for (std::size_t n = 0; n * stride_ < planes_.size(); ++n) planes[n] = planes_.data() + n * stride_;
+  return planes;
+}
+
+void TemporalNormals::area_vectors_at(float t, FaceNormals& vectors) const {
+  SEPTET_CHECK(method_ == NormalMethod::t_variant, "method {}", name_of(method_));
+  for (auto* values : {&vectors.x, &vectors.y, &vectors.z}) values->resize(count_);
+  float* const out[3] = {vectors.x.data(), vectors.y.data(), vectors.z.data()};
+  polynomial_2(planes().data(), count_, t, out);
+}
+
 void TemporalNormals::at(float t, FaceNormals& normals) const {
   for (auto* values : {&normals.x, &normals.y, &normals.z}) values->resize(count_);
   float* const out[3] = {normals.x.data(), normals.y.data(), normals.z.data()};
-  std::array<const float*, 12> planes{};
-  for (std::size_t n = 0; n * stride_ < planes_.size(); ++n) planes[n] = planes_.data() + n * stride_;
+  const std::array<const float*, 12> planes = this->planes();
   const auto vector = [&](std::size_t which, std::size_t face) {
     return glm::vec3(planes[3 * which][face], planes[3 * which + 1][face], planes[3 * which + 2][face]);
   };

@@ -51,9 +51,14 @@ class TemporalNormals {
   /// Unit normals at t in [0, 1]; the t-variant product is exact beyond, too. A face without area has the zero normal
   /// (t-variant, linear, quadratic, cubic).
   void at(float t, FaceNormals& normals) const;
+  /// Normals as long as twice the area of their faces (eq. 2): their sum at a vertex is weighted by area. Method t_variant
+  /// only.
+  void area_vectors_at(float t, FaceNormals& vectors) const;
   std::size_t size() const { return count_; }
 
  private:
+  std::array<const float*, 12> planes() const;
+
   NormalMethod method_;
   std::size_t count_ = 0, stride_ = 0;
   std::vector<float> planes_;  ///< The coefficients, each of all faces, one plane every `stride_`.

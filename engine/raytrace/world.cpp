@@ -148,9 +148,10 @@ glm::vec3 World::stand(const PlacedSurface& placed, const Ray& ray, const Hit& h
                                &then_c = placed.later[index[2]];
     a = glm::mix(a, then_a.position_m, ray.time), b = glm::mix(b, then_b.position_m, ray.time);
     c = glm::mix(c, then_c.position_m, ray.time);
-    // Debris is flat: its normal is exactly that of the triangle at that time (Parus et al., eq. 1). Ice is smooth.
-    normal = placed.body ? glm::mix(normal, w * then_a.normal + hit.u * then_b.normal + hit.v * then_c.normal, ray.time)
-                         : glm::cross(b - a, c - a);
+    // Of a flat face the normal is exactly that of the triangle at that time (Parus et al., eq. 1).
+    const bool is_flat = !placed.body && at.a->normal == at.b->normal && at.b->normal == at.c->normal;
+    normal = is_flat ? glm::cross(b - a, c - a)
+                     : glm::mix(normal, w * then_a.normal + hit.u * then_b.normal + hit.v * then_c.normal, ray.time);
   }
   // Computed from the corners, not along the ray: a far hit's distance has fewer digits.
   point.position_m = w * a + hit.u * b + hit.v * c;

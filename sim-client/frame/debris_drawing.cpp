@@ -123,6 +123,7 @@ DebrisWay::DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to)
       triangles_(to.triangles),
       normals_(NormalMethod::t_variant, faces_of(from_m_, step_m_, triangles_)) {
   for (std::size_t i = 0; i < step_m_.size(); ++i) step_m_[i] -= from_m_[i];
+  if (!to.shards && rest_m_.empty()) bent_.emplace(triangles_, from_m_.size());
 }
 
 instant::DynamicMesh DebrisWay::at(double share) const {
@@ -136,13 +137,23 @@ instant::DynamicMesh DebrisWay::at(double share) const {
   }
   mesh.origin_m = 0.5 * (low + high);
   mesh.radius_m = static_cast<float>(0.5 * glm::length(high - low));
-  FaceNormals normals;
-  normals_.at(static_cast<float>(share), normals);
+  FaceNormals faces;
+  std::vector<glm::vec3> bent;
+  if (bent_) {
+    normals_.area_vectors_at(static_cast<float>(share), faces);
+    bent = bent_->of_corners(faces);
+  } else {
+    normals_.at(static_cast<float>(share), faces);
+  }
   mesh.vertices.reserve(triangles_.size() * (both_sides_ ? 6 : 3));
   for (std::size_t n = 0; n < triangles_.size(); ++n) {
     std::array<glm::vec3, 3> corners;
     for (std::size_t c = 0; c < 3; ++c) corners[c] = glm::vec3(places[triangles_[n][c]] - mesh.origin_m);
-    glm::vec3 normal(normals.x[n], normals.y[n], normals.z[n]);
+    if (bent_) {
+      for (std::size_t c = 0; c < 3; ++c) mesh.vertices.push_back({corners[c], bent[3 * n + c], {}});
+      continue;
+    }
+    glm::vec3 normal(faces.x[n], faces.y[n], faces.z[n]);
     if (normal == glm::vec3(0.0f)) normal.z = 1.0f;  // A face without area is invisible, but its light must be finite.
     for (const glm::vec3& corner : corners) mesh.vertices.push_back({corner, normal, {}});
     if (both_sides_)

@@ -1,5 +1,6 @@
 #pragma once
-/// Debris between two keyframes: vertices interpolated, faces with the exact normals that their triangles have there.
+/// Debris between two keyframes: vertices interpolated, faces with the exact normals that their triangles have there, and
+/// where a part is bent or round corners with the normals of the faces around them (bent_normals.hpp).
 ///
 /// Two keyframes with the same triangles: every vertex moves straight from one to the other, and each face's normal is
 /// the t-variant cross product (engine/geometry/temporal_normals.hpp), whose coefficients are computed once per pair; a
@@ -15,6 +16,7 @@
 #include "engine/geometry/temporal_normals.hpp"
 #include "engine/instant/frame_input.hpp"
 #include "engine/instant/ice_body.hpp"
+#include "sim-client/frame/bent_normals.hpp"
 #include "sim-client/frame/effect_playout.hpp"
 
 namespace septet::frame {
@@ -58,6 +60,7 @@ class DebrisWay {
   std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and its step to the next.
   std::vector<std::array<std::uint16_t, 3>> triangles_;
   TemporalNormals normals_;
+  std::optional<BentNormals> bent_;  ///< Empty: shards and ice, whose faces are flat.
 };
 
 /// Name of the prototype that gives a piece its material: "debris/ice".
