@@ -7,6 +7,7 @@
 #include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
+#include "engine/simulation/crash_recording.hpp"
 
 namespace septet::simulation {
 std::optional<impact::Impact> begin_impact(const Model& model, const Participant& car, const Participant& other,
@@ -34,6 +35,8 @@ void advance_impacts(const Model& model, double dt_s, State& state) {
     impact::advance_pulse(time_s, running.pulse, after, running.struck);
     running.due_s = 0.0;
     vehicle::take_over(before, after, time_s, state.car);
+    if (OpenCrash* crash = find_open_crash(state, driver_participant, running.vehicle))
+      note_push(state.tick, {.first = after, .second = crash->second}, *crash);
   }
   std::erase_if(state.impacts, [](const CarImpact& running) { return impact::is_over(running.pulse); });
 }

@@ -14,6 +14,7 @@
 #include "engine/simulation/bodies/loose_body.hpp"
 #include "engine/simulation/bodies/near_pairs.hpp"
 #include "engine/simulation/car_impacts.hpp"
+#include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 
@@ -55,6 +56,7 @@ class Contacts {
     }
     for (const auto& pair : pairs) look_at(pair.first, pair.second);
     state_.touching = std::move(touching_);
+    close_crashes(state_, events_);
   }
 
  private:
@@ -136,18 +138,43 @@ class Contacts {
 
   std::optional<impact::Impact> press(std::size_t a, std::size_t b, BodyContact& contact) {
     impact::Side first = side(participants_[a]), second = side(participants_[b]);
-    const impact::Body first_before = first.body, second_before = second.body;
+    const impact::Side first_before = first, second_before = second;
     const auto rests = [](const impact::Body& body) {
       return body.velocity_mps == Vec2(0.0) && body.yaw_rate_radps == 0.0;
     };
     if (contact.engagement.pulses.empty() && rests(first.body) && rests(second.body)) return std::nullopt;
     const impact::Due due = due_to(participants_[a], first.body, &contact),
                       due_to_second = due_to(participants_[b], second.body, &contact);
+    const impact::Ledger work_before = contact.engagement.ledger;
+    const Vec2 given_before_ns = contact.engagement.given_ns;
     auto impact = impact::advance_engagement(impact::vehicle_friction(), tick_s, contact.engagement, first, second, due,
                                              due_to_second);
-    take(a, first_before, first.body);
-    take(b, second_before, second.body);
+    take(a, first_before.body, first.body);
+    take(b, second_before.body, second.body);
+    OpenCrash* crash = find_open_crash(state_, contact.first, contact.second);
+    if (impact && !crash) crash = &open(participants_[a], participants_[b], first_before, second_before, *impact);
+    if (!crash || contact.engagement.given_ns == given_before_ns) return impact;
+    note_push(state_.tick,
+              {first.body, second.body, contact.engagement.given_ns - given_before_ns,
+               impact::difference(contact.engagement.ledger, work_before)},
+              *crash);
+    note_crush(contact.engagement, first, second, *crash);
     return impact;
+  }
+
+  /// Begins the record of two that meet; `first` and `second` as they are before the first push.
+  OpenCrash& open(const Participant& a, const Participant& b, const impact::Side& first, const impact::Side& second,
+                  const impact::Impact& impact) {
+    OpenCrash& crash = open_crash(
+        {a.id, b.id, impact.touch.place, contact_height_m(body_box(a), body_box(b)), impact.pulse.impulse.closing_mps},
+        state_);
+    crash.record.sliding_mps = impact.pulse.impulse.sliding_mps;
+    note_overlap(first, second, crash);
+    const bool both = is_pushed(a) && is_pushed(b);
+    note_first(first.body, mass_centre_ahead_m(model_, a), both || is_driver(a), crash);
+    note_second(second.body, mass_centre_ahead_m(model_, b), both, crash);
+    crash.has_ledger = both;
+    return crash;
   }
 
   /// The touch of two that have been apart, or have not approached each other yet.
@@ -176,6 +203,7 @@ class Contacts {
     } else {
       begin_impact(model_, first, second, state_);
     }
+    if (!find_open_crash(state_, first.id, second.id)) open(first, second, own, other, *impact);
     if (is_new) tell(first, second, own, other, &*impact);
     state_.effects.crashes.struck_vehicles.push_back(crash_of(first, second, *impact));
   }

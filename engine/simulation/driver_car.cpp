@@ -7,11 +7,13 @@
 
 #include <fmt/core.h>
 
+#include "engine/physics/vehicle/hull_outline.hpp"
 #include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/ground_beside.hpp"
 #include "engine/simulation/car_impacts.hpp"
+#include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/ground_faces.hpp"
@@ -164,6 +166,47 @@ void note_hull(const vehicle::HullReport& report, State& state, std::vector<Even
   }
 }
 
+/// Begins the record of what stands that the hull has touched in this tick.
+void open_hull_crash(const Model& model, const vehicle::HullTouch& touch, State& state) {
+  OpenCrash& crash = open_crash({driver_participant,
+                                 std::nullopt,
+                                 {Vec2(touch.point_m), -Vec2(touch.normal)},
+                                 touch.point_m.z,
+                                 touch.closing_speed_mps},
+                                state);
+  crash.run = touch.run;
+  crash.record.stands = name_of(touch.kind);
+  impact::Body car = vehicle::planar_body(model.car.body, state.car);
+  car.velocity_mps = Vec2(touch.velocity_mps);
+  car.yaw_rate_radps = touch.angular_velocity_radps.z;
+  car.heading_rad = heading_rad(state.car.world_from_body.orientation);
+  note_first(car, model.car.body.mass_centre_x_m, true, crash);
+  crash.has_ledger = true;
+}
+
+/// Records what the hull's touches have done to the car in this tick. `before`: the touches as they were.
+void record_hull(const Model& model, const std::vector<vehicle::HullTouch>& before, const vehicle::HullReport& met,
+                 State& state) {
+  for (const vehicle::HullTouch& touch : met.begun) open_hull_crash(model, touch, state);
+  for (const vehicle::HullTouch& touch : state.hull.touches) {
+    OpenCrash* crash = find_open_crash_with_run(state, touch.run);
+    if (!crash) continue;
+    const auto known = std::ranges::find(before, touch.run, &vehicle::HullTouch::run);
+    const vehicle::HullTouch was = known == before.end() ? vehicle::HullTouch{} : *known;
+    const impact::Engagement &now = touch.engagement, &then = was.engagement;
+    // What yields is knocked over at once, and its work is not reckoned.
+    const bool yields = now.given_ns == Vec2(0.0);
+    const Vec2 given_ns = yields ? touch.car_kg * (was.delta_v_mps - touch.delta_v_mps) : now.given_ns - then.given_ns;
+    if (given_ns == Vec2(0.0)) continue;
+    impact::Side own{vehicle::planar_body(model.car.body, state.car),
+                     vehicle::hull_outline(model.car.body, state.car).outline};
+    own.body.heading_rad = heading_rad(state.car.world_from_body.orientation);
+    crash->has_ledger = !yields;
+    note_push(state.tick, {own.body, {}, given_ns, impact::difference(now.ledger, then.ledger)}, *crash);
+    if (!yields) note_crush(now, own, {}, *crash);
+  }
+}
+
 /// `out`: lamps with failed bulbs.
 Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s, Lamps out) {
   Lamps lamps;
@@ -210,6 +253,7 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
                                    : std::vector<Obstacle>{};
   append_faces(model, state, ground, obstacles);
   vehicle::HullReport met;
+  const std::vector<vehicle::HullTouch> touches_before = state.hull.touches;
   const auto wheels_before = state.car.wheels;
   std::array<double, vehicle::wheel_count> squeeze_m{};
   std::optional<vehicle::VehicleParameters> failed;
@@ -227,6 +271,7 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
     note_damage(wheel, wheels_before[wheel].damage, squeeze_m[wheel], state, events);
   follow_motion(model, !met.begun.empty(), before_mps, state);
   note_hull(met, state, events);
+  record_hull(model, touches_before, met, state);
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const DrivenCar car = driven_car(model, state);
   const Vec3 origin = car.outputs.world_from_vehicle.position_m;

@@ -40,6 +40,14 @@ SEPTET_MEMBERS(Sheet, left_m, right_m, thickness_m)
 SEPTET_MEMBER_GROUPS(StillIce, hashed(slabs), kept(rows, sheets), hashed(thawed_kh))
 }  // namespace septet::ice
 
+namespace septet {
+SEPTET_MEMBERS(CrashedBody, mass_kg, yaw_inertia_kgm2, mass_centre_ahead_m, before_mps, yaw_rate_before_radps,
+               delta_v_mps, delta_yaw_rate_radps, principal_direction_rad, crush_m)
+SEPTET_MEMBERS(CrashLedger, kinetic_before_j, kinetic_after_j, crush_j, friction_j, debris_j, wheels_j)
+SEPTET_MEMBERS(CrashRecord, tick, ticks, first, second, stands, point_m, normal_rad, closing_speed_mps, sliding_mps,
+               overlap_m, overlap_share, of_first, of_second, ledger, pieces_kinetic_j, pulse_ns)
+}  // namespace septet
+
 namespace septet::vehicle {
 SEPTET_MEMBERS(Faults, anti_lock, misfire)
 }
@@ -60,6 +68,8 @@ SEPTET_MEMBERS(LooseBody, id, model, paint, lamps, front_steer_rad, wheel_spin_r
                acceleration_mps2, road)
 SEPTET_MEMBERS(BodyContact, first, second, engagement)
 SEPTET_MEMBERS(BodiesState, bodies, contacts)
+SEPTET_MEMBERS(OpenCrash, record, run, last_push, first_at, second_at, first, second, of_contact, debris_j, wheels_j,
+               first_moves, second_moves, has_ledger)
 SEPTET_MEMBERS(CrashMemory, struck_vehicles, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(MotionState, start_x_m, start_y_m, start_heading_rad, is_over)
@@ -75,8 +85,8 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, bodies,
-// thrown ones, a given motion, a game, and an examiner are hashed where there are any.
-SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown),
+// thrown ones, a given motion, a game, and an examiner are hashed where there are any. Open crashes change nothing.
+SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown, open_crashes),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
                      left_out(scenario, traffic, effects), kept(motion, game, examiner, input),
                      hashed(diagnostics, touching))
@@ -171,6 +181,13 @@ bool is_sound(const vehicle::HullTouch& touch) {
          impact::is_within(touch.crushed_m, 0.0, longest_crush_m);
 }
 
+/// The record is within what its ticks allow; its numbers are told and reckoned with, and index nothing.
+bool is_sound(const OpenCrash& crash, Tick now) {
+  const Tick begun = crash.record.tick;
+  return begun <= crash.last_push && crash.last_push <= now && now - begun < most_pulse_ticks &&
+         crash.record.pulse_ns.size() <= now - begun + 1;
+}
+
 void restore_effects(const Model& model, StateReader& reader, EffectsState& state) {
   transfer(reader, state);
   debris::restore_debris(reader, state.debris);
@@ -205,6 +222,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   reader.require(std::ranges::is_sorted(state.touching), wrong);
   for (const CarImpact& running : state.impacts) reader.require(is_sound(running), wrong);
   require_sound(model, state.bodies, reader);
+  for (const OpenCrash& crash : state.open_crashes) reader.require(is_sound(crash, state.tick), wrong);
   require_sound(reader, model.roads, state.thrown);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
   reader.require(state.motion.has_value() == (model.motion != nullptr), wrong);

@@ -9,8 +9,10 @@
 
 #include "engine/effects/smoke/visibility.hpp"
 #include "engine/physics/vehicle/ground.hpp"
+#include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/collisions.hpp"
+#include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/examiner.hpp"
@@ -79,7 +81,10 @@ void run_effects(const Model& model, const std::vector<Participant>& participant
       advance_effects({model.roads, model.obstacles.get(), participants, weather, driver_participant,
                        friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s},
                       state.effects);
+  const impact::Body before = vehicle::planar_body(model.car.body, state.car);
   push_car(model, report.impulse_on_driver_ns, state, car);
+  for (const BrokenOff& broken : report.crashes.broken_off)
+    note_broken_off(broken, before, vehicle::planar_body(model.car.body, state.car), state);
   note_visibility(state, events);
   if (report.crashes.pieces > 0)
     events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});

@@ -19,6 +19,7 @@
 #include "engine/simulation/examiner_state.hpp"
 #include "engine/simulation/game_state.hpp"
 #include "engine/simulation/model.hpp"
+#include "engine/simulation/open_crash.hpp"
 #include "engine/simulation/thrown_state.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 #include "engine/world/driver_input.hpp"
@@ -53,6 +54,7 @@ struct State {
   std::vector<CarImpact> impacts;
   BodiesState bodies;              ///< Hashed where there is one.
   std::vector<ThrownBody> thrown;  ///< People and machines that were thrown, ascending id. Hashed where there is one.
+  std::vector<OpenCrash> open_crashes;  ///< Being recorded for the log, in the order of their touches.
   /// Each wheel's last position, where the next search begins.
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};
   std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;      ///< One event a touch.
@@ -76,7 +78,7 @@ struct State {
 /// An event of a step, for the log.
 struct Event {
   std::string
-      /// "scenario", "collision", "crash_of_others", "game", "kerb", "wheel_damage", "off_road", "bad_number",
+      /// "scenario", "collision", "crash_of_others", "crash", "game", "kerb", "wheel_damage", "off_road", "bad_number",
       /// "traffic", "right_of_way", ….
       kind;
   std::optional<ParticipantId> participant;

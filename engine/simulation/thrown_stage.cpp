@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -12,8 +13,10 @@
 #include "engine/math/gravity.hpp"
 #include "engine/physics/person/jointed_plans.hpp"
 #include "engine/physics/vehicle/ground.hpp"
+#include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
+#include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 
 namespace septet::simulation {
@@ -97,6 +100,21 @@ void note_crash(const Model& model, const Participant& car, const Participant& o
   events.push_back({"collision", other.id,
                     fmt::format("closing_speed_mps={:.2f} delta_v_mps={:.2f} by={}", touch.closing_mps, delta_v_mps,
                                 by_driver ? "driver" : "other")});
+  OpenCrash& record = open_crash(
+      {car.id, other.id, {Vec2(touch.point_m), Vec2(car_to_other)}, touch.point_m.z, touch.closing_mps}, state);
+  impact::Body own = vehicle::planar_body(model.car.body, state.car);
+  own.heading_rad = heading_rad(car.world_from_vehicle.orientation);
+  note_first(own, mass_centre_ahead_m(model, car), true, record);
+  note_second(impact_side(other, crash.second.mass_kg).body, mass_centre_ahead_m(model, other), false, record);
+}
+
+/// Records what a thrown body has given the car in this tick.
+void record_push(const Model& model, ParticipantId thrown, const Vec3& on_car_ns, State& state) {
+  if (on_car_ns == Vec3(0.0)) return;
+  const ParticipantId whose = thrown >= first_rider_participant ? thrown - first_rider_participant : thrown;
+  OpenCrash* crash = find_open_crash(state, driver_participant, whose);
+  if (crash)
+    note_push(state.tick, {vehicle::planar_body(model.car.body, state.car), crash->second, -Vec2(on_car_ns)}, *crash);
 }
 
 void begin_throws(const Model& model, const Participant& car, const std::vector<Participant>& participants,
@@ -170,6 +188,7 @@ void advance_thrown(const Model& model, DrivenCar& car, std::vector<Participant>
   begin_throws(model, car.participant, participants, state, events);
   if (state.thrown.empty()) return;
   person::MovingSolid own = solid_of(car.participant, model.car.body.mass_kg);
+  std::vector<std::pair<ParticipantId, Vec3>> given_ns;
   for (ThrownBody& thrown : state.thrown) {
     const Vec3 at_m = person::mass_centre_m(thrown.body);
     std::vector<person::MovingSolid> near;
@@ -187,9 +206,12 @@ void advance_thrown(const Model& model, DrivenCar& car, std::vector<Participant>
     if (person::lies_still(thrown.body) && !stirred) continue;
     const auto ground = ground_below_body(model, state, at_m, thrown);
     person::advance_body(ground, gravity_mps2, tick_s, near, thrown.body);
-    if (by_own) own = near.front();
+    if (!by_own) continue;
+    given_ns.emplace_back(thrown.id, near.front().taken_ns - own.taken_ns);
+    own = near.front();
   }
   push_car(model, own.taken_ns, state, car);
+  for (const auto& [id, on_car_ns] : given_ns) record_push(model, id, on_car_ns, state);
   show_thrown(state, participants);
   for (const ThrownBody& thrown : state.thrown) {
     const std::size_t entity = thrown.id - first_scripted_participant;

@@ -8,8 +8,11 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
+#include "engine/math/speed_units.hpp"
 #include "engine/world/vehicle_model.hpp"
+#include "logging/study/measures/crashes.hpp"
 #include "sim-client/frame/cockpit_drawing.hpp"
 
 namespace septet::server {
@@ -52,6 +55,7 @@ void DriverWord::take(const Snapshot& now, std::span<const simulation::Event> ev
   if (now.driver_car.lane != 0 || is_first) on_lane_s_ = now_s_;
   if (!frame::is_stalled(now.driver_car) || is_first) runs_s_ = now_s_;
   for (const simulation::Event& event : events) {
+    if (event.kind == crash_event && event.participant == now.driver_car.participant) take_crash(event);
     if (event.kind != "collision") continue;
     const double mps = closing_speed_mps(event.detail).value_or(0.0);
     // Several blows of one crash: only the worst is shown.
@@ -63,11 +67,28 @@ void DriverWord::take(const Snapshot& now, std::span<const simulation::Event> ev
   }
 }
 
+void DriverWord::take_crash(const simulation::Event& event) {
+  auto crash = read_crash(*event.participant, event.detail);
+  const bool is_of_late = crash_ && now_s_ - crash_at_s_ < blow_shown_s;
+  if (!crash || (is_of_late && crash->closing_speed_mps < crash_->closing_speed_mps)) return;
+  crash_ = std::move(crash);
+  crash_at_s_ = now_s_;
+}
+
+std::string DriverWord::outcome() const {
+  // The collision tells its speed with two decimals.
+  if (!crash_ || std::abs(crash_->closing_speed_mps - blow_mps_) > 0.01) return "";
+  const CrashedBody& car = crash_->of_first;
+  if (!car.delta_v_mps || !car.principal_direction_rad) return "";
+  return fmt::format("\nThe blow came {} and changed your speed by {:.0f} km/h.",
+                     logging::whence(*car.principal_direction_rad), kmh_per_mps * glm::length(*car.delta_v_mps));
+}
+
 std::string DriverWord::text() const {
   std::string text;
   const auto add = [&](const std::string& line) { text += (text.empty() ? "" : "\n") + line; };
   if (!blow_.empty() && now_s_ - blow_at_s_ < blow_shown_s)
-    add(fmt::format("You have hit {} at {:.0f} km/h.", blow_, 3.6 * blow_mps_));
+    add(fmt::format("You have hit {} at {:.0f} km/h.", blow_, kmh_per_mps * blow_mps_) + outcome());
   if (now_s_ - on_lane_s_ >= off_road_after_s) add("You are off the road.");
   if (now_s_ - runs_s_ >= stalled_after_s)
     add(by_keyboard_ ? "The engine has stalled: V held starts it." : "The engine has stalled: the clutch starts it.");

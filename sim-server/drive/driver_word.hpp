@@ -1,13 +1,15 @@
 #pragma once
-/// Messages for the driver about the car: a collision and its speed, leaving the road, a stalled engine; and the keys
+/// Messages for the driver about the car: a collision, its speed and what it came to, leaving the road, a stalled engine; and the keys
 /// to press.
 ///
 /// `take` is called for each tick, so that the same drive gives the same messages. One thread.
 
+#include <optional>
 #include <span>
 #include <string>
 
 #include "engine/simulation/state.hpp"
+#include "engine/world/crash_record.hpp"
 #include "engine/world/snapshot.hpp"
 #include "logging/session/drive_end.hpp"
 
@@ -26,9 +28,15 @@ class DriverWord {
   static constexpr double least_blow_mps = 2.0, blow_shown_s = 8.0, off_road_after_s = 4.0, stalled_after_s = 2.0;
 
  private:
+  void take_crash(const simulation::Event& event);
+  /// What the blow that is shown came to; empty: not known.
+  std::string outcome() const;
+
   bool by_keyboard_, has_begun_ = false;
   std::string blow_;
   double blow_mps_ = 0.0, blow_at_s_ = 0.0;
+  std::optional<CrashRecord> crash_;  ///< The hardest of late; of what stands it comes before the collision.
+  double crash_at_s_ = 0.0;
   double now_s_ = 0.0, on_lane_s_ = 0.0, runs_s_ = 0.0;  ///< Last tick on a lane, and with a running engine.
 };
 

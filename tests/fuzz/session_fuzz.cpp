@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "engine/scene/store.hpp"
+#include "engine/world/crash_record.hpp"
 #include "logging/session/outcome.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "logging/session/session_reader.hpp"
@@ -89,6 +90,15 @@ class Place {
       writer->record(logging::Sample{.tick = tick, .simulated_time_s = snapshot.simulated_time_s});
     }
     writer->record(logging::Event{.tick = 3, .simulated_time_s = 0.025, .kind = "collision"});
+    CrashRecord crash{.tick = 3, .first = 1, .second = 2, .closing_speed_mps = 10.0};
+    crash.of_first.delta_v_mps = Vec2(-5.0, 1.0);
+    crash.ledger = CrashLedger{8e4, 4e4, 3e4, 5e3, 1e3, 4e3};
+    crash.pulse_ns = {Vec2(1e3, 0.0), Vec2(2e3, 50.0)};
+    writer->record(logging::Event{.tick = 5,
+                                  .simulated_time_s = 0.04,
+                                  .kind = std::string(crash_event),
+                                  .participant = 1,
+                                  .detail = text_of(crash)});
     writer->record(logging::QuestionnaireRecord{.item = "q1"});
     require(writer->finish({{"outcome", logging::to_json(logging::DriveOutcome{})}}).has_value());
   }

@@ -34,6 +34,8 @@ CRAFTED = {
     "another rig": "UPDATE files SET content = CAST('[[screen]]' AS BLOB) WHERE role = 'rig'",
     "another seed": "UPDATE meta SET value = '99' WHERE key = 'seed.drive'",
     "an operator's command": "INSERT INTO events VALUES(NULL, 10, 0.1, 'operator_command', NULL, 'fog visibility_m=30')",
+    "a crash": "INSERT INTO events VALUES(NULL, 10, 0.1, 'crash', 1, 'version=1 tick=9 ticks=4294967295 point_x_m=1 point_y_m=1 point_z_m=nan "
+               "normal_rad=1 closing_speed_mps=1 pulse_ns=1:1,')",
     "a trigger": "CREATE TRIGGER t AFTER INSERT ON questionnaire BEGIN DELETE FROM snapshots; END",
     "an endless view": "DROP TABLE actuators; CREATE VIEW actuators AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) "
                        "SELECT x AS tick, 1.0 a, 1.0 b, 1.0 c, 1.0 d, 0 e FROM c",

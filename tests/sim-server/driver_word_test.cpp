@@ -60,6 +60,30 @@ TEST_CASE("of the blows of one crash the worst is told, a touch is not, and word
   CHECK(told.after(9.0, {{"kerb", std::nullopt, "closing_speed_mps=50"}}).empty());
 }
 
+TEST_CASE("whence the blow came and what it changed is told once it is known, also where it is known first") {
+  CrashRecord crash;
+  crash.first = 1;
+  crash.second = 7;
+  crash.closing_speed_mps = 10.0;
+  crash.of_first.delta_v_mps = Vec2(-5.0, 0.0);
+  crash.of_first.principal_direction_rad = 0.7;
+  const simulation::Event record{"crash", ParticipantId{1}, text_of(crash)},
+      touch{"collision", ParticipantId{7}, "closing_speed_mps=10.00"};
+  const std::string outcome = "The blow came from ahead, left and changed your speed by 18 km/h.";
+  for (const bool record_first : {false, true}) {
+    Told told;
+    told.now.driver_car.participant = 1;
+    CHECK_FALSE(has(told.after(0.0, {record_first ? record : touch}), outcome));
+    const std::string text = told.after(0.1, {record_first ? touch : record});
+    CHECK(has(text, "You have hit somebody at 36 km/h.\n" + outcome));
+    CHECK(has(text, "Escape, then R: begin again"));
+  }
+  Told other;
+  other.now.driver_car.participant = 1;
+  other.after(0.0, {touch, {"crash", ParticipantId{2}, text_of(crash)}, {"crash", ParticipantId{1}, "version=9"}});
+  CHECK_FALSE(has(other.word.text(), "blow"));
+}
+
 TEST_CASE("off every lane and a stall are told of once they have lasted, and no longer than they last") {
   Told told;
   CHECK(told.after(1.0).empty());

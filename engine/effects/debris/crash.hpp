@@ -39,6 +39,7 @@ struct CrashReport {
   double closing_speed_mps = 0.0;     ///< Along the normal.
   int struck = 0, torn_off = 0;       ///< Parts broken loose by the contact, and by their inertia.
   int fragments = 0;                  ///< Pieces of broken-off parts, shards included.
+  double kinetic_j = 0.0;             ///< Of all of these as they fly off.
   std::vector<std::uint32_t> pieces;  ///< Ids of those that are now in the state's pieces.
 };
 

@@ -22,10 +22,6 @@ void press(double dt_s, Pulse& pulse, Engagement& engagement, Side& first, Side&
   second = carried(second, other);
 }
 
-double crushed_off_m(const Outline& whole, const Cuts& cuts, const Vec2& way) {
-  return cuts.count == 0 ? 0.0 : reach_m(whole, way) - reach_m(crushed(whole, cuts), way);
-}
-
 /// Crushes both along `way` by `depth_m` in all, each by its stiffness.
 void crush(double depth_m, const Vec2& way, Side& first, Side& second) {
   if (!(depth_m > 0.0)) return;
@@ -139,6 +135,10 @@ Outline crushed(const Outline& outline, const Cuts& cuts) {
   Outline left = outline;
   left.cuts = cuts;
   return left;
+}
+
+double crushed_off_m(const Outline& whole, const Cuts& cuts, const Vec2& way) {
+  return cuts.count == 0 ? 0.0 : reach_m(whole, way) - reach_m(crushed(whole, cuts), way);
 }
 
 double crush_along_m(const Engagement& engagement, const Outline& first, const Outline& second, const Vec2& normal) {

@@ -37,6 +37,9 @@ std::optional<Impact> advance_engagement(double friction, double dt_s, Engagemen
 /// Gives both what is due of the pulses that run, and looks for no meeting: for those whose outlines are apart.
 void advance_pulses(double dt_s, Engagement& engagement, Side& first, Side& second);
 
+/// By how much cuts have taken a whole outline back along `way`, of unit length.
+double crushed_off_m(const Outline& whole, const Cuts& cuts, const Vec2& way);
+
 /// How far both are crushed along `normal` together.
 double crush_along_m(const Engagement& engagement, const Outline& first, const Outline& second, const Vec2& normal);
 

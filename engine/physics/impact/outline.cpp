@@ -252,6 +252,7 @@ Passing passing(const Outline& first, const Outline& second, const Vec2& way) {
       other{-b.reach(-across) - second.round_m, b.reach(across) + second.round_m};
   const double to_left = own.to - other.from, to_right = other.to - own.from;
   const double narrower = std::min(own.to - own.from, other.to - other.from);
+  past.narrower_m = narrower;
   past.aside_m = std::max(0.0, std::min(to_left, to_right));
   past.aside = to_left < to_right ? across : -across;
   if (past.aside_m < narrower) past.depth_m = past.aside_m * narrower / (narrower - past.aside_m);

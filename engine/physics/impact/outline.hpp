@@ -74,8 +74,9 @@ Vec2 engaged_point_m(const Outline& first, const Outline& second, const Place& p
 /// between. Depth 0 where they pass.
 struct Passing {
   double depth_m = INFINITY;
-  double aside_m = 0.0;  ///< P.
-  Vec2 aside{0.0};       ///< Unit length across the way, from the first to the second.
+  double aside_m = 0.0;     ///< P.
+  Vec2 aside{0.0};          ///< Unit length across the way, from the first to the second.
+  double narrower_m = 0.0;  ///< W; 0 where they pass nowhere.
 };
 Passing passing(const Outline& first, const Outline& second, const Vec2& way);
 

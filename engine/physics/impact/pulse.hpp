@@ -27,6 +27,10 @@ struct Ledger {
   double kinetic_j = 0.0, crush_j = 0.0, friction_j = 0.0;
 };
 
+inline Ledger difference(const Ledger& later, const Ledger& earlier) {
+  return {later.kinetic_j - earlier.kinetic_j, later.crush_j - earlier.crush_j, later.friction_j - earlier.friction_j};
+}
+
 struct Pulse {
   Impulse impulse;
   Vec2 normal{1.0, 0.0};

@@ -37,6 +37,11 @@ double mass_kg(const Model& model, const Participant& participant) {
   return vehicle_body(vehicle_models()[participant.model].kind).mass_kg;
 }
 
+double mass_centre_ahead_m(const Model& model, const Participant& participant) {
+  return participant.id == driver_participant ? model.car.body.mass_centre_x_m
+                                              : vehicle_models()[participant.model].centre_x_m();
+}
+
 impact::Side impact_side(const Participant& participant, double mass_kg) {
   const debris::Box box = body_box(participant);
   impact::Side side;

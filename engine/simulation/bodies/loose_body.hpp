@@ -12,6 +12,9 @@ namespace septet::simulation {
 /// else that of their kind (engine/world/bodies.toml).
 double mass_kg(const Model& model, const Participant& participant);
 
+/// Its mass centre ahead of its origin: of the driver's car as its file has it, of others the middle of the outline.
+double mass_centre_ahead_m(const Model& model, const Participant& participant);
+
 /// A participant as a body that can be hit: its outline in plan, and the yaw inertia of an even box of its size.
 impact::Side impact_side(const Participant& participant, double mass_kg);
 

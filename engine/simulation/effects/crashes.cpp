@@ -39,13 +39,15 @@ void note_glass(ParticipantId vehicle, const debris::CrashBody& body, const Vec3
       {vehicle, gone, std::clamp(0.5 + 0.5 * local_m.y / body.box.half_size_m.y, 0.0, 1.0), closing_mps});
 }
 
-void throw_parts(const Participant& car, debris::Crash& blow, const debris::ContactWorld& world, CrashMemory& memory,
-                 debris::State& debris, Random& random, CrashOutcome& outcome) {
+/// Returns the pieces' kinetic energy.
+double throw_parts(const Participant& car, debris::Crash& blow, const debris::ContactWorld& world, CrashMemory& memory,
+                   debris::State& debris, Random& random, CrashOutcome& outcome) {
   const debris::CrashReport report = debris::crash(debris, blow, world, random);
   ++outcome.crashes;
   note_glass(car.id, blow.first, blow.point_m, report.closing_speed_mps, outcome);
   outcome.pieces += static_cast<int>(report.pieces.size());
   memory.parts[car.id] = std::move(blow.first.parts);
+  return report.kinetic_j;
 }
 
 Participant at_touch(const Participant& now, const CrashedVehicle& then) {
@@ -65,7 +67,8 @@ void crash_of_vehicles(const Participant& first, const Participant& second, cons
   blow.second = body_of(at_touch(second, struck.second), struck.second.mass_kg, memory.parts);
   blow.point_m = struck.point_m;
   blow.normal = struck.normal;
-  throw_parts(first, blow, world, memory, debris, random, outcome);
+  const double kinetic_j = throw_parts(first, blow, world, memory, debris, random, outcome);
+  outcome.broken_off.push_back({first.id, second.id, 0, blow.first.impulse_ns, blow.second.impulse_ns, kinetic_j});
   if (first.id == driver) outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   note_glass(second.id, blow.second, blow.point_m, struck.closing_speed_mps, outcome);
   for (const MadeDent& dent : dents_of_crash(first, second, struck)) outcome.dents.push_back(dent);
@@ -86,7 +89,8 @@ void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch
   blow.second.box.world_from_box = {touch.point_m - half_m * touch.normal,
                                     orientation_from_angles(std::atan2(touch.normal.y, touch.normal.x), 0.0, 0.0)};
   blow.second.box.half_size_m = Vec3(half_m);
-  throw_parts(car, blow, world, memory, debris, random, outcome);
+  const double kinetic_j = throw_parts(car, blow, world, memory, debris, random, outcome);
+  outcome.broken_off.push_back({car.id, std::nullopt, touch.run, blow.first.impulse_ns, Vec3(0.0), kinetic_j});
   outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   for (const MadeDent& dent : dents_of_touch(car, touch)) outcome.dents.push_back(dent);
 }

@@ -5,7 +5,9 @@
 /// the same bumper twice. Vehicles take their impacts in simulation/collisions, the driver's car that of obstacles
 /// beside the road in vehicle::advance_hull.
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "engine/effects/debris/crash.hpp"
@@ -49,10 +51,20 @@ struct ShakenGlass {
   double closing_mps = 0.0;
 };
 
+/// What the parts that a crash broke off take of two bodies.
+struct BrokenOff {
+  ParticipantId first = 0;
+  std::optional<ParticipantId> second;  ///< Empty: what stands, of `run`.
+  std::uint32_t run = 0;
+  Vec3 on_first_ns{0.0}, on_second_ns{0.0};
+  double kinetic_j = 0.0;  ///< Of the pieces as they fly off.
+};
+
 struct CrashOutcome {
   int crashes = 0;
   int pieces = 0;
-  Vec3 impulse_on_driver_ns{0.0};  ///< Of parts that broke off.
+  Vec3 impulse_on_driver_ns{0.0};     ///< Of parts that broke off.
+  std::vector<BrokenOff> broken_off;  ///< One a crash, in their order.
   std::vector<ShakenGlass> glass;
   std::vector<MadeDent> dents;
 };

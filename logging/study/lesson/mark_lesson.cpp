@@ -13,8 +13,11 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 
+#include "engine/math/speed_units.hpp"
 #include "logging/study/lesson/lesson.hpp"
+#include "logging/study/measures/crashes.hpp"
 #include "logging/study/measures/glances.hpp"
 #include "logging/study/measures/lane_changes.hpp"
 #include "logging/study/measures/sample_steps.hpp"
@@ -239,6 +242,18 @@ std::vector<Moment> hazards(const DriveSeen& drive) {
   return {{halt_s, drive.samples.back().simulated_time_s - halt_s}};
 }
 
+/// Of the driver's car; 0 without a record that has it.
+double delta_v_of(const std::optional<CrashRecord>& crash) {
+  return crash ? glm::length(crash->of_first.delta_v_mps.value_or(Vec2(0.0))) : 0.0;
+}
+
+std::string blow_text(const CrashedBody& car) {
+  return fmt::format("the hardest changed the car's speed by {:.0f} km/h{}{}",
+                     kmh_per_mps * glm::length(car.delta_v_mps.value_or(Vec2(0.0))),
+                     car.principal_direction_rad ? ", a blow " : "",
+                     car.principal_direction_rad ? whence(*car.principal_direction_rad) : "");
+}
+
 std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
   using Found = std::optional<double>;
   if (drive.samples.empty()) return {};
@@ -283,12 +298,17 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
       break;
   }
   std::vector<Moment> moments{{drive.samples.front().simulated_time_s, 0.0}};
+  const std::vector<CrashRecord> crashes = find_crashes(drive.events);
   double count = 0.0, by_others = 0.0;
+  std::optional<CrashRecord> hardest;
   for (const Event& event : drive.events) {
     if (event.kind != "collision") continue;
     if (event.detail.ends_with("by=other")) ++by_others;
-    moments.push_back({event.simulated_time_s, ++count,
-                       by_others > 0.0 ? fmt::format("{:.0f} of them ran into the pupil's car", by_others) : ""});
+    if (auto crash = crash_of(event, crashes); crash && delta_v_of(crash) > delta_v_of(hardest))
+      hardest = std::move(*crash);
+    std::string told = by_others > 0.0 ? fmt::format("{:.0f} of them ran into the pupil's car", by_others) : "";
+    if (hardest) told += (told.empty() ? "" : "; ") + blow_text(hardest->of_first);
+    moments.push_back({event.simulated_time_s, ++count, std::move(told)});
   }
   return moments;
 }

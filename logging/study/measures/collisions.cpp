@@ -4,6 +4,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "logging/study/measures/crashes.hpp"
+
 namespace septet::logging {
 namespace {
 
@@ -25,10 +27,11 @@ std::optional<double> number_in_detail(const std::string& detail, const std::str
 
 std::vector<Collision> find_collisions(std::span<const Event> events) {
   std::vector<Collision> collisions;
+  const std::vector<CrashRecord> crashes = find_crashes(events);
   for (const Event& event : events)
     if (event.kind == "collision")
-      collisions.push_back(
-          {event.simulated_time_s, event.participant, number_in_detail(event.detail, "closing_speed_mps")});
+      collisions.push_back({event.simulated_time_s, event.participant,
+                            number_in_detail(event.detail, "closing_speed_mps"), crash_of(event, crashes)});
   return collisions;
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 
 #include "logging/study/measures/order_statistics.hpp"
 
@@ -203,6 +204,17 @@ void list_incidents(const DriveMeasures& m, const MeasureSettings& settings, Lis
   list.of(collisions.size() - unknown, unknown);
   list.add("collision_closing_speed_largest_mps", "Collisions, largest closing speed", "m/s", largest_mps,
            "Of the two bodies towards each other, as the log's event has it.");
+  std::optional<double> delta_v_mps;
+  std::size_t measured = 0;
+  for (const Collision& collision : collisions) {
+    if (!collision.crash || !collision.crash->of_first.delta_v_mps) continue;
+    ++measured;
+    delta_v_mps = std::max(delta_v_mps.value_or(0.0), glm::length(*collision.crash->of_first.delta_v_mps));
+  }
+  list.of(measured, collisions.size() - measured);
+  list.add("collision_delta_v_largest_mps", "Collisions, largest ΔV", "m/s", delta_v_mps,
+           "Change of the velocity of the car's mass centre from the touch to the last push, wheels included, as the "
+           "log's record of the crash has it.");
   std::vector<double> times_s;
   std::size_t already = 0, censored = 0;
   for (const BrakeReaction& reaction : m.brake_reactions) {

@@ -9,6 +9,8 @@
 #include "engine/document/markup.hpp"
 #include "engine/document/text_file.hpp"
 #include "logging/session/subject.hpp"
+#include "logging/study/measures/crashes.hpp"
+#include "logging/study/report/crash_section.hpp"
 #include "logging/study/report/event_section.hpp"
 #include "logging/study/report/lateral_histogram_chart.hpp"
 #include "logging/study/report/measure_table.hpp"
@@ -261,6 +263,7 @@ std::string to_html(const ReportData& data) {
   else
     body += route_chart(data, events) + speed_chart(data, measures, events) + lateral_position_chart(data, measures) +
             histogram_chart(measures) + measure_table(measures, data.settings);
+  body += crash_section(find_crashes(data.events), data.info.ticks_per_second);
   body += picture_section(data.pictures) + answer_table(data.answers) + event_table(events) + screen_table(data);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "

@@ -1,9 +1,13 @@
 #include "logging/study/report/summary.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/document/text_file.hpp"
 #include "logging/session/outcome_json.hpp"
+#include "logging/study/measures/crashes.hpp"
 #include "logging/study/measures/sample_steps.hpp"
 #include "logging/study/report/measure_json.hpp"
 
@@ -40,6 +44,23 @@ void add_measures(const DriveMeasures& m, Json& json) {
   json["measures"] = measures_json(m, {});
 }
 
+/// The words of a record as they stand in the log (FORMAT.md): numbers as numbers, the pulse as pairs.
+Json crash_json(const CrashRecord& crash) {
+  Json json = {{"first", crash.first}};
+  const std::string text = text_of(crash);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size()), equals = text.find('=', at);
+    const std::string key = text.substr(at, equals - at), value = text.substr(equals + 1, end - equals - 1);
+    at = end + 1;
+    if (key == "stands")
+      json[key] = crash.stands;
+    else if (key != "pulse_ns")
+      json[key] = Json::parse(value);
+  }
+  for (const Vec2& push : crash.pulse_ns) json["pulse_ns"].push_back({number(push.x), number(push.y)});
+  return json;
+}
+
 }  // namespace
 
 Json answers_json(const std::vector<QuestionnaireRecord>& answers) {
@@ -64,6 +85,7 @@ Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader) {
   DriveSummary::FromLog log{*missing, compute_drive_measures(*records), {}, *answers};
   leave_out_impossible(log.answers, log.measures.impossible);
   for (const Event& event : records->events) ++log.events[event.kind];
+  log.crashes = find_crashes(records->events);
   return log;
 }
 
@@ -83,6 +105,8 @@ std::string to_json(const DriveSummary& s) {
     json["log"]["impossible"] = impossible.any() ? Json(told(impossible)) : Json(nullptr);
     add_measures(s.log->measures, json);
     json["events"] = s.log->events;
+    json["crashes"] = Json::array();
+    for (const CrashRecord& crash : s.log->crashes) json["crashes"].push_back(crash_json(crash));
     json["answers"] = answers_json(s.log->answers);
   }
   return document::text_of(json);

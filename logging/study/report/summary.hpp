@@ -31,6 +31,7 @@ struct DriveSummary {
     DriveMeasures measures;
     std::map<std::string, std::uint64_t> events;  ///< By kind.
     std::vector<QuestionnaireRecord> answers;     ///< Rows of questionnaires, and of a drop-out of the driver.
+    std::vector<CrashRecord> crashes;             ///< By the time of their touch.
   };
   std::optional<FromLog> log;
 };

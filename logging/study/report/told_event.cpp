@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/document/table_line.hpp"
+#include "logging/study/measures/crashes.hpp"
 
 namespace septet::logging {
 namespace {
@@ -35,6 +36,7 @@ Row row_of(std::string_view kind) {
                                                     {"game", games},
                                                     {"collision", collisions},
                                                     {"crash_of_others", collisions},
+                                                    {crash_event, collisions},
                                                     {"kerb", collisions},
                                                     {"wheel_damage", collisions},
                                                     {"mirror_glance", glances},
@@ -148,6 +150,8 @@ std::string text_of(const Event& event) {
   if (event.kind == "mirror_glance") return glance_text(event);
   if (event.kind == "collision") return collision_text(event);
   if (event.kind == "crash_of_others") return crash_of_others_text(event);
+  if (event.kind == crash_event && event.participant)
+    if (const auto crash = read_crash(*event.participant, event.detail)) return "crash: " + crash_text(*crash);
   if (event.kind == "screen") return event.detail;
   if (event.kind == "speed_limit")
     if (const auto kmh = value_of(event.detail, "kmh"))

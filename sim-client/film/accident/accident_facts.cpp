@@ -11,6 +11,7 @@
 
 #include "logging/session/participants.hpp"
 #include "logging/study/measures/collisions.hpp"
+#include "logging/study/measures/crashes.hpp"
 
 namespace septet::film {
 namespace {
@@ -108,9 +109,12 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
   if (!driver) return tl::unexpected(driver.error());
   const auto events = session.events();
   if (!events) return tl::unexpected(events.error());
-  for (const logging::Event& one : *events)
-    if (tells_contact(one) && one.simulated_time_s >= span_s->first && one.simulated_time_s <= span_s->second)
-      facts.contacts.push_back(contact_of(one, *driver));
+  const auto crashes = logging::find_crashes(*events);
+  for (const logging::Event& one : *events) {
+    if (!tells_contact(one) || one.simulated_time_s < span_s->first || one.simulated_time_s > span_s->second) continue;
+    facts.contacts.push_back(contact_of(one, *driver));
+    facts.contacts.back().crash = logging::crash_of(one, crashes);
+  }
   std::ranges::stable_sort(facts.contacts, {}, &Contact::time_s);
   if (event && (*event < 1 || *event > facts.contacts.size()))
     return failure(facts.contacts.empty() ? std::string("the log tells of no contact")

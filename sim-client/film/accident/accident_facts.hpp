@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/world/crash_record.hpp"
 #include "engine/world/vehicle_model.hpp"
 #include "logging/session/session_reader.hpp"
 
@@ -29,6 +30,7 @@ struct Contact {
   std::optional<ParticipantId> second;             ///< Empty: something that stands, which is `stands`.
   std::string stands;                              ///< "guard rail", "tree", …
   std::optional<double> closing_mps, delta_v_mps;  ///< The latter of the first. Empty: the event does not tell it.
+  std::optional<CrashRecord> crash = {};           ///< What it came to, where the log has that.
 };
 
 /// A participant at an instant.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -158,6 +159,40 @@ std::string what_happens(const AccidentFacts& facts) {
   return "no contact: " + first + " alone";
 }
 
+/// Of the first: as the record of the crash has it, else as its touch foresaw it.
+std::optional<double> delta_v_of(const Contact& contact) {
+  if (contact.crash && contact.crash->of_first.delta_v_mps) return glm::length(*contact.crash->of_first.delta_v_mps);
+  return contact.delta_v_mps;
+}
+
+/// Figures of the crash's record that were measured.
+void add_crash_figures(const AccidentFacts& facts, const CrashRecord& crash, std::vector<Figure>& figures) {
+  const auto add = [&](const std::string& name, const char* unit, const std::optional<double>& value, double times) {
+    if (value) figures.push_back({name, unit, times * *value, "logged record of the crash, computed"});
+  };
+  add("overlap, of the narrower one", "%", crash.overlap_share, 100.0);
+  const CrashedBody* bodies[] = {&crash.of_first, &crash.of_second};
+  for (std::size_t i = 0; i < std::min(facts.involved.size(), std::size(bodies)); ++i) {
+    const CrashedBody& body = *bodies[i];
+    const std::string name = short_name(facts.involved[i]);
+    const auto delta_v_mps = body.delta_v_mps ? std::optional(glm::length(*body.delta_v_mps)) : std::nullopt;
+    add(name + ", change of velocity in the crash (ΔV), wheels included", "km/h", delta_v_mps, kmh_per_mps);
+    add(name + ", principal direction: whence the blow came, 0 ahead, 90 left", "°", body.principal_direction_rad,
+        1.0 / per_degree);
+    add(name + ", change of yaw rate", "°/s", body.delta_yaw_rate_radps, 1.0 / per_degree);
+    add(name + ", crush", "m", body.crush_m, 1.0);
+  }
+  if (!crash.ledger) return;
+  const CrashLedger& ledger = *crash.ledger;
+  constexpr double kilo = 1e-3;
+  add("kinetic energy before", "kJ", ledger.kinetic_before_j, kilo);
+  add("kinetic energy after", "kJ", ledger.kinetic_after_j, kilo);
+  add("energy of the crush", "kJ", ledger.crush_j, kilo);
+  add("energy of friction", "kJ", ledger.friction_j, kilo);
+  add("energy of debris", "kJ", ledger.debris_j, kilo);
+  add("energy to wheels and other contacts", "kJ", ledger.wheels_j, kilo);
+}
+
 void add_figures(const AccidentFacts& facts, AccidentPlan& plan, double contact_s) {
   const auto add = [&](const std::string& name, const char* unit, double value, const char* origin) {
     plan.figures.push_back({name, unit, value, origin});
@@ -166,7 +201,8 @@ void add_figures(const AccidentFacts& facts, AccidentPlan& plan, double contact_
     const Contact& contact = facts.contacts[*facts.chosen];
     add("instant of the contact", "s", contact.time_s, "logged event");
     if (contact.closing_mps) add("closing speed", "km/h", kmh_per_mps * *contact.closing_mps, "logged event, computed");
-    if (contact.delta_v_mps)
+    if (contact.crash) add_crash_figures(facts, *contact.crash, plan.figures);
+    if (contact.delta_v_mps && !(contact.crash && contact.crash->of_first.delta_v_mps))
       add(short_name(facts.involved.front()) + ", change of velocity by the contact (ΔV)", "km/h",
           kmh_per_mps * *contact.delta_v_mps, "logged event, computed");
   } else if (facts.nearest_s) {
@@ -259,9 +295,8 @@ AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, dou
   std::string told = facts.chosen ? "The contact" : "The nearest approach";
   if (contact && contact->closing_mps)
     told += fmt::format(": closing at {:.0f} km/h", kmh_per_mps * *contact->closing_mps);
-  if (contact && contact->delta_v_mps)
-    told +=
-        fmt::format(", velocity of {} changed by {:.0f} km/h", short_name(first), kmh_per_mps * *contact->delta_v_mps);
+  if (const auto delta_v_mps = contact ? delta_v_of(*contact) : std::nullopt)
+    told += fmt::format(", velocity of {} changed by {:.0f} km/h", short_name(first), kmh_per_mps * *delta_v_mps);
   planner.add_clear(slow, told + ".");
   Shot beside{.from_s = planner.window_from(0.5),
               .to_s = planner.window_to(1.0),

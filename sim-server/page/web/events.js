@@ -18,6 +18,19 @@ function wish_words(values) {
     : [wish, ...Object.entries(values).filter(([name]) => name !== 'by' && name !== 'wish').map(([name, value]) => `${name.replaceAll('_', ' ')} ${value}`)].join(' ');
 }
 
+/// What a crash came to: each one's ΔV, and whence the blow came.
+function crash_words(values) {
+  const side = (before) => {
+    const x = Number(values[`${before}delta_v_x_mps`]), y = Number(values[`${before}delta_v_y_mps`]), whence = Number(values[`${before}principal_direction_rad`]);
+    if (!Number.isFinite(x + y + whence)) return '';
+    const eighth = ((Math.round(whence / (Math.PI / 4)) % 8) + 8) % 8;
+    return t('event.crash_side', { kmh: kmh_of(Math.hypot(x, y)), whence: t(`whence.${eighth}`) });
+  };
+  const sides = [side(''), side('its_')];
+  const told = t('event.crash', { kmh: kmh_of(values.closing_speed_mps || 0), other: values.with ? values.with : heard((values.stands || '').replaceAll('_', ' ')) });
+  return [told, sides[0], sides[1] && `${values.with}: ${sides[1]}`].filter(Boolean).join('; ');
+}
+
 function event_words({ kind, values = {}, text }) {
   const by = values.by ? ` (${values.by === 'operator' ? t('event.operator') : values.by})` : '';
   if (kind === 'message') return heard(text);
@@ -26,6 +39,7 @@ function event_words({ kind, values = {}, text }) {
   if (kind === 'word') return t('event.word', { text: values.text || '' }) + by;
   if (kind === 'rating') return t('event.rating', { value: values.value || '' }) + by;
   if (kind === 'collision') return t(values.what ? 'event.collision' : 'event.collision_somebody', { what: heard(values.what || ''), kmh: kmh_of(values.closing_speed_mps || 0) });
+  if (kind === 'crash') return crash_words(values);
   if (kind === 'kerb') return t('event.kerb', { kmh: kmh_of(values.speed_mps || 0) });
   if (kind === 'wheel_damage') return t('event.wheel_damage', { wheel: t(`wheel.${values.wheel}`) });
   if (kind === 'lane_change') return t((values.lanes_to_left || '').startsWith('-') ? 'event.lane_change_right' : 'event.lane_change_left');

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -117,6 +119,32 @@ TEST_CASE(
   CHECK(closing->value == doctest::Approx(54.0));
   CHECK(text_of(planned(folder, {collision(6.0, 2, "closing_speed_mps=15.00 delta_v_mps=7.50")}, true).plan.script) ==
         text_of(plan.script));
+}
+
+TEST_CASE("a contact whose record the log has brings its figures, and what was not measured brings none") {
+  const TemporaryFolder folder;
+  CrashRecord crash;
+  crash.tick = 720;
+  crash.first = 1;
+  crash.second = 2;
+  crash.closing_speed_mps = 15.0;
+  crash.of_first.delta_v_mps = Vec2(-8.0, 6.0);
+  crash.of_first.principal_direction_rad = 0.5 * std::numbers::pi;
+  crash.ledger = CrashLedger{200e3, 120e3, 70e3, 6e3, 500.0, 3500.0};
+  const logging::Event record{734, 6.12, std::string(crash_event), 1, text_of(crash)};
+  const auto one = planned(folder, {collision(6.0, 2, "closing_speed_mps=15.00 delta_v_mps=7.50"), record}, true);
+  const auto figure = [&](const std::string& name) {
+    const auto found = std::ranges::find_if(
+        one.plan.figures, [&](const Figure& each) { return each.name.find(name) != std::string::npos; });
+    return found == one.plan.figures.end() ? std::optional<double>() : std::optional(found->value);
+  };
+  CHECK(figure("ego, change of velocity in the crash").value_or(0.0) == doctest::Approx(36.0));
+  CHECK(figure("ego, principal direction").value_or(0.0) == doctest::Approx(90.0));
+  CHECK(figure("energy of the crush").value_or(0.0) == doctest::Approx(70.0));
+  CHECK_FALSE(figure("crosser, change of velocity").has_value());
+  CHECK_FALSE(figure("by the contact").has_value());
+  CHECK_FALSE(figure("overlap").has_value());
+  CHECK_FALSE(figure(", crush").has_value());
 }
 
 TEST_CASE("from above all of both ways lies within the picture") {

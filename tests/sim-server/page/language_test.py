@@ -14,7 +14,7 @@ import tomllib
 
 # Keys that are put together when they are needed: a drive's end, a condition of the weather, a sentence of the server,
 # a drive's title.
-MADE = ("end.", "condition.", "preset.", "said.", "severity.", "event.", "carfault.", "wheel.", "scenario.", "about.")
+MADE = ("whence.", "end.", "condition.", "preset.", "said.", "severity.", "event.", "carfault.", "wheel.", "scenario.", "about.")
 
 
 def once(pairs):

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,11 +11,17 @@
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 #include "tests/why_not.hpp"
 
 namespace septet::simulation {
 namespace {
+
+std::optional<CrashRecord> record_among(const std::vector<Event>& events) {
+  const auto found = std::ranges::find(events, crash_event, &Event::kind);
+  return found == events.end() ? std::nullopt : read_crash(*found->participant, found->detail);
+}
 
 /// The state, saved and restored.
 State restored(const server::LoadedDrive& drive, const State& state) {
@@ -112,6 +119,17 @@ TEST_CASE("a drive that is saved while the car runs into traffic goes on with th
   REQUIRE(event != events.end());
   const double told_mps = std::stod(event->detail.substr(event->detail.find("delta_v_mps=") + 12));
   CHECK(told_mps > 5.0);
+  // Saved in the middle, the record is the same; what broke off is in its ledger.
+  const auto record = record_among(events);
+  REQUIRE(record.has_value());
+  CHECK(record_among(others) == record);
+  CHECK(record->second == struck);
+  REQUIRE(record->ledger.has_value());
+  CHECK(record->pieces_kinetic_j.value_or(0.0) > 0.0);
+  CHECK(record->ledger->debris_j != 0.0);
+  MESSAGE(text_of(*record) << "; missing " << share_missing(*record->ledger));
+  CHECK(share_missing(*record->ledger) < 0.001);
+  CHECK(glm::length(*record->of_first.delta_v_mps) == relative(told_mps, 0.2));
 }
 
 TEST_CASE("a drive that is saved while the car crashes into a barrier goes on with the same hashes") {
@@ -151,6 +169,18 @@ TEST_CASE("a drive that is saved while the car crashes into a barrier goes on wi
   }
   CHECK(!runs());
   CHECK(std::ranges::count(events, "collision", &Event::kind) > 0);
+  const auto record = record_among(events);
+  REQUIRE(record.has_value());
+  CHECK(record_among(others) == record);
+  CHECK(record->stands == "guard rail");
+  CHECK_FALSE(record->of_second.mass_kg.has_value());
+  REQUIRE(record->ledger.has_value());
+  MESSAGE(text_of(*record) << "; missing " << share_missing(*record->ledger));
+  CHECK(share_missing(*record->ledger) < 0.001);
+  CHECK(record->of_first.crush_m.value_or(0.0) > 0.05);
+  // Whence it came is the rail's side of the car.
+  const double wall_rad = record->normal_rad - std::atan2(across.y, across.x) - 0.3;
+  CHECK(std::abs(std::remainder(*record->of_first.principal_direction_rad - wall_rad, 6.283185307179586)) < 0.7);
 }
 
 }  // namespace septet::simulation

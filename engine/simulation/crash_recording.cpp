@@ -1,0 +1,160 @@
+#include "engine/simulation/crash_recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace septet::simulation {
+namespace {
+
+constexpr Tick quiet_ticks = 6;  ///< 50 ms without a push: the impact is over.
+constexpr Tick longest_ticks = 120;
+static_assert(longest_ticks < most_pulse_ticks);
+/// A record of less is not told: bodies that lean on each other.
+constexpr double least_mps = 0.5;
+
+double kinetic_j(const impact::Body& body) {
+  impact::Body at_rest = body;
+  at_rest.velocity_mps = Vec2(0.0);
+  at_rest.yaw_rate_radps = 0.0;
+  return impact::kinetic_loss_j(body, at_rest);
+}
+
+void note_body(const impact::Body& body, double ahead_m, CrashedBody& told) {
+  told.mass_kg = body.mass_kg;
+  told.yaw_inertia_kgm2 = body.yaw_inertia_kgm2;
+  told.mass_centre_ahead_m = ahead_m;
+  told.before_mps = body.velocity_mps;
+  told.yaw_rate_before_radps = body.yaw_rate_radps;
+}
+
+void tell_change(const impact::Body& before, const impact::Body& after, CrashedBody& told) {
+  told.delta_v_mps = after.velocity_mps - before.velocity_mps;
+  told.delta_yaw_rate_radps = after.yaw_rate_radps - before.yaw_rate_radps;
+  if (*told.delta_v_mps == Vec2(0.0)) return;
+  const Vec2 whence = turned(-*told.delta_v_mps, -before.heading_rad);
+  told.principal_direction_rad = std::atan2(whence.y, whence.x);
+}
+
+CrashRecord finished(const OpenCrash& crash) {
+  CrashRecord record = crash.record;
+  record.ticks = static_cast<std::uint32_t>(crash.last_push - record.tick);
+  if (crash.first_moves) tell_change(crash.first_at, crash.first, record.of_first);
+  if (crash.second_moves) tell_change(crash.second_at, crash.second, record.of_second);
+  if (!crash.has_ledger) return record;
+  CrashLedger& ledger = record.ledger.emplace();
+  ledger.kinetic_before_j = kinetic_j(crash.first_at) + kinetic_j(crash.second_at);
+  ledger.kinetic_after_j = kinetic_j(crash.first) + kinetic_j(crash.second);
+  ledger.crush_j = crash.of_contact.crush_j;
+  ledger.friction_j = crash.of_contact.friction_j;
+  ledger.debris_j = crash.debris_j;
+  ledger.wheels_j = crash.wheels_j;
+  return record;
+}
+
+bool is_over(const OpenCrash& crash, Tick now) {
+  return now > crash.last_push + quiet_ticks || now >= crash.record.tick + longest_ticks;
+}
+
+bool is_worth_telling(const CrashRecord& record) {
+  const auto speed = [](const CrashedBody& body) { return glm::length(body.delta_v_mps.value_or(Vec2(0.0))); };
+  return std::max({record.closing_speed_mps, speed(record.of_first), speed(record.of_second)}) >= least_mps;
+}
+
+/// By how much cuts have taken an outline back along a way that turns with it.
+double crush_m(const impact::Side& side, const impact::Cuts& cuts, const impact::Body& at_touch, const Vec2& way) {
+  return impact::crushed_off_m(side.outline, cuts, turned(way, side.body.heading_rad - at_touch.heading_rad));
+}
+
+}  // namespace
+
+OpenCrash& open_crash(const CrashTouch& touch, State& state) {
+  OpenCrash& crash = state.open_crashes.emplace_back();
+  crash.record.tick = crash.last_push = state.tick;
+  crash.record.first = touch.first;
+  crash.record.second = touch.second;
+  crash.record.point_m = Vec3(touch.place.point_m, touch.height_m);
+  crash.record.normal_rad = std::atan2(touch.place.normal.y, touch.place.normal.x);
+  crash.record.closing_speed_mps = touch.closing_mps;
+  return crash;
+}
+
+OpenCrash* find_open_crash(State& state, ParticipantId first, ParticipantId second) {
+  const auto found = std::ranges::find_if(state.open_crashes, [&](const OpenCrash& crash) {
+    return crash.record.first == first && crash.record.second == second;
+  });
+  return found == state.open_crashes.end() ? nullptr : &*found;
+}
+
+OpenCrash* find_open_crash_with_run(State& state, std::uint32_t run) {
+  const auto found = std::ranges::find_if(
+      state.open_crashes, [&](const OpenCrash& crash) { return !crash.record.second && crash.run == run; });
+  return found == state.open_crashes.end() ? nullptr : &*found;
+}
+
+void note_first(const impact::Body& body, double ahead_m, bool is_pushed, OpenCrash& crash) {
+  crash.first = crash.first_at = body;
+  crash.first_moves = is_pushed;
+  note_body(body, ahead_m, crash.record.of_first);
+}
+
+void note_second(const impact::Body& body, double ahead_m, bool is_pushed, OpenCrash& crash) {
+  crash.second = crash.second_at = body;
+  crash.second_moves = is_pushed;
+  note_body(body, ahead_m, crash.record.of_second);
+}
+
+void note_overlap(const impact::Side& first, const impact::Side& second, OpenCrash& crash) {
+  const Vec2 approach_mps = impact::relative_velocity_at(first.body, second.body, Vec2(crash.record.point_m));
+  const impact::Passing past = impact::passing(first.outline, second.outline, approach_mps);
+  if (!(past.narrower_m > 0.0)) return;
+  crash.record.overlap_m = std::min(past.aside_m, past.narrower_m);
+  crash.record.overlap_share = *crash.record.overlap_m / past.narrower_m;
+}
+
+void note_push(Tick now, const CrashPush& push, OpenCrash& crash) {
+  crash.wheels_j += impact::kinetic_loss_j(crash.first, push.first) +
+                    impact::kinetic_loss_j(crash.second, push.second) - push.work.kinetic_j - push.debris_j;
+  crash.first = push.first;
+  crash.second = push.second;
+  crash.of_contact.kinetic_j += push.work.kinetic_j;
+  crash.of_contact.crush_j += push.work.crush_j;
+  crash.of_contact.friction_j += push.work.friction_j;
+  crash.debris_j += push.debris_j;
+  crash.last_push = now;
+  if (!push.on_second_ns) return;
+  std::vector<Vec2>& pulse_ns = crash.record.pulse_ns;
+  pulse_ns.resize(std::max<std::size_t>(pulse_ns.size(), now - crash.record.tick + 1), Vec2(0.0));
+  pulse_ns[now - crash.record.tick] += *push.on_second_ns;
+}
+
+void note_broken_off(const BrokenOff& broken, const impact::Body& before, const impact::Body& after, State& state) {
+  OpenCrash* crash = broken.second ? find_open_crash(state, broken.first, *broken.second)
+                                   : find_open_crash_with_run(state, broken.run);
+  if (!crash) return;
+  crash->record.pieces_kinetic_j = crash->record.pieces_kinetic_j.value_or(0.0) + broken.kinetic_j;
+  if (broken.first != driver_participant || !crash->first_moves) return;
+  CrashPush push{.first = after, .second = crash->second};
+  push.debris_j = -0.5 * glm::dot(Vec2(broken.on_first_ns), before.velocity_mps + after.velocity_mps);
+  note_push(state.tick, push, *crash);
+}
+
+void note_crush(const impact::Engagement& engagement, const impact::Side& first, const impact::Side& second,
+                OpenCrash& crash) {
+  const Vec2 normal(std::cos(crash.record.normal_rad), std::sin(crash.record.normal_rad));
+  if (crash.first_moves) crash.record.of_first.crush_m = crush_m(first, engagement.first, crash.first_at, normal);
+  if (crash.second_moves) crash.record.of_second.crush_m = crush_m(second, engagement.second, crash.second_at, -normal);
+}
+
+void close_crashes(State& state, std::vector<Event>& events) {
+  for (const OpenCrash& crash : state.open_crashes) {
+    if (!is_over(crash, state.tick)) continue;
+    const CrashRecord record = finished(crash);
+    if (is_worth_telling(record)) events.push_back({std::string(crash_event), record.first, text_of(record)});
+  }
+  std::erase_if(state.open_crashes, [&](const OpenCrash& crash) { return is_over(crash, state.tick); });
+}
+
+}  // namespace septet::simulation

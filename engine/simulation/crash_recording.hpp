@@ -1,0 +1,61 @@
+#pragma once
+/// Crashes as they are recorded: from the touch until their impact is over, one record for all
+/// (engine/world/crash_record.hpp), told as the event `crash`.
+///
+/// Those who push bodies (collisions, the car's hull, thrown people, pieces that break off) tell it of each push; it
+/// changes nothing of the drive. A record is closed when nothing has pushed for 50 ms, and after a second at the latest:
+/// what touches longer slides, or leans.
+
+#include <optional>
+#include <vector>
+
+#include "engine/physics/impact/meet.hpp"
+#include "engine/simulation/state.hpp"
+
+namespace septet::simulation {
+
+/// Two sides at their touch, and where it is.
+struct CrashTouch {
+  ParticipantId first = 0;
+  std::optional<ParticipantId> second;
+  impact::Place place;
+  double height_m = 0.0;  ///< Of the point.
+  double closing_mps = 0.0;
+};
+
+/// Begins a record; the bodies' numbers, and what the outlines tell, are for the caller to add.
+OpenCrash& open_crash(const CrashTouch& touch, State& state);
+
+/// The record that runs between these two; null where there is none.
+OpenCrash* find_open_crash(State& state, ParticipantId first, ParticipantId second);
+/// Likewise of the driver's car and what stands.
+OpenCrash* find_open_crash_with_run(State& state, std::uint32_t run);
+
+/// Notes a side at the touch. `ahead_m`: of its mass centre from the vehicle's origin; `is_pushed`: its pushes will be
+/// noted, and so its motion is known from now on.
+void note_first(const impact::Body& body, double ahead_m, bool is_pushed, OpenCrash& crash);
+void note_second(const impact::Body& body, double ahead_m, bool is_pushed, OpenCrash& crash);
+/// Notes how wide both meet, seen along their approach.
+void note_overlap(const impact::Side& first, const impact::Side& second, OpenCrash& crash);
+
+/// A push of this contact, or of pieces that it broke off: as it has left both, with what it gave the second.
+struct CrashPush {
+  impact::Body first, second;
+  std::optional<Vec2> on_second_ns;
+  impact::Ledger work;
+  double debris_j = 0.0;
+};
+void note_push(Tick now, const CrashPush& push, OpenCrash& crash);
+
+/// How far the engagement has crushed both along the record's normal, which turns with each.
+void note_crush(const impact::Engagement& engagement, const impact::Side& first, const impact::Side& second,
+                OpenCrash& crash);
+
+/// Notes what broke off of a running crash. The driver's car is pushed by it, from `before` to `after`; others keep
+/// their motion.
+void note_broken_off(const BrokenOff& broken, const impact::Body& before, const impact::Body& after, State& state);
+
+/// Tells of the records that are over, and drops them.
+void close_crashes(State& state, std::vector<Event>& events);
+
+}  // namespace septet::simulation

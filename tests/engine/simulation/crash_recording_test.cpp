@@ -1,0 +1,212 @@
+// What the record of a crash tells is what the bodies did: their changes of motion, the crush, the energies.
+
+#include "engine/simulation/crash_recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/physics/impact/outline.hpp"
+#include "tests/engine/simulation/crash_site.hpp"
+#include "tests/relative.hpp"
+
+namespace septet::simulation {
+namespace {
+
+constexpr ParticipantId first_other = first_scripted_participant + 1;
+constexpr double quarter_rad = 0.5 * 3.141592653589793;
+
+struct Pair {
+  const char* name;
+  const char* first_model;
+  double first_mps;
+  const char* second_model;
+  double x_m, y_m, heading_rad, second_mps;
+};
+const std::vector<Pair> pairs{{"rear end", "saloon", 14.0, "saloon", 8.0, 0.3, 0.0, 0.0},
+                              {"into the side", "saloon", 13.5, "saloon", 11.0, -9.0, quarter_rad, 12.0},
+                              {"offset head-on", "saloon", 15.0, "van", 30.0, 0.9, 2.0 * quarter_rad, 10.0},
+                              {"oblique", "van", 18.0, "saloon", 16.0, -5.0, 0.6, 8.0},
+                              {"lorry behind", "lorry", 12.0, "saloon", 14.0, -0.5, 0.0, 3.0},
+                              {"a slow one", "saloon", 1.5, "saloon", 5.2, 0.0, 0.0, 0.0}};
+
+/// A pair that has crashed, with both bodies before the touch and after the last push.
+struct Crashed {
+  CrashRecord record;
+  impact::Body before[2], after[2];
+  double deepest_m = 0.0;  ///< Overlap of the whole outlines along the record's normal.
+};
+
+std::optional<CrashRecord> record_among(const std::vector<Event>& events) {
+  const auto found = std::ranges::find(events, crash_event, &Event::kind);
+  return found == events.end() ? std::nullopt : read_crash(*found->participant, found->detail);
+}
+
+Crashed crashed(CrashSite& site, bool with_wheels, std::size_t first, std::size_t second) {
+  Crashed pair;
+  std::vector<std::array<impact::Body, 2>> bodies;
+  std::vector<std::array<impact::Outline, 2>> outlines;
+  for (int i = 0; i < 600 && site.count(crash_event) == 0; ++i) {
+    site.tick(with_wheels);
+    const Participant &a = site.participants[first], &b = site.participants[second];
+    bodies.push_back({site.body_of(a), site.body_of(b)});
+    outlines.push_back({impact_side(a, 1.0).outline, impact_side(b, 1.0).outline});
+  }
+  const auto record = record_among(site.events);
+  REQUIRE(record.has_value());
+  pair.record = *record;
+  for (std::size_t i = 0; i < 2; ++i) {
+    pair.before[i] = bodies[record->tick - 2][i];
+    pair.after[i] = bodies[record->tick + record->ticks - 1][i];
+  }
+  const Vec2 normal(std::cos(record->normal_rad), std::sin(record->normal_rad));
+  for (Tick tick = record->tick; tick <= record->tick + record->ticks; ++tick) {
+    const auto& [a, b] = outlines[tick - 1];
+    pair.deepest_m = std::max(pair.deepest_m, impact::reach_m(a, normal) + impact::reach_m(b, -normal) -
+                                                  glm::dot(b.centre_m - a.centre_m, normal));
+  }
+  return pair;
+}
+
+CrashSite site_of(const Pair& pair) {
+  return CrashSite(
+      {placed_participant(first_other, pair.first_model, 0.0, 0.0, 0.0, pair.first_mps),
+       placed_participant(first_other + 1, pair.second_model, pair.x_m, pair.y_m, pair.heading_rad, pair.second_mps)});
+}
+
+}  // namespace
+
+TEST_CASE("the ledger of every pair closes to 0.1 %, each part reckoned by itself, wheels or none") {
+  for (const Pair& pair : pairs)
+    for (const bool with_wheels : {true, false}) {
+      CAPTURE(std::string(pair.name));
+      CrashSite site = site_of(pair);
+      const Crashed told = crashed(site, with_wheels, 1, 2);
+      REQUIRE(told.record.ledger.has_value());
+      const CrashLedger& ledger = *told.record.ledger;
+      MESSAGE(std::string(pair.name) << ": kinetic " << ledger.kinetic_before_j << " to " << ledger.kinetic_after_j
+                                     << " J, crush " << ledger.crush_j << ", friction " << ledger.friction_j
+                                     << ", wheels " << ledger.wheels_j << ", missing " << share_missing(ledger));
+      CHECK(share_missing(ledger) < 0.001);
+      CHECK(ledger.crush_j > 0.0);
+      if (with_wheels)
+        CHECK(ledger.wheels_j > 0.0);
+      else
+        CHECK(std::abs(ledger.wheels_j) < 1e-6 * ledger.kinetic_before_j);
+      // The kinetic energies are those of the bodies' own motion.
+      const auto kinetic_j = [](const impact::Body* bodies) {
+        double sum_j = 0.0;
+        for (const impact::Body* body : {bodies, bodies + 1})
+          sum_j += 0.5 * body->mass_kg * glm::dot(body->velocity_mps, body->velocity_mps) +
+                   0.5 * body->yaw_inertia_kgm2 * body->yaw_rate_radps * body->yaw_rate_radps;
+        return sum_j;
+      };
+      CHECK(ledger.kinetic_before_j == relative(kinetic_j(told.before), 1e-6));
+      CHECK(ledger.kinetic_after_j == relative(kinetic_j(told.after), 1e-6));
+    }
+}
+
+TEST_CASE("changes of velocity and of yaw rate are those of the bodies, and the pulse is their momentum") {
+  for (const Pair& pair : pairs) {
+    CAPTURE(std::string(pair.name));
+    CrashSite site = site_of(pair);
+    const Crashed told = crashed(site, false, 1, 2);
+    const CrashedBody* sides[] = {&told.record.of_first, &told.record.of_second};
+    for (std::size_t i = 0; i < 2; ++i) {
+      REQUIRE(sides[i]->delta_v_mps.has_value());
+      CHECK(glm::distance(*sides[i]->delta_v_mps, told.after[i].velocity_mps - told.before[i].velocity_mps) < 1e-6);
+      CHECK(std::abs(*sides[i]->delta_yaw_rate_radps - told.after[i].yaw_rate_radps + told.before[i].yaw_rate_radps) <
+            1e-6);
+      CHECK(*sides[i]->mass_kg == told.before[i].mass_kg);
+    }
+    const auto impulse = impulse_ns(told.record);
+    REQUIRE(impulse.has_value());
+    CHECK(told.record.pulse_ns.size() == told.record.ticks + 1);
+    const Vec2 second_ns = *told.record.of_second.mass_kg * *told.record.of_second.delta_v_mps;
+    CHECK(glm::distance(*impulse, second_ns) < 1e-4 * glm::length(second_ns));
+  }
+}
+
+TEST_CASE(
+    "the crush of two that do not turn is the depth to which their outlines came into each other, within a "
+    "centimetre") {
+  for (const std::size_t straight : {0u, 4u, 5u}) {
+    const Pair& pair = pairs[straight];
+    CAPTURE(std::string(pair.name));
+    CrashSite site = site_of(pair);
+    const Crashed told = crashed(site, false, 1, 2);
+    REQUIRE(told.record.of_first.crush_m.has_value());
+    const double crush_m = *told.record.of_first.crush_m + *told.record.of_second.crush_m;
+    MESSAGE(std::string(pair.name) << ": crush " << crush_m << " m, depth " << told.deepest_m << " m");
+    CHECK(crush_m > 0.0);
+    CHECK(std::abs(crush_m - told.deepest_m) < 0.01);
+  }
+}
+
+TEST_CASE("the principal direction is whence the blow came: ahead for who runs into another, behind for him") {
+  CrashSite rear = site_of(pairs[0]);
+  const CrashRecord behind = crashed(rear, true, 1, 2).record;
+  CHECK(std::abs(*behind.of_first.principal_direction_rad) < 0.05);
+  CHECK(std::abs(*behind.of_second.principal_direction_rad) > 3.0);
+  CHECK(behind.overlap_share.value_or(0.0) == relative(1.0 - 0.3 / 1.82, 0.05));
+  CrashSite across = site_of(pairs[1]);
+  const CrashRecord side = crashed(across, true, 1, 2).record;
+  // Who drives to the left across the other's way is hit from his left.
+  CHECK(*side.of_second.principal_direction_rad > 0.5);
+  CHECK(*side.of_second.principal_direction_rad < 2.6);
+}
+
+TEST_CASE("a crash of the driver's car is recorded as any other, in the same words") {
+  CrashSite site(plane_model(1), {{0.0, 0.0, 0.0}, {}}, 15.0,
+                 {placed_participant(first_other, "saloon", 12.0, 0.4, 0.0, 0.0)});
+  const Crashed told = crashed(site, false, 0, 1);
+  CHECK(told.record.first == driver_participant);
+  CHECK(told.record.second == first_other);
+  REQUIRE(told.record.ledger.has_value());
+  CHECK(share_missing(*told.record.ledger) < 0.001);
+  CHECK(*told.record.of_first.mass_kg == site.model.car.body.mass_kg);
+  CHECK(*told.record.of_first.yaw_inertia_kgm2 == site.model.car.body.inertia_kgm2.z);
+  CHECK(glm::distance(*told.record.of_first.delta_v_mps, told.after[0].velocity_mps - told.before[0].velocity_mps) <
+        1e-6);
+  CHECK(told.record.closing_speed_mps == relative(15.0, 1e-3));
+}
+
+TEST_CASE("who meets a person that stays on the rails has a record without what nobody measured") {
+  CrashSite site({placed_participant(first_other, "saloon", 0.0, 0.0, 0.0, 10.0),
+                  placed_participant(first_other + 1, "pedestrian", 6.0, 0.2, 0.0, 0.0)});
+  for (int i = 0; i < 120; ++i) site.tick();
+  const auto record = record_among(site.events);
+  REQUIRE(record.has_value());
+  CHECK(record->closing_speed_mps == relative(10.0, 1e-3));
+  CHECK(record->of_first.before_mps.has_value());
+  CHECK_FALSE(record->of_first.delta_v_mps.has_value());
+  CHECK_FALSE(record->of_second.delta_v_mps.has_value());
+  CHECK_FALSE(record->ledger.has_value());
+  CHECK(record->pulse_ns.empty());
+}
+
+TEST_CASE("five that pile up are told pair by pair, and every ledger closes") {
+  std::vector<Participant> row;
+  for (ParticipantId i = 0; i < 5; ++i)
+    row.push_back(placed_participant(first_other + i, "saloon", -12.0 * i, 0.25 * (i % 3), 0.0, i == 0 ? 0.0 : 22.0));
+  CrashSite site(row);
+  for (int i = 0; i < 900; ++i) site.tick();
+  int told = 0;
+  for (const Event& event : site.events) {
+    if (event.kind != crash_event) continue;
+    const auto record = read_crash(*event.participant, event.detail);
+    REQUIRE(record.has_value());
+    REQUIRE(record->ledger.has_value());
+    CHECK(share_missing(*record->ledger) < 0.001);
+    ++told;
+  }
+  CHECK(told >= 4);
+  CHECK(site.state.open_crashes.empty());
+}
+
+}  // namespace septet::simulation
