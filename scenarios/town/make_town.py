@@ -16,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "motorwa
 from opendrive_writer import Writer, plan_view, poly  # noqa: E402
 from town_beside import Beside  # noqa: E402
 from town_geometry import biarc, end_of, fillet, moved, turned  # noqa: E402
-from town_plan import KERB, LIMIT, PROFILES, ROUNDABOUTS, WAY, ZEBRAS, Plan  # noqa: E402
+from town_plan import BETWEEN, KERB, LIMIT, PROFILES, ROUNDABOUTS, WAY, ZEBRAS, Plan  # noqa: E402
 from town_roundabout import BESIDE, HALF, ISLAND, LANE, RING, WAY as WAY_RADIUS, WAY_LENGTH, ring_point  # noqa: E402
 from town_scenario import scenario  # noqa: E402
 
@@ -93,23 +93,19 @@ class Town:
         def widths(kind, width, outside, length):
             if outside is None:
                 return [(0, width)]
-            # The parking lane takes its place from the pavement outside of it.
+            # A lane between the crossings takes its place from the pavement outside of it.
             begin, end, full = PARKING_FROM, length - PARKING_FROM - PARKING_RAMP, outside
-            base, sign = (0.0, 1) if kind == "parking" else (width + outside, -1)
+            base, sign = (0.0, 1) if kind in BETWEEN else (width + outside, -1)
             c, d = 3 * full / PARKING_RAMP**2, -2 * full / PARKING_RAMP**3
             return [(0, base), (begin, base, 0, sign * c, sign * d), (begin + PARKING_RAMP, base + sign * full),
                     (end, base + sign * full, 0, -sign * c, -sign * d), (end + PARKING_RAMP, base)]
 
         def side(lanes, sign, length):
-            parking = next((width for kind, width in lanes if kind == "parking"), None)
+            between = next((width for kind, width in lanes if kind in BETWEEN), None)
             rows = []
             for number, (kind, width) in enumerate(lanes, 1):
-                changes = parking if kind in ("parking", "sidewalk") else None
-                raised = ()
-                if kind in ("sidewalk", "biking"):
-                    raised = [(0, KERB)]
-                elif kind == "median":
-                    raised = [(0, 0), (0.5, KERB), (round(length - 0.5, 3), 0)]
+                changes = between if kind in (*BETWEEN, "sidewalk") else None
+                raised = [(0, KERB)] if kind in ("sidewalk", "biking", "none") else ()
                 next_kind = lanes[number][0] if number < len(lanes) else None
                 mark = {("driving", "driving"): "broken"}.get((kind, next_kind))
                 rows.append((sign * number, kind, widths(kind, width, changes, round(length, 3)), mark, (None, None), raised))
@@ -125,7 +121,7 @@ class Town:
                 self.lane(*row)
             out.end()
             out.begin("center")
-            self.lane(0, "none", (), "broken" if street.kind == "main" else None)
+            self.lane(0, "none", (), {"main": "broken", "boulevard": "solid solid"}.get(street.kind))
             out.end()
             out.begin("right")
             for row in side(street.right, -1, length):
@@ -178,7 +174,7 @@ class Town:
                 turn = turned(other.heading - arm.heading - math.pi)
                 if abs(turn) < 0.6:
                     pairs = [(lanes_in[min(k, len(lanes_in) - 1)], lane) for k, lane in enumerate(lanes_out)] if len(lanes_in) > 1 else [
-                        (lanes_in[0], lanes_out[-1])]
+                        (lanes_in[0], lanes_out[0])]
                 elif turn < 0:
                     pairs = [(lanes_in[-1], lanes_out[-1])]
                 else:
@@ -370,8 +366,6 @@ class Town:
         if lanes:
             self.signal(s_of(STOP_LINE), side * (lanes[0][1] + 1.5), at_start, "294", z=0, size=0.01, width=3.0)
             heads.append((self.signal(s_of(0.6), kerb_in + side * 0.5, at_start, "1000001", size=0.95, width=0.32, z=2.4, dynamic=True), group, False))
-            if street.kind == "boulevard":
-                heads.append((self.signal(s_of(1.6), side * 0.4, at_start, "1000001", size=0.95, width=0.32, z=2.4, dynamic=True), group, False))
         across = s_of(CROSSING_FROM + ZEBRA + 0.4)
         for t in (kerb_in + side * 0.5, kerb_out - side * 0.5):
             turn = math.pi / 2 if t > 0 else -math.pi / 2

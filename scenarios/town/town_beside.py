@@ -217,13 +217,14 @@ class Beside:
                 self.tell(street, x, y, 0.0, type="tree", radius=2, height=round(chance.uniform(6.0, 10.5), 1))
 
     def plant(self, street):
-        """Trees on the boulevard's middle, and in gardens and yards."""
+        """Trees along the boulevard, and in gardens and yards."""
         chance = random.Random(f"trees {street.a} {street.b}")
         if street.kind == "boulevard":
             s = 14.0
             while s < street.length - 14.0:
-                self.rows[street].append(dict(type="tree", s=s, t=0, zOffset=0, radius=2, height=round(chance.uniform(6.0, 7.5), 1)))
-                s += 13.0
+                for t in (7.4, -7.4):
+                    self.rows[street].append(dict(type="tree", s=s, t=t, zOffset=0, radius=2, height=round(chance.uniform(5.5, 6.5), 1)))
+                s += 15.0
             return
         for sign, edge in ((1, street.edge(True)), (-1, street.edge())):
             s = chance.uniform(6, 16)

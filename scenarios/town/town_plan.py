@@ -10,15 +10,16 @@ from town_roundabout import HALF
 
 COLUMNS, ROWS, SPACING = 9, 8, 190.0
 KERB = 0.12
-# Lanes outwards from the middle: (type, width). Parking lanes are there away from the crossings only.
+# Lanes outwards from the middle: (type, width). Those of BETWEEN are there away from the crossings only; there the pavement is wider.
+BETWEEN = ("parking", "none")
 PROFILES = {
-    "boulevard": [("median", 1.5), ("driving", 3.25), ("driving", 3.25), ("biking", 1.6), ("sidewalk", 3.0)],
-    "main": [("driving", 3.5), ("sidewalk", 3.2)],
-    "quiet": [("driving", 3.0), ("parking", 2.1), ("sidewalk", 2.4)],
+    "boulevard": [("driving", 3.25), ("driving", 3.25), ("none", 1.8), ("biking", 1.6), ("sidewalk", 3.0)],
+    "main": [("driving", 3.75), ("sidewalk", 3.2)],
+    "quiet": [("driving", 3.25), ("parking", 2.1), ("sidewalk", 2.4)],
 }
 ONE_WAY = [("driving", 3.6), ("parking", 2.1), ("sidewalk", 2.4)]
 ONE_WAY_LEFT = [("parking", 2.1), ("sidewalk", 2.4)]
-RADIUS = {"boulevard": 9.0, "main": 8.0, "quiet": 5.5}  # Of kerbs at corners.
+RADIUS = {"boulevard": 10.0, "main": 10.0, "quiet": 8.0}  # Of kerbs at corners.
 LIMIT = {"boulevard": 50, "main": 50, "quiet": 30}
 
 LIGHTS = [(2, 3), (4, 3), (6, 3), (2, 5)]
@@ -27,10 +28,10 @@ ENTRIES = {"west": (0, 3), "east": (8, 3), "south": (2, 0), "south east": (6, 0)
 # Streets driven one way only, from the first crossing on through all others.
 ONE_WAYS = [[(4, 1), (4, 0), (5, 0), (5, 1), (4, 1)], [(3, 2), (3, 1)], [(5, 2), (5, 3)], [(3, 5), (3, 4)], [(7, 4), (7, 3)], [(1, 3), (1, 4)]]
 SQUARE, SCHOOL, CHURCH, PARKS = (4, 0), (7, 1), (3, 3), [(3, 4), (0, 1), (7, 5)]  # Blocks, by their south-western crossing.
-ZEBRAS = [((4, 3), (4, 2)), ((4, 2), (4, 1)), ((6, 1), (6, 2)), ((2, 3), (2, 4)), ((4, 5), (5, 5)), ((1, 3), (2, 3))]
+ZEBRAS = [((4, 3), (4, 2)), ((4, 2), (4, 1)), ((4, 3), (4, 4)), ((6, 1), (6, 2)), ((2, 3), (2, 4)), ((4, 5), (5, 5)), ((1, 3), (2, 3))]
 # The way of the scenario: an entry, crossings, an entry.
-WAY = ["west", (0, 3), (1, 3), (2, 3), (3, 3), (4, 3), (4, 2), (4, 1), (4, 0), (5, 0), (5, 1), (6, 1), (6, 2), (6, 3), (6, 4), (6, 5),
-       (5, 5), (5, 6), (5, 7), (4, 7), (4, 6), (3, 6), (2, 6), (2, 7), "north"]
+WAY = ["west", (0, 3), (1, 3), (2, 3), (3, 3), (4, 3), (4, 4), (4, 5), (5, 5), (6, 5), (6, 4), (6, 3), (6, 2), (6, 1), (5, 1), (4, 1), (4, 0),
+       (5, 0), (6, 0), "south east"]
 ROW_NAMES = ["Südring", "Bahnhofsplatz", "Gartenstraße", "Hauptstraße", "Lindenweg", "Marktstraße", "Schillerstraße", "Nordring"]
 COLUMN_NAMES = ["Westring", "Mühlenweg", "Kölner Straße", "Rosenweg", "Bahnhofstraße", "Kirchgasse", "Berliner Straße", "Schulstraße", "Ostring"]
 
@@ -47,7 +48,7 @@ class Street:
     def kerb(self, left=False):
         """Distance of the kerb from the axis at a crossing."""
         lanes, sign = (self.left, 1) if left else (self.right, -1)
-        return sign * self.offset + sum(width for kind, width in lanes if kind in ("median", "driving"))
+        return sign * self.offset + sum(width for kind, width in lanes if kind == "driving")
 
     def edge(self, left=False):
         """Distance of the pavement's outer edge."""
@@ -80,8 +81,8 @@ class Arm:
 
 
 def grid_point(column, row, chance):
-    x = (column - (COLUMNS - 1) / 2) * SPACING + 24 * math.sin(0.9 * row + 0.35 * column) + chance.uniform(-9, 9)
-    y = (row - (ROWS - 1) / 2) * SPACING + 22 * math.sin(0.8 * column + 1.3) + chance.uniform(-9, 9)
+    x = (column - (COLUMNS - 1) / 2) * SPACING + 18 * math.sin(0.9 * row + 0.35 * column) + chance.uniform(-6, 6)
+    y = (row - (ROWS - 1) / 2) * SPACING + 18 * math.sin(0.8 * column + 1.3) + chance.uniform(-6, 6)
     return x, y
 
 
@@ -147,7 +148,8 @@ class Plan:
             return math.atan2(b[1] - a[1], b[0] - a[0])
         i, j = at
         row, column = between((i - 1, j), (i + 1, j)), between((i, j - 1), (i, j + 1))
-        return (row, row + math.pi / 2) if at in ROUNDABOUTS else (row, column)
+        mean = row + 0.5 * turned(column - math.pi / 2 - row)
+        return (mean, mean + math.pi / 2) if at in ROUNDABOUTS else (row, column)
 
     def arms_of(self, at):
         """Counter-clockwise, from the east on."""
