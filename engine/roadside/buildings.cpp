@@ -26,7 +26,7 @@ std::vector<Building> placed_buildings(const RoadShape& roads, const Terrain& te
                    turn = random.uniform(0, 2 * std::numbers::pi);
       const Vec2 p(roads.point(index, s, t));
       const Nearest near = terrain.nearest(p);
-      if (!near.found || near.outside_m < 75.0 || terrain.woodland(p) > 0.02) continue;
+      if (!near.found || near.outside_m < 75.0 || near.is_yard() || terrain.woodland(p) > 0.02) continue;
       const double z = terrain.height_m(p, near);
       // Steep sites are left out.
       if (std::abs(terrain.height_m(p + Vec2(25, 0)) - z) + std::abs(terrain.height_m(p + Vec2(0, 25)) - z) > 4.5)

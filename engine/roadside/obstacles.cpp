@@ -13,11 +13,13 @@
 #include "engine/roadside/barrier_lines.hpp"
 #include "engine/roadside/buildings.hpp"
 #include "engine/roadside/obstacle_profile.hpp"
+#include "engine/roadside/parked_cars.hpp"
 #include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/plants.hpp"
 #include "engine/roadside/signals.hpp"
 #include "engine/roadside/standing_objects.hpp"
 #include "engine/roadside/street.hpp"
+#include "engine/roadside/street_furniture.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
 
 namespace septet::roadside {
@@ -211,6 +213,19 @@ void add_objects(const RoadShape& roads, Builder& builder) {
   }
 }
 
+void add_furniture(const RoadShape& roads, std::uint64_t seed, Builder& builder) {
+  for (const Furniture& thing : street_furniture(roads, seed))
+    if (const double radius_m = radius_of(thing.kind); radius_m > 0.0)
+      builder.point(ObstacleKind::post, thing.world_from_thing.position_m, radius_m);
+}
+
+void add_parked_cars(const RoadShape& roads, std::uint64_t seed, Builder& builder) {
+  for (const ParkedCar& car : parked_cars(roads, seed)) {
+    const VehicleModel& model = vehicle_models()[car.model];
+    add_house(car.world_from_vehicle, {model.length_m, model.width_m, model.centre_x_m(), 0.0}, builder);
+  }
+}
+
 void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed, Builder& builder) {
   for (const Tree& tree : planted_trees(roads, terrain, seed))
     builder.point(tree.kind == TreeKind::bush ? ObstacleKind::bush : ObstacleKind::tree, tree.foot_m,
@@ -245,6 +260,8 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
   add_gantries(roads, builder);
   add_signals(roads, builder);
   add_objects(roads, builder);
+  add_parked_cars(roads, seed, builder);
+  add_furniture(roads, seed, builder);
   add_land(roads, terrain_, seed, builder);
   close_ends();
   index();

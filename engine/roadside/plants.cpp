@@ -1,13 +1,19 @@
 #include "engine/roadside/plants.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <unordered_map>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/noise.hpp"
+#include "engine/math/polygon.hpp"
+#include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/standing_objects.hpp"
 #include "engine/roadside/street.hpp"
 
@@ -30,7 +36,8 @@ void plant_tile(const Terrain& terrain, std::uint64_t seed, const Vec2& corner, 
       if (!near.found || near.outside_m < 11.0 || near.outside_m > 330.0 || terrain.is_kept_clear(near) ||
           terrain.is_at_portal(near))
         continue;
-      const double wood = terrain.woodland(p), group = geometry::fractal_noise(p.x / 95.0, p.y / 95.0, 2, seed + 9);
+      const double wood = near.is_yard() ? 0.0 : terrain.woodland(p),
+                   group = geometry::fractal_noise(p.x / 95.0, p.y / 95.0, 2, seed + 9);
       double density = 0.012 + (group > 0.28 ? 0.20 : 0.0) + (wood > 0.02 && wood < 0.98 ? 0.38 : 0.0);
       if (wood > 0.5 && near.outside_m < 55.0) density = 0.55;  // Edge of the wood towards the road.
       if (wood > 0.5 && near.outside_m > 75.0) density = 0.05;  // Inside of the wood, which is one canopy.
@@ -48,6 +55,39 @@ void plant_tile(const Terrain& terrain, std::uint64_t seed, const Vec2& corner, 
       trees.push_back(tree);
     }
 }
+
+/// The file's buildings by place, for those who keep clear of them.
+class BuildingPlaces {
+ public:
+  explicit BuildingPlaces(const std::vector<StandingObject>& objects) : objects_(objects) {
+    for (std::uint32_t i = 0; i < objects.size(); ++i) {
+      if (objects[i].kind != StandingKind::building) continue;
+      double reach_m = margin_m;
+      for (const Vec2& corner : objects[i].footprint_m) reach_m = std::max(reach_m, glm::length(corner) + margin_m);
+      const Vec2 middle(objects[i].world_from_object.position_m);
+      cells.for_each(middle - reach_m, middle + reach_m, [&](std::uint64_t key) { by_cell_[key].push_back(i); });
+    }
+  }
+
+  /// True within `margin_m` of a building.
+  bool holds(const Vec2& p) const {
+    const auto cell = by_cell_.find(cells.key_at(p));
+    return cell != by_cell_.end() && std::ranges::any_of(cell->second, [&](std::uint32_t i) {
+             const Vec2 local(inverse(objects_[i].world_from_object) * Vec3(p, 0.0));
+             const std::vector<Vec2>& corners = objects_[i].footprint_m;
+             for (const Vec2& beside :
+                  {Vec2(0.0), Vec2(margin_m, 0.0), Vec2(-margin_m, 0.0), Vec2(0.0, margin_m), Vec2(0.0, -margin_m)})
+               if (is_inside(corners, local + beside)) return true;
+             return false;
+           });
+  }
+
+ private:
+  static constexpr double margin_m = 3.0;
+  static constexpr PlaneCells cells{32.0};
+  const std::vector<StandingObject>& objects_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> by_cell_;
+};
 
 Vec2 corner_of(const Vec2& p, double side_m) {
   return {std::floor(p.x / side_m) * side_m, std::floor(p.y / side_m) * side_m};
@@ -88,9 +128,15 @@ std::vector<Tree> planted_trees(const RoadShape& roads, const Terrain& terrain, 
     if (at.x < first.x || at.y < first.y || at.x >= end.x || at.y >= end.y) continue;
     if (terrain.distance_m(corner + Vec2(side / 2)) < reach) plant_tile(terrain, seed, corner, side, random, trees);
   }
-  for (const StandingObject& object : standing_objects(roads)) {
+  const std::vector<StandingObject> objects = standing_objects(roads);
+  const BuildingPlaces buildings(objects);
+  std::erase_if(trees, [&](const Tree& tree) { return buildings.holds(Vec2(tree.foot_m)); });
+  for (const StandingObject& object : objects) {
     if (object.kind != StandingKind::tree && object.kind != StandingKind::bush) continue;
-    const Vec3& foot_m = object.world_from_object.position_m;
+    constexpr double level_with_road_m = 20.0;
+    Vec3 foot_m = object.world_from_object.position_m;
+    const Nearest near = terrain.nearest(Vec2(foot_m));
+    if (near.found && near.outside_m > level_with_road_m) foot_m.z = terrain.height_m(Vec2(foot_m), near) - 0.1;
     const bool bush = object.kind == StandingKind::bush;
     constexpr double oak_m = 11.0, bush_m = 2.6;
     const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
@@ -105,7 +151,7 @@ std::vector<Tree> planted_trees(const RoadShape& roads, const Terrain& terrain, 
 bool is_wood(const Terrain& terrain, const Vec2& middle_m, double cell_m) {
   if (terrain.woodland(middle_m) < 0.5) return false;
   const Nearest near = terrain.nearest(middle_m);
-  return !near.found || near.outside_m > 42.0 + cell_m * 0.7;
+  return !near.found || (!near.is_yard() && near.outside_m > 42.0 + cell_m * 0.7);
 }
 
 std::vector<Stem> wood_stems(const Terrain& terrain, std::uint64_t seed, const Vec2& p, double reach_m) {

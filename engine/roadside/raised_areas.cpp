@@ -162,6 +162,16 @@ class AreaBuilder {
   std::size_t corners_left_ = most_corners_of_all;
 };
 
+RaisedArea area_of(const JunctionCorner& corner) {
+  RaisedArea area{corner.road, corner.s_m, corner.kerb_m, Vec2(corner.kerb_m.front()), Vec2(corner.kerb_m.front())};
+  area.top_m.insert(area.top_m.end(), corner.edge_m.rbegin(), corner.edge_m.rend());
+  for (const Vec3& p : area.top_m) {
+    area.low_m = glm::min(area.low_m, Vec2(p));
+    area.high_m = glm::max(area.high_m, Vec2(p));
+  }
+  return area;
+}
+
 bool holds(const RaisedArea& area, const Vec2& p) {
   if (p.x < area.low_m.x || p.x > area.high_m.x || p.y < area.low_m.y || p.y > area.high_m.y) return false;
   return is_inside(area.top_m, p);
@@ -188,9 +198,12 @@ RaisedAreas::RaisedAreas(const road::RoadNetwork& network) {
     for (const road::RoadObject& object : network.roads[index].objects)
       if (is_raised(object)) builder.add(index, object);
   if (areas_.size() == most_areas) complete_ = false;
+  corners_ = junction_corners(network);
+  for (const JunctionCorner& corner : corners_) areas_.push_back(area_of(corner));
   std::size_t entries = 0;
   for (std::uint32_t i = 0; i < areas_.size(); ++i) {
     if (entries > most_cells) {
+      corners_.resize(corners_.size() - std::min(corners_.size(), areas_.size() - i));
       areas_.resize(i);
       complete_ = false;
       break;

@@ -1,6 +1,6 @@
 #pragma once
-/// Kerbs and traffic islands that a road file gives as objects, for the scenery that draws them and the wheels that
-/// climb them.
+/// Kerbs and traffic islands that a road file gives as objects, and pavements round the corners of junctions
+/// (junction_corners.hpp), for the scenery that draws them and the wheels that climb them.
 ///
 /// OpenDRIVE 1.8, §13: objects of type `trafficIsland`, and any object (but paint) whose type, subtype or name says
 /// kerb or curb; the standard has no type of its own for a single kerb. Their shape is their outlines, else their box
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/road/road_network.hpp"
+#include "engine/roadside/junction_corners.hpp"
 
 namespace septet::roadside {
 
@@ -39,12 +40,15 @@ class RaisedAreas {
   /// True if an area may lie within `reach_m` (at most 1) of p.
   bool is_near(const Vec2& p, double reach_m) const;
 
-  std::span<const RaisedArea> all() const { return areas_; }
+  /// Areas of the file's objects.
+  std::span<const RaisedArea> of_objects() const { return {areas_.data(), areas_.size() - corners_.size()}; }
+  std::span<const JunctionCorner> corners() const { return corners_; }
   /// False where the file has more or larger ones than the limits (engine/road/CHECKS.md): the rest is left out.
   bool complete() const { return complete_; }
 
  private:
-  std::vector<RaisedArea> areas_;
+  std::vector<RaisedArea> areas_;  ///< Those of the objects, then one for each corner.
+  std::vector<JunctionCorner> corners_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;  ///< Areas by cell, with a metre around each.
   bool complete_ = true;
 };

@@ -42,6 +42,7 @@ SignalForm form_of(const road::Signal& signal) {
     return walk ? SignalForm::pedestrian_light : SignalForm::light;
   }
   if (type == "294") return SignalForm::stop_line;
+  if (type == "341") return SignalForm::waiting_line;
   const bool flat = signal.height_m > 0.0 && signal.height_m <= highest_paint_m;
   if (flat || type == "297")
     return name.find("rrow") != std::string_view::npos || type == "297" ? SignalForm::arrow : SignalForm::none;

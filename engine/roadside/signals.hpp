@@ -20,8 +20,9 @@ enum class SignalForm : std::uint8_t {
   light,    ///< Light for vehicles.
   pedestrian_light,
   stop_line,
-  arrow,     ///< Paint that points along a lane.
-  crossing,  ///< Paint of a crossing: see crossings.hpp.
+  waiting_line,  ///< Bars across the lanes that give way.
+  arrow,         ///< Paint that points along a lane.
+  crossing,      ///< Paint of a crossing: see crossings.hpp.
 };
 
 SignalForm form_of(const road::Signal& signal);

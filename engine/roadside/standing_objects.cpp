@@ -48,6 +48,21 @@ std::optional<StandingKind> standing_kind_of(const road::RoadObject& object) {
   return std::nullopt;
 }
 
+BuildingUse use_of(const road::RoadObject& object) {
+  constexpr std::array<std::pair<std::string_view, BuildingUse>, 9> uses{{{"shop", BuildingUse::shop},
+                                                                          {"apartment", BuildingUse::flats},
+                                                                          {"flats", BuildingUse::flats},
+                                                                          {"house", BuildingUse::house},
+                                                                          {"station", BuildingUse::hall},
+                                                                          {"school", BuildingUse::hall},
+                                                                          {"gymnasium", BuildingUse::hall},
+                                                                          {"church", BuildingUse::church},
+                                                                          {"tower", BuildingUse::tower}}};
+  for (const auto& [word, use] : uses)
+    if (mentions(object.subtype, word)) return use;
+  return BuildingUse::unknown;
+}
+
 /// Corners in anticlockwise order; empty where they span no area.
 std::vector<Vec2> against_the_clock(std::vector<Vec2> corners) {
   double twice_area = 0.0;
@@ -112,6 +127,7 @@ class ObjectBuilder {
     if (!std::isfinite(turn + at.position_m.x + at.position_m.y + at.position_m.z + up_m)) return;
     StandingObject standing;
     standing.kind = kind;
+    if (kind == StandingKind::building) standing.use = use_of(object);
     standing.world_from_object = {at.position_m + Vec3(0, 0, std::clamp(up_m, -50.0, 50.0)),
                                   orientation_from_angles(turn, 0.0, 0.0)};
     // Height at the corners alone, as files up to OpenDRIVE 1.3 may give it.

@@ -18,8 +18,12 @@ namespace septet::roadside {
 
 enum class StandingKind : std::uint8_t { building, lamp, tree, bush, pole, block };
 
+/// What a building's subtype says it is for.
+enum class BuildingUse : std::uint8_t { unknown, shop, flats, house, hall, church, tower };
+
 struct StandingObject {
   StandingKind kind = StandingKind::block;
+  BuildingUse use = BuildingUse::unknown;
   RigidTransform world_from_object;  ///< Pose of its foot; x along the object's u.
   double height_m = 1.0;
   double radius_m = 0.0;  ///< Radius of poles; 0 for others.

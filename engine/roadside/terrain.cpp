@@ -11,12 +11,14 @@
 
 #include "engine/geometry/noise.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/town.hpp"
 
 namespace septet::roadside {
 namespace {
 
 constexpr double sample_step_m = 20.0, sample_cell_m = 128.0;
 constexpr std::size_t coarse_stride = 12;
+constexpr double yard_below_m = 0.45;  ///< Depth of a town's ground below its streets' edges.
 
 std::pair<std::int64_t, std::int64_t> cell_of(const Vec2& p) {
   return {static_cast<std::int64_t>(std::floor(p.x / sample_cell_m)),
@@ -79,7 +81,7 @@ void Terrain::add_samples(const RoadShape& roads, road::RoadIndex index) {
       const road::RoadExtent extent = road::road_extent(road, s);
       samples_.push_back({index, s, p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), p.roll_rad,
                           extent.left_t_m, extent.right_t_m, step, i == 0 && stretch.after_deck ? 0.0 : 0.5 * step,
-                          i == count && stretch.before_deck ? 0.0 : 0.5 * step});
+                          i == count && stretch.before_deck ? 0.0 : 0.5 * step, is_in_town(roads.network(), index, s)});
     }
   }
 }
@@ -127,6 +129,7 @@ void Terrain::look_in(const Cell& cell, const Vec2& p, Nearest& best) const {
     if (!better || outside > reach_m) continue;
     best.found = true;
     best.road = sample.road;
+    best.in_town = sample.in_town;
     best.outside_m = outside;
     best.s_m = sample.s_m + std::clamp(ahead, -sample.step_m, sample.step_m);
     best.t_m = t;
@@ -185,8 +188,11 @@ double Terrain::land_m(const Vec2& p, const Nearest& near) const {
   if (!near.found) {
     // Unchanged: too far from every road for cut and fill.
   } else {
-    const double fill = near.edge_z_m - (near.outside_m <= 0.0 ? 1.3 : 0.9);
-    land = std::lerp(fill, land, smooth_step(9.0, 150.0, near.outside_m));
+    const double below_m = near.outside_m <= 0.0 ? 1.3 : 0.9;
+    const double fill = near.edge_z_m - (near.in_town && near.outside_m > 0.0 ? yard_below_m : below_m);
+    land = std::lerp(fill, land,
+                     near.in_town ? smooth_step(Nearest::yards_m, 4.0 * Nearest::yards_m, near.outside_m)
+                                  : smooth_step(9.0, 150.0, near.outside_m));
     for (const Mouth& tunnel : tunnels_) {
       if (near.road != tunnel.road) continue;
       const double s = near.s_m;

@@ -1,5 +1,5 @@
 #pragma once
-/// Shape of the land: hills that follow the roads' level, cut and fill beside the roads, a valley under every bridge
+/// Shape of the land: hills that follow the roads' level, cut and fill beside the roads, level ground between the streets of a town, a valley under every bridge
 /// that crosses no road, and a hill over every tunnel. Where roads lie on two levels the ground follows the lower one.
 ///
 /// A pure function of the world's x and y, built once from the roads. Metres, world frame.
@@ -25,6 +25,11 @@ struct Nearest {
   double outside_m = 0.0;  ///< Distance beyond the outermost lanes; 0 on the road.
   double axis_z_m = 0.0;   ///< Height of the reference line there.
   double edge_z_m = 0.0;   ///< Height of the road's surface at the nearest point of it.
+  bool in_town = false;    ///< True beside a street of a town (town.hpp).
+
+  /// True in the yards and gardens of a town, which reach this far from its streets.
+  bool is_yard() const { return found && in_town && outside_m < yards_m; }
+  static constexpr double yards_m = 100.0;
 };
 
 class Terrain {
@@ -74,6 +79,7 @@ class Terrain {
     double roll_rad, left_m, right_m;
     double step_m;             ///< Distance to its neighbours.
     double back_m, forward_m;  ///< Lengths of road behind and ahead for which it determines the ground.
+    bool in_town;
   };
   void add_samples(const RoadShape& roads, road::RoadIndex index);
   double land_m(const Vec2& p, const Nearest& nearest) const;

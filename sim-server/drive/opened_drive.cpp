@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/roadside/parked_cars.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scenery/vehicles/debris_looks.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
@@ -70,9 +71,11 @@ Expected<void> build_scene(const ServerOptions& options, OpenedDrive& drive, pro
     for (const auto& message : own.messages) line.message(message);
   }
   scene::SceneBuilder builder(drive.store);
-  scenery::build_vehicles(builder, &own.models);
+  const road::RoadNetwork& roads = drive.loaded.model->roads;
+  scenery::build_vehicles(builder, &own.models,
+                          roadside::parked_cars({roads, roadside::usual_overrun_m}, options.seed));
   scenery::build_debris_looks(builder);
-  scenery::build_road_world(builder, drive.loaded.model->roads, options.seed,
+  scenery::build_road_world(builder, roads, options.seed,
                             {.own = &own.models, .raised = drive.loaded.model->raised.get()});
   return {};
 }

@@ -8,6 +8,7 @@
 
 #include "engine/scenery/vehicles/cockpit_finish.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
+#include "engine/scenery/vehicles/parked_cars.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 
 namespace septet::scenery {
@@ -52,7 +53,8 @@ void add_prototype(scene::SceneBuilder& builder, const Palette& palette, KnownSh
 
 }  // namespace
 
-void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models) {
+void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models,
+                    std::span<const roadside::ParkedCar> parked) {
   const Palette palette = add_finishes(builder);
   KnownShapes known;
   OwnShapes own(builder, own_models);
@@ -70,6 +72,7 @@ void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models) {
     if (const VehicleParts parts = inside_parts(model); !parts.empty() && !own.find(model.name))
       add_prototype(builder, palette, known, "interior/" + std::string(model.name), parts);
   add_prototype(builder, palette, known, "shell/volvo-s80", shell_parts());
+  build_parked_cars(builder, palette, parked);
   const Palette inside = add_cockpit_finishes(builder);
   KnownShapes known_inside;
   add_prototype(builder, inside, known_inside, "interior/volvo-s80", interior_parts());

@@ -1,6 +1,9 @@
 #pragma once
 /// Vehicles of the catalogue as prototypes of the scene.
 
+#include <span>
+
+#include "engine/roadside/parked_cars.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scenery/own_models.hpp"
 
@@ -10,7 +13,8 @@ namespace septet::scenery {
 /// detail, and "model/interior/volvo-s80": the driver's view of his own car, for rigs that have no car around the
 /// driver; "model/interior/NAME" of every other model that somebody drives, rides or walks; "model/cockpit/hands", "…/instruments", "…/signs" and "…/water" go with it.
 ///
-/// Models in `own` replace these, the same at all distances.
-void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own = nullptr);
+/// Models in `own` replace these, the same at all distances. `parked` are placed in the world.
+void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own = nullptr,
+                    std::span<const roadside::ParkedCar> parked = {});
 
 }  // namespace septet::scenery

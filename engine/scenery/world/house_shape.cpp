@@ -40,11 +40,11 @@ void add_house(geometry::MeshBuilder& builder, const roadside::HouseBlock& block
     builder.triangle(a, b, c, {{{0, 0.22f}, {0.2f, 0.22f}, {0.1f, 0.02f}, {}}});
   }
   builder.material = index_of(look.roof);
-  const float over = 0.5f, drop = over * (look.ridge - look.eaves) / w;
-  builder.patch(at(-l - over, -w - over, look.eaves - drop), at(l + over, -w - over, look.eaves - drop),
-                at(l + over, 0, look.ridge + 0.08f), at(-l - over, 0, look.ridge + 0.08f));
-  builder.patch(at(l + over, w + over, look.eaves - drop), at(-l - over, w + over, look.eaves - drop),
-                at(-l - over, 0, look.ridge + 0.08f), at(l + over, 0, look.ridge + 0.08f));
+  const float over = 0.5f, drop = over * (look.ridge - look.eaves) / w, end = l + look.over_gable_m;
+  builder.patch(at(-end, -w - over, look.eaves - drop), at(end, -w - over, look.eaves - drop),
+                at(end, 0, look.ridge + 0.08f), at(-end, 0, look.ridge + 0.08f));
+  builder.patch(at(end, w + over, look.eaves - drop), at(-end, w + over, look.eaves - drop),
+                at(-end, 0, look.ridge + 0.08f), at(end, 0, look.ridge + 0.08f));
   builder.append(
       geometry::box(at(-0.4f + l * 0.3f, -0.4f, look.ridge - 0.6f), at(0.4f + l * 0.3f, 0.4f, look.ridge + 0.9f)),
       glm::mat4(1.0f), true);

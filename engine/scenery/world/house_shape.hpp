@@ -11,6 +11,7 @@ namespace septet::scenery {
 struct HouseLook {
   float eaves, ridge;  ///< Heights over the ground.
   Ground wall, roof;
+  float over_gable_m = 0.5f;  ///< Overhang of the roof; hardly any where the next house adjoins.
 };
 
 /// Adds a house at the block's place; the walls reach 1.5 m into the ground.

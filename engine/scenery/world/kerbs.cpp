@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
@@ -41,16 +45,47 @@ void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top)
   }
 }
 
+/// Draws the pavement of a corner: slabs, towards the junction a stone with its face.
+void draw_corner(geometry::MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
+                 const roadside::JunctionCorner& corner) {
+  constexpr double stone_m = 0.14, slabs_m = 1.5;
+  constexpr float face_m = 0.2f;
+  const auto seam = [&](std::size_t i) {
+    const double width_m = glm::distance(corner.kerb_m[i], corner.edge_m[i]);
+    return width_m > 2.0 * stone_m ? glm::mix(corner.kerb_m[i], corner.edge_m[i], stone_m / width_m)
+                                   : 0.5 * (corner.kerb_m[i] + corner.edge_m[i]);
+  };
+  const auto local = [&](const Vec3& p) { return world.roads.local(tile, p); };
+  const auto uv = [&](const Vec3& p) { return glm::vec2((Vec2(p) - Vec2(corner.kerb_m.front())) / slabs_m); };
+  const glm::vec3 down(0.0f, 0.0f, -face_m);
+  for (std::size_t i = 0; i + 1 < corner.kerb_m.size(); ++i) {
+    const Vec3 &a = corner.kerb_m[i], &b = corner.kerb_m[i + 1], &c = corner.edge_m[i + 1], &d = corner.edge_m[i],
+               &p = seam(i), &q = seam(i + 1);
+    builder.material = index_of(Ground::kerb_stone);
+    builder.patch(local(b) + down, local(a) + down, local(a), local(b));
+    builder.patch(local(b), local(a), local(p), local(q));
+    builder.material = index_of(Ground::paving);
+    builder.patch(local(q), local(p), local(d), local(c), {{uv(q), uv(p), uv(d), uv(c)}});
+  }
+}
+
+bool begins_in(const RoadTile& tile, const WorldContext& world, road::RoadIndex road, double s_m) {
+  const double kept_m = std::min(s_m, std::nextafter(world.roads.road(road).length_m, 0.0));
+  return road == tile.road && kept_m >= tile.s0_m && kept_m < tile.s1_m;
+}
+
 }  // namespace
 
 void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised) {
-  if (raised.all().empty()) return;
+  if (raised.of_objects().empty() && raised.corners().empty()) return;
   constexpr float foot_m = 0.5f;  // Depth of the face: the road under it may fall away.
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
     geometry::MeshBuilder builder;
+    for (const roadside::JunctionCorner& corner : raised.corners())
+      if (begins_in(tile, world, corner.road, corner.s_m)) draw_corner(builder, world, tile, corner);
     builder.material = index_of(Ground::concrete);
-    for (const roadside::RaisedArea& area : raised.all()) {
-      if (area.road != tile.road || area.s_m < tile.s0_m || area.s_m >= tile.s1_m) continue;
+    for (const roadside::RaisedArea& area : raised.of_objects()) {
+      if (!begins_in(tile, world, area.road, area.s_m)) continue;
       std::vector<glm::vec3> top;
       for (const Vec3& corner : area.top_m) top.push_back(world.roads.local(tile, corner));
       double around = 0.0;

@@ -154,7 +154,11 @@ class LandGrid {
 
  private:
   static constexpr double verge_until_m = 34.0;
-  static double outside_m(const Nearest& near) { return near.found ? near.outside_m : 1e9; }
+  /// Distance beyond a road, in a town beyond its yards.
+  static double outside_m(const Nearest& near) {
+    if (!near.found) return 1e9;
+    return near.in_town ? std::max(0.0, near.outside_m - Nearest::yards_m + verge_until_m) : near.outside_m;
+  }
   Ground kind_at(const Vec2& p, double outside_m) const {
     if (outside_m < verge_until_m) return Ground::verge;
     if (world_.terrain.woodland(p) > 0.5) return Ground::wood_floor;

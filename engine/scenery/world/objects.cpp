@@ -3,15 +3,19 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "engine/core/random.hpp"
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/roadside/standing_objects.hpp"
 #include "engine/scenery/world/house_shape.hpp"
+#include "engine/scenery/world/town_building.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
@@ -86,9 +90,59 @@ geometry::PolygonMesh object_shape(const StandingObject& object, std::size_t num
   return mesh;
 }
 
+/// The building that a subtype names, if its outline is a rectangle along the object's axes.
+std::optional<TownBuilding> town_building_of(const StandingObject& object, std::size_t number) {
+  const std::vector<Vec2>& foot = object.footprint_m;
+  if (object.use == roadside::BuildingUse::unknown || !is_rectangle(foot) || std::abs(foot[1].y - foot[0].y) > 0.05 ||
+      glm::length(foot[0] + foot[2]) > 0.05)
+    return std::nullopt;
+  return TownBuilding{object.use, glm::length(foot[1] - foot[0]), glm::length(foot[3] - foot[0]), object.height_m,
+                      number % town_walls};
+}
+
+/// Buildings of equal shape share it.
+class TownPen {
+ public:
+  explicit TownPen(const WorldContext& world) : world_(world), choices_(world.seed, 6998) {}
+
+  void draw(const TownBuilding& building, Placement placement) {
+    Shape& shape = shapes_[building];
+    if (shape.geometry == scene::no_node)
+      shape = add_shape(world_.builder, "town building", town_building(building), world_.palette);
+    placement.visible_to_m = 2500.0f;
+    place(world_.builder, "town building", shape, placement);
+    if (building.use == roadside::BuildingUse::tower || building.use == roadside::BuildingUse::church) return;
+    TownBuilding lit = building;
+    lit.variant = choices_.below(lit_choices);
+    Shape& windows = lit_[lit];
+    if (windows.geometry == scene::no_node)
+      windows = add_shape(world_.builder, "lit windows", lit_windows(lit), world_.palette);
+    placement.visible_to_m = 900.0f;
+    placement.casts_shadow = false;
+    place(world_.builder, "lit windows", windows, placement);
+  }
+
+ private:
+  geometry::PolygonMesh lit_windows(const TownBuilding& building) const {
+    constexpr double share = 0.3;
+    Random random(world_.seed, 7100 + building.variant);
+    MeshBuilder builder;
+    add_lit_windows(builder, {building.length_m, building.width_m, 0.0, 0.0}, look_of(building), share, random);
+    geometry::PolygonMesh mesh = builder.take();
+    mesh.default_edge_crease = geometry::crease_sharp;
+    return mesh;
+  }
+
+  static constexpr std::size_t lit_choices = 3;
+  const WorldContext& world_;
+  Random choices_;
+  std::map<TownBuilding, Shape> shapes_, lit_;
+};
+
 }  // namespace
 
 void build_objects(const WorldContext& world) {
+  TownPen town(world);
   Shape pole;
   std::size_t number = 0;
   for (const StandingObject& object : roadside::standing_objects(world.roads)) {
@@ -105,6 +159,9 @@ void build_objects(const WorldContext& world) {
       placement.scale = {radius, radius, static_cast<float>(object.height_m)};
       placement.visible_to_m = 600.0f;
       place(world.builder, "pole", pole, placement);
+    } else if (const auto building = town_building_of(object, number); building) {
+      town.draw(*building, placement);
+      ++number;
     } else if (object.kind == StandingKind::building || object.kind == StandingKind::block) {
       const Shape shape = add_shape(world.builder, "object", object_shape(object, number++), world.palette);
       placement.visible_to_m = object.kind == StandingKind::building ? 3000.0f : 900.0f;

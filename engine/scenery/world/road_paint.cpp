@@ -187,8 +187,8 @@ std::vector<Vec2> corners_of(const road::Road& road, const road::Signal& signal)
           {s0, signal.t_m + 0.5 * width}};
 }
 
-/// Draws a line across the lanes that lead up to it.
-void draw_stop_line(PaintPen& pen, const road::Road& road, const road::Signal& signal) {
+/// Span of the lanes that lead up to a signal and that it is valid for.
+Span lanes_towards(const road::Road& road, const road::Signal& signal) {
   const int along = roadside::direction_of(road, signal);
   const bool right_hand = road.rule == road::TrafficRule::right_hand;
   const road::LaneSection& section = road::section_at(road, signal.s_m);
@@ -203,9 +203,43 @@ void draw_stop_line(PaintPen& pen, const road::Road& road, const road::Signal& s
     t.add(borders.inner_t_m);
     t.add(borders.outer_t_m);
   }
+  return t;
+}
+
+/// Draws a line across the lanes that lead up to it.
+void draw_stop_line(PaintPen& pen, const road::Road& road, const road::Signal& signal) {
+  const Span t = lanes_towards(road, signal);
   if (!t.empty())
     pen.quad(signal.s_m - 0.5 * stop_line_m, signal.s_m + 0.5 * stop_line_m, t.low_m + 0.08, t.high_m - 0.08,
              Ground::paint);
+}
+
+/// Line before which the lanes that lead up to a sign wait: bars across them.
+void draw_waiting_line(PaintPen& pen, const road::Road& road, const road::Signal& sign) {
+  constexpr double bar_across_m = 0.5, gap_m = 0.25, deep_m = 0.3;
+  const Span t = lanes_towards(road, sign);
+  if (t.empty() || t.high_m - t.low_m > 100.0) return;
+  for (double low = t.low_m + 0.1; low + bar_across_m <= t.high_m; low += bar_across_m + gap_m)
+    pen.quad(sign.s_m - 0.5 * deep_m, sign.s_m + 0.5 * deep_m, low, low + bar_across_m, Ground::paint);
+}
+
+/// True if the file paints a stop line or a waiting line itself for those who read this sign.
+bool has_painted_line(const road::Road& road, const road::Signal& sign) {
+  constexpr double near_m = 20.0;
+  return std::ranges::any_of(road.signals, [&](const road::Signal& line) {
+    return (line.type == "294" || line.type == "341") && std::abs(line.s_m - sign.s_m) < near_m &&
+           roadside::direction_of(road, line) == roadside::direction_of(road, sign);
+  });
+}
+
+void draw_line_of(PaintPen& pen, const road::Road& road, const road::Signal& signal, SignalForm form) {
+  if (form == SignalForm::stop_line)
+    draw_stop_line(pen, road, signal);
+  else if (form == SignalForm::waiting_line)
+    draw_waiting_line(pen, road, signal);
+  else if (form == SignalForm::board && (signal.type == "205" || signal.type == "206") &&
+           !has_painted_line(road, signal))
+    signal.type == "205" ? draw_waiting_line(pen, road, signal) : draw_stop_line(pen, road, signal);
 }
 
 void draw_arrow(PaintPen& pen, const road::Road& road, const road::Signal& signal) {
@@ -240,10 +274,10 @@ void build_road_paint(const WorldContext& world) {
       const SignalForm form = roadside::form_of(signal);
       if (form == SignalForm::crossing)
         draw_crossing(pen, tile, corners_of(road, signal), carriageway(road, signal.s_m));
-      else if (form == SignalForm::stop_line && here(signal.s_m))
-        draw_stop_line(pen, road, signal);
       else if (form == SignalForm::arrow && here(signal.s_m))
         draw_arrow(pen, road, signal);
+      else if (here(signal.s_m))
+        draw_line_of(pen, road, signal, form);
     }
     for (const road::RoadObject& object : road.objects) {
       if (object.type == "crosswalk") draw_crossing(pen, tile, corners_of(object), carriageway(road, object.s_m));

@@ -47,6 +47,7 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   if (!options.buildings) return;
   build_buildings(world);
   build_streets(world);
+  build_furniture(world);
   build_objects(world);
 }
 

@@ -57,6 +57,7 @@ void build_bridges(const WorldContext& world);
 void build_tunnels(const WorldContext& world);
 void build_gantries(const WorldContext& world);    ///< Gantries with signs and speed displays.
 void build_streets(const WorldContext& world);     ///< Houses and lamps of towns.
+void build_furniture(const WorldContext& world);   ///< Benches, bins, lids and other small things of streets.
 void build_objects(const WorldContext& world);     ///< Objects that the road file places beside the road.
 void build_signals(const WorldContext& world);     ///< Boards on posts, traffic lights.
 void build_road_paint(const WorldContext& world);  ///< Crossings, stop lines, arrows.

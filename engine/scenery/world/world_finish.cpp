@@ -7,6 +7,7 @@
 #include "engine/image/draw.hpp"
 #include "engine/image/srgb.hpp"
 #include "engine/scenery/lettering.hpp"
+#include "engine/scenery/world/facades.hpp"
 #include "engine/scenery/world/textures.hpp"
 
 namespace septet::scenery {
@@ -25,7 +26,13 @@ enum class Texture {
   exit,
   palette,
   asphalt_plain,
-  paving
+  paving,
+  plaster,
+  brick,
+  bakery,
+  chemist,
+  cafe,
+  flowers
 };
 
 struct WorldLook {
@@ -43,7 +50,7 @@ struct WorldLook {
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
 /// Looks in the order of Ground. Linear means of the textures: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 74> ground_looks{{
+constexpr std::array<WorldLook, 89> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
@@ -97,6 +104,21 @@ constexpr std::array<WorldLook, 74> ground_looks{{
     {"facade white", {0.82f, 0.80f, 0.72f}, Texture::facade},
     {"facade yellow", {0.72f, 0.52f, 0.25f}, Texture::facade},
     {"facade grey", {0.46f, 0.47f, 0.46f}, Texture::facade},
+    {"plaster white", {0.86f, 0.84f, 0.78f}, Texture::plaster},
+    {"plaster ochre", {0.80f, 0.60f, 0.32f}, Texture::plaster},
+    {"plaster rose", {0.74f, 0.44f, 0.36f}, Texture::plaster},
+    {"plaster green", {0.52f, 0.60f, 0.42f}, Texture::plaster},
+    {"plaster blue", {0.46f, 0.55f, 0.62f}, Texture::plaster},
+    {"brick red", {0.62f, 0.24f, 0.16f}, Texture::brick},
+    {"brick brown", {0.42f, 0.27f, 0.19f}, Texture::brick},
+    {"sandstone", {0.74f, 0.64f, 0.48f}, Texture::brick},
+    {"shop bakery", {0.9f, 0.9f, 0.9f}, Texture::bakery, 0.5f},
+    {"shop chemist", {0.9f, 0.9f, 0.9f}, Texture::chemist, 0.5f},
+    {"shop cafe", {0.9f, 0.9f, 0.9f}, Texture::cafe, 0.5f},
+    {"shop flowers", {0.9f, 0.9f, 0.9f}, Texture::flowers, 0.5f},
+    {"door", {0.10f, 0.055f, 0.030f}, Texture::none, 0.6f},
+    {"awning red", {0.42f, 0.040f, 0.035f}, Texture::none},
+    {"awning green", {0.045f, 0.20f, 0.085f}, Texture::none},
     {"farm red", {0.52f, 0.095f, 0.060f}, Texture::facade},
     {"farm white", {0.82f, 0.80f, 0.72f}, Texture::facade},
     {"roof tiles", {0.34f, 0.13f, 0.080f}, Texture::none},
@@ -128,7 +150,7 @@ bool is_in_tunnel(Ground ground) {
 
 bool is_street_wall(Ground ground) {
   using enum Ground;
-  return ground == facade_red || ground == facade_white || ground == facade_yellow || ground == facade_grey ||
+  return (ground >= facade_red && ground <= shop_flowers) ||
          ground == window_lit;  // Its panes stand before the facades alone.
 }
 
@@ -198,7 +220,7 @@ void to_palette(geometry::PolygonMesh& mesh) {
 }
 
 Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, bool towns) {
-  std::array<scene::NodeId, 13> bitmaps;
+  std::array<scene::NodeId, 19> bitmaps;
   bitmaps.fill(scene::no_node);
   const auto add = [&](Texture texture, const char* name, const image::Image& image) {
     bitmaps[static_cast<std::size_t>(texture)] = builder.add_bitmap(name, image.width, image.height, image.rgba);
@@ -215,6 +237,12 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, boo
   if (towns) {
     add(Texture::asphalt_plain, "asphalt plain", plain_asphalt_texture(seed + 80));
     add(Texture::paving, "paving", paving_texture(seed + 90));
+    add(Texture::plaster, "plaster", plaster_facade_texture(seed + 100));
+    add(Texture::brick, "brick", brick_facade_texture(seed + 110));
+    add(Texture::bakery, "bakery", shop_front_texture("BÄCKEREI", {120, 66, 30}));
+    add(Texture::chemist, "chemist", shop_front_texture("APOTHEKE", {172, 30, 34}));
+    add(Texture::cafe, "cafe", shop_front_texture("CAFÉ", {38, 62, 92}));
+    add(Texture::flowers, "flowers", shop_front_texture("BLUMEN", {44, 96, 50}));
   }
   add(Texture::palette, "palette", palette_texture());
   Palette palette;

@@ -61,6 +61,21 @@ enum class Ground : std::uint32_t {
   facade_white,
   facade_yellow,
   facade_grey,
+  plaster_white,  ///< Walls of a town, to sandstone.
+  plaster_ochre,
+  plaster_rose,
+  plaster_green,
+  plaster_blue,
+  brick_red,
+  brick_brown,
+  sandstone,
+  shop_bakery,  ///< Fronts of shops, to shop_flowers.
+  shop_chemist,
+  shop_cafe,
+  shop_flowers,
+  door,
+  awning_red,
+  awning_green,
   farm_red,  ///< Walls among fields, as are those of farm_white.
   farm_white,
   roof_tiles,
