@@ -42,6 +42,13 @@ int main(int argc, char** argv) {
   app.add_option("--vehicle", options.vehicle, "Vehicle file, or a name below vehicles/")->default_str("the rig's");
   app.add_option("--models", options.models, "Folder of your own glTF models: NAME.glb replaces NAME")
       ->default_str("none");
+  app.add_option("--edits", options.edits, "File of edits over the generated world (docs/editing.md)")
+      ->default_str("none")
+      ->excludes("--replay");
+  app.add_option("--save", options.save,
+                 "At the end, write what differs from the generated world to this file of edits")
+      ->default_str("nothing is written")
+      ->excludes("--replay");
   app.add_option("--participant", options.participant, "The driver's code, for log, summary and report")
       ->default_str("none");
   app.add_option("--about", options.about,

@@ -114,7 +114,7 @@ Expected<Attendance> gather(const ServerOptions& options, const ServeOptions& se
     all.list.push_back(std::make_unique<Sound>(
         SoundSources{rig, drive.loaded.model, drive.session ? &*drive.session : nullptr, drive.store}, drive.live));
   if (screens) {
-    all.list.push_back(std::make_unique<SceneEdits>(drive, *host, all.log));
+    all.list.push_back(std::make_unique<SceneEdits>(drive, *host, all.log, options.save));
     all.list.push_back(std::make_unique<AllowedList>(options.keys / "allowed-clients", *host));
     all.screens = screens.get();
     all.list.push_back(std::move(screens));

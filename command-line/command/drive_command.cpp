@@ -31,6 +31,7 @@
 #include "program/resources.hpp"
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
+#include "sim-server/host/rig_keys.hpp"
 #include "sim-server/page/listening_socket.hpp"
 #include "sim-server/page/request_checks.hpp"
 
@@ -50,8 +51,20 @@ bool has_display() {
   return names_one("DISPLAY") || names_one("WAYLAND_DISPLAY");
 }
 
-/// Keys of a drive on this machine alone: made for it, removed with it.
-Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
+constexpr const char* editor_name = "editor";
+
+/// The line of the list of the editor, whose key lies in that folder beside the server's.
+Expected<std::string> admit_editor(const fs::path& folder, const net::PublicKey& server) {
+  const auto identity = net::load_or_create_identity(folder / fmt::format("{}.key", editor_name));
+  if (!identity) return tl::unexpected(identity.error());
+  if (auto put = document::write_text_file(folder / "server.public", net::to_text(server) + '\n'); !put)
+    return tl::unexpected(put.error());
+  return fmt::format("{} {} edit\n", net::to_text(identity->public_key()), editor_name);
+}
+
+/// Keys of a drive on this machine alone: made for it, removed with it. `editors`: folder of an editor's key, which stays;
+/// empty: nobody edits.
+Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& clients, const fs::path& editors) {
   auto folder = program::TemporaryFolder::make("septet");
   if (!folder) return folder;
   std::string allowed;
@@ -62,6 +75,11 @@ Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& cli
   }
   const auto server = net::load_or_create_identity(folder->path() / "server.key");
   if (!server) return tl::unexpected(server.error());
+  if (!editors.empty()) {
+    const auto line = admit_editor(editors, server->public_key());
+    if (!line) return tl::unexpected(line.error());
+    allowed += *line;
+  }
   const auto written = document::write_text_files(
       folder->path(), {{"allowed-clients", allowed}, {"server.public", net::to_text(server->public_key()) + '\n'}});
   if (!written) return tl::unexpected(written.error());
@@ -152,6 +170,8 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   add_chosen("--motion", options.motion);
   add_chosen("--vehicle", options.vehicle);
   add_chosen("--models", options.models.string());
+  add_chosen("--edits", options.edits.string());
+  add_chosen("--save", options.save.string());
   add_chosen("--participant", options.participant);
   for (const auto& about : options.about) add_chosen("--about", about);
   if (options.log == "samples") add({"--log-samples-only"});
@@ -250,7 +270,7 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   program::catch_stop_signals();
   std::vector<std::string> clients;
   for (const auto& screen : rig.screens) clients.push_back(screen.name);
-  const auto keys = make_keys(clients);
+  const auto keys = make_keys(clients, options.editors);
   if (!keys) return tl::unexpected(keys.error());
   auto server = start_server(server_options(options, rig_file, keys->path()), page);
   if (!server) return tl::unexpected(server.error());
@@ -270,6 +290,9 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
       std::from_chars(line->data() + begin.size(), line->data() + line->size(), begin_at_s);
     if (!line->starts_with("ready ")) return true;
     was_ready = true;
+    if (!options.editors.empty())
+      if (auto put = document::write_text_file(options.editors / address_file, ip + ':' + line->substr(6) + '\n'); !put)
+        program::say(describe(put.error()));
     if (!options.no_screens)
       for (const auto& screen : rig.screens)
         screens.emplace_back(screen.name, screen_options(options, screen, ip + ':' + line->substr(6), keys->path()));

@@ -36,6 +36,9 @@ struct DriveOptions {
   bool start_now = false;               ///< Do not wait for a person to take the controls.
   std::optional<int> page_port;         ///< Port of the operator's page; 0: any free one; empty: no page.
   std::vector<std::string> page_hosts;  ///< Allowed host names of the page, beside this machine's own.
+  std::filesystem::path edits;          ///< File of edits over the generated world; empty: none.
+  std::filesystem::path save;           ///< File for what differs from that world at the end; empty: none.
+  std::filesystem::path editors;        ///< Folder for the key and the address of `septet edit`; empty: nobody edits.
   bool no_screens = false;              ///< Server and car only.
   bool no_sound = false;                ///< Silences a rig with sound too.
 };

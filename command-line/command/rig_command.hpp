@@ -3,12 +3,19 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/core/expected.hpp"
 
 namespace septet::server {
 
-/// Writes the keys of a rig's machines below `out` (sim-server/host/rig_keys.hpp) and prints the new ones.
-Expected<int> run_rig_keys(const std::string& rig, const std::filesystem::path& out);
+struct RigKeysOptions {
+  std::string rig;
+  std::filesystem::path out = "keys";
+  std::vector<std::string> editors;  ///< Each "NAME" or "NAME=RIGHTS".
+};
+
+/// Writes the keys of a rig's machines and editors below `out` (sim-server/host/rig_keys.hpp) and prints the new ones.
+Expected<int> run_rig_keys(const RigKeysOptions& options);
 
 }  // namespace septet::server

@@ -52,6 +52,17 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   drive_command->add_option("--vehicle", options.drive.vehicle, "Vehicle file, or a name of septet list vehicles")
       ->default_str("the rig's");
+  drive_command->add_option("--edits", options.drive.edits, "File of edits over the generated world (docs/editing.md)")
+      ->default_str("none");
+  drive_command
+      ->add_option("--save", options.drive.save,
+                   "At the end, write what differs from the generated world to this file of edits")
+      ->default_str("nothing is written");
+  drive_command
+      ->add_option(
+          "--editors", options.drive.editors,
+          "Folder for the key and address by which septet edit, and scripts, change the world while it is driven")
+      ->default_str("none: nobody edits");
   add_models_option(*drive_command, options.drive.models);
   drive_command
       ->add_option("--participant", options.drive.participant, "The driver's code, for log, summary and report")

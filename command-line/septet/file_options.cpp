@@ -34,9 +34,29 @@ void add_file_commands(CLI::App& app, Options& options) {
   rig_command->require_subcommand(1);
   auto* rig_keys =
       rig_command->add_subcommand("keys", "Make the keys of a rig's machines, one folder for each (rigs/EIGHT-PCS.md)");
-  rig_keys->add_option("rig", options.rig_name, "Rig: a file or a name")->required();
-  rig_keys->add_option("--out", options.keys_out, "Parent of these folders; existing keys stay")->capture_default_str();
-  rig_keys->callback([&] { options.work = [&] { return run_rig_keys(options.rig_name, options.keys_out); }; });
+  RigKeysOptions& keys = options.rig_keys;
+  rig_keys->add_option("rig", keys.rig, "Rig: a file or a name")->required();
+  rig_keys->add_option("--out", keys.out, "Parent of these folders; existing keys stay")->capture_default_str();
+  rig_keys
+      ->add_option(
+          "--editor", keys.editors,
+          "A client that edits the world, or looks: its name, and its rights (look, or edit PREFIX/… hide move "
+          "paint create); as often as needed")
+      ->type_name("NAME[=RIGHTS]")
+      ->default_str("none")
+      ->allow_extra_args(false);
+  rig_keys->callback([&] { options.work = [&] { return run_rig_keys(options.rig_keys); }; });
+
+  auto* edit_command = app.add_subcommand("edit", "Change the world of a running drive (docs/editing.md)");
+  EditOptions& edit = options.edit;
+  edit_command->add_option("files", edit.files, "Files of lines; without one the lines of standard input");
+  edit_command
+      ->add_option("--keys", edit.keys, "Folder that septet drive --editors, or septet rig keys --editor, wrote")
+      ->required();
+  edit_command->add_option("--key", edit.key, "Name of the key in that folder")->default_str("the only one");
+  edit_command->add_option("--server", edit.server, "Server's address and port")->default_str("as in that folder");
+  edit_command->add_flag("--json", edit.json, "For programs: one JSON object a line, and ticks");
+  edit_command->callback([&] { options.work = [&] { return run_edit(options.edit); }; });
 
   auto* list_command = app.add_subcommand("list", "List available names, one per line");
   list_command->add_option("kind", options.kind, "Kind of names")->required()->check(CLI::IsMember(listed_kinds()));

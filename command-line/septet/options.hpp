@@ -8,9 +8,11 @@
 
 #include "command-line/command/check_command.hpp"
 #include "command-line/command/drive_command.hpp"
+#include "command-line/command/edit_command.hpp"
 #include "command-line/command/experiment_command.hpp"
 #include "command-line/command/operate_command.hpp"
 #include "command-line/command/report_command.hpp"
+#include "command-line/command/rig_command.hpp"
 #include "command-line/command/session_command.hpp"
 #include "command-line/command/session_participants.hpp"
 #include "command-line/command/traffic_command.hpp"
@@ -33,9 +35,10 @@ struct Options {
   VehicleTestOptions track;
   double track_speed_kmh = 0.0;
   TrafficDiagramOptions diagram;
-  std::string road_file, rig_name, kind;
+  std::string road_file, kind;
+  RigKeysOptions rig_keys;
+  EditOptions edit;
   std::vector<std::filesystem::path> list_data;  ///< User folders, of list.
-  std::filesystem::path keys_out = "keys";
   CheckOptions check;
   ParticipantsOptions participants;
   WhatIfCommandOptions what_if;
@@ -54,6 +57,6 @@ void add_drive_commands(CLI::App& app,
 void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
 void add_session_commands(CLI::App& app, Options& options);     ///< session, what-if.
 void add_experiment_commands(CLI::App& app, Options& options);  ///< experiment.
-void add_file_commands(CLI::App& app, Options& options);        ///< road, rig, list, devices, check.
+void add_file_commands(CLI::App& app, Options& options);        ///< road, rig, edit, list, devices, check.
 
 }  // namespace septet::server

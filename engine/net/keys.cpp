@@ -7,7 +7,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -129,9 +131,10 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     std::istringstream words(line);
-    std::string key, name, right, more;
+    std::string key, name;
     if (!(words >> key) || key.starts_with('#')) continue;
-    words >> name >> right >> more;
+    words >> name;
+    const std::vector<std::string> right_words{std::istream_iterator<std::string>(words), {}};
     const std::string where = fmt::format("{}:{}", file.string(), number);
     auto parsed = parse_public_key(key, where);
     if (!parsed) return tl::unexpected(parsed.error());
@@ -144,10 +147,13 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
         return failure(fmt::format("a second key for {}", name), where,
                        "remove the line of the key that no longer counts");
     }
-    if (!(right.empty() || right == "edit") || !more.empty())
-      return failure(fmt::format("\"{}\" is no right", more.empty() ? right : more), where,
-                     "write `KEY NAME` for a client that looks, `KEY NAME edit` for one that may change the scene");
-    clients.push_back({*parsed, name, right == "edit"});
+    RightsWords read = read_rights(right_words);
+    if (read.bad)
+      return failure(
+          fmt::format("\"{}\" is no right", *read.bad), where,
+          "write `KEY NAME` for a screen, `KEY NAME look` for a reader, `KEY NAME edit [PREFIX/…] [hide] [move] "
+          "[paint] [create]` for an editor");
+    clients.push_back({*parsed, name, std::move(read.rights)});
   }
   return clients;
 }

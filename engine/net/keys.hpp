@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/net/rights.hpp"
 
 namespace septet::net {
 
@@ -68,11 +69,12 @@ Expected<PublicKey> load_public_key(const std::filesystem::path& file);
 
 struct AllowedClient {
   PublicKey key{};
-  std::string name;       ///< Name of the screen in the rig, or "car"; it is also the only role allowed to this key.
-  bool may_edit = false;  ///< True if it may change the scene.
+  std::string name;  ///< Name of the screen in the rig, or "car"; it is also the only role allowed to this key.
+  Rights rights{};
 };
 
-/// Reads lines `KEY NAME [edit]`; blank lines and lines that begin with # are skipped. Error: a key or name that stands twice.
+/// Reads lines `KEY NAME [RIGHTS]`; blank lines and lines that begin with # are skipped. Error: a key or name that stands
+/// twice, a word that is no right.
 Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem::path& file);
 
 }  // namespace septet::net

@@ -60,6 +60,7 @@ struct Put {
     out.put_varint(m.sequence), out.put_varint(m.index);
     out.put_bytes(std::as_bytes(std::span(m.why).first(std::min(m.why.size(), max_refusal_bytes))));
   }
+  void operator()(const Done& m) const { out.put_varint(m.sequence), out.put_varint(m.tick); }
 };
 
 Message get(ByteReader& in, std::uint8_t kind) {
@@ -98,6 +99,11 @@ Message get(ByteReader& in, std::uint8_t kind) {
       m.sequence = in.get_varint(), m.index = in.get_varint();
       const auto why = in.take(std::min(in.remaining(), max_refusal_bytes));
       m.why.assign(reinterpret_cast<const char*>(why.data()), why.size());
+      return m;
+    }
+    case 6: {
+      Done m;
+      m.sequence = in.get_varint(), m.tick = in.get_varint();
       return m;
     }
     default:

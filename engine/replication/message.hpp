@@ -33,8 +33,10 @@ inline constexpr scene::NodeId ids_per_session = 1u << 16;
 struct CommandBatch {
   std::uint64_t sequence = 0;
   std::uint64_t received = 0;
-  Bytes commands;          ///< Commands as encoded by command_codec.hpp, one after another; packed only on the wire.
-  std::uint64_t tick = 0;  ///< From a server: the first tick that shows them; 0: at once. From a client: 0.
+  Bytes commands;  ///< Commands as encoded by command_codec.hpp, one after another; packed only on the wire.
+  /// From a server: the first tick that shows them; 0: at once. From a client: the tick that is to show them first; 0, or one
+  /// that is past: the next.
+  std::uint64_t tick = 0;
 };
 struct Complete {
   std::uint64_t revision = 0;
@@ -50,8 +52,14 @@ struct Refused {
   std::string why;             ///< What is wrong, where, and what to do.
 };
 
+/// The client's batch was done, whole.
+struct Done {
+  std::uint64_t sequence = 0;  ///< Of the batch.
+  std::uint64_t tick = 0;      ///< The first that shows it.
+};
+
 /// Numbered as on the wire.
-using Message = std::variant<Hello, Welcome, CommandBatch, Complete, Received, Refused>;
+using Message = std::variant<Hello, Welcome, CommandBatch, Complete, Received, Refused, Done>;
 
 Bytes encode(const Message& message);
 Expected<Message> decode(std::span<const std::byte> bytes);

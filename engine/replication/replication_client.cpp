@@ -21,6 +21,8 @@ using namespace scene;
 namespace {
 
 constexpr std::size_t batch_bytes = 32 * 1024;
+/// Answers to batches that are kept, of each kind.
+constexpr std::size_t most_answers = 10'000;
 
 /// Commands kept back at most, by their bytes; beyond that they are shown early.
 constexpr std::size_t most_held_bytes = 64u << 20;
@@ -35,6 +37,7 @@ struct HeldBatch {
 struct SentBatch {
   std::uint64_t sequence = 0;
   Bytes commands;
+  std::uint64_t tick = 0;
 };
 
 }  // namespace
@@ -60,6 +63,7 @@ struct ReplicationClient::State {
   std::uint64_t answered = 0, revision = 0;
   NodeId own_ids = 0;
   std::vector<Refused> refusals;
+  std::vector<Done> done;
   std::optional<std::uint64_t> shown_tick;
   std::deque<HeldBatch> held;
   std::size_t held_bytes = 0;
@@ -115,9 +119,9 @@ struct ReplicationClient::State {
     scene::encode(command, queued);
     if (queued.size() >= batch_bytes) close_batch();
   }
-  void close_batch() {
+  void close_batch(std::uint64_t tick = 0) {
     if (queued.empty()) return;
-    unacknowledged.push_back({++sent, std::exchange(queued, {})});
+    unacknowledged.push_back({++sent, std::exchange(queued, {}), tick});
     ++to_repeat;
   }
   void subscribe(NodeId node, NodeType type, PartKind kind, PartId part, std::string_view name) {
@@ -217,8 +221,11 @@ struct ReplicationClient::State {
     return {};
   }
   Expected<void> operator()(const Refused& message) {
-    constexpr std::size_t most_refusals = 1000;
-    if (refusals.size() < most_refusals) refusals.push_back(message);
+    if (refusals.size() < most_answers) refusals.push_back(message);
+    return {};
+  }
+  Expected<void> operator()(const Done& message) {
+    if (done.size() < most_answers) done.push_back(message);
     return {};
   }
   Expected<void> operator()(const Hello&) {
@@ -247,7 +254,7 @@ struct ReplicationClient::State {
     close_batch();
     for (; to_repeat > 0; --to_repeat) {
       const SentBatch& batch = unacknowledged[unacknowledged.size() - to_repeat];
-      if (!send(encode(CommandBatch{batch.sequence, received, batch.commands}))) return;
+      if (!send(encode(CommandBatch{batch.sequence, received, batch.commands, batch.tick}))) return;
       owes_acknowledgement = false;
     }
     if (owes_acknowledgement && send(encode(Received{received}))) owes_acknowledgement = false;
@@ -287,7 +294,7 @@ Expected<void> ReplicationClient::show(std::uint64_t tick) {
 void ReplicationClient::pump(const Send& send) { state_->pump(send); }
 void ReplicationClient::request(const Command& command) { state_->queue(command); }
 
-Expected<std::uint64_t> ReplicationClient::request_batch(std::span<const Command> changes) {
+Expected<std::uint64_t> ReplicationClient::request_batch(std::span<const Command> changes, std::uint64_t tick) {
   Bytes bytes;
   for (const Command& command : changes) scene::encode(command, bytes);
   if (bytes.empty() || bytes.size() > max_batch_bytes)
@@ -295,12 +302,13 @@ Expected<std::uint64_t> ReplicationClient::request_batch(std::span<const Command
                    fmt::format("send 1 to {} bytes at once", max_batch_bytes));
   state_->close_batch();
   state_->queued = std::move(bytes);
-  state_->close_batch();
+  state_->close_batch(tick);
   return state_->sent;
 }
 
 NodeId ReplicationClient::own_ids() const { return state_->own_ids; }
 std::vector<Refused> ReplicationClient::take_refusals() { return std::exchange(state_->refusals, {}); }
+std::vector<Done> ReplicationClient::take_done() { return std::exchange(state_->done, {}); }
 const Store& ReplicationClient::store() const { return *state_->shown; }
 std::uint64_t ReplicationClient::generation() const { return state_->generation; }
 bool ReplicationClient::complete() const { return state_->complete(); }

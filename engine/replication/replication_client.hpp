@@ -44,13 +44,16 @@ class ReplicationClient {
   /// Requests a change from the server (the reply is the same command, or none) or a subscription beyond the
   /// policy's. Requests of a session that is not resumed are lost.
   void request(const scene::Command& command);
-  /// Requests changes that are made together or not at all; returns the batch's number, by which a refusal names it. New
-  /// nodes have ids of `own_ids`. Error: they are too many for one batch.
-  Expected<std::uint64_t> request_batch(std::span<const scene::Command> changes);
+  /// Requests changes that are made together or not at all; returns the batch's number, by which its answer names it. New
+  /// nodes have ids of `own_ids`. `tick`: the one that is to show them first; 0: the next. Error: they are too many for one
+  /// batch.
+  Expected<std::uint64_t> request_batch(std::span<const scene::Command> changes, std::uint64_t tick = 0);
   /// The first of the ids that this client gives to nodes (ids_per_session of them); 0 before the welcome.
   scene::NodeId own_ids() const;
   /// The refusals since the last call.
   std::vector<Refused> take_refusals();
+  /// The batches that were done since the last call.
+  std::vector<Done> take_done();
   /// The tick that is shown next: what holds from it on is in the store now, and from the first call on what holds from a
   /// later tick is kept back. Ticks rise. Error: as of `receive`.
   Expected<void> show(std::uint64_t tick);

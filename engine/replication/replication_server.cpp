@@ -22,7 +22,7 @@ namespace {
 
 constexpr int nodes_listed_at_once = 256;
 constexpr int requests_per_pump = 8192;
-constexpr std::size_t most_refusals = 100;
+constexpr std::size_t most_answers = 1000;
 /// Sessions' own ids lie above those that the server assigns, and begin again after many sessions.
 constexpr NodeId first_own_id = 0x40000000u, sessions_with_ids = 0xA000u;
 
@@ -53,7 +53,7 @@ struct Session {
   std::uint64_t told_revision = 0, told_answered = 0;
   NodeId own_ids = 0;
   std::uint64_t changed_at = 0;  ///< First tick that shows the newest change.
-  std::deque<Refused> refusals;  ///< To be sent.
+  std::deque<Message> answers;   ///< Refused and Done, to be sent.
 
   bool wants(const Subject& subject) const {
     const auto node = subscriptions.find(subject.node);
@@ -238,19 +238,26 @@ struct ReplicationServer::State {
     return {};
   }
 
-  Expected<std::vector<Command>> batch(Session& session, const CommandBatch& message) {
-    if (message.sequence <= session.received) return std::vector<Command>{};
+  void answer(ConnectionId connection, Message message) {
+    const auto found = connections.find(connection);
+    if (found == connections.end() || !found->second.session) return;
+    std::deque<Message>& answers = found->second.session->answers;
+    if (answers.size() < most_answers) answers.push_back(std::move(message));
+  }
+
+  Expected<ClientBatch> batch(Session& session, const CommandBatch& message) {
+    if (message.sequence <= session.received) return ClientBatch{};
     if (message.sequence != session.received + 1)
       return failure(fmt::format("batch {} follows {}", message.sequence, session.received),
                      "replication client " + session.identity, "repeat unanswered batches in order");
-    std::vector<Command> changes;
+    ClientBatch asked{message.sequence, message.tick, message.commands.size()};
     ByteReader in(message.commands);
     while (!in.at_end()) {
       auto command = scene::decode(in);
       if (!command) return tl::unexpected(command.error());
       constexpr std::size_t subscription_kinds = 3;
       if (command->index() >= subscription_kinds)
-        changes.push_back(std::move(*command));
+        asked.changes.push_back(std::move(*command));
       else if (session.requests.size() < options.waiting_requests)
         session.requests.push_back(std::move(*command));
       else
@@ -259,7 +266,7 @@ struct ReplicationServer::State {
     }
     session.received = message.sequence;
     session.owes_acknowledgement = true;
-    return changes;
+    return asked;
   }
 
   Pumped pump(Connection& connection, std::size_t max_bytes, const Send& send) {
@@ -295,10 +302,10 @@ struct ReplicationServer::State {
         return pumped;
     }
 
-    while (!session.refusals.empty()) {
-      const Refused refused = std::move(session.refusals.front());
-      session.refusals.pop_front();
-      if (!offer(encode(refused))) return pumped;
+    while (!session.answers.empty()) {
+      const Message next = std::move(session.answers.front());
+      session.answers.pop_front();
+      if (!offer(encode(next))) return pumped;
     }
     const bool all_said = session.outbox.empty() && session.requests.empty() && session.next_listed == no_node;
     const bool news = !session.told_complete || session.told_revision != store.revision() ||
@@ -335,7 +342,7 @@ void ReplicationServer::disconnect(ConnectionId connection) {
   state_->connections.erase(found);
 }
 
-Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connection, std::span<const std::byte> message) {
+Expected<ClientBatch> ReplicationServer::receive(ConnectionId connection, std::span<const std::byte> message) {
   const auto found = state_->connections.find(connection);
   SEPTET_CHECK(found != state_->connections.end(), "connection {} is not known", connection);
   Connection& from = found->second;
@@ -343,7 +350,7 @@ Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connectio
   if (!decoded) return tl::unexpected(decoded.error());
   if (const auto* hello = std::get_if<Hello>(&*decoded)) {
     if (auto done = state_->hello(from, *hello); !done) return tl::unexpected(done.error());
-    return std::vector<Command>{};
+    return ClientBatch{};
   }
   if (!from.session)
     return failure("a message before the hello", "replication client " + from.identity, "say hello first");
@@ -353,15 +360,10 @@ Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connectio
   }
   if (const auto* received = std::get_if<Received>(&*decoded)) {
     from.session->acknowledge(received->sequence);
-    return std::vector<Command>{};
+    return ClientBatch{};
   }
   return failure("a message that only a server sends", "replication client " + from.identity,
                  "send hello, commands or received");
-}
-
-std::uint64_t ReplicationServer::last_batch(ConnectionId connection) const {
-  const auto found = state_->connections.find(connection);
-  return found == state_->connections.end() || !found->second.session ? 0 : found->second.session->received;
 }
 
 NodeId ReplicationServer::own_ids(ConnectionId connection) const {
@@ -370,10 +372,11 @@ NodeId ReplicationServer::own_ids(ConnectionId connection) const {
 }
 
 void ReplicationServer::refuse(ConnectionId connection, std::uint64_t batch, std::size_t index, std::string why) {
-  const auto found = state_->connections.find(connection);
-  if (found == state_->connections.end() || !found->second.session) return;
-  std::deque<Refused>& refusals = found->second.session->refusals;
-  if (refusals.size() < most_refusals) refusals.push_back({batch, index, std::move(why)});
+  state_->answer(connection, Refused{batch, index, std::move(why)});
+}
+
+void ReplicationServer::done(ConnectionId connection, std::uint64_t batch, std::uint64_t tick) {
+  state_->answer(connection, Done{batch, tick});
 }
 
 void ReplicationServer::applied(const Command& command, std::uint64_t tick) {

@@ -36,6 +36,14 @@ struct ReplicationOptions {
   std::size_t waiting_requests = 1u << 20;     ///< Limit of one client's requests; more end its connection.
 };
 
+/// A client's changes, to be made together.
+struct ClientBatch {
+  std::uint64_t number = 0;  ///< By which its answer names it.
+  std::uint64_t tick = 0;    ///< The one that is to show them first; 0: the next.
+  std::size_t bytes = 0;     ///< As encoded.
+  std::vector<scene::Command> changes{};
+};
+
 class ReplicationServer {
  public:
   /// `instance` distinguishes this run of the server from earlier ones; any number that does not repeat. The store must
@@ -50,15 +58,15 @@ class ReplicationServer {
 
   /// Returns the client's requested changes, for the owner of the store to apply or not. After an error the connection
   /// is to be dropped.
-  Expected<std::vector<scene::Command>> receive(ConnectionId connection, std::span<const std::byte> message);
+  Expected<ClientBatch> receive(ConnectionId connection, std::span<const std::byte> message);
 
-  /// Number of the client's last batch, by which a refusal names it.
-  std::uint64_t last_batch(ConnectionId connection) const;
   /// The first of the ids that are this client's own; 0: it has not said hello.
   scene::NodeId own_ids(ConnectionId connection) const;
-  /// Tells a client that nothing of its batch was done, because of one command of it. Beyond a hundred that wait, no more
-  /// are told. A connection that is gone is told nothing.
+  /// Tells a client that nothing of its batch was done, because of one command of it. Of the answers that wait, the
+  /// oldest thousand are told. A connection that is gone is told nothing.
   void refuse(ConnectionId connection, std::uint64_t batch, std::size_t index, std::string why);
+  /// Tells a client that its batch was done, and the first tick that shows it.
+  void done(ConnectionId connection, std::uint64_t batch, std::uint64_t tick);
 
   /// Call after every command that the store accepted. `tick`: the first that shows it; mirrors that show ticks keep it
   /// back until then. 0: at once. Ticks rise.

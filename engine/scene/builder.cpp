@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "engine/core/check.hpp"
 #include "engine/scene/part_role.hpp"
 
@@ -214,6 +216,12 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
   if (parameters.lit_by_night) apply(TagSet{id, surface_group, tag++, {"lit_by_night", true}});
   if (parameters.in_street) apply(TagSet{id, surface_group, tag++, {"in_street", true}});
   return id;
+}
+
+std::string SceneBuilder::unused_name(std::string name) {
+  const std::uint32_t number = ++used_names_[name];
+  if (number > 1) name += fmt::format("/{}", number);
+  return name;
 }
 
 NodeId SceneBuilder::add_object(std::string_view name, const ObjectParameters& parameters) {

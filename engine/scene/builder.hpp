@@ -5,7 +5,9 @@
 /// A call with values that a store would refuse (not finite, index out of range, over a limit) is a bug of the caller
 /// and stops the program.
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,6 +76,9 @@ class SceneBuilder {
   /// The child's transform is then relative to the parent's.
   void add_child(NodeId parent, NodeId child);
 
+  /// The name, or where it was returned before, the name with a number: "name/2".
+  std::string unused_name(std::string name);
+
   /// Applies one command to the store; a refused one stops the program.
   void apply(const Command& command);
 
@@ -82,6 +87,7 @@ class SceneBuilder {
 
   Store& store_;
   std::function<void(const Command&)> applied_;
+  std::map<std::string, std::uint32_t> used_names_;  ///< With their numbers.
 };
 
 }  // namespace septet::scene

@@ -1,8 +1,13 @@
 #pragma once
 /// The fields of commands in bytes (COMMANDS.md). Writer and Reader have the same functions, so that one description of
-/// each command's fields serves both ways: `fields(writer, command)` and `fields(reader, command)`.
+/// each command's fields serves both ways: command_fields.hpp.
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "engine/core/bytes.hpp"
@@ -40,6 +45,14 @@ struct Writer {
   void reals(std::span<const float> values, std::size_t stride) { put_reals(out, values, stride); }
   void integers(std::span<const std::uint32_t> values) { put_integers(out, values); }
   void corners(std::span<const PolygonCorners> polygons) { put_corners(out, polygons); }
+  /// Of a transform.
+  void what_follows(bool turned, bool scaled) {
+    out.put(static_cast<std::uint8_t>((turned ? 1 : 0) | (scaled ? 2 : 0)));
+  }
+  template <class Variant>
+  void alternative(std::size_t index) {
+    out.put(static_cast<std::uint8_t>(index));
+  }
 };
 
 /// Values out of range put `in` into its failed state.
@@ -79,6 +92,18 @@ struct Reader {
   void reals(std::span<float> values, std::size_t stride) { get_reals(in, values, stride); }
   void integers(std::span<std::uint32_t> values) { get_integers(in, values); }
   void corners(std::span<PolygonCorners> polygons) { get_corners(in, polygons); }
+  void what_follows(bool& turned, bool& scaled) {
+    const auto flags = in.get<std::uint8_t>();
+    if (flags > 3) in.fail();
+    turned = flags & 1, scaled = flags & 2;
+  }
+  /// Its index; no alternative's after bad bytes.
+  template <class Variant>
+  std::size_t alternative() {
+    const auto index = in.get<std::uint8_t>();
+    if (index >= std::variant_size_v<Variant>) in.fail();
+    return in.ok() ? index : std::variant_npos;
+  }
 
  private:
   std::uint64_t bounded(std::uint64_t largest) {

@@ -1,10 +1,23 @@
 #include "engine/scenery/palette.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/core.h>
 
 #include "engine/core/check.hpp"
 
 namespace septet::scenery {
+namespace {
+
+/// "tree/412.5/-81.0": kind and place, in tenths of metres.
+std::string name_at(std::string_view kind, const Vec3& position_m) {
+  const auto tenths = [](double m) { return 0.1 * std::round(10.0 * m) + 0.0; };
+  return fmt::format("{}/{:.1f}/{:.1f}", kind, tenths(position_m.x), tenths(position_m.y));
+}
+
+}  // namespace
 
 Shape add_shape(scene::SceneBuilder& builder, std::string_view name, const geometry::PolygonMesh& mesh,
                 const Palette& palette, const scene::MeshOptions& options) {
@@ -40,8 +53,10 @@ scene::NodeId place(scene::SceneBuilder& builder, std::string_view name, const S
   parameters.visible_to_m = placement.visible_to_m;
   parameters.role = placement.role;
   parameters.casts_shadow = placement.casts_shadow;
+  if (parent == scene::no_node)
+    return builder.add_object(builder.unused_name(name_at(name, placement.parent_from_object.position_m)), parameters);
   const scene::NodeId object = builder.add_object(name, parameters);
-  if (parent != scene::no_node) builder.add_child(parent, object);
+  builder.add_child(parent, object);
   return object;
 }
 

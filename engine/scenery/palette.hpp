@@ -32,7 +32,8 @@ struct Shape {
 Shape add_shape(scene::SceneBuilder& builder, std::string_view name, const geometry::PolygonMesh& mesh,
                 const Palette& palette, const scene::MeshOptions& options = {});
 
-/// Places a shape; as a child of `parent` unless that is no_node.
+/// Places a shape; as a child of `parent` unless that is no_node. Without a parent it is called by its kind and its place,
+/// "tree/412.5/-81.0", whatever else stands in the world: so scripts and files of edits find it again.
 scene::NodeId place(scene::SceneBuilder& builder, std::string_view name, const Shape& shape, const Placement& placement,
                     scene::NodeId parent = scene::no_node);
 

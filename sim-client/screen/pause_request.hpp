@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "sim-client/screen/screen_link.hpp"
+#include "sim-client/link/screen_link.hpp"
 
 namespace septet::screen {
 

@@ -1,24 +1,65 @@
 #include "sim-server/attendants/scene_edits.hpp"
 
-#include "sim-server/drive/scene_gate.hpp"
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "engine/document/text_file.hpp"
+#include "engine/scene/edit_file.hpp"
+#include "program/console.hpp"
 
 namespace septet::server {
+namespace {
+
+/// Of all batches that wait for a tick.
+constexpr std::size_t most_bytes_ahead = 64u << 20;
+
+std::size_t bytes_of(const SceneRequest& request) {
+  return request.batch.bytes + request.batch.changes.size() * sizeof(scene::Command);
+}
+
+}  // namespace
 
 void SceneEdits::before_tick(const Moment& moment) {
   // A world that stands still shows its tick on, with the changes.
   const Tick from = drive_.live ? drive_.live->state().tick + (moment.doing == "driving" ? 1 : 0) : 0;
-  for (const SceneRequest& request : host_.take_scene_requests()) {
+  for (SceneRequest& request : host_.take_scene_requests()) {
     if (!drive_.live) {
       host_.refuse_scene(request, 0, "a session that is shown again cannot be changed: edit a drive", moment.now_s);
-      continue;
+    } else if (bytes_ahead_ + bytes_of(request) > most_bytes_ahead) {
+      host_.refuse_scene(request, 0, "the changes of later ticks fill their queue: send these when it is their time",
+                         moment.now_s);
+    } else {
+      bytes_ahead_ += bytes_of(request);
+      const Tick tick = std::max(request.batch.tick, from);
+      ahead_.emplace(tick, std::move(request));
     }
-    const auto refused = pass_gate(drive_.store, request.changes, request.own_ids,
-                                   [&](const scene::Command& command) { host_.scene_changed(command, from); });
-    if (refused)
-      host_.refuse_scene(request, refused->index, refused->why, moment.now_s);
-    else if (log_)
-      log_->session().record_edits(from, request.changes);
   }
+  while (!ahead_.empty() && ahead_.begin()->first <= from) {
+    const SceneRequest request = std::move(ahead_.begin()->second);
+    ahead_.erase(ahead_.begin());
+    bytes_ahead_ -= bytes_of(request);
+    make(request, from, moment.now_s);
+  }
+}
+
+void SceneEdits::make(const SceneRequest& request, Tick from, double now_s) {
+  // The list may have changed since it was asked for.
+  const auto rights = host_.rights_of(request.editor.name).edit;
+  if (!rights) return host_.refuse_scene(request, 0, "the right to edit was taken from this key", now_s);
+  const Editor editor{request.editor.name, *rights, request.editor.own_ids};
+  const auto refused = pass_gate(drive_.store, request.batch.changes, editor, makers_,
+                                 [&](const scene::Command& command) { host_.scene_changed(command, from); });
+  if (refused) return host_.refuse_scene(request, refused->index, refused->why, now_s);
+  host_.scene_done(request, from);
+  if (log_) log_->session().record_edits(from, request.batch.changes);
+}
+
+void SceneEdits::close(ServeResult&) {
+  if (!drive_.generated) return;
+  const auto written = document::write_text_file(save_, scene::edits_between(*drive_.generated, drive_.store));
+  program::say(written ? fmt::format("What differs from the generated world is in {}", save_.string())
+                       : describe(written.error()));
 }
 
 void SceneEdits::after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double) {

@@ -1,7 +1,11 @@
 #pragma once
 /// Changes of the scene that clients with the right to edit ask for: passed through the gate before each tick, sent to all
-/// screens and logged. A session that is shown again shows its own changes at their ticks, and takes none.
+/// screens and logged; or kept until the tick that a client named, in a queue of bounded size. A session that is shown
+/// again shows its own changes at their ticks, and takes none.
 
+#include <cstddef>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -9,6 +13,7 @@
 
 #include "sim-server/attendants/drive_log.hpp"
 #include "sim-server/drive/opened_drive.hpp"
+#include "sim-server/drive/scene_gate.hpp"
 #include "sim-server/host/attendant.hpp"
 #include "sim-server/host/screen_host.hpp"
 
@@ -16,17 +21,25 @@ namespace septet::server {
 
 class SceneEdits final : public Attendant {
  public:
-  /// All arguments outlive it. `log`: null in a replay.
-  SceneEdits(OpenedDrive& drive, ScreenHost& host, DriveLog* log) : drive_(drive), host_(host), log_(log) {}
+  /// All arguments outlive it. `log`: null in a replay. `save`: file for what differs from the generated world; empty: none.
+  SceneEdits(OpenedDrive& drive, ScreenHost& host, DriveLog* log, std::filesystem::path save)
+      : drive_(drive), host_(host), log_(log), save_(std::move(save)) {}
 
   void before_tick(const Moment& moment) override;
   void after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double shaking_share) override;
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
+  void close(ServeResult& result) override;
 
  private:
+  void make(const SceneRequest& request, Tick from, double now_s);
+
   OpenedDrive& drive_;
   ScreenHost& host_;
   DriveLog* log_;
+  std::filesystem::path save_;
+  NodeMakers makers_;
+  std::multimap<Tick, SceneRequest> ahead_;  ///< By the tick that is to show them first.
+  std::size_t bytes_ahead_ = 0;
   std::vector<std::string> messages_;
 };
 

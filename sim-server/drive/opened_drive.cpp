@@ -7,9 +7,11 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/roadside/parked_cars.hpp"
 #include "engine/scene/builder.hpp"
+#include "engine/scene/edit_file.hpp"
 #include "engine/scenery/vehicles/debris_looks.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/scenery/world/road_world.hpp"
@@ -77,7 +79,11 @@ Expected<void> build_scene(const ServerOptions& options, OpenedDrive& drive, pro
   scenery::build_debris_looks(builder);
   scenery::build_road_world(builder, roads, options.seed,
                             {.own = &own.models, .raised = drive.loaded.model->raised.get()});
-  return {};
+  if (!options.save.empty()) drive.generated = drive.store;
+  if (options.edits.empty()) return {};
+  const auto edits = read_regular_file(options.edits);
+  if (!edits) return tl::unexpected(edits.error());
+  return scene::apply_edits(drive.store, *edits, printable(options.edits.string()));
 }
 
 /// The seat requested by command line and rig; `car` is changed to the actual one.

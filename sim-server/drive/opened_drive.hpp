@@ -21,7 +21,8 @@ namespace septet::server {
 struct OpenedDrive {
   LoadedDrive loaded;  ///< For a replay, the rig alone.
   scene::Store store;
-  std::optional<logging::SessionReader> session;         ///< Set for a replay.
+  std::optional<scene::Store> generated;          ///< As it was before any edit, where what differs is to be saved.
+  std::optional<logging::SessionReader> session;  ///< Set for a replay.
   std::optional<logging::RecordedScene> recorded_scene;  ///< Of a replay: what is still to come of it.
   std::optional<logging::Stay> eyes;      ///< Of a replay: whose eyes the screens show; empty: the driver's.
   bool by_person = false;                 ///< A person drives, not a simulated driver.

@@ -2,25 +2,23 @@
 
 #include <variant>
 
-#include <fmt/core.h>
-
-#include "engine/replication/message.hpp"
 #include "engine/scene/inverse.hpp"
+#include "sim-server/drive/edit_rights.hpp"
 
 namespace septet::server {
 
-std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, scene::NodeId own_ids,
-                                     const std::function<void(const scene::Command&)>& applied) {
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    const auto* create = std::get_if<scene::NodeCreate>(&batch[i]);
-    if (!create) continue;
-    if (own_ids == 0 || create->node < own_ids || create->node - own_ids >= replication::ids_per_session)
-      return EditRefusal{i, fmt::format("node {} is not one of this editor's ids: use {} to {}", create->node, own_ids,
-                                        own_ids + replication::ids_per_session - 1)};
-  }
+std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, const Editor& editor,
+                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied) {
+  BatchRights rights(store, editor, makers);
+  for (std::size_t i = 0; i < batch.size(); ++i)
+    if (auto why = rights.refusal(batch[i])) return EditRefusal{i, std::move(*why)};
   const auto undo = scene::apply_whole(store, batch);
   if (!undo) return EditRefusal{undo.error().index, describe(undo.error().why)};
-  for (const scene::Command& command : batch) applied(command);
+  for (const scene::Command& command : batch) {
+    if (const auto* create = std::get_if<scene::NodeCreate>(&command)) makers[create->node] = editor.name;
+    if (const auto* destroy = std::get_if<scene::NodeDestroy>(&command)) makers.erase(destroy->node);
+    applied(command);
+  }
   return std::nullopt;
 }
 

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "engine/scene/command.hpp"
 #include "engine/scene/store.hpp"
+#include "sim-server/host/editor.hpp"
 
 namespace septet::server {
 
@@ -18,10 +20,13 @@ struct EditRefusal {
   std::string why;        ///< What is wrong, where, and what to do.
 };
 
-/// Checks a batch of an editor and applies it to the store, whole or not at all. New nodes need ids from `own_ids` on,
-/// ids_per_session of them; one that was used and destroyed may be used again. `applied` is called for each command, in
-/// order, once all are applied.
-std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, scene::NodeId own_ids,
-                                     const std::function<void(const scene::Command&)>& applied);
+/// The nodes that editors made, with the names of their keys. A node belongs to its maker: others need a right to a
+/// prefix of its name.
+using NodeMakers = std::map<scene::NodeId, std::string>;
+
+/// Checks a batch of an editor against its rights and applies it to the store, whole or not at all. An id of its own that
+/// was used and destroyed may be used again. `applied` is called for each command, in order, once all are applied.
+std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, const Editor& editor,
+                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied);
 
 }  // namespace septet::server

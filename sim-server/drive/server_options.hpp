@@ -22,11 +22,13 @@ struct ServerOptions {
   std::string eyes;      ///< Of a replay: whose eyes the screens show, by name or number; empty: the driver's.
   double seconds = 0.0;  ///< Simulated; 0: until stopped.
   std::uint64_t seed = 1;
-  std::string driver;                   ///< A simulated driver, who replaces the rig's source; empty: the rig's.
-  std::string motion;                   ///< Table by which the driver's car goes; empty: somebody drives.
-  std::string vehicle;                  ///< A file or a name; empty: the rig's.
-  std::filesystem::path models;         ///< A user's folder of models; empty: none.
-  std::string participant;              ///< The driver's code.
+  std::string driver;            ///< A simulated driver, who replaces the rig's source; empty: the rig's.
+  std::string motion;            ///< Table by which the driver's car goes; empty: somebody drives.
+  std::string vehicle;           ///< A file or a name; empty: the rig's.
+  std::filesystem::path models;  ///< A user's folder of models; empty: none.
+  std::filesystem::path edits;   ///< File of edits over the generated world; empty: none.
+  std::filesystem::path save;    ///< Where what differs from the generated world is written at the end; empty: nowhere.
+  std::string participant;       ///< The driver's code.
   std::vector<std::string> about;       ///< About the driver, each "KEY=VALUE" (logging/session/subject.hpp).
   bool log_samples_only = false;        ///< The log has no snapshots: it can be measured, not replayed.
   std::vector<std::string> parameters;  ///< Scenario parameters, each "NAME=VALUE".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -43,6 +44,20 @@ bool put_client(std::string& list, const std::string& key, const std::string& na
   return replaced;
 }
 
+/// Gives the name's line these rights.
+void put_rights(std::string& list, const std::string& name, const std::string& rights) {
+  std::istringstream lines(list);
+  std::string line, result;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    result +=
+        !first.starts_with('#') && second == name ? fmt::format("{} {} {}\n", first, second, rights) : line + '\n';
+  }
+  list = result;
+}
+
 bool is_listed(const std::string& list, const std::string& name) {
   std::istringstream lines(list);
   for (std::string line; std::getline(lines, line);) {
@@ -82,7 +97,27 @@ std::vector<MachineKeys> machines_of(const rig::Rig& rig) {
   return machines;
 }
 
-Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs::path& out) {
+Expected<EditorKey> parse_editor_key(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  EditorKey key{.name = std::string(text.substr(0, equals))};
+  if (equals != std::string_view::npos) key.words = text.substr(equals + 1);
+  constexpr std::string_view known = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  if (key.name.empty() || key.name.find_first_not_of(known) != std::string::npos || key.name == server_machine ||
+      key.name == car_client_name)
+    return failure(fmt::format("\"{}\" cannot be an editor's name", key.name), "--editor",
+                   "use letters, digits, - and _, and neither server nor car");
+  std::istringstream stream(key.words);
+  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  const net::RightsWords read = net::read_rights(words);
+  if (read.bad || !read.rights.may_look)
+    return failure(fmt::format("\"{}\" are no rights", key.words), "--editor",
+                   "write look, or edit and what may be edited: NAME=\"edit tree/ hide move\"");
+  key.words = fmt::format("{}", fmt::join(words, " "));
+  return key;
+}
+
+Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs::path& out,
+                                                  const std::vector<EditorKey>& editors) {
   std::error_code error;
   std::vector<std::string> said;
   const fs::path server = out / server_machine, list_file = server / "allowed-clients";
@@ -95,7 +130,17 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
     list =
         "# Who may connect: a public key and the name that it stands for, one a line. The server follows changes at "
         "once.\n";
-  for (const MachineKeys& machine : machines_of(rig)) {
+  std::vector<MachineKeys> machines = machines_of(rig);
+  for (const EditorKey& editor : editors) {
+    const bool is_taken = std::ranges::any_of(machines, [&](const MachineKeys& other) {
+      return other.machine == editor.name || std::ranges::find(other.clients, editor.name) != other.clients.end();
+    });
+    if (is_taken)
+      return failure(fmt::format("{} is the name of a machine, a screen or another editor", editor.name), "--editor",
+                     "choose another name");
+    machines.push_back({editor.name, {editor.name}});
+  }
+  for (const MachineKeys& machine : machines) {
     const fs::path folder = out / machine.machine;
     std::string fresh = machine.machine == server_machine && is_new_server ? "server" : "", kept;
     for (const auto& client : machine.clients) {
@@ -115,6 +160,12 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
     if (auto put = put_server_key(folder / "server.public", server_key); !put) return tl::unexpected(put.error());
     said.push_back(fmt::format("{}: {}{}{}", folder.string(), fresh.empty() ? "nothing new" : "new keys of " + fresh,
                                kept.empty() ? "" : "; kept those of ", kept));
+  }
+  for (const EditorKey& editor : editors) {
+    put_rights(list, editor.name, editor.words);
+    const std::string address = fmt::format("{}:{}\n", rig.network.server_address, rig.network.scene_port);
+    if (auto put = document::write_text_file(out / editor.name / address_file, address); !put)
+      return tl::unexpected(put.error());
   }
   // Names in the list that are no longer in the rig stay: removing a key is the operator's decision.
   if (list != text_of(list_file))

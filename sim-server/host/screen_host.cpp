@@ -77,7 +77,7 @@ void ScreenHost::pump(double now_s) {
   for (const net::ServerEvent& event : lane_.pump(now_s)) {
     switch (event.kind) {
       case net::ServerEvent::Kind::connected:
-        on_connected(event);
+        on_connected(event, now_s);
         break;
       case net::ServerEvent::Kind::disconnected:
         on_disconnected(event.client, event.reason, now_s);
@@ -148,11 +148,25 @@ void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
   publisher_.add_destination(destination);
 }
 
-void ScreenHost::on_connected(const net::ServerEvent& event) {
+net::Rights ScreenHost::rights_of(const std::string& name) const {
+  const auto listed = std::ranges::find(options_.allowed, name, &net::AllowedClient::name);
+  return listed == options_.allowed.end() ? net::Rights{} : listed->rights;
+}
+
+bool ScreenHost::is_of_the_rig(const std::string& name) const {
+  return name == car_client_name || std::ranges::find(screens_, name, &HostedScreen::name) != screens_.end();
+}
+
+void ScreenHost::on_connected(const net::ServerEvent& event, double now_s) {
   clients_[event.client] = event.name;
   scene_.connect(event.client, event.name);
   for (HostedScreen& screen : screens_)
     if (screen.name == event.name && !screen.client) screen.expected = true;
+  if (!is_of_the_rig(event.name))
+    tell(event.client,
+         fmt::format("{} connected, which is no screen of this rig: it reads the world{}", event.name,
+                     rights_of(event.name).edit ? " and " + net::describe(rights_of(event.name)) : std::string()),
+         now_s);
 }
 
 void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
@@ -172,23 +186,24 @@ void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
 }
 
 void ScreenHost::on_scene(const net::ServerEvent& event, double now_s) {
-  auto changes = scene_.receive(event.client, std::span(event.bytes).subspan(1));
-  if (!changes) {
-    lane_.disconnect(event.client, changes.error().what);
+  auto batch = scene_.receive(event.client, std::span(event.bytes).subspan(1));
+  if (!batch) {
+    lane_.disconnect(event.client, batch.error().what);
     return;
   }
-  if (changes->empty()) return;
-  SceneRequest request{event.client, clients_.at(event.client), scene_.last_batch(event.client),
-                       scene_.own_ids(event.client), std::move(*changes)};
-  const auto listed = std::ranges::find(options_.allowed, request.name, &net::AllowedClient::name);
-  if (listed == options_.allowed.end() || !listed->may_edit)
-    return refuse_scene(
-        request, 0,
-        fmt::format("the key of {0} may look, not edit: allowed-clients needs `KEY {0} edit`", request.name), now_s);
-  if (request.changes.size() > most_edits - edits_waiting_)
+  if (batch->changes.empty()) return;
+  const std::string& name = clients_.at(event.client);
+  const auto rights = rights_of(name).edit;
+  SceneRequest request{
+      event.client, {name, rights.value_or(net::EditRights{}), scene_.own_ids(event.client)}, std::move(*batch)};
+  if (!rights)
+    return refuse_scene(request, 0,
+                        fmt::format("the key of {0} may look, not edit: allowed-clients needs `KEY {0} edit`", name),
+                        now_s);
+  if (request.batch.changes.size() > most_edits - edits_waiting_)
     return refuse_scene(request, 0, fmt::format("{} changes wait for this tick already: send fewer", edits_waiting_),
                         now_s);
-  edits_waiting_ += request.changes.size();
+  edits_waiting_ += request.batch.changes.size();
   scene_requests_.push_back(std::move(request));
 }
 
@@ -198,12 +213,14 @@ std::vector<SceneRequest> ScreenHost::take_scene_requests() {
 }
 
 void ScreenHost::refuse_scene(const SceneRequest& request, std::size_t index, const std::string& why, double now_s) {
-  scene_.refuse(request.client, request.batch, index, why);
-  const std::string_view what = index < request.changes.size() ? scene::name_of(request.changes[index]) : "nothing";
+  scene_.refuse(request.client, request.batch.number, index, why);
+  const auto& changes = request.batch.changes;
+  const std::string_view what = index < changes.size() ? scene::name_of(changes[index]) : "nothing";
+  const std::uint64_t refused = ++refused_changes_[request.editor.name];
   if (clients_.contains(request.client))
     tell(request.client,
-         fmt::format("{}: nothing of its {} changes of the scene was done, for command {} ({}): {}", request.name,
-                     request.changes.size(), index + 1, what, why),
+         fmt::format("{}: nothing of its {} changes of the scene was done, for command {} ({}): {}; refused so far: {}",
+                     request.editor.name, changes.size(), index + 1, what, why, refused),
          now_s);
 }
 
@@ -215,6 +232,9 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     return;
   }
   HostedScreen* screen = screen_of(client);
+  if (const auto* arrived = std::get_if<TickArrived>(&message); arrived && watchers_.contains(client))
+    return arrived->lost_baseline ? baselines_.join(client, now_s)
+                                  : baselines_.acknowledge(client, arrived->tick, now_s);
   if (!screen) return;
   if (const auto* arrived = std::get_if<TickArrived>(&message)) {
     screen->unanswered_since_s.reset();
@@ -271,6 +291,7 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
         client,
         fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be screen \"{}\"", name, hello.screen),
         now_s);
+  if (screen == screens_.end() && rights_of(name).may_look) return begin_to_watch(client, hello, now_s);
   if (screen == screens_.end()) return refuse(client, fmt::format("the rig has no screen \"{}\"", hello.screen), now_s);
   // A screen that was killed and started again is heard before its old connection times out: the new connection takes
   // its place.
@@ -292,6 +313,17 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   tell(client, fmt::format("screen {} connected", hello.screen), now_s);
   send(client, options_.welcome);
   send(client, notice_);
+}
+
+/// Its ticks come by unicast: it need not be able to hear the rig's group.
+void ScreenHost::begin_to_watch(net::ClientId client, const Hello& hello, double now_s) {
+  watchers_.insert(client);
+  baselines_.join(client, now_s);
+  add_unicast(client, hello.tick_port);
+  Welcome welcome = options_.welcome;
+  welcome.group_ip = 0;
+  welcome.thumbnails = false;
+  send(client, welcome);
 }
 
 void ScreenHost::on_car_hello(net::ClientId client, const CarHello& hello, double now_s) {
@@ -352,6 +384,8 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
     publisher_.remove_destination(destination->second);
     unicast_.erase(destination);
   }
+  watchers_.erase(client);
+  if (!is_of_the_rig(known->second)) tell(client, fmt::format("{} left: {}", known->second, reason), now_s);
   if (car_client_ == client) {
     tell(client, fmt::format("the car left: {}", reason), now_s);
     options_.car->device.lose("the connection to septet-car was lost");
@@ -439,6 +473,7 @@ void ScreenHost::finish(const std::string& reason) {
   for (const auto& screen : screens_)
     if (screen.client) send(*screen.client, Finish{reason});
   if (car_client_) send(*car_client_, Finish{reason});
+  for (const net::ClientId watcher : watchers_) send(watcher, Finish{reason});
 }
 
 bool ScreenHost::all_reported() const {

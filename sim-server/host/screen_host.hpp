@@ -7,8 +7,8 @@
 ///
 /// Holders of a key in the list may send anything in any order: a client is bound to the name of its key, can be that
 /// screen or that car and nothing else, and its messages affect only itself. Its texts are made printable and limited
-/// in number. A client whose key has the right to edit may ask for changes of the scene; the host hands them over and makes
-/// none itself.
+/// in number. A client whose key has the word `look` or `edit` may watch: it is told the ticks and nothing waits for it.
+/// One with `edit` may ask for changes of the scene; the host hands them over and makes none itself.
 
 #include <deque>
 #include <map>
@@ -28,6 +28,7 @@
 #include "engine/scene/store.hpp"
 #include "engine/world/taken_snapshot.hpp"
 #include "logging/session/drive_end.hpp"
+#include "sim-server/host/editor.hpp"
 #include "sim-server/host/latency_record.hpp"
 #include "sim-server/host/playout_planner.hpp"
 #include "sim-server/host/remote_car.hpp"
@@ -50,10 +51,8 @@ struct ScreenHostOptions {
 /// A client's batch of changes of the scene: done whole or not at all.
 struct SceneRequest {
   net::ClientId client = 0;
-  std::string name;  ///< Of its key.
-  std::uint64_t batch = 0;
-  scene::NodeId own_ids = 0;  ///< First of the ids that it may give to new nodes.
-  std::vector<scene::Command> changes;
+  Editor editor;
+  replication::ClientBatch batch;
 };
 /// Commands that may wait for the next tick.
 inline constexpr std::size_t most_edits = 50'000;
@@ -110,8 +109,12 @@ class ScreenHost {
   /// The batches of scene changes that clients have asked for since the last call, in the order of their arrival. Those of
   /// clients without the right, and those beyond `most_edits` waiting, are refused already.
   std::vector<SceneRequest> take_scene_requests();
+  /// The rights of a name in the list; none for a name that is no longer there.
+  net::Rights rights_of(const std::string& name) const;
   /// Call after every command that was applied to the store; `from`: the first tick that shows it.
   void scene_changed(const scene::Command& command, Tick from) { scene_.applied(command, from); }
+  /// Tells the client that its batch was done, and the first tick that shows it.
+  void scene_done(const SceneRequest& request, Tick from) { scene_.done(request.client, request.batch.number, from); }
   /// Tells the client, and the operator, that nothing of a batch was done. `index`: of the command that could not be.
   void refuse_scene(const SceneRequest& request, std::size_t index, const std::string& why, double now_s);
 
@@ -163,11 +166,14 @@ class ScreenHost {
 
  private:
   void leave_behind(HostedScreen& screen, Tick tick);
-  void on_connected(const net::ServerEvent& event);
+  void on_connected(const net::ServerEvent& event, double now_s);
   void on_message(const net::ServerEvent& event, double now_s);
   void on_scene(const net::ServerEvent& event, double now_s);
   void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);
   void on_hello(net::ClientId client, const control::Hello& hello, double now_s);
+  void begin_to_watch(net::ClientId client, const control::Hello& hello, double now_s);
+  /// True where the rig has a screen or a car of this name.
+  bool is_of_the_rig(const std::string& name) const;
   void add_unicast(net::ClientId client, std::uint16_t port);
   void on_car_hello(net::ClientId client, const control::CarHello& hello, double now_s);
   /// Reports the reason to the client and to the operator.
@@ -192,7 +198,9 @@ class ScreenHost {
   /// Names of clients in the list, from connection to end in the order of events: some events come from a client that
   /// has gone.
   std::map<net::ClientId, std::string> clients_;
-  std::map<std::string, MessageLimit> limits_;  ///< By name in the list.
+  std::map<std::string, MessageLimit> limits_;            ///< By name in the list.
+  std::set<net::ClientId> watchers_;                      ///< Told the ticks, and no screens.
+  std::map<std::string, std::uint64_t> refused_changes_;  ///< Batches, by name in the list.
   std::map<net::ClientId, net::Address> unicast_;
   std::deque<std::shared_ptr<const TakenSnapshot>> sent_;  ///< Possible baselines, ascending tick.
   std::deque<std::pair<Tick, double>> begun_s_;            ///< Times when the newest ticks began.

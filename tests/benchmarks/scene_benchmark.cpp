@@ -6,7 +6,7 @@
 #include "engine/net/udp_socket.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
-#include "sim-client/screen/screen_link.hpp"
+#include "sim-client/link/screen_link.hpp"
 #include "sim-server/host/screen_host.hpp"
 #include "tests/engine/replication/sample_world.hpp"
 

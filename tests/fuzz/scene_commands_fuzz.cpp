@@ -59,9 +59,9 @@ void talk_to_server(std::span<const std::byte> bytes) {
     require(store.apply(command).has_value());
   server.connect(1, "fuzzer");
   each_message(bytes, [&](std::span<const std::byte> message) {
-    const auto changes = server.receive(1, message);
-    if (!changes) return;
-    for (const auto& command : *changes)
+    const auto batch = server.receive(1, message);
+    if (!batch) return;
+    for (const auto& command : batch->changes)
       if (store.apply(command)) server.applied(command);
     server.pump(1, 4096, [](std::span<const std::byte>) { return true; });
   });

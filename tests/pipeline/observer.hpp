@@ -1,7 +1,7 @@
 #pragma once
 /// A screen that does everything except drawing, in the test's own process: shows the server's messages.
 
-#include "sim-client/screen/screen_link.hpp"
+#include "sim-client/link/screen_link.hpp"
 #include "tests/pipeline/process_rig.hpp"
 
 namespace septet::pipeline {

@@ -11,7 +11,7 @@
 
 #include "engine/scene/builder.hpp"
 #include "sim-client/frame/playout.hpp"
-#include "sim-client/screen/screen_link.hpp"
+#include "sim-client/link/screen_link.hpp"
 #include "sim-server/host/screen_host.hpp"
 #include "tests/engine/net/bad_network.hpp"
 #include "tests/engine/net/simulated_machine.hpp"

@@ -69,4 +69,34 @@ TEST_CASE("a name that was taken off the list gets a new key") {
   CHECK(after[1].key != before[0].key);
 }
 
+TEST_CASE("an editor's folder has all that it needs and its rights are those of the newest call") {
+  const septet::TemporaryFolder folder;
+  const fs::path list = folder.path() / "server" / "allowed-clients";
+  rig::Rig rig = two_machines();
+  rig.network.server_address = "10.7.0.1";
+  const auto keys_with = [&](const char* editor) {
+    const auto parsed = parse_editor_key(editor);
+    REQUIRE(parsed.has_value());
+    REQUIRE(write_rig_keys(rig, folder.path(), {*parsed}).has_value());
+    return net::load_allowed_clients(list)->back();
+  };
+  const net::AllowedClient first = keys_with("lab=edit stimuli/ create move");
+  CHECK(first.name == "lab");
+  CHECK(net::describe(first.rights) == "may move, create below stimuli/");
+  CHECK(fs::exists(folder.path() / "lab" / "server.public"));
+  CHECK(net::load_identity(folder.path() / "lab" / "lab.key")->public_key() == first.key);
+  CHECK(text_of(folder.path() / "lab" / address_file) == "10.7.0.1:4750\n");
+  const net::AllowedClient second = keys_with("lab=look");
+  CHECK(second.key == first.key);
+  CHECK(net::describe(second.rights) == "looks");
+  CHECK(net::load_allowed_clients(list)->size() == 3);
+}
+
+TEST_CASE("a name or a right that cannot stand in the list is refused") {
+  for (const char* bad : {"", "a b", "../x", "car", "server", "lab=", "lab=edits", "lab=look hide", "lab=edit\nKEY x"})
+    CHECK_FALSE(parse_editor_key(bad).has_value());
+  const septet::TemporaryFolder folder;
+  CHECK_FALSE(write_rig_keys(two_machines(), folder.path(), {{"left"}}).has_value());
+}
+
 }  // namespace septet::server

@@ -53,14 +53,16 @@ struct Stage {
   net::Identity server = net::Identity::generate(), editor_key = net::Identity::generate(),
                 looker_key = net::Identity::generate();
   net::UdpSocket lane = socket_here(), ticks = socket_here();
-  ScreenHost host{lane,
-                  ticks,
-                  store,
-                  {.identity = server,
-                   .allowed = {{editor_key.public_key(), "lab", true}, {looker_key.public_key(), "guest", false}},
-                   .screens = {"screen"}}};
+  ScreenHost host{
+      lane,
+      ticks,
+      store,
+      {.identity = server,
+       .allowed = {{editor_key.public_key(), "lab", {true, net::EditRights{}}}, {looker_key.public_key(), "guest"}},
+       .screens = {"screen"}}};
   Client editor{lane.local_address(), server.public_key(), editor_key},
       looker{lane.local_address(), server.public_key(), looker_key};
+  NodeMakers makers;
   std::vector<Command> logged;
   std::vector<std::string> told;
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
@@ -69,12 +71,13 @@ struct Stage {
     const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     host.pump(now_s);
     for (const SceneRequest& request : host.take_scene_requests()) {
-      const auto refused = pass_gate(store, request.changes, request.own_ids,
+      const auto refused = pass_gate(store, request.batch.changes, request.editor, makers,
                                      [&](const Command& command) { host.scene_changed(command, 0); });
       if (refused)
         host.refuse_scene(request, refused->index, refused->why, now_s);
       else
-        logged.insert(logged.end(), request.changes.begin(), request.changes.end());
+        logged.insert(logged.end(), request.batch.changes.begin(), request.batch.changes.end()),
+            host.scene_done(request, 7);
     }
     for (auto& text : host.take_messages()) told.push_back(std::move(text));
     editor.pump(now_s), looker.pump(now_s);
@@ -109,6 +112,9 @@ TEST_CASE("an editor creates and fills a node in one batch and all mirrors have 
   CHECK(stage.looker.scene.store().find(own)->name == "deer");
   CHECK(stage.logged == batch);
   CHECK(stage.editor.scene.take_refusals().empty());
+  const auto done = stage.editor.scene.take_done();
+  REQUIRE(done.size() == 1);
+  CHECK(done.front().tick == 7);
 }
 
 TEST_CASE("of a batch that cannot be done nothing is done and its client is told the command and why") {
@@ -148,10 +154,50 @@ TEST_CASE("a key without the right to edit changes nothing and is told the line 
   CHECK(scene::same_content(stage.store, before));
   CHECK(stage.looker.lane.state() == net::ClientState::connected);
   // The right may be given while the server runs.
-  stage.host.set_allowed(
-      {{stage.editor_key.public_key(), "lab", true}, {stage.looker_key.public_key(), "guest", true}});
+  stage.host.set_allowed({{stage.editor_key.public_key(), "lab", {true, net::EditRights{}}},
+                          {stage.looker_key.public_key(), "guest", {true, net::EditRights{}}}});
   stage.looker.scene.request(scene::HideSet{stage.tree, true});
   CHECK(stage.until([&] { return !scene::same_content(stage.store, before); }));
+}
+
+TEST_CASE("an editor does what the words of its key say and a node belongs to who made it") {
+  scene::Store store;
+  scene::SceneBuilder build(store);
+  const NodeId tree = build.add_object("tree/1", {}), sign = build.add_object("sign/1", {});
+  NodeMakers makers;
+  const Editor lab{"lab", {{"tree/", "stimuli/"}, net::all_edit_kinds}, 1000},
+      hider{"hider", {{}, 1u << static_cast<int>(net::EditKind::hide)}, 100'000}, free{"free", {}, 200'000};
+  const auto refused = [&](const Editor& editor, const std::vector<Command>& batch) {
+    const auto why = pass_gate(store, batch, editor, makers, [](const Command&) {});
+    return why ? why->why : std::string();
+  };
+  CHECK(refused(lab, {scene::HideSet{tree, true}}).empty());
+  CHECK(refused(lab, {scene::HideSet{sign, true}}) ==
+        "the key of lab may not hide \"sign/1\": its line in allowed-clients needs a prefix of that name");
+  CHECK(refused(hider, {scene::HideSet{sign, true}}).empty());
+  CHECK(refused(hider, {scene::TransformSet{sign, {}}}) ==
+        "the key of hider may not move \"sign/1\": its line in allowed-clients needs the word move");
+  CHECK(refused(hider, {scene::NodeCreate{100'000, scene::NodeType::object}}).find("needs the word create") !=
+        std::string::npos);
+  // Its own nodes have names below its prefixes, and nobody without a prefix of theirs changes them.
+  CHECK(refused(lab, {scene::NodeCreate{1000, scene::NodeType::object}, scene::NodeNameSet{1000, "model/hatchback"}})
+            .find("no such name") != std::string::npos);
+  CHECK(store.find(1000) == nullptr);
+  CHECK(refused(lab, {scene::NodeCreate{1000, scene::NodeType::object}, scene::NodeNameSet{1000, "stimuli/ball"},
+                      scene::TransformSet{1000, {{1.0, 2.0, 3.0}}}})
+            .empty());
+  CHECK(refused(free, {scene::TransformSet{1000, {}}}).find("which lab made") != std::string::npos);
+  CHECK(refused(free, {scene::NodeDestroy{1000}}).find("may not create") != std::string::npos);
+  // Hanging a node on another one moves it.
+  CHECK(refused(hider, {scene::LinkSet{tree, 0, {"child", sign, 0}}}).find("may not create") != std::string::npos);
+  CHECK(refused(free,
+                {scene::NodeCreate{200'000, scene::NodeType::object}, scene::LinkSet{200'000, 0, {"child", 1000, 0}}})
+            .find("may not move \"stimuli/ball\", which lab made") != std::string::npos);
+  CHECK(refused(free,
+                {scene::NodeCreate{200'000, scene::NodeType::object}, scene::LinkSet{200'000, 0, {"child", 1001, 0}}})
+            .find("no node 1001") != std::string::npos);
+  CHECK(refused(lab, {scene::NodeDestroy{1000}}).empty());
+  CHECK(makers.empty());
 }
 
 TEST_CASE("an editor that floods is refused beyond what waits for one tick and the host keeps its memory") {
@@ -168,7 +214,7 @@ TEST_CASE("an editor that floods is refused beyond what waits for one tick and t
     stage.editor.pump(now_s);
     refused += stage.editor.scene.take_refusals().size();
   }
-  for (const SceneRequest& request : stage.host.take_scene_requests()) most += request.changes.size();
+  for (const SceneRequest& request : stage.host.take_scene_requests()) most += request.batch.changes.size();
   CHECK(refused == 7);
   CHECK(most == 30'000);
 }

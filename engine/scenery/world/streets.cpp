@@ -93,14 +93,15 @@ void build_streets(const WorldContext& world) {
     Shape& shape = shapes[static_cast<std::size_t>(house.kind)][colour];
     if (shape.geometry == scene::no_node)
       shape = add_shape(world.builder, "town house", town_house(house.kind, colour), world.palette);
-    place(world.builder, "town house", shape, placement);
+    const scene::NodeId standing = place(world.builder, "town house", shape, placement);
     const std::size_t choice = choices.below(lit_choices);
     Shape& windows = lit[static_cast<std::size_t>(house.kind)][choice];
     if (windows.geometry == scene::no_node)
       windows = add_shape(world.builder, "lit windows", lit_windows(house.kind, choice, world.seed), world.palette);
+    placement.parent_from_object = {};
     placement.visible_to_m = 900.0f;
     placement.casts_shadow = false;
-    place(world.builder, "lit windows", windows, placement);
+    place(world.builder, "lit windows", windows, placement, standing);
   }
   Shape lamp_shape;
   for (const roadside::StreetLamp& street_lamp : roadside::street_lamps(world.roads)) {

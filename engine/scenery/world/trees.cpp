@@ -150,14 +150,18 @@ class TreePen {
     placement.scale = glm::vec3(static_cast<float>(tree.size));
     const int k = static_cast<int>(tree.kind);
     placement.visible_to_m = own_tree_m;
+    scene::NodeId near = scene::no_node;
     if (!world_.own.place(own_name(tree.kind), placement)) {
       placement.visible_to_m = tree.kind == Kind::bush ? 70.0f : tree_near_m;
-      place(world_.builder, "tree", near_[k][tree.variant], placement);
+      near = place(world_.builder, "tree", near_[k][tree.variant], placement);
+      // The far one is a child: one name moves and hides the tree.
+      placement.parent_from_object = {};
+      placement.scale = glm::vec3(1.0f);
     }
     placement.visible_from_m = placement.visible_to_m;
     placement.visible_to_m = tree.kind == Kind::bush ? 420.0f : 1900.0f;
     placement.casts_shadow = false;
-    place(world_.builder, "tree", far_[k], placement);
+    place(world_.builder, "tree far", far_[k], placement, near);
   }
 
  private:

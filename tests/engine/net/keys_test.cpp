@@ -105,17 +105,32 @@ TEST_CASE("the list of allowed clients is read and its faults are named by line"
   }
 }
 
-TEST_CASE("the word edit behind a name gives the right to edit and another word is refused") {
+TEST_CASE("words behind a name are its rights and a word that is none is refused") {
   const TemporaryFolder folder;
   const fs::path file = folder / "allowed-clients";
   const std::string a = to_text(identity_of(5).public_key()), b = to_text(identity_of(6).public_key());
-  std::ofstream(file) << a << " left\n" << b << " lab edit\n";
-  const auto clients = load_allowed_clients(file);
-  REQUIRE(clients.has_value());
-  CHECK_FALSE(clients->at(0).may_edit);
-  CHECK(clients->at(1).may_edit);
-  for (const char* words : {" lab edits\n", " lab edit hide\n"}) {
-    std::ofstream(file) << a << " left\n" << b << words;
+  const auto rights = [&](const std::string& words) {
+    std::ofstream(file) << a << " left\n" << b << " lab " << words << '\n';
+    auto clients = load_allowed_clients(file);
+    REQUIRE(clients.has_value());
+    CHECK_FALSE(clients->at(0).rights.may_look);
+    return clients->at(1).rights;
+  };
+  CHECK_FALSE(rights("look").edit.has_value());
+  CHECK(rights("look").may_look);
+  const auto all = rights("edit");
+  REQUIRE(all.edit.has_value());
+  CHECK(all.edit->kinds == all_edit_kinds);
+  CHECK(describe(all) == "may hide, move, paint, create");
+  const auto some = rights("edit tree/ hide sign/a/ move");
+  REQUIRE(some.edit.has_value());
+  CHECK(some.edit->includes(EditKind::hide));
+  CHECK_FALSE(some.edit->includes(EditKind::create));
+  CHECK(some.edit->names("sign/a/1"));
+  CHECK_FALSE(some.edit->names("sign/b"));
+  CHECK(describe(some) == "may hide, move below tree/, sign/a/");
+  for (const char* words : {"edits", "look hide", "edit hides", "hide"}) {
+    std::ofstream(file) << a << " left\n" << b << " lab " << words << '\n';
     const auto refused = load_allowed_clients(file);
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().where == file.string() + ":2");

@@ -118,8 +118,8 @@ TEST_CASE("a batch that comes again is taken once and one that is missing ends t
   raw.hello(0, 0);
   Bytes change;
   scene::encode(HideSet{1, true}, change);
-  CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().size() == 1);
-  CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().empty());
+  CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().changes.size() == 1);
+  CHECK(raw.server.receive(1, replication::encode(CommandBatch{1, 0, change})).value().changes.empty());
   CHECK_FALSE(raw.server.receive(1, replication::encode(CommandBatch{3, 0, change})).has_value());
   // The client gets its received sequence.
   bool told = false;

@@ -65,9 +65,9 @@ struct Wire {
     };
     end.client->pump(into(end.to_server));
     for (std::size_t i = 0; i < messages && !end.to_server.empty(); ++i) {
-      const auto changes = server->receive(end.connection, end.to_server.front());
-      if (!changes) throw std::runtime_error(describe(changes.error()));
-      requested.insert(requested.end(), changes->begin(), changes->end());
+      const auto batch = server->receive(end.connection, end.to_server.front());
+      if (!batch) throw std::runtime_error(describe(batch.error()));
+      requested.insert(requested.end(), batch->changes.begin(), batch->changes.end());
       end.to_server.pop_front();
     }
     const auto pumped = server->pump(end.connection, bytes, into(end.to_client));

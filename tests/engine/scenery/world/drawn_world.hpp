@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles of a drawn world by the names of their objects, for tests.
+/// Triangles of a drawn world by the kinds of their objects, for tests.
 
 #include <array>
 #include <cmath>
@@ -21,6 +21,7 @@
 #include "engine/scenery/world/road_world.hpp"
 #include "tests/engine/road/road_files.hpp"
 #include "tests/engine/road/third_party_road.hpp"
+#include "tests/engine/scenery/world/kind_of.hpp"
 
 namespace septet::scenery {
 
@@ -40,7 +41,7 @@ inline std::vector<DrawnTriangle> drawn_triangles(const scene::Store& store, std
   std::vector<DrawnTriangle> found;
   for (const auto& [id, node] : store.nodes()) {
     const auto* object = std::get_if<scene::ObjectData>(&node.data);
-    if (!object || node.name != name) continue;
+    if (!object || kind_of(node.name) != name) continue;
     const RigidTransform world_from_object{object->transform.position_m, glm::normalize(object->transform.rotation)};
     std::map<std::uint32_t, std::string> materials;
     const scene::GeometryData* geometry = nullptr;

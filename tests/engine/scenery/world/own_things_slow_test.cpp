@@ -20,6 +20,7 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "tests/engine/scenery/world/kind_of.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::scenery {
@@ -50,7 +51,7 @@ OwnModels own_things() {
 }
 
 using Place = std::tuple<double, double, double>;
-/// Places of the objects of each name, in order; for trees their nearest level.
+/// Places of the objects of each kind, in order; for trees their nearest level.
 using Places = std::map<std::string, std::vector<Place>, std::less<>>;
 
 scene::Store world_of(const char* roads, const OwnModels* own) {
@@ -70,7 +71,7 @@ Places places_in(const scene::Store& store) {
     const scene::TagValue* from = scene::find_tag(node, "draw", "from_m");
     if (from && std::get<double>(*from) > 0.0) continue;
     const Vec3& at = object->transform.position_m;
-    places[node.name].emplace_back(at.x, at.y, at.z);
+    places[std::string(kind_of(node.name))].emplace_back(at.x, at.y, at.z);
   }
   for (auto& [name, all] : places) std::ranges::sort(all);
   return places;

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include "engine/core/hash.hpp"
@@ -15,6 +18,7 @@
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/engine/scenery/world/kind_of.hpp"
 #include "tests/relative.hpp"
 
 namespace septet::scenery {
@@ -58,7 +62,7 @@ double distance_tag(const scene::Node& node, const char* name, double otherwise)
 std::vector<Drawn> drawn(const scene::Store& store, std::string_view name) {
   std::vector<Drawn> found;
   for (const auto& [id, node] : store.nodes())
-    if (const auto* object = std::get_if<scene::ObjectData>(&node.data); object && node.name == name)
+    if (const auto* object = std::get_if<scene::ObjectData>(&node.data); object && kind_of(node.name) == name)
       found.push_back(
           {&node, object->transform.position_m, distance_tag(node, "from_m", 0.0), distance_tag(node, "to_m", 1e9)});
   return found;
@@ -185,8 +189,14 @@ TEST_CASE("loose ends of a road run on straight") {
 
 TEST_CASE("at each distance a tree is drawn once until it is too small to be seen") {
   std::map<std::array<double, 3>, std::vector<std::pair<double, double>>> trees;
-  for (const Drawn& tree : drawn(motorway_store(), "tree"))
-    trees[{tree.position_m.x, tree.position_m.y, tree.position_m.z}].emplace_back(tree.from_m, tree.to_m);
+  for (const Drawn& tree : drawn(motorway_store(), "tree")) {
+    auto& levels = trees[{tree.position_m.x, tree.position_m.y, tree.position_m.z}];
+    levels.emplace_back(tree.from_m, tree.to_m);
+    for (const auto& [id, link] : std::get<scene::ObjectData>(tree.node->data).links) {
+      const scene::Node* far = link.label == "child" ? motorway_store().find(link.target) : nullptr;
+      if (far) levels.emplace_back(distance_tag(*far, "from_m", 0.0), distance_tag(*far, "to_m", 1e9));
+    }
+  }
   REQUIRE(trees.size() > 1000);
   int wrong = 0;
   for (auto& [place, levels] : trees) {
@@ -199,6 +209,25 @@ TEST_CASE("at each distance a tree is drawn once until it is too small to be see
     wrong += until_m < 400.0;
   }
   CHECK(wrong == 0);
+}
+
+TEST_CASE("every object of the world has a name of its own, which says what it is and where it stands") {
+  std::set<std::string> names;
+  std::set<scene::NodeId> children;
+  std::size_t roots = 0;
+  for (const auto& [id, node] : motorway_store().nodes())
+    if (const auto* object = std::get_if<scene::ObjectData>(&node.data))
+      for (const auto& [link_id, link] : object->links)
+        if (link.label == "child") children.insert(link.target);
+  for (const auto& [id, node] : motorway_store().nodes())
+    if (std::holds_alternative<scene::ObjectData>(node.data) && !children.contains(id)) {
+      ++roots;
+      names.insert(node.name);
+    }
+  CHECK(roots > 3000);
+  CHECK(names.size() == roots);
+  const Drawn tree = drawn(motorway_store(), "tree").front();
+  CHECK(tree.node->name == fmt::format("tree/{:.1f}/{:.1f}", tree.position_m.x, tree.position_m.y));
 }
 
 TEST_CASE("from near to seven kilometres no stretch of the road is without a picture") {

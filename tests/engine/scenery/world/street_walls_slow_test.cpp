@@ -9,6 +9,7 @@
 #include "engine/scene/store.hpp"
 #include "engine/scenery/world/road_world.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/engine/scenery/world/kind_of.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::scenery {
@@ -35,10 +36,11 @@ Walled walled(const road::RoadNetwork& network) {
     bool in_street = false;
     for (const auto& [link_id, link] : object->links)
       in_street = in_street || (link.label == "material" && is_in_street(store.find(link.target)));
-    if (node.name == "lit windows") continue;  // Panes before a house's walls, or none.
-    const bool house = node.name == "town house";
+    const std::string_view kind = kind_of(node.name);
+    if (kind == "lit windows") continue;  // Panes before a house's walls, or none.
+    const bool house = kind == "town house";
     result.houses += house;
-    result.farms_and_churches += node.name == "building";
+    result.farms_and_churches += kind == "building";
     (house ? result.houses_with_street_walls : result.others_with_street_walls) += in_street;
   }
   return result;

@@ -59,6 +59,9 @@ class ScreenLink {
 
   const frame::TickHistory& history() const { return history_; }
   const scene::Store& scene() const { return scene_.store(); }
+  /// By which an editor asks for changes.
+  replication::ReplicationClient& replication() { return scene_; }
+  const replication::ReplicationClient& replication() const { return scene_; }
   /// Changes whenever `scene()` is a different store.
   std::uint64_t scene_generation() const { return scene_.generation(); }
   bool scene_arrived() const { return scene_arrived_; }

@@ -1,4 +1,4 @@
-#include "sim-client/screen/screen_link.hpp"
+#include "sim-client/link/screen_link.hpp"
 
 #include <algorithm>
 

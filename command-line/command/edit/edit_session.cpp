@@ -1,0 +1,204 @@
+#include "command-line/command/edit/edit_session.hpp"
+
+#include <array>
+#include <charconv>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "engine/document/text_file.hpp"
+#include "engine/scene/edit_file.hpp"
+#include "engine/scene/inverse.hpp"
+
+namespace septet::server {
+namespace {
+
+constexpr std::size_t most_undone = 100;
+
+std::string_view first_word(std::string_view line) {
+  const auto begin = line.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return line.substr(begin, line.find_first_of(" \t", begin) - begin);
+}
+
+/// The commands that undo a batch, by the nodes that it touches alone; none where it cannot be done.
+std::vector<scene::Command> undo_of(const scene::Store& store, const std::vector<scene::Command>& batch) {
+  std::set<scene::NodeId> touched;
+  for (const scene::Command& command : batch)
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (requires { c.node; }) touched.insert(c.node);
+        },
+        command);
+  scene::Store some;
+  for (const scene::NodeId id : touched)
+    if (const scene::Node* node = store.find(id))
+      scene::describe_node(*node, [&](const scene::Command& command) { (void)some.apply(command); });
+  auto undo = scene::apply_whole(some, batch);
+  return undo ? std::move(*undo) : std::vector<scene::Command>{};
+}
+
+}  // namespace
+
+EditSession::EditSession(EditClient& client, const EditOutput& output)
+    : client_(client), output_(output), names_{client.own_ids(), client.own_ids()}, before_(client.store()) {}
+
+bool EditSession::reads_scene(std::string_view line) {
+  constexpr std::array<std::string_view, 6> verbs{"find", "read", "save", "undo", "wait", "remove"};
+  return std::ranges::find(verbs, first_word(line)) != verbs.end();
+}
+
+void EditSession::refuse(std::uint64_t request, std::size_t line, const std::string& text, const std::string& why) {
+  ++refusals_;
+  output_.refused(request, line, text, why);
+}
+
+void EditSession::take(const std::string& line) {
+  const auto words = scene::words_of(line);
+  if (words && words->empty()) return;
+  if (words && words->front().text == "commit" && batch_) return send(*std::exchange(batch_, std::nullopt));
+  if (words && !batch_ && query(line, *words)) return;
+  Batch one;
+  Batch& batch = batch_ ? *batch_ : one;
+  if (words)
+    add(batch, line, *words);
+  else if (batch.lines.push_back(line); !batch.wrong)
+    batch.wrong = {batch.lines.size(), describe(words.error())};
+  if (!batch_) send(std::move(one));
+}
+
+void EditSession::add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words) {
+  batch.lines.push_back(line);
+  if (batch.wrong) return;
+  auto edit = edit_of(words, client_.store(), names_);
+  if (!edit) {
+    batch.wrong = {batch.lines.size(), describe(edit.error())};
+    return;
+  }
+  batch.line_of.insert(batch.line_of.end(), edit->commands.size(), batch.lines.size());
+  batch.commands.insert(batch.commands.end(), std::make_move_iterator(edit->commands.begin()),
+                        std::make_move_iterator(edit->commands.end()));
+  batch.messages.insert(batch.messages.end(), edit->messages.begin(), edit->messages.end());
+}
+
+void EditSession::send(Batch batch) {
+  const std::uint64_t request = ++requests_;
+  if (batch.wrong) {
+    forget_created(batch);
+    return refuse(request, batch.wrong->first, batch.lines[batch.wrong->first - 1], batch.wrong->second);
+  }
+  if (batch.commands.empty()) return output_.done(request, 0, {});
+  const auto number = client_.request(batch.commands, batch.tick);
+  if (!number) {
+    forget_created(batch);
+    return refuse(request, 1, batch.lines.empty() ? "" : batch.lines.front(), describe(number.error()));
+  }
+  std::vector<scene::Command> undo;
+  if (!batch.is_undo) undo = undo_of(client_.store(), batch.commands);
+  waiting_.emplace(*number, Waiting{request, std::move(batch), std::move(undo)});
+}
+
+void EditSession::forget_created(const Batch& batch) {
+  for (const scene::Command& command : batch.commands)
+    if (const auto* create = std::get_if<scene::NodeCreate>(&command)) {
+      names_.objects.erase(create->node);
+      std::erase_if(names_.fresh, [&](const auto& entry) { return entry.second == create->node; });
+    }
+}
+
+void EditSession::hear() {
+  for (const EditAnswer& answer : client_.take_answers()) {
+    const auto found = waiting_.find(answer.batch);
+    if (found == waiting_.end()) continue;
+    const Waiting waiting = std::move(found->second);
+    waiting_.erase(found);
+    const Batch& batch = waiting.batch;
+    if (answer.refused) {
+      forget_created(batch);
+      const std::size_t line = answer.refused->index < batch.line_of.size() ? batch.line_of[answer.refused->index] : 1;
+      refuse(waiting.request, line, line <= batch.lines.size() ? batch.lines[line - 1] : "", answer.refused->why);
+      continue;
+    }
+    if (!waiting.undo.empty()) undo_.push_back(waiting.undo);
+    if (undo_.size() > most_undone) undo_.erase(undo_.begin());
+    output_.done(waiting.request, answer.tick, batch.messages);
+  }
+  for (const std::string& message : client_.take_messages()) output_.message(message);
+  if (!tells_ticks_) return;
+  for (const frame::HistoryTick& tick : client_.link().history().ticks()) {
+    if (told_tick_ && tick.snapshot.tick <= *told_tick_) continue;
+    told_tick_ = tick.snapshot.tick;
+    output_.tick(tick.snapshot);
+  }
+}
+
+/// A line that changes nothing, or begins a batch.
+bool EditSession::query(const std::string& line, const std::vector<scene::TextWord>& words) {
+  const std::string& verb = words.front().text;
+  const auto is_number = [](const std::string& text, std::uint64_t& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size();
+  };
+  if (verb == "begin") {
+    Batch batch;
+    const bool at = words.size() == 3 && words[1].text == "at" && is_number(words[2].text, batch.tick);
+    if (words.size() != 1 && !at) batch.wrong = {1, "write `begin`, or `begin at TICK`"}, batch.lines.push_back(line);
+    batch_ = std::move(batch);
+  } else if (verb == "ticks") {
+    tells_ticks_ = words.size() != 2 || words[1].text != "off";
+    output_.done(++requests_, 0, {});
+  } else if (verb == "wait") {
+    output_.done(++requests_, 0, {});
+  } else if (verb == "find") {
+    const std::uint64_t request = ++requests_;
+    const auto found = found_nodes(words, client_.store());
+    if (found)
+      output_.nodes(request, *found, names());
+    else
+      refuse(request, 1, line, describe(found.error()));
+  } else if (verb == "read") {
+    read(++requests_, words);
+  } else if (verb == "save") {
+    const std::uint64_t request = ++requests_;
+    const auto saved = words.size() == 2
+                           ? document::write_text_file(words[1].text, scene::edits_between(before_, client_.store()))
+                           : failure("a file is needed", "save FILE", "write save FILE");
+    if (saved)
+      output_.done(request, 0, {});
+    else
+      refuse(request, 1, line, describe(saved.error()));
+  } else if (verb == "undo") {
+    undo();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// The lines that make a node; long runs of values are cut.
+void EditSession::read(std::uint64_t request, const std::vector<scene::TextWord>& words) {
+  constexpr std::size_t longest = 400;
+  const auto id = words.size() == 2 ? scene::node_of(names(), words[1]) : std::nullopt;
+  const scene::Node* node = id ? client_.store().find(*id) : nullptr;
+  if (!node) return refuse(request, 1, "read", "write read NODE, a node that exists");
+  std::vector<std::string> lines;
+  scene::describe_node(*node, [&](const scene::Command& command) {
+    std::string text = scene::to_text(command, names());
+    if (text.size() > longest) text = text.substr(0, longest) + " …";
+    lines.push_back(std::move(text));
+  });
+  output_.lines(request, lines);
+}
+
+void EditSession::undo() {
+  Batch batch;
+  batch.lines = {"undo"};
+  batch.is_undo = true;
+  if (undo_.empty())
+    batch.wrong = {1, "there is nothing of this editor's to be undone"};
+  else
+    batch.commands = std::move(undo_.back()), undo_.pop_back();
+  send(std::move(batch));
+}
+
+}  // namespace septet::server

@@ -1,0 +1,72 @@
+#pragma once
+/// Lines of an editor to batches, and the server's answers to what is said.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "command-line/command/edit/edit_client.hpp"
+#include "command-line/command/edit/edit_output.hpp"
+#include "command-line/command/edit/edit_verbs.hpp"
+
+namespace septet::server {
+
+/// A line is a request of its own, or one of those between `begin [at TICK]` and `commit`, which are one batch. Requests
+/// are numbered from 1, and each has one answer.
+class EditSession {
+ public:
+  /// Both outlive it; the client is ready.
+  EditSession(EditClient& client, const EditOutput& output);
+
+  /// True if the line reads the scene, so that everything before it must have arrived.
+  static bool reads_scene(std::string_view line);
+  /// True if no answer is owed and the mirror is whole.
+  bool is_settled() const { return waiting_.empty() && client_.is_complete(); }
+  bool is_in_batch() const { return batch_.has_value(); }
+  std::size_t answers_owed() const { return waiting_.size(); }
+  void take(const std::string& line);
+  /// Says what the server has answered, and the ticks that have come.
+  void hear();
+  std::uint64_t refusals() const { return refusals_; }
+
+ private:
+  struct Batch {
+    std::uint64_t tick = 0;
+    std::vector<std::string> lines;
+    std::vector<scene::Command> commands;
+    std::vector<std::size_t> line_of;  ///< Of each command.
+    std::vector<std::string> messages;
+    std::optional<std::pair<std::size_t, std::string>> wrong;  ///< The first line that cannot be read, and why.
+    bool is_undo = false;
+  };
+  struct Waiting {
+    std::uint64_t request = 0;
+    Batch batch;
+    std::vector<scene::Command> undo;
+  };
+
+  scene::TextNames names() const { return {client_.store(), names_.own_ids, nullptr, &names_.fresh}; }
+  void add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words);
+  void send(Batch batch);
+  void refuse(std::uint64_t request, std::size_t line, const std::string& text, const std::string& why);
+  void forget_created(const Batch& batch);
+  bool query(const std::string& line, const std::vector<scene::TextWord>& words);
+  void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
+  void undo();
+
+  EditClient& client_;
+  const EditOutput& output_;
+  EditNames names_;
+  scene::Store before_;  ///< The scene as it was when the editor came.
+  std::uint64_t requests_ = 0, refusals_ = 0;
+  std::optional<Batch> batch_;
+  std::map<std::uint64_t, Waiting> waiting_;  ///< By the batch's number.
+  std::vector<std::vector<scene::Command>> undo_;
+  bool tells_ticks_ = false;
+  std::optional<Tick> told_tick_;
+};
+
+}  // namespace septet::server

@@ -1,0 +1,311 @@
+#include "command-line/command/edit/edit_verbs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include <fmt/core.h>
+#include <glm/gtc/quaternion.hpp>
+
+#include "command-line/command/edit/shapes.hpp"
+#include "engine/gltf/gltf.hpp"
+#include "engine/image/png.hpp"
+#include "engine/image/srgb.hpp"
+#include "engine/replication/message.hpp"
+
+namespace septet::server {
+namespace {
+
+using namespace scene;
+using Words = std::span<const TextWord>;
+
+constexpr std::size_t most_name_bytes = 200;
+
+tl::unexpected<Error> wrong(const std::string& what, std::string_view usage) {
+  return failure(what, fmt::format("the line {}", usage), "septet edit --help and docs/editing.md show the lines");
+}
+
+std::optional<std::vector<double>> numbers(Words words) {
+  std::vector<double> read;
+  read.reserve(words.size());
+  for (const TextWord& word : words) {
+    double number = 0.0;
+    const char* end = word.text.data() + word.text.size();
+    const auto [stop, error] = std::from_chars(word.text.data(), end, number);
+    if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
+    read.push_back(number);
+  }
+  return read;
+}
+
+Quat turned(double heading_deg) { return glm::angleAxis(heading_deg * std::numbers::pi / 180.0, Vec3(0, 0, 1)); }
+
+/// Nothing, X Y Z, or X Y Z HEADING.
+std::optional<Transform> transform_of(Words words) {
+  const auto read = numbers(words);
+  if (!read || !(read->empty() || read->size() == 3 || read->size() == 4)) return std::nullopt;
+  Transform transform;
+  if (!read->empty()) transform.position_m = {(*read)[0], (*read)[1], (*read)[2]};
+  if (read->size() == 4) transform.rotation = turned((*read)[3]);
+  return transform;
+}
+
+class Verbs {
+ public:
+  Verbs(const Store& store, EditNames& names) : store_(store), names_(names) {}
+
+  Expected<EditedLine> line(const std::vector<TextWord>& words) {
+    const std::string& verb = words.front().text;
+    const Words rest = std::span(words).subspan(1);
+    if (verb == "create") return create(rest);
+    if (verb == "move") return move(rest);
+    if (verb == "hide" || verb == "show") return hide(rest, verb == "hide");
+    if (verb == "remove") return remove(rest);
+    if (verb == "import") return import_model(rest);
+    if (verb == "board") return board(rest);
+    if (verb == "picture") return picture(rest);
+    if (verb == "text") return text(rest);
+    if (verb == "color") return color(rest);
+    auto command = command_from_words(words, {store_, names_.own_ids, nullptr, &names_.fresh});
+    if (!command) return tl::unexpected(command.error());
+    learn(*command);
+    return EditedLine{{std::move(*command)}};
+  }
+
+ private:
+  std::optional<NodeId> object(const TextWord& word) const {
+    const auto id = node_of({store_, names_.own_ids, nullptr, &names_.fresh}, word);
+    return id && *id != no_node ? id : std::nullopt;
+  }
+  static tl::unexpected<Error> no_node_called(const TextWord& word) {
+    return wrong(fmt::format("there is no node {:.80}", word.text), "names a node");
+  }
+  /// Ids that are used are not free, and names of objects are known at once.
+  void learn(const Command& command) {
+    if (const auto* create = std::get_if<NodeCreate>(&command)) {
+      if (create->node >= names_.next && create->node - names_.own_ids < replication::ids_per_session)
+        names_.next = create->node + 1;
+      if (create->type == NodeType::object) names_.objects.insert(create->node);
+    } else if (const auto* named = std::get_if<NodeNameSet>(&command)) {
+      const Node* node = store_.find(named->node);
+      if (names_.objects.contains(named->node) || (node && node->type() == NodeType::object))
+        names_.fresh[named->name] = named->node;
+    }
+  }
+  Expected<NodeId> free_ids(std::string_view name) const {
+    if (name.size() > most_name_bytes)
+      return wrong(fmt::format("a name of {} bytes", name.size()),
+                   fmt::format("NAME, at most {} bytes", most_name_bytes));
+    // Far more than any one line makes.
+    if (names_.next - names_.own_ids > replication::ids_per_session - 2048)
+      return failure("this editor has used all its ids", "septet edit", "connect again");
+    return names_.next;
+  }
+  EditedLine keep(Made made) {
+    for (const Command& command : made.commands) learn(command);
+    names_.next = made.next;
+    return {std::move(made.commands), std::move(made.messages)};
+  }
+  /// The same name again replaces.
+  EditedLine keep_in_place_of(const TextWord& name, Made made) {
+    const auto before = object({name.text, true});
+    EditedLine line;
+    if (before) line.commands = removal(*before);
+    EditedLine kept = keep(std::move(made));
+    line.commands.insert(line.commands.end(), std::make_move_iterator(kept.commands.begin()),
+                         std::make_move_iterator(kept.commands.end()));
+    line.messages = std::move(kept.messages);
+    return line;
+  }
+  /// The object, with all that it links to and this editor made.
+  std::vector<Command> removal(NodeId object) {
+    std::set<NodeId> gone{object};
+    std::vector<NodeId> next{object};
+    while (!next.empty()) {
+      const Node* node = store_.find(next.back());
+      next.pop_back();
+      const auto* data = node ? std::get_if<ObjectData>(&node->data) : nullptr;
+      if (!data) continue;
+      for (const auto& [link_id, link] : data->links)
+        if (link.target - names_.own_ids < replication::ids_per_session && gone.insert(link.target).second)
+          next.push_back(link.target);
+    }
+    std::vector<Command> commands;
+    for (const NodeId each : gone) commands.emplace_back(NodeDestroy{each});
+    std::erase_if(names_.fresh, [&](const auto& entry) { return gone.contains(entry.second); });
+    return commands;
+  }
+
+  Expected<EditedLine> create(Words words) {
+    constexpr std::string_view usage = "create NAME [X Y Z [HEADING_DEG]]";
+    if (words.empty()) return wrong("a name is missing", usage);
+    const auto transform = transform_of(words.subspan(1));
+    if (!transform) return wrong("a place is three or four numbers", usage);
+    const auto id = free_ids(words[0].text);
+    if (!id) return tl::unexpected(id.error());
+    return keep_in_place_of(
+        words[0],
+        {{NodeCreate{*id, NodeType::object}, NodeNameSet{*id, words[0].text}, TransformSet{*id, *transform}}, *id + 1});
+  }
+  Expected<EditedLine> move(Words words) {
+    constexpr std::string_view usage = "move NODE X Y Z [HEADING_DEG]";
+    if (words.size() < 4) return wrong("a node and its place are needed", usage);
+    const auto id = object(words[0]);
+    if (!id) return no_node_called(words[0]);
+    auto transform = transform_of(words.subspan(1));
+    if (!transform) return wrong("a place is three or four numbers", usage);
+    const Node* node = store_.find(*id);
+    if (const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr) {
+      transform->scale = now->transform.scale;
+      if (words.size() == 4) transform->rotation = now->transform.rotation;
+    }
+    return EditedLine{{TransformSet{*id, *transform}}};
+  }
+  Expected<EditedLine> hide(Words words, bool hidden) {
+    if (words.size() != 1) return wrong("one node is needed", hidden ? "hide NODE" : "show NODE");
+    const auto id = object(words[0]);
+    if (!id) return no_node_called(words[0]);
+    return EditedLine{{HideSet{*id, hidden}}};
+  }
+  Expected<EditedLine> remove(Words words) {
+    if (words.size() != 1) return wrong("one node is needed", "remove NODE");
+    const auto id = object(words[0]);
+    if (!id) return no_node_called(words[0]);
+    return EditedLine{removal(*id)};
+  }
+  Expected<EditedLine> import_model(Words words) {
+    constexpr std::string_view usage = "import NAME FILE.glb [X Y Z [HEADING_DEG]]";
+    if (words.size() < 2) return wrong("a name and a file are needed", usage);
+    const auto transform = transform_of(words.subspan(2));
+    if (!transform) return wrong("a place is three or four numbers", usage);
+    const auto first = free_ids(words[0].text);
+    if (!first) return tl::unexpected(first.error());
+    auto made = make_model(words[0].text, words[1].text, *transform, *first);
+    if (!made) return tl::unexpected(made.error());
+    return keep_in_place_of(words[0], std::move(*made));
+  }
+  Expected<EditedLine> board(Words words) {
+    constexpr std::string_view usage = "board NAME WIDTH_M HEIGHT_M [X Y Z [HEADING_DEG]]";
+    if (words.size() < 3) return wrong("a name, a width and a height are needed", usage);
+    const auto size = numbers(words.subspan(1, 2));
+    const auto transform = transform_of(words.subspan(3));
+    const auto is_size = [](double m) { return m >= 0.001 && m <= 1000.0; };
+    if (!size || !transform || !is_size((*size)[0]) || !is_size((*size)[1]))
+      return wrong("width and height are metres from 0.001 to 1000, a place is three or four numbers", usage);
+    const auto first = free_ids(words[0].text);
+    if (!first) return tl::unexpected(first.error());
+    return keep_in_place_of(words[0], make_board(words[0].text, (*size)[0], (*size)[1], *transform, *first));
+  }
+  Expected<EditedLine> wear(const TextWord& node, const image::Image& shown) {
+    const auto id = object(node);
+    if (!id) return no_node_called(node);
+    const auto first = free_ids("");
+    if (!first) return tl::unexpected(first.error());
+    return keep(make_picture(store_, *id, shown, *first));
+  }
+  Expected<EditedLine> picture(Words words) {
+    if (words.size() != 2) return wrong("a node and a file are needed", "picture NODE FILE.png");
+    const auto shown = image::read_png(words[1].text);
+    if (!shown) return tl::unexpected(shown.error());
+    if (shown->width > gltf::largest_picture_px || shown->height > gltf::largest_picture_px)
+      return wrong(fmt::format("the picture has more than {} pixels a side", gltf::largest_picture_px),
+                   "picture NODE FILE.png");
+    return wear(words[0], *shown);
+  }
+  Expected<EditedLine> text(Words words) {
+    if (words.size() != 2 || words[1].text.size() > 500)
+      return wrong("a node and a text are needed", "text NODE \"TEXT\"");
+    const auto painted = painted_text(words[1].text, {0, 0, 0}, {255, 255, 255});
+    if (!painted) return tl::unexpected(painted.error());
+    return wear(words[0], *painted);
+  }
+  Expected<EditedLine> color(Words words) {
+    constexpr std::string_view usage = "color NODE RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
+    const auto rgb = words.size() == 4 ? numbers(words.subspan(1)) : std::nullopt;
+    if (!rgb) return wrong("a node and three numbers are needed", usage);
+    const auto id = object(words[0]);
+    if (!id) return no_node_called(words[0]);
+    const auto first = free_ids("");
+    if (!first) return tl::unexpected(first.error());
+    glm::vec3 linear;
+    for (int i = 0; i < 3; ++i)
+      linear[i] = static_cast<float>(image::light_of_srgb(std::clamp((*rgb)[static_cast<std::size_t>(i)], 0.0, 1.0)));
+    return keep(make_colour(store_, *id, linear, *first));
+  }
+
+  const Store& store_;
+  EditNames& names_;
+};
+
+/// Matches names with * and ?.
+bool matches(std::string_view pattern, std::string_view name) {
+  std::size_t p = 0, n = 0, star = std::string_view::npos, after = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*')
+      ++p, ++n;
+    else if (p < pattern.size() && pattern[p] == '*')
+      star = p++, after = n;
+    else if (star != std::string_view::npos)
+      p = star + 1, n = ++after;
+    else
+      return false;
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+}  // namespace
+
+Expected<EditedLine> edit_of(const std::vector<TextWord>& words, const Store& store, EditNames& names) {
+  return Verbs(store, names).line(words);
+}
+
+Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store) {
+  constexpr std::string_view usage = "find [NAME] [type TYPE] [tag GROUP.TAG] [near X Y METRES]";
+  constexpr std::size_t most = 1000;
+  constexpr std::array types{"object", "geometry", "material", "bitmap"};
+  std::string_view pattern = "*", type, group, tag;
+  std::optional<std::vector<double>> near;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string& word = words[i].text;
+    const std::size_t left = words.size() - i - 1;
+    if (word == "type" && left >= 1) {
+      type = words[++i].text;
+    } else if (word == "tag" && left >= 1 && words[i + 1].text.find('.') != std::string::npos) {
+      const std::string_view both = words[++i].text;
+      group = both.substr(0, both.find('.')), tag = both.substr(both.find('.') + 1);
+    } else if (word == "near" && left >= 3) {
+      near = numbers(std::span(words).subspan(i + 1, 3));
+      if (!near) return wrong("near is two coordinates and a distance", usage);
+      i += 3;
+    } else if (i == 1) {
+      pattern = word;
+    } else {
+      return wrong(fmt::format("{:.80} is not understood", word), usage);
+    }
+  }
+  std::vector<NodeId> found;
+  for (const auto& [id, node] : store.nodes()) {
+    const auto* object = std::get_if<ObjectData>(&node.data);
+    if (type.empty() ? !object : type != types[static_cast<std::size_t>(node.type())]) continue;
+    if (!matches(pattern, node.name) || (!group.empty() && !find_tag(node, group, tag))) continue;
+    if (near && (!object || std::hypot(object->transform.position_m.x - (*near)[0],
+                                       object->transform.position_m.y - (*near)[1]) > (*near)[2]))
+      continue;
+    found.push_back(id);
+    if (found.size() == most) break;
+  }
+  return found;
+}
+
+}  // namespace septet::server

@@ -1,0 +1,128 @@
+#include "command-line/command/edit/shapes.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "engine/core/printable.hpp"
+#include "engine/core/regular_file.hpp"
+#include "engine/image/font.hpp"
+#include "engine/scene/builder.hpp"
+#include "engine/scenery/own_models.hpp"
+
+namespace septet::server {
+namespace {
+
+/// What a builder does in a store of its own, whose next id is `first`.
+Made built(scene::NodeId first, const std::function<void(scene::SceneBuilder&)>& build) {
+  scene::Store store;
+  Made made{{}, first};
+  (void)store.apply(scene::NodeCreate{first - 1, scene::NodeType::object});
+  scene::SceneBuilder builder(store, [&](const scene::Command& command) { made.commands.push_back(command); });
+  build(builder);
+  made.next = store.assign_id();
+  return made;
+}
+
+/// The links to materials of an object, those of the first index first.
+std::vector<std::pair<scene::PartId, std::uint32_t>> material_links(const scene::Store& store, scene::NodeId id) {
+  const scene::Node* node = store.find(id);
+  const auto* object = node ? std::get_if<scene::ObjectData>(&node->data) : nullptr;
+  // What make_board and SceneBuilder make: the geometry's link, then that of the first material.
+  if (!object) return {{1, 0}};
+  std::vector<std::pair<scene::PartId, std::uint32_t>> links;
+  for (const auto& [link_id, link] : object->links)
+    if (link.label == "material") links.emplace_back(link_id, link.target_id);
+  if (links.empty())
+    links.emplace_back(
+        object->links.empty() ? scene::PartId{0} : static_cast<scene::PartId>(object->links.rbegin()->first + 1), 0u);
+  std::ranges::stable_sort(links, {}, &std::pair<scene::PartId, std::uint32_t>::second);
+  return links;
+}
+
+void wear(Made& made, scene::NodeId object, std::pair<scene::PartId, std::uint32_t> link, scene::NodeId material) {
+  made.commands.emplace_back(scene::LinkSet{object, link.first, {"material", material, link.second}});
+}
+
+}  // namespace
+
+Expected<Made> make_model(const std::string& name, const std::filesystem::path& file, const scene::Transform& transform,
+                          scene::NodeId first) {
+  const auto bytes = read_regular_file(file, gltf::largest_file_bytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto model = gltf::read_gltf(*bytes, printable(file.string()), scenery::begins_own_part);
+  if (!model) return tl::unexpected(model.error());
+  std::vector<std::string> left_out = std::move(model->left_out);
+  // A name of the scene holds both this one and the look's.
+  for (gltf::Look& look : model->looks) look.name.resize(std::min<std::size_t>(look.name.size(), 50));
+  scenery::OwnModels models;
+  // The object's name is the root's alone.
+  const std::string part = name + "/part";
+  models.emplace(part, std::move(*model));
+  Made made = built(first, [&](scene::SceneBuilder& builder) {
+    const scene::NodeId root = builder.add_object(name, {});
+    builder.apply(scene::TransformSet{root, transform});
+    scenery::OwnShapes(builder, &models).place(part, {}, root);
+  });
+  made.messages = std::move(left_out);
+  return made;
+}
+
+Made make_board(const std::string& name, double width_m, double height_m, const scene::Transform& transform,
+                scene::NodeId first) {
+  return built(first, [&](scene::SceneBuilder& builder) {
+    const auto half = static_cast<float>(width_m / 2), up = static_cast<float>(height_m / 2);
+    geometry::PolygonMesh mesh;
+    mesh.vertices_m = {{0, -half, -up}, {0, half, -up}, {0, half, up}, {0, -half, up}};
+    mesh.polygons.push_back({0, 1, 2, 3});
+    mesh.corner_uvs.push_back({glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(1, 0), glm::vec2(0, 0)});
+    scene::MaterialParameters white;
+    white.two_sided = true;
+    const scene::NodeId shape = builder.add_mesh(name, mesh), material = builder.add_material(name, white);
+    const scene::NodeId board = builder.add_object(name, {.geometry = shape, .materials = {material}});
+    builder.apply(scene::TransformSet{board, transform});
+  });
+}
+
+Made make_picture(const scene::Store& store, scene::NodeId object, const image::Image& picture, scene::NodeId first) {
+  scene::NodeId material = scene::no_node;
+  Made made = built(first, [&](scene::SceneBuilder& builder) {
+    scene::MaterialParameters look;
+    look.base_color = glm::vec3(0.85f);
+    look.base_color_bitmap = builder.add_bitmap("", picture.width, picture.height, picture.rgba);
+    look.two_sided = true;
+    material = builder.add_material("", look);
+  });
+  wear(made, object, material_links(store, object).front(), material);
+  return made;
+}
+
+Made make_colour(const scene::Store& store, scene::NodeId object, glm::vec3 linear_rgb, scene::NodeId first) {
+  scene::NodeId material = scene::no_node;
+  Made made = built(first, [&](scene::SceneBuilder& builder) {
+    scene::MaterialParameters look;
+    look.base_color = linear_rgb;
+    look.two_sided = true;
+    material = builder.add_material("", look);
+  });
+  for (const auto& link : material_links(store, object)) wear(made, object, link, material);
+  return made;
+}
+
+Expected<image::Image> painted_text(const std::string& text, image::Color ink, image::Color ground) {
+  const auto font = image::Font::find(image::FontStyle::bold);
+  if (!font) return tl::unexpected(font.error());
+  constexpr double height_px = 256.0, margin_px = 24.0, most_px = 4.0 * height_px;
+  double size_px = 180.0;
+  if (const double width_px = font->width_px(text, size_px); width_px > most_px) size_px *= most_px / width_px;
+  const double width_px = font->width_px(text, size_px) + 2.0 * margin_px;
+  image::Image picture(static_cast<std::uint32_t>(std::clamp(width_px, height_px, most_px + 2.0 * margin_px)),
+                       static_cast<std::uint32_t>(height_px), ground);
+  font->draw_centred(picture, 0.5 * picture.width, 0.5 * (height_px + font->capital_height_px(size_px)), text, size_px,
+                     ink);
+  return picture;
+}
+
+}  // namespace septet::server

@@ -1,0 +1,483 @@
+"""Change and watch the world of a running Septet drive.
+
+    import septet
+    with septet.connect("10.7.0.1", 4750, "keys/lab/lab.key") as world:
+        ball = world.add("stimuli/ball", "ball.glb", position=(10, 0, 0))
+        for tick in world.ticks():
+            ball.position = (10 + tick.time_s, 0, 0)
+
+Standard library alone. Names, units and lines: README.md beside this file. The program `septet edit` is the transport.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import collections
+import dataclasses
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import threading
+from concurrent.futures import Future
+from typing import Any, AsyncIterator, Callable, Iterator, Optional, Sequence, Union
+
+__all__ = ["connect", "World", "Handle", "Batch", "Tick", "Car", "Participant", "Refused", "Ended"]
+
+Vector = Sequence[float]
+Path = Union[str, "os.PathLike[str]"]
+MOST_TICKS_KEPT = 1200
+"""Ticks that wait for a script that is slow; older ones are dropped and counted."""
+
+
+class Refused(Exception):
+    """Nothing of a change was done. `why` is the server's own sentence, `line` and `text` the change that it is about."""
+
+    def __init__(self, why: str, line: int, text: str) -> None:
+        super().__init__(f"{why} (change {line}: {text})")
+        self.why, self.line, self.text = why, line, text
+
+
+class Ended(Exception):
+    """The drive has ended, or its server is gone."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Participant:
+    """Anybody in traffic at one tick. Metres, metres a second; `wxyz` is a unit quaternion."""
+
+    id: int
+    model: str
+    position: tuple[float, float, float]
+    wxyz: tuple[float, float, float, float]
+    velocity: tuple[float, float, float]
+
+    @property
+    def heading_deg(self) -> float:
+        w, x, y, z = self.wxyz
+        return math.degrees(math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+
+    @property
+    def speed_mps(self) -> float:
+        return math.hypot(*self.velocity)
+
+    def ahead(self, metres: float, left: float = 0.0) -> tuple[float, float, float]:
+        """The place so far ahead of it and to its left, at its height."""
+        angle = math.radians(self.heading_deg)
+        x, y, z = self.position
+        return (x + metres * math.cos(angle) - left * math.sin(angle), y + metres * math.sin(angle) + left * math.cos(angle), z)
+
+    def distance_m(self, place: Vector) -> float:
+        return math.dist(self.position, tuple(place))
+
+
+@dataclasses.dataclass(frozen=True)
+class Car:
+    """The driver's car at one tick, beyond what it is as a participant (logging/FORMAT.md has the same words)."""
+
+    id: int
+    speed_mps: float
+    gear: int
+    steering_wheel_rad: float
+    accelerator: float
+    brake: float
+    clutch: float
+    yaw_rate_radps: float
+    gaze_heading_rad: float
+    road: int
+    lane: int
+    road_s_m: float
+    lateral_position_m: float
+    lane_width_m: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Tick:
+    tick: int
+    time_s: float
+    car: Car
+    everybody: tuple[Participant, ...]
+    collisions: int
+    rain_mm_per_h: float
+    visibility_m: float
+
+    @property
+    def driver(self) -> Participant:
+        """The driver's car as a participant."""
+        return next(one for one in self.everybody if one.id == self.car.id)
+
+    def participant(self, number: int) -> Optional[Participant]:
+        return next((one for one in self.everybody if one.id == number), None)
+
+
+def _tick(row: dict[str, Any]) -> Tick:
+    everybody = tuple(
+        Participant(one["id"], one["model"], tuple(one["position"]), tuple(one["wxyz"]), tuple(one["velocity"]))
+        for one in row["everybody"]
+    )
+    return Tick(row["tick"], row["time_s"], Car(**row["car"]), everybody, row["collisions"], row["rain_mm_per_h"], row["visibility_m"])
+
+
+def _word(text: str) -> str:
+    """The text as one quoted word of a line."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
+
+
+def _numbers(values: Vector) -> str:
+    return " ".join(repr(float(value)) for value in values)
+
+
+def _turned(heading_deg: float) -> tuple[float, float, float, float]:
+    half = math.radians(heading_deg) / 2
+    return (math.cos(half), 0.0, 0.0, math.sin(half))
+
+
+class Handle:
+    """An object of the world, by its name. Assigning a property is the change."""
+
+    def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
+        self._world, self.node = world, node
+        self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
+
+    def __repr__(self) -> str:
+        return f"<septet.Handle {self.node} at {self._position}>"
+
+    def _transform(self, position: Vector, wxyz: Vector, scale: Vector) -> None:
+        position, wxyz, scale = tuple(map(float, position)), tuple(map(float, wxyz)), tuple(map(float, scale))
+        if (len(position), len(wxyz), len(scale)) != (3, 4, 3):
+            raise ValueError("a position is x, y, z, a rotation w, x, y, z, a scale x, y, z")
+        self._world._change(f"transform-set {self.node} {_numbers(position)} {_numbers(wxyz)} {_numbers(scale)}")
+        self._position, self._wxyz, self._scale = position, wxyz, scale
+
+    @property
+    def position(self) -> tuple[float, ...]:
+        return self._position
+
+    @position.setter
+    def position(self, value: Vector) -> None:
+        self._transform(value, self._wxyz, self._scale)
+
+    @property
+    def wxyz(self) -> tuple[float, ...]:
+        return self._wxyz
+
+    @wxyz.setter
+    def wxyz(self, value: Vector) -> None:
+        self._transform(self._position, value, self._scale)
+
+    @property
+    def scale(self) -> tuple[float, ...]:
+        return self._scale
+
+    @scale.setter
+    def scale(self, value: Union[float, Vector]) -> None:
+        three = (value,) * 3 if isinstance(value, (int, float)) else value
+        self._transform(self._position, self._wxyz, three)
+
+    def turn_to(self, heading_deg: float) -> None:
+        """Upright, its x axis in this direction, counter-clockwise from the world's x."""
+        self.wxyz = _turned(heading_deg)
+
+    @property
+    def visible(self) -> bool:
+        return self._visible
+
+    @visible.setter
+    def visible(self, value: bool) -> None:
+        self._world._change(f"{'show' if value else 'hide'} {self.node}")
+        self._visible = bool(value)
+
+    def show_text(self, text: str) -> None:
+        """Black letters on white in the place of its first material: for boards and signs."""
+        self._world._change(f"text {self.node} {_word(text)}")
+
+    def show_picture(self, picture: Union[Path, bytes]) -> None:
+        """A PNG file, or its bytes, in the place of its first material."""
+        self._world._change(f"picture {self.node} {_word(self._world._file(picture, '.png'))}")
+
+    def paint(self, red: float, green: float, blue: float) -> None:
+        """One colour, each part from 0 to 1 as in pictures, in the place of all its materials."""
+        self._world._change(f"color {self.node} {_numbers((red, green, blue))}")
+
+    def remove(self) -> None:
+        self._world._change(f"remove {self.node}")
+
+
+class Batch:
+    """Changes that are made together, whole or not at all: one tick shows them first."""
+
+    def __init__(self, world: World, at_tick: Optional[int]) -> None:
+        self._world, self._at_tick, self._lines = world, at_tick, []  # type: World, Optional[int], list[str]
+        self._answer: Optional[Future[int]] = None
+
+    def __enter__(self) -> Batch:
+        if self._world._batch is not None:
+            raise RuntimeError("a batch within a batch")
+        self._world._batch = self._lines
+        return self
+
+    def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
+        self._world._batch = None
+        if kind is not None or not self._lines:
+            return
+        begin = "begin" if self._at_tick is None else f"begin at {self._at_tick}"
+        self._answer = self._world._ask([begin, *self._lines, "commit"])
+        if self._at_tick is None:
+            self.result()
+
+    def result(self, timeout_s: float = 60.0) -> int:
+        """The first tick that shows them; waits for it. Raises Refused."""
+        if self._answer is None:
+            raise RuntimeError("the batch is empty, or not closed yet")
+        return int(self._answer.result(timeout_s))
+
+
+class World:
+    """A connection to a running drive; `connect` makes it. One thread, or the batches of several must not overlap."""
+
+    def __init__(self, command: list[str]) -> None:
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8")
+        self._batch: Optional[list[str]] = None
+        self._asked: dict[int, Future[Any]] = {}
+        self._requests = 0
+        self._news = threading.Condition()
+        self._ticks: collections.deque[Tick] = collections.deque()
+        self._handlers: dict[str, list[Callable[..., Any]]] = {"tick": [], "end": [], "message": []}
+        self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
+        self._files = 0
+        self._tells_ticks = False
+        self.hello: dict[str, Any] = {}
+        self.newest: Optional[Tick] = None
+        """The newest tick, once ticks are asked for."""
+        self.missed_ticks = 0
+        self.why_ended: Optional[str] = None
+        self._errors: list[str] = []
+        threading.Thread(target=self._read_errors, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    # ---- changes
+
+    def add(self, name: str, glb: Optional[Path] = None, position: Vector = (0, 0, 0), heading_deg: float = 0.0) -> Handle:
+        """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced."""
+        at = f"{_numbers(position)} {float(heading_deg)!r}"
+        what = f"create {_word(name)} {at}" if glb is None else f"import {_word(name)} {_word(os.path.abspath(glb))} {at}"
+        return self._made(name, what, position, heading_deg)
+
+    def board(self, name: str, width_m: float, height_m: float, position: Vector = (0, 0, 0), heading_deg: float = 0.0) -> Handle:
+        """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it."""
+        what = f"board {_word(name)} {_numbers((width_m, height_m))} {_numbers(position)} {float(heading_deg)!r}"
+        return self._made(name, what, position, heading_deg)
+
+    def find(self, pattern: str = "*", near: Optional[tuple[float, float, float]] = None) -> list[Handle]:
+        """Objects whose names match (* and ?), `near` (x, y, metres); a thousand at most."""
+        line = f"find {_word(pattern)}" + ("" if near is None else f" near {_numbers(near)}")
+        return [
+            Handle(self, one["node"], one["position"], one["wxyz"], one["scale"], one["visible"])
+            for one in self._ask([line]).result(60.0)
+            if "position" in one
+        ]
+
+    def get(self, name: str) -> Handle:
+        """The object of this name. Raises KeyError."""
+        for one in self._ask([f"find {_word(name)}"]).result(60.0):
+            if one["name"] == name:
+                return Handle(self, one["node"], one["position"], one["wxyz"], one["scale"], one["visible"])
+        raise KeyError(name)
+
+    def batch(self, at_tick: Optional[int] = None) -> Batch:
+        """`with world.batch():` makes the changes within together; with a tick, from that one on, and waits for no answer."""
+        return Batch(self, at_tick)
+
+    def save(self, file: Path) -> None:
+        """Writes what differs from the world as it was when this script came, for `septet drive --edits`."""
+        self._ask([f"save {_word(os.path.abspath(file))}"]).result(60.0)
+
+    # ---- ticks
+
+    def ticks(self, every: int = 1) -> Iterator[Tick]:
+        """Each tick as it comes, or every n-th, until the drive ends."""
+        self._want_ticks()
+        while (tick := self._next_tick()) is not None:
+            if tick.tick % every == 0:
+                yield tick
+
+    async def aticks(self, every: int = 1) -> AsyncIterator[Tick]:
+        """The same for asyncio."""
+        self._want_ticks()
+        while (tick := await asyncio.get_running_loop().run_in_executor(None, self._next_tick)) is not None:
+            if tick.tick % every == 0:
+                yield tick
+
+    def on(self, what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+        """`@world.on("tick")`, "end", "message": called in the connection's own thread; such a handler must not change the world."""
+        def register(handler: Callable[..., Any]) -> Callable[..., Any]:
+            self._handlers[what].append(handler)
+            if what == "tick":
+                self._want_ticks()
+            return handler
+        return register
+
+    # ---- life
+
+    def __enter__(self) -> World:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Waits until all that was asked for is answered, and leaves. What was made stays until the drive ends."""
+        if self._process.stdin and not self._process.stdin.closed:
+            try:
+                self._process.stdin.close()
+            except OSError:
+                pass
+        try:
+            self._process.wait(60.0)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._reader.join(10.0)
+        if self._folder:
+            self._folder.cleanup()
+
+    # ---- within
+
+    def _made(self, name: str, line: str, position: Vector, heading_deg: float) -> Handle:
+        self._change(line)
+        return Handle(self, _word(name), position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
+
+    def _change(self, line: str) -> None:
+        if self._batch is not None:
+            self._batch.append(line)
+        else:
+            self._ask([line]).result(60.0)
+
+    def _file(self, content: Union[Path, bytes], ending: str) -> str:
+        if not isinstance(content, bytes):
+            return os.path.abspath(content)
+        if self._folder is None:
+            self._folder = tempfile.TemporaryDirectory(prefix="septet")
+        self._files += 1
+        path = pathlib.Path(self._folder.name) / f"{self._files}{ending}"
+        path.write_bytes(content)
+        return str(path)
+
+    def _ask(self, lines: list[str]) -> Future[Any]:
+        answer: Future[Any] = Future()
+        with self._news:
+            if self.why_ended is not None or self._process.stdin is None or self._process.stdin.closed:
+                raise Ended(self.why_ended or "the connection is closed")
+            self._requests += 1
+            self._asked[self._requests] = answer
+            try:
+                self._process.stdin.write("\n".join(lines) + "\n")
+                self._process.stdin.flush()
+            except OSError as error:
+                raise Ended(str(error)) from error
+        return answer
+
+    def _want_ticks(self) -> None:
+        if not self._tells_ticks:
+            self._tells_ticks = True
+            self._ask(["ticks on"])
+
+    def _next_tick(self) -> Optional[Tick]:
+        with self._news:
+            self._news.wait_for(lambda: self._ticks or self.why_ended is not None)
+            return self._ticks.popleft() if self._ticks else None
+
+    def _read_errors(self) -> None:
+        assert self._process.stderr
+        for line in self._process.stderr:
+            self._errors.append(line.strip())
+
+    def _read(self) -> None:
+        assert self._process.stdout
+        why = "the connection is closed"
+        for line in self._process.stdout:
+            row = json.loads(line)
+            if row["type"] == "end":
+                why = row["why"]
+            else:
+                self._take(row)
+        with self._news:
+            self.why_ended = self._errors[-1] if self._errors and not self.hello else why
+            for answer in self._asked.values():
+                answer.set_exception(Ended(self.why_ended))
+            self._asked.clear()
+            self._news.notify_all()
+        for handler in self._handlers["end"]:
+            handler(self.why_ended)
+
+    def _take(self, row: dict[str, Any]) -> None:
+        kind = row["type"]
+        if kind == "tick":
+            tick = _tick(row)
+            with self._news:
+                self.newest = tick
+                if len(self._ticks) == MOST_TICKS_KEPT:
+                    self._ticks.popleft()
+                    self.missed_ticks += 1
+                self._ticks.append(tick)
+                self._news.notify_all()
+            for handler in self._handlers["tick"]:
+                handler(tick)
+        elif kind == "message":
+            for handler in self._handlers["message"]:
+                handler(row["text"])
+        elif kind == "hello":
+            with self._news:
+                self.hello = row
+                self._news.notify_all()
+        else:
+            with self._news:
+                answer = self._asked.pop(row["request"], None)
+            if answer is None:
+                return
+            if kind == "nodes":
+                answer.set_result(row["nodes"])
+            elif kind == "lines":
+                answer.set_result(row["lines"])
+            elif row["ok"]:
+                answer.set_result(row["tick"])
+            else:
+                answer.set_exception(Refused(row["why"], row["line"], row["text"]))
+
+    def _wait_for_hello(self, timeout_s: float) -> None:
+        with self._news:
+            self._news.wait_for(lambda: self.hello or self.why_ended is not None, timeout_s)
+        if not self.hello:
+            self._process.kill()
+            raise Ended(self.why_ended or "the server does not answer")
+
+
+def _program() -> str:
+    named = os.environ.get("SEPTET_PROGRAM")
+    if named:
+        return named
+    here = pathlib.Path(__file__).resolve()
+    for folder in (here.parents[3] / "bin" if len(here.parents) > 3 else here.parent, here.parents[2] / "build" / "release"):
+        if (folder / "septet").is_file():
+            return str(folder / "septet")
+    return shutil.which("septet") or "septet"
+
+
+def connect(host: Optional[str] = None, port: Optional[int] = None, key: Optional[Path] = None, *, keys: Optional[Path] = None, timeout_s: float = 60.0) -> World:
+    """Connects to the drive at that address. `key`: file NAME.key, server.public beside it. Or `keys` alone: the folder that
+    `septet drive --editors` wrote, which has the address too. Raises Ended, with the reason, where nobody lets it in."""
+    if key is None and keys is None:
+        raise ValueError("give key, or keys")
+    command = [_program(), "edit", "--json", "--keys", str(keys if key is None else pathlib.Path(key).parent)]
+    if key is not None:
+        command += ["--key", pathlib.Path(key).stem]
+    if host is not None:
+        command += ["--server", f"{host}:{4750 if port is None else port}"]
+    world = World(command)
+    world._wait_for_hello(timeout_s)
+    return world

@@ -1,0 +1,143 @@
+"""The scripts of samples/scripts, and what the module promises, against a real server: edit_scripts_check.py SEPTET."""
+import json
+import os
+import pathlib
+import sqlite3
+import struct
+import subprocess
+import sys
+import tempfile
+
+septet_program = pathlib.Path(sys.argv[1])
+root = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(root / "command-line/python"))
+os.environ["SEPTET_PROGRAM"] = str(septet_program)
+os.environ["SEPTET_DATA"] = str(root)
+os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+os.environ["PYTHONPATH"] = str(root / "command-line/python")
+import septet  # noqa: E402
+
+RIG = """name = "small"
+eye_point_m = [1.35, 0.37, 1.17]
+[network]
+[car]
+source = "simulated-driver"
+[[screen]]
+name = "a"
+width_px = 160
+height_px = 120
+lower_left_m = [2.15, 0.77, 0.87]
+lower_right_m = [2.15, -0.03, 0.87]
+upper_left_m = [2.15, 0.77, 1.47]
+"""
+
+
+def triangle_glb() -> bytes:
+    """A red triangle of a metre."""
+    numbers = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{"name": "red", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(numbers)}],
+        "buffers": [{"byteLength": len(numbers)}],
+    }
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(numbers), 0x004E4942) + numbers
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def run(*words: str) -> str:
+    done = subprocess.run(words, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, (words, done.stdout, done.stderr)
+    return done.stdout
+
+
+def refused(change) -> septet.Refused:
+    try:
+        change()
+    except septet.Refused as why:
+        return why
+    raise AssertionError("nothing was refused")
+
+
+def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pathlib.Path) -> None:
+    with septet.connect(host, port, keys / "lab/lab.key") as world:
+        first = next(world.ticks())
+        assert first.driver.id == first.car.id and first.everybody
+        # Everything of the world has a name of its own, by which it is found and hidden.
+        tree = world.find("tree/*")[0]
+        assert world.get(tree.node.strip('"')).position == tree.position
+        tree.visible = False
+        ball = world.add("stimuli/ball", glb, first.driver.ahead(30))
+        ball.position = first.driver.ahead(31)
+        sign = world.board("stimuli/sign", 2, 1, first.driver.ahead(60))
+        sign.show_text("STOP")
+        sign.paint(1, 0, 0)
+        # A batch is done whole at its tick, or nothing of it.
+        at = first.tick + 240
+        with world.batch(at_tick=at) as later:
+            ball.visible = False
+            sign.visible = False
+        assert later.result() == at
+        def half():
+            with world.batch():
+                ball.visible = True
+                world._change("hide nobody")
+        why = refused(half)
+        assert why.line == 2 and "nobody" in why.why, (why.line, why.why)
+        assert not world.get("stimuli/ball").visible
+        # Adding again replaces.
+        world.add("stimuli/ball", glb, (1, 2, 3))
+        assert [one.position for one in world.find("stimuli/ball")] == [(1, 2, 3)]
+        world.save(folder / "kept.edits")
+        text = (folder / "kept.edits").read_text()
+        assert f"hide-set {tree.node} 1" in text and "stimuli/ball" in text
+    with septet.connect(host, port, keys / "guest/guest.key") as guest:
+        assert "which lab made" in refused(lambda: guest.get("stimuli/ball").remove()).why
+        assert "needs the word create" in refused(lambda: guest.add("mine")).why
+    with septet.connect(host, port, keys / "reader/reader.key") as reader:
+        assert next(reader.ticks()).everybody
+        assert "may look, not edit" in refused(lambda: reader.get("stimuli/ball").remove()).why
+
+
+with tempfile.TemporaryDirectory() as name:
+    folder = pathlib.Path(name)
+    (folder / "small.toml").write_text(RIG)
+    (folder / "ball.glb").write_bytes(triangle_glb())
+    keys = folder / "keys"
+    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit",
+        "--editor", "guest=edit hide move", "--editor", "reader=look")
+    server = subprocess.Popen(
+        [str(septet_program.parent / "septet-server"), "--scenario", "first-lesson", "--rig", str(folder / "small.toml"), "--keys",
+         str(keys / "server"), "--out", str(folder / "out"), "--any-port", "--wait-for-screens", "0", "--start-now", "--seconds", "600",
+         "--save", str(folder / "saved.edits")],
+        stdout=subprocess.PIPE, stderr=(folder / "server.log").open("w"), text=True)
+    try:
+        ready = server.stdout.readline()
+        assert ready.startswith("ready "), (ready, (folder / "server.log").read_text())
+        port = ready.split()[1]
+        use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
+        (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
+        for script, more in (("ball.py", [str(folder / "ball.glb")]), ("sign_at_200_m.py", [])):
+            said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
+            assert script != "sign_at_200_m.py" or said.startswith("changed at "), said
+    except BaseException:
+        print((folder / "server.log").read_text(), file=sys.stderr)
+        raise
+    finally:
+        server.terminate()
+        server.wait(300)
+    log = (folder / "server.log").read_text()
+    assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create" in log, log
+    assert "refused so far: 2" in log, log
+    session = folder / "out/session.sqlite"
+    logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
+    assert logged > 20, logged
+    print(run(str(septet_program), "replay", "--verify", str(session)))
+    assert "stimuli/sign" in (folder / "saved.edits").read_text()
