@@ -7,8 +7,6 @@
 namespace septet::traffic {
 namespace {
 
-using Kind = WayConflict::Kind;
-
 constexpr double stop_mps2 = 2.0;    ///< Braking before a line.
 constexpr double behind_s = 0.4;     ///< Between one who leaves a conflict and the next who comes to it.
 constexpr double ahead_s = 1.5;      ///< Between one who has left a conflict and him who has right of way.
@@ -97,7 +95,7 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
   const double to_begin_m = std::max(0.0, conflict.from_m - approach.front_m);
   const double his_most = most_mps_on(his);
   if (other.claims) {
-    if (conflict.kind == Kind::merging && other.is_there()) {
+    if (conflict.kind == WayConflict::Kind::merging && other.is_there()) {
       // Who is ahead of it on the way out is its leader.
       const double behind_m =
           (mine.length_m + mine.to_exit_m - approach.front_m) - (his.length_m + his.to_exit_m - other.front_m);
@@ -133,7 +131,7 @@ bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehic
       if (other.who != self && other.is_there() && !other.claims) return false;
     }
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
-      if (conflict.kind == Kind::diverging) continue;
+      if (conflict.kind == WayConflict::Kind::diverging) continue;
       for (const Presence& other : presences.on(conflict.with))
         if (other.who != self && !lets_go(graph, approach, way, conflict, other, has_green)) return false;
     }
@@ -276,7 +274,7 @@ double wait_within_m(const LaneGraph& graph, const Presences& presences, TownSta
     if (front_m > way.length_m) continue;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
       const double to_begin_m = conflict.from_m - front_m;
-      if (conflict.kind == Kind::diverging || to_begin_m < 0.0 || to_begin_m > nearest_m) continue;
+      if (conflict.kind == WayConflict::Kind::diverging || to_begin_m < 0.0 || to_begin_m > nearest_m) continue;
       for (const Presence& other : presences.on(conflict.with)) {
         if (other.who == self || !other.claims || other.rear_m > conflict.with_to_m) continue;
         const bool is_in_it = other.is_there() && other.front_m > conflict.with_from_m;

@@ -7,17 +7,15 @@
 namespace septet::traffic {
 namespace {
 
-using Kind = WayConflict::Kind;
-
-constexpr double adapting_s = 0.5;
-constexpr double hardest_adapting_mps2 = 6.0;
+constexpr double settles_s = 0.5;
+constexpr double hardest_settling_mps2 = 6.0;
 constexpr double before_line_mps2 = 2.0;
 /// A limit that has fallen is met by letting the car roll.
 constexpr double coasting_mps2 = 1.0;
 
 /// Acceleration that keeps to a speed whose square falls by 2·`leads` a metre.
 double keeping_to(double square_m2ps2, double leads_mps2, double speed_mps) {
-  return leads_mps2 + (std::sqrt(std::max(square_m2ps2, 0.0)) - speed_mps) / adapting_s;
+  return leads_mps2 + (std::sqrt(std::max(square_m2ps2, 0.0)) - speed_mps) / settles_s;
 }
 
 }  // namespace
@@ -41,19 +39,20 @@ Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownS
         consider(other.rear_m - front_m, other);
     if (!way.in_junction() && way.conflicts.count == 0) continue;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
-      if (conflict.kind == Kind::crossing || front_m > conflict.to_m) continue;
+      if (conflict.kind == WayConflict::Kind::crossing || front_m > conflict.to_m) continue;
       const Way& his = graph.ways[conflict.with];
       for (const Presence& other : presences.on(conflict.with)) {
         if (other.who == self || !other.is_there() || other.rear_m > conflict.with_to_m) continue;
         // Both begin together: the same distance from there. Both end together: the same distance to there.
-        const double shift_m = conflict.kind == Kind::diverging
+        const double shift_m = conflict.kind == WayConflict::Kind::diverging
                                    ? his.from_entry_m - way.from_entry_m
                                    : way.length_m + way.to_exit_m - his.length_m - his.to_exit_m;
-        if (conflict.kind == Kind::merging && other.front_m < conflict.with_from_m) continue;
+        if (conflict.kind == WayConflict::Kind::merging && other.front_m < conflict.with_from_m) continue;
         if (other.front_m + shift_m <= front_m) continue;
         const double gap_m = other.rear_m + shift_m - front_m;
         // Up to where the ways meet there is room in any case.
-        consider(conflict.kind == Kind::merging ? std::max(gap_m, conflict.from_m - front_m) : gap_m, other);
+        consider(conflict.kind == WayConflict::Kind::merging ? std::max(gap_m, conflict.from_m - front_m) : gap_m,
+                 other);
       }
     }
   }
@@ -96,8 +95,8 @@ double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const
   if (leader.gap_m == no_leader) a = free;
   if (stop_m != no_leader)
     bound = std::min(bound, stop_m > 0.2 ? keeping_to(2.0 * before_line_mps2 * (stop_m - 0.2), -before_line_mps2, v)
-                                         : -before_line_mps2 - v / adapting_s);
-  return std::max(std::min(a, std::max(bound, -hardest_adapting_mps2)), -hardest_braking_mps2);
+                                         : -before_line_mps2 - v / settles_s);
+  return std::max(std::min(a, std::max(bound, -hardest_settling_mps2)), -hardest_braking_mps2);
 }
 
 }  // namespace septet::traffic

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -16,12 +14,12 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double step_m = 2.0, junction_step_m = 1.0;
+constexpr double way_step_m = 2.0, junction_step_m = 1.0;
 constexpr double least_length_m = 1e-3;
-constexpr double unbounded_m2ps2 = 1e4;
+constexpr double no_bend_m2ps2 = 1e4;
 
 /// Station at a share of the section, in the direction of travel. Just within it, where its lanes hold.
-double station(const road::LaneSection& section, bool along_s, double share) {
+double station_of_share(const road::LaneSection& section, bool along_s, double share) {
   const double inside_m = std::min(1e-6, 1e-3 * (section.s_end_m - section.s_m));
   const double from = section.s_m + inside_m, to = section.s_end_m - inside_m;
   return along_s ? from + share * (to - from) : to - share * (to - from);
@@ -45,14 +43,14 @@ double turn_between(const Vec3& from, const Vec3& to) {
 /// Points evenly spaced by length: the length is measured at even stations first.
 void append_points(const road::RoadNetwork& network, Way& way, LaneGraph& graph) {
   const road::LaneSection& section = network.roads[way.road].sections[way.section];
-  const double step = way.in_junction() ? junction_step_m : step_m;
+  const double step = way.in_junction() ? junction_step_m : way_step_m;
   const auto count =
       std::max<std::size_t>(2, static_cast<std::size_t>(std::ceil((section.s_end_m - section.s_m) / step)) + 1);
   std::vector<double> length_m(count, 0.0);
   const auto share_of = [&](std::size_t k) { return static_cast<double>(k) / static_cast<double>(count - 1); };
-  Vec3 last = point_at(network, way, station(section, way.along_s, 0.0)).position_m;
+  Vec3 last = point_at(network, way, station_of_share(section, way.along_s, 0.0)).position_m;
   for (std::size_t k = 1; k < count; ++k) {
-    const Vec3 here = point_at(network, way, station(section, way.along_s, share_of(k))).position_m;
+    const Vec3 here = point_at(network, way, station_of_share(section, way.along_s, share_of(k))).position_m;
     length_m[k] = length_m[k - 1] + glm::distance(last, here);
     last = here;
   }
@@ -65,7 +63,7 @@ void append_points(const road::RoadNetwork& network, Way& way, LaneGraph& graph)
     const double piece = length_m[k + 1] - length_m[k];
     const double part = piece > 0.0 ? std::clamp((at - length_m[k]) / piece, 0.0, 1.0) : 0.0;
     const double share = (static_cast<double>(k) + part) / static_cast<double>(count - 1);
-    graph.points.push_back(point_at(network, way, station(section, way.along_s, share)));
+    graph.points.push_back(point_at(network, way, station_of_share(section, way.along_s, share)));
   }
 }
 
@@ -82,7 +80,7 @@ void find_bends(Way& way, LaneGraph& graph) {
   for (std::size_t i = count; i-- > 0;) {
     const double curvature = std::abs(points[i].curvature_per_m);
     way.tightest_per_m = std::max(way.tightest_per_m, curvature);
-    points[i].bend_m2ps2 = std::min(unbounded_m2ps2, town_bend_mps2 / std::max(curvature, 1e-9));
+    points[i].bend_m2ps2 = std::min(no_bend_m2ps2, town_bend_mps2 / std::max(curvature, 1e-9));
     if (i + 1 < count)
       points[i].bend_m2ps2 = std::min(points[i].bend_m2ps2, points[i + 1].bend_m2ps2 + 2.0 * ease_off_mps2 * step);
   }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr auto wrong = "traffic in it does not fit together";
 
-void require_whole(const LaneGraph& graph, const TownVehicle& vehicle, StateReader& reader) {
+void require_drivable(const LaneGraph& graph, const TownVehicle& vehicle, StateReader& reader) {
   reader.require(vehicle.model < vehicle_models().size() && vehicle.outside == vehicle.route.empty() &&
                      vehicle.claimed <= vehicle.route.size(),
                  wrong);
@@ -85,7 +85,7 @@ class NetworkTraffic final : public TrafficEngine {
     transfer(reader, random_);
     for (const VehicleClass& kind : parameters_.classes) reader.require(kind.model < vehicle_models().size(), wrong);
     reader.require(town_.vehicles.empty() || !parameters_.classes.empty(), wrong);
-    for (const TownVehicle& vehicle : town_.vehicles) require_whole(graph_, vehicle, reader);
+    for (const TownVehicle& vehicle : town_.vehicles) require_drivable(graph_, vehicle, reader);
   }
 
  private:

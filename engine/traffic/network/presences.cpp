@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -13,7 +12,7 @@ namespace {
 /// Of a foreign vehicle's outline, what is taken off at each side: it may reach over a line by that much.
 constexpr double over_line_m = 0.45;
 constexpr double comes_within_s = 8.0, comes_within_m = 20.0;
-constexpr double same_way_cos = 0.5;
+constexpr double along_way_cos = 0.5;
 
 void add_own(const LaneGraph& graph, const TownVehicle& vehicle, std::int32_t who, std::vector<Presence>& all) {
   const double length_m = vehicle.length_m();
@@ -109,7 +108,7 @@ void add_foreign(const road::RoadNetwork& network, const LaneGraph& graph, const
     presence.speed_mps = std::max(0.0, glm::dot(vehicle.velocity_mps, place.tangent));
     presence.claims = true;
     all.push_back(presence);
-    const bool drives_it = !vehicle.adrift && glm::dot(heading, place.tangent) > same_way_cos;
+    const bool drives_it = !vehicle.adrift && glm::dot(heading, place.tangent) > along_way_cos;
     if (!drives_it) continue;
     const double to_end_m = way.length_m - touch.high_m;
     Presence coming{no_way, who, 0.0, -length_m, mps};

@@ -51,7 +51,7 @@ PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, do
 }
 
 /// 1: it turns left at the junction that it is in or comes to; −1: right.
-int indicated_side(const LaneGraph& graph, const TownVehicle& vehicle) {
+int indicated_turn(const LaneGraph& graph, const TownVehicle& vehicle) {
   constexpr double before_m = 40.0, turning_rad = 0.5;
   double begin_m = 0.0;
   for (const WayIndex index : vehicle.route) {
@@ -64,7 +64,7 @@ int indicated_side(const LaneGraph& graph, const TownVehicle& vehicle) {
   return 0;
 }
 
-void describe(const LaneGraph& graph, const TownVehicle& vehicle, double time_s, Participant& participant) {
+void show_vehicle(const LaneGraph& graph, const TownVehicle& vehicle, double time_s, Participant& participant) {
   const VehicleModel& model = vehicle_models()[vehicle.model];
   const double rear_m = vehicle.front_m - model.front_m();
   const PlaceOnWay rear = place_on_route(graph, vehicle, rear_m);
@@ -91,7 +91,7 @@ void describe(const LaneGraph& graph, const TownVehicle& vehicle, double time_s,
   participant.wheel_spin_radps = v / model.wheel_radius_m;
   participant.lamps.set(Lamp::low_beam, true);
   participant.lamps.set(Lamp::brake, vehicle.acceleration_mps2 < -0.7 || v < 0.1);
-  const int side = indicated_side(graph, vehicle);
+  const int side = indicated_turn(graph, vehicle);
   if (side != 0 && indicator_is_lit(time_s, vehicle.id))
     participant.lamps.set(side > 0 ? Lamp::indicator_left : Lamp::indicator_right, true);
 }
@@ -128,7 +128,7 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
 
 void append_participants(const LaneGraph& graph, const TownState& town, std::vector<Participant>& participants) {
   for (const TownVehicle& vehicle : town.vehicles)
-    if (!vehicle.outside) describe(graph, vehicle, town.time_s, participants.emplace_back());
+    if (!vehicle.outside) show_vehicle(graph, vehicle, town.time_s, participants.emplace_back());
 }
 
 }  // namespace septet::traffic

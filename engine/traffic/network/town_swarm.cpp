@@ -25,7 +25,7 @@ bool admits_long(const LaneGraph& graph) {
                               [](const Way& way) { return way.in_junction() && way.tightest_per_m > tight_per_m; });
 }
 
-const VehicleClass& choose_class(const TrafficParameters& parameters, bool with_long, Random& random) {
+const VehicleClass& draw_class(const TrafficParameters& parameters, bool with_long, Random& random) {
   double total = 0.0;
   const auto share = [&](const VehicleClass& entry) { return with_long || !is_long(entry.model) ? entry.share : 0.0; };
   for (const VehicleClass& entry : parameters.classes) total += share(entry);
@@ -35,8 +35,8 @@ const VehicleClass& choose_class(const TrafficParameters& parameters, bool with_
   return parameters.classes.front();
 }
 
-void add_vehicle(const TrafficParameters& parameters, bool with_long, Random& random, TownState& town) {
-  const VehicleClass& kind = choose_class(parameters, with_long, random);
+void add_member(const TrafficParameters& parameters, bool with_long, Random& random, TownState& town) {
+  const VehicleClass& kind = draw_class(parameters, with_long, random);
   const double bell = (random.uniform() + random.uniform() + random.uniform()) / 3.0;
   const double temperament = 0.5 + kind.temperament_spread * (bell - 0.5) * 1.5;
   TownVehicle& vehicle = town.vehicles.emplace_back();
@@ -92,9 +92,9 @@ bool is_clear(std::span<const Presence> presences, const TownState& town, WayInd
   return true;
 }
 
-bool try_place(const TrafficParameters& parameters, const LaneGraph& graph, const Presences& presences,
-               const Places& places, const Vec3& middle_m, double least_m, Random& random, TownState& town,
-               TownVehicle& vehicle) {
+bool try_to_enter(const TrafficParameters& parameters, const LaneGraph& graph, const Presences& presences,
+                  const Places& places, const Vec3& middle_m, double least_m, Random& random, TownState& town,
+                  TownVehicle& vehicle) {
   const double at = random.uniform(0.0, places.until_m.back());
   const auto k = static_cast<std::size_t>(std::ranges::upper_bound(places.until_m, at) - places.until_m.begin());
   const WayIndex index = places.ways[std::min(k, places.ways.size() - 1)];
@@ -123,7 +123,7 @@ bool try_place(const TrafficParameters& parameters, const LaneGraph& graph, cons
   return true;
 }
 
-void take_out(TownVehicle& vehicle) {
+void take_away(TownVehicle& vehicle) {
   vehicle.outside = true;
   vehicle.route.clear();
   vehicle.front_m = vehicle.speed_mps = vehicle.acceleration_mps2 = 0.0;
@@ -174,12 +174,12 @@ TownState populate_town(const TrafficParameters& parameters, const road::RoadNet
                                         : foreign.front().world_from_vehicle.position_m;
   const Places places = places_within(parameters, graph, middle_m);
   town.vehicles.reserve(parameters.count);
-  for (std::uint32_t k = 0; k < parameters.count; ++k) add_vehicle(parameters, admits_long(graph), random, town);
+  for (std::uint32_t k = 0; k < parameters.count; ++k) add_member(parameters, admits_long(graph), random, town);
   if (places.ways.empty()) return town;
   for (TownVehicle& vehicle : town.vehicles)
     for (int attempt = 0; attempt < 5 * tries; ++attempt)
-      if (try_place(parameters, graph, presences, places, middle_m, foreign.empty() ? 0.0 : beside_driver_m, random,
-                    town, vehicle))
+      if (try_to_enter(parameters, graph, presences, places, middle_m, foreign.empty() ? 0.0 : beside_driver_m, random,
+                       town, vehicle))
         break;
   return town;
 }
@@ -192,7 +192,7 @@ void recycle_town(const TrafficParameters& parameters, const LaneGraph& graph, c
     for (const WayIndex index : vehicle.route) begin_m += graph.ways[index].length_m;
     const bool at_end = vehicle.front_m > begin_m - 1.0 && graph.ways[vehicle.route.back()].next.count == 0;
     const Vec3 at = place_on_way(graph, graph.ways[vehicle.route.front()], vehicle.front_m).position_m;
-    if (at_end || glm::distance(at, middle_m) > 1.1 * parameters.radius_m) take_out(vehicle);
+    if (at_end || glm::distance(at, middle_m) > 1.1 * parameters.radius_m) take_away(vehicle);
   }
   if (std::ranges::none_of(town.vehicles, &TownVehicle::outside)) return;
   const Places places = places_within(parameters, graph, middle_m);
@@ -201,7 +201,7 @@ void recycle_town(const TrafficParameters& parameters, const LaneGraph& graph, c
                                   std::min(entry_m, 0.8 * parameters.radius_m));
   for (TownVehicle& vehicle : town.vehicles)
     for (int attempt = 0; vehicle.outside && attempt < tries; ++attempt)
-      try_place(parameters, graph, presences, places, middle_m, least_m, random, town, vehicle);
+      try_to_enter(parameters, graph, presences, places, middle_m, least_m, random, town, vehicle);
 }
 
 void worsen_town(TrafficParameters& parameters, const LaneGraph& graph, std::uint32_t more, Random& random,
@@ -212,7 +212,7 @@ void worsen_town(TrafficParameters& parameters, const LaneGraph& graph, std::uin
     vehicle.law = FollowingLaw(vehicle.driver.following);
   }
   for (std::uint32_t k = 0; k < more; ++k) {
-    add_vehicle(parameters, admits_long(graph), random, town);
+    add_member(parameters, admits_long(graph), random, town);
     for (std::uint32_t step = 0; step < parameters.worsened; ++step)
       town.vehicles.back().driver = with_worse_manners(town.vehicles.back().driver);
     town.vehicles.back().law = FollowingLaw(town.vehicles.back().driver.following);

@@ -1,16 +1,14 @@
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <memory>
+#include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "engine/core/archive.hpp"
-#include "engine/traffic/network/network_traffic.hpp"
 #include "engine/traffic/network/town.hpp"
-#include "tests/conformance/conformance_data.hpp"
+#include "engine/traffic/traffic_engine.hpp"
 #include "tests/engine/traffic/crossing_road.hpp"
 #include "tests/engine/traffic/public_town.hpp"
 #include "tests/engine/traffic/town_run.hpp"
