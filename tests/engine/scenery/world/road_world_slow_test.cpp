@@ -127,8 +127,8 @@ TEST_CASE("kerbs are drawn from the areas that wheels climb, where they are work
       "</lanes><objects><object id=\"1\" type=\"trafficIsland\" s=\"50\" t=\"0\" length=\"4\" width=\"1\" "
       "height=\"0.15\"/></objects>"));
   const roadside::RaisedAreas with_island(network), without(motorway());
-  REQUIRE(with_island.all().size() == 1);
-  REQUIRE(without.all().empty());
+  REQUIRE(with_island.of_objects().size() == 1);
+  REQUIRE(without.of_objects().empty());
   const auto world_from = [&](const roadside::RaisedAreas* raised) {
     scene::Store store;
     scene::SceneBuilder builder(store);
