@@ -30,7 +30,7 @@ class Row {
       const std::string_view name = models[random.below(models.size())];
       const bool taken = random.uniform() < share_taken;
       const auto paint = static_cast<std::uint8_t>(random.below(body_colors.size()));
-      const double askew_m = random.uniform(-0.12, 0.12);
+      const double askew_m = random.uniform(-0.05, 0.05);
       const auto model = find_vehicle_model(name);
       SEPTET_CHECK(model.has_value(), "no vehicle model {}", name);
       const double length_m = vehicle_models()[*model].length_m, end_m = s + length_m + before_and_behind_m;

@@ -20,7 +20,7 @@ from town_plan import BETWEEN, KERB, LIMIT, PROFILES, ROUNDABOUTS, WAY, ZEBRAS, 
 from town_roundabout import BESIDE, HALF, ISLAND, LANE, RING, WAY as WAY_RADIUS, WAY_LENGTH, ring_point  # noqa: E402
 from town_scenario import scenario  # noqa: E402
 
-PARKING_FROM, PARKING_RAMP = 9.0, 2.5  # Parking lanes begin so far from a street's end, and widen over the ramp.
+PARKING_FROM, PARKING_RAMP = 18.0, 2.5  # Parking lanes begin so far from a street's end, and widen over the ramp.
 ZEBRA = 4.0
 CROSSING_FROM = 1.0  # From a street's end to its crossing with lights.
 STOP_LINE = CROSSING_FROM + ZEBRA + 1.0

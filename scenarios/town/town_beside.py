@@ -251,7 +251,7 @@ class Beside:
     @staticmethod
     def write_island(town, radius):
         out = town.out
-        out.begin("object", id=town.number(), name="middle of the roundabout", type="trafficIsland", s=0, t=radius + 1.0, zOffset=0, length=2 * radius,
+        out.begin("object", id=town.number(), name="middle of the roundabout", type="trafficIsland", subtype="grass", s=0, t=radius + 1.0, zOffset=0, length=2 * radius,
                   width=2 * radius, height=0.12)
         out.begin("outline", fillType="grass", closed="true")
         for i in range(32):
@@ -259,3 +259,6 @@ class Beside:
             out.element("cornerLocal", u=round(radius * math.cos(angle), 3), v=round(radius * math.sin(angle), 3), z=0, height=0.12)
         out.end()
         out.end()
+        # The ring's road turns to the left: t of the middle is the radius.
+        for s, t in ((0, 16.0), (4, 9.0), (7, 11.0), (1, 24.0), (6, 22.0)):
+            out.element("object", id=town.number(), type="tree" if t < 16.0 else "vegetation", s=s, t=t, zOffset=0, radius=1, height=5 if t < 16.0 else 2)

@@ -15,10 +15,10 @@ BETWEEN = ("parking", "none")
 PROFILES = {
     "boulevard": [("driving", 3.25), ("driving", 3.25), ("none", 1.8), ("biking", 1.6), ("sidewalk", 3.0)],
     "main": [("driving", 3.75), ("sidewalk", 3.2)],
-    "quiet": [("driving", 3.25), ("parking", 2.1), ("sidewalk", 2.4)],
+    "quiet": [("driving", 3.25), ("parking", 2.3), ("sidewalk", 2.4)],
 }
-ONE_WAY = [("driving", 3.6), ("parking", 2.1), ("sidewalk", 2.4)]
-ONE_WAY_LEFT = [("parking", 2.1), ("sidewalk", 2.4)]
+ONE_WAY = [("driving", 3.8), ("parking", 2.3), ("sidewalk", 2.4)]
+ONE_WAY_LEFT = [("parking", 2.3), ("sidewalk", 2.4)]
 RADIUS = {"boulevard": 10.0, "main": 10.0, "quiet": 8.0}  # Of kerbs at corners.
 LIMIT = {"boulevard": 50, "main": 50, "quiet": 30}
 
@@ -182,6 +182,8 @@ class Plan:
                     radius = min(RADIUS[arm.street.kind], RADIUS[other.street.kind])
                     if "quiet" not in (arm.street.kind, other.street.kind):
                         radius = max(RADIUS[arm.street.kind], RADIUS[other.street.kind])
+                    if arm.street.one_way or other.street.one_way:  # Who turns left there has the inner kerb beside him.
+                        radius = max(radius, 12.0)
                     corner = (other.kerb() + arm.kerb() * math.cos(apart)) / math.sin(apart)
                     arm.size = max(arm.size, corner + radius / math.tan(apart / 2))
 

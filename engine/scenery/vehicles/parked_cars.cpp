@@ -52,7 +52,7 @@ struct Layer {
 std::vector<Layer> layers_of(const VehicleModel& model) {
   std::map<std::pair<float, std::uint32_t>, Layer> layers;
   for (VehiclePart& part : vehicle_parts(model)) {
-    if (part.name.starts_with("occupant")) continue;
+    if (part.name.starts_with("people")) continue;
     for (std::uint32_t& finish : part.mesh.polygon_materials) finish = unlit(finish);
     for (const Placement& place : part.places) {
       Layer& layer = layers[{place.visible_from_m, part.subdivision_level}];
