@@ -49,7 +49,9 @@ TEST_CASE("a best list does not grow beyond its length, and forgets who asks for
 TEST_CASE("a file that is no best list is told and never written over") {
   const TemporaryFolder folder;
   for (const std::string text : {"my notes", "{}", "[1]", R"({"best_list": [3]})", R"({"best_list": [{"game": "a"}]})",
-                                 R"({"best_list": {"game": 1}})"}) {
+                                 R"({"best_list": {"game": 1}})",
+                                 R"({"best_list": [{"game": "a", "participant": "", "end": "", "started_utc": "", )"
+                                 R"("points": "many", "survived_s": 1.0, "level": 1}]})"}) {
     const auto path = folder / "best-list.json";
     std::ofstream(path) << text;
     CHECK_FALSE(enter_best_list(path, played("P01", 1.0)).has_value());

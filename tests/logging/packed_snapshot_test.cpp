@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/random.hpp"
+#include "engine/world/vehicle_model.hpp"
 #include "logging/session/packed_snapshot.hpp"
 #include "tests/logging/session_fixture.hpp"
 
@@ -21,12 +22,17 @@ bool are_equal(const WireSnapshot& a, const WireSnapshot& b) {
   return left == right;
 }
 
-/// Vehicles in a bend, entering and leaving; one of them spins, so that every component of its orientation is the
+/// Vehicles of many models in a bend, entering and leaving; one of them spins, so that every component of its orientation is the
 /// largest in turn.
 WireSnapshot bend(Tick tick) {
   Snapshot snapshot = drive_snapshot(tick, 40);
   std::erase_if(snapshot.participants,
                 [&](const Participant& who) { return who.id % 7 == 3 && (tick / 5) % 3 == who.id % 3; });
+  for (Participant& who : snapshot.participants) {
+    who.model = static_cast<ModelIndex>(who.id % vehicle_models().size());
+    who.paint = static_cast<std::uint8_t>(who.id % 5);
+    who.lamps.bits = static_cast<std::uint16_t>((who.id + tick / 20) % 4);
+  }
   Participant& spinning = snapshot.participants[1];
   const double turn = 0.4 * static_cast<double>(tick);
   spinning.world_from_vehicle.orientation = orientation_from_angles(turn, 0.7 * turn, 1.3 * turn);

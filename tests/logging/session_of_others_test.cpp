@@ -250,6 +250,21 @@ TEST_CASE("a session with a trigger, or with a view or a foreign table in the pl
 }
 
 TEST_CASE(
+    "a text is UTF-8 without overlong forms, surrogates, cut characters or any beyond the last plane, or refused") {
+  const TemporaryFolder folder;
+  const fs::path session = write_drive(folder / "session.sqlite");
+  const auto is_accepted = [&](const std::string& hexadecimal) {
+    execute(session, "UPDATE meta SET value = CAST(x'" + hexadecimal + "' AS TEXT) WHERE key = 'weather'");
+    return must_open(session).check_values().has_value();
+  };
+  for (const char* good : {"7a", "c3a9", "e282ac", "ed9fbf", "f09f9a97", "f48fbfbf"})
+    CHECK_MESSAGE(is_accepted(good), good);
+  for (const char* bad :
+       {"80", "ff80", "c080", "c1bf", "e080af", "eda080", "f4908080", "f5808080", "c3", "e282", "f09f9a", "c37a"})
+    CHECK_FALSE_MESSAGE(is_accepted(bad), bad);
+}
+
+TEST_CASE(
     "changes beside a session that are larger than any drive's are refused at once, and what is no WAL is passed "
     "over") {
   const TemporaryFolder folder;

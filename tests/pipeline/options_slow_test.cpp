@@ -106,6 +106,20 @@ TEST_CASE("the help of a drive has the keys and every default") {
   CHECK(has(output_of("septet-screen --help"), "--server TEXT=127.0.0.1:4750"));
 }
 
+TEST_CASE("a place on a road is found again from its coordinates on the command line") {
+  const TemporaryFolder folder;
+  const std::string road = source_folder() + "/scenarios/motorway-ambulance/motorway.xodr < ";
+  const auto second_line = [](const std::string& table) {
+    const auto begin = table.find('\n') + 1;
+    return table.substr(begin, table.find('\n', begin) - begin);
+  };
+  write_text(folder / "place", "1,-3,100,0\n");
+  const std::string sampled = second_line(output_of("septet road sample " + road + (folder / "place").string()));
+  REQUIRE(sampled.starts_with("1,-3,100,0,"));
+  write_text(folder / "point", sampled.substr(std::size("1,-3,100,0,") - 1) + "\n");
+  CHECK(has(output_of("septet road locate " + road + (folder / "point").string()), ",1,-3,100.00000,"));
+}
+
 TEST_CASE("septet list names what there is with a description each") {
   const std::string scenarios = output_of("septet list scenarios");
   CHECK(has(scenarios, "motorway-ambulance  A game: follow the ambulance"));

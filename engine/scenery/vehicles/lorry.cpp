@@ -66,7 +66,6 @@ LorryShape lorry_shape(const VehicleModel& model) {
   } else if (model.name == "tractor-unit") {
     s.bay.load = Load::none;
     s.driven = {0.0f};
-    s.chassis_front = s.cab_rear + 0.2f;
   } else if (model.name == "fire-engine") {
     s.fire = true;
     s.bay.load = Load::fire;

@@ -226,12 +226,14 @@ TEST_CASE("an orientation without a type is relative from 1.3 on and absolute be
   CHECK(std::cos(heading_in("0") - 0.1) == doctest::Approx(1.0));
 }
 
-TEST_CASE("a catalog entry takes its parameters from the reference") {
+TEST_CASE("a catalog is read once and its entry takes its parameters from each reference") {
+  int times_read = 0;
   ScenarioFiles files;
   files.list = [](const std::string&) -> Expected<std::vector<std::string>> {
     return std::vector<std::string>{"cars.xosc"};
   };
-  files.read = [](const std::string&) -> Expected<std::string> {
+  files.read = [&](const std::string&) -> Expected<std::string> {
+    ++times_read;
     return std::string(
         R"(<OpenSCENARIO><Catalog name="cars"><Vehicle name="small" vehicleCategory="car"><ParameterDeclarations>)"
         R"(<ParameterDeclaration name="top" parameterType="double" value="40"/></ParameterDeclarations>)"
@@ -239,16 +241,21 @@ TEST_CASE("a catalog entry takes its parameters from the reference") {
         R"(<Performance maxSpeed="$top" maxAcceleration="3" maxDeceleration="9"/><Axles/></Vehicle></Catalog></OpenSCENARIO>)");
   };
   std::string text = scenario_text("", "");
-  const std::string reference =
-      R"(<ScenarioObject name="C"><CatalogReference catalogName="cars" entryName="small"><ParameterAssignments>)"
-      R"(<ParameterAssignment parameterRef="$top" value="55"/></ParameterAssignments></CatalogReference></ScenarioObject>)";
-  text.insert(text.find("</Entities>"), reference);
+  const auto reference = [](const std::string& name, const std::string& top) {
+    return "<ScenarioObject name=\"" + name +
+           R"("><CatalogReference catalogName="cars" entryName="small"><ParameterAssignments>)"
+           R"(<ParameterAssignment parameterRef="$top" value=")" +
+           top + R"("/></ParameterAssignments></CatalogReference></ScenarioObject>)";
+  };
+  text.insert(text.find("</Entities>"), reference("C", "55") + reference("D", "45"));
   text.replace(text.find("<CatalogLocations/>"), 19,
                R"(<CatalogLocations><VehicleCatalog><Directory path="catalogs"/></VehicleCatalog></CatalogLocations>)");
   const auto scenario = read_scenario(text, "test.xosc", files);
   REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
   const Entity& car = scenario->entities.at(2);
   CHECK(car.performance.max_speed_mps == 55.0);
+  CHECK(scenario->entities.at(3).performance.max_speed_mps == 45.0);
+  CHECK(times_read == 1);
   CHECK(vehicle_models()[car.model].name == "hatchback");
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/run/path.hpp"
+#include "engine/scenario/run/save_scenario.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
 #include "tests/why_not.hpp"
@@ -316,6 +317,34 @@ TEST_CASE("without a route one goes straight on and with one along it") {
   CHECK(road_after(private_text("A", start + routing_text("<AcquirePositionAction>" + lane_text("A", 5) +
                                                           "</AcquirePositionAction>")),
                    8.5) == "D");
+}
+
+TEST_CASE("a scenario that was saved beyond the first road of its route goes on from there") {
+  const Scenario scenario = read_or_stop(
+      scenario_text(private_text("A", teleport_text(lane_text("A", 20)) + speed_text(20) +
+                                          routing_text("<AssignRouteAction>" + to_e + "</AssignRouteAction>")),
+                    ""));
+  const road::RoadNetwork network = fork();
+  StepResult result;
+  auto driven = start_scenario(scenario, network, no_entity, result),
+       restored = start_scenario(scenario, network, no_entity, result);
+  REQUIRE_MESSAGE(driven.has_value(), why_not(driven));
+  REQUIRE_MESSAGE(restored.has_value(), why_not(restored));
+  while (driven->entities[0].route.at == 0 && driven->time_s < 10.0) advance_scenario(scenario, network, 0.01, *driven);
+  REQUIRE(driven->entities[0].route.at > 0);
+  Bytes bytes;
+  StateWriter writer(bytes);
+  save_scenario(*driven, writer);
+  StateReader reader(bytes);
+  restore_scenario(scenario, network, reader, *restored);
+  REQUIRE(reader.ok());
+  for (int step = 0; step < 500; ++step) {
+    advance_scenario(scenario, network, 0.01, *driven);
+    advance_scenario(scenario, network, 0.01, *restored);
+  }
+  const EntityState &as_driven = driven->entities[0], &as_restored = restored->entities[0];
+  CHECK(network.roads[as_restored.lane.road].id == "E");
+  CHECK(as_restored.world_from_entity.position_m == as_driven.world_from_entity.position_m);
 }
 
 TEST_CASE("a place on a route is so far from its first waypoint") {

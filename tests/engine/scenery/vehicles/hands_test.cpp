@@ -1,0 +1,16 @@
+#include <doctest/doctest.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/scenery/vehicles/cockpit_parts.hpp"
+
+namespace septet::scenery {
+
+TEST_CASE("the driver's hands and forearms lie within an arm's reach of the steering wheel") {
+  float furthest_m = 0.0f;
+  for (const glm::vec3& point : hands().vertices_m) furthest_m = glm::max(furthest_m, glm::length(point));
+  CHECK(furthest_m > 0.187f);  // The rim, on which they lie.
+  CHECK(furthest_m < 0.42f);   // An elbow is 0.36 m from the wheel's middle, and 5 cm thick.
+}
+
+}  // namespace septet::scenery
