@@ -315,6 +315,8 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   }
   while (!last_words && listen(0ms)) {
   }
+  std::error_code ignored;
+  if (!options.editors.empty()) fs::remove(options.editors / address_file, ignored);
   // The screens have had Finish and their reports are in; one that still runs writes its last pictures, or hangs.
   for (int i = 0; i < 1500 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i)
     std::this_thread::sleep_for(20ms);

@@ -81,6 +81,8 @@ Expected<std::unique_ptr<EditClient>> connected(const EditOptions& options, cons
     (*client)->pump();
     for (const std::string& message : (*client)->take_messages()) output.message(message);
     if (const auto& refusal = (*client)->link().refusal()) return tl::unexpected(*refusal);
+    if ((*client)->link().finished())
+      return failure("the drive has ended", net::to_text(place.server), "start another one");
     if (program::should_stop() || program::monotonic_s() > until_s)
       return failure("the server does not let this editor in", net::to_text(place.server),
                      options.server.empty() ? "check that the drive runs and that its list names this key"
