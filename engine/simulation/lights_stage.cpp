@@ -41,22 +41,26 @@ Lamps lamps_at(const Model& model, const SwitchedLight& light, double time_s) {
   return state ? state->lamps : Lamps{};
 }
 
-std::optional<EffectKeyframe> light_keyframe(const Model& model, Tick tick) {
-  if (model.lights.empty()) return std::nullopt;
-  const double time_s = static_cast<double>(tick) / tick_rate_hz;
-  double since_s = 0.0;
-  for (const scenario::SignalController& controller : model.scenario.signals)
-    since_s = std::max(since_s, scenario::phase_at(controller, time_s).since_s);
+std::vector<TrafficLight> lit_heads(const Model& model, double time_s) {
   std::vector<TrafficLight> heads;
   heads.reserve(model.lights.size());
   for (const SwitchedLight& light : model.lights) {
     heads.push_back(light.head);
     heads.back().lamps = lamps_at(model, light, time_s);
   }
+  return heads;
+}
+
+std::optional<EffectKeyframe> light_keyframe(const Model& model, Tick tick) {
+  if (model.lights.empty()) return std::nullopt;
+  const double time_s = static_cast<double>(tick) / tick_rate_hz;
+  double since_s = 0.0;
+  for (const scenario::SignalController& controller : model.scenario.signals)
+    since_s = std::max(since_s, scenario::phase_at(controller, time_s).since_s);
   EffectKeyframe keyframe;
   keyframe.id = traffic_light_effect_id;
   keyframe.kind = traffic_light_keyframe_kind;
-  keyframe.data = encode_traffic_lights(heads);
+  keyframe.data = encode_traffic_lights(lit_heads(model, time_s));
   constexpr double slack = 1e-3;
   keyframe.tick = std::min(tick, static_cast<Tick>(std::ceil(std::clamp(since_s, 0.0, time_s) * tick_rate_hz - slack)));
   return keyframe;

@@ -20,6 +20,9 @@ std::vector<SwitchedLight> switched_lights(const roadside::RoadShape& roads,
 /// Lit lamps of a head at that time.
 Lamps lamps_at(const Model& model, const SwitchedLight& light, double time_s);
 
+/// All heads as they are lit at that time.
+std::vector<TrafficLight> lit_heads(const Model& model, double time_s);
+
 /// All heads at that tick, dated by the tick of the latest change; empty where there are none.
 std::optional<EffectKeyframe> light_keyframe(const Model& model, Tick tick);
 

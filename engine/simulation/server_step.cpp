@@ -137,6 +137,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   note_bad_numbers(reset_bad_numbers(state.input), driver_participant, "controls", state, events);
   DrivenCar car = advance_car(model, state, events);
   advance_storyboard(model, car, state, events);
+  if (!model.lights.empty()) state.traffic->show_lights(lit_heads(model, state.time_s()));
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});

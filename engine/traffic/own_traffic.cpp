@@ -4,15 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "engine/traffic/network/network_traffic.hpp"
 #include "engine/traffic/save_traffic.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 
 namespace septet::traffic {
 namespace {
 
-class OwnTraffic final : public TrafficEngine {
+class CorridorsTraffic final : public TrafficEngine {
  public:
-  OwnTraffic(const road::RoadNetwork& network, std::uint64_t seed) : network_(network), random_(seed, 1) {}
+  CorridorsTraffic(const road::RoadNetwork& network, std::uint64_t seed) : network_(network), random_(seed, 1) {}
 
   void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     parameters_ = parameters;
@@ -81,6 +82,52 @@ class OwnTraffic final : public TrafficEngine {
   std::size_t told_missing_ = 0;  ///< In the last remark.
 };
 
+/// Of a network whose ways cross: a swarm lives on all of it. Until there is one it is as anywhere.
+class CrossingTraffic final : public TrafficEngine {
+ public:
+  CrossingTraffic(const road::RoadNetwork& network, LaneGraph graph, std::uint64_t seed)
+      : none_(network, seed), network_(network_traffic(network, std::move(graph), seed)) {}
+
+  void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
+    is_started_ = true;
+    network_->start(parameters, foreign);
+  }
+  void stop() override { now().stop(); }
+  void show_lights(std::span<const TrafficLight> lights) override { now().show_lights(lights); }
+  void advance(std::span<const ForeignVehicle> foreign, double dt_s) override { now().advance(foreign, dt_s); }
+  bool release(ParticipantId id) override { return now().release(id); }
+  void worsen(std::uint32_t more_vehicles) override { now().worsen(more_vehicles); }
+  void append_participants(std::vector<Participant>& participants) const override {
+    now().append_participants(participants);
+  }
+  void add_to_hash(StateHash& hash) const override { now().add_to_hash(hash); }
+  bool can_be_saved() const override { return true; }
+  void save(StateWriter& writer) const override {
+    transfer(writer, is_started_);
+    now().save(writer);
+  }
+  void restore(StateReader& reader) override {
+    transfer(reader, is_started_);
+    now().restore(reader);
+  }
+  std::uint32_t take_bad_numbers() override { return now().take_bad_numbers(); }
+  std::optional<std::string> take_remark() override { return now().take_remark(); }
+
+ private:
+  TrafficEngine& now() {
+    if (is_started_) return *network_;
+    return none_;
+  }
+  const TrafficEngine& now() const {
+    if (is_started_) return *network_;
+    return none_;
+  }
+
+  CorridorsTraffic none_;
+  std::unique_ptr<TrafficEngine> network_;
+  bool is_started_ = false;
+};
+
 }  // namespace
 
 std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road) {
@@ -90,7 +137,13 @@ std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road) 
 }
 
 std::unique_ptr<TrafficEngine> own_traffic(const road::RoadNetwork& network, std::uint64_t seed) {
-  return std::make_unique<OwnTraffic>(network, seed);
+  // Only a connecting road's ways can cross.
+  const bool has_connections =
+      std::ranges::any_of(network.roads, [](const road::Road& road) { return road.junction != road::no_index; });
+  if (has_connections)
+    if (LaneGraph graph = build_lane_graph(network); has_crossings(graph))
+      return std::make_unique<CrossingTraffic>(network, std::move(graph), seed);
+  return std::make_unique<CorridorsTraffic>(network, seed);
 }
 
 }  // namespace septet::traffic

@@ -2,6 +2,7 @@
 /// Interface to a drive's traffic: Septet's own models, or another simulator.
 ///
 ///     engine.start(parameters, foreign)          when the scenario requests a swarm
+///     engine.show_lights(lights)                 each tick, where the roads have lights
 ///     engine.advance(foreign, tick_s)            each tick
 ///     engine.append_participants(participants)   each snapshot
 ///
@@ -18,6 +19,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/core/hash.hpp"
 #include "engine/traffic/traffic.hpp"
+#include "engine/world/traffic_light.hpp"
 
 namespace septet {
 class StateReader;
@@ -33,6 +35,8 @@ class TrafficEngine {
   virtual void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) = 0;
   /// Removes all vehicles.
   virtual void stop() = 0;
+  /// Lights as they show in the next tick. An engine that lives where no lights hang ignores them.
+  virtual void show_lights(std::span<const TrafficLight> /*lights*/) {}
   /// Advances by one tick. `foreign` has the same vehicles in the same order each time;
   /// new ones come last.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
@@ -65,7 +69,8 @@ std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road);
 /// Time of the first remark, and the least time between two.
 inline constexpr double swarm_remark_s = 1.0, swarm_remark_again_s = 10.0;
 
-/// Septet's own traffic (traffic.hpp). `network` outlives it.
+/// Septet's own traffic: on a network whose ways cross, on all of its lanes (network/town.hpp); on any other, motorways
+/// with their ramps above all, on the corridors of the driver's road (traffic.hpp). `network` outlives it.
 std::unique_ptr<TrafficEngine> own_traffic(const road::RoadNetwork& network, std::uint64_t seed);
 
 }  // namespace septet::traffic

@@ -22,16 +22,11 @@ constexpr double over_crossing_m = 7.0, into_junction_m = 14.0;
 constexpr double walker_reach_m = 1.6, vehicle_reach_m = 2.4;
 constexpr double step_s = 0.1, same_way_cos = 0.77, least_mps = 0.3;
 
-bool is_for_travel_along(const road::Road& road, const road::Signal& signal) {
-  if (signal.orientation != road::Orientation::both) return signal.orientation == road::Orientation::along;
-  return (signal.t_m <= 0.0) == (road.rule == road::TrafficRule::right_hand);
-}
-
 /// Station at which a light's traffic stops.
 double stop_line_s(const road::Road& road, const road::Signal& light, bool along) {
   double nearest_m = stop_line_near_m, found = light.s_m;
   for (const road::Signal& signal : road.signals) {
-    if (signal.type != "294" || is_for_travel_along(road, signal) != along) continue;
+    if (signal.type != "294" || applies_along_s(road, signal) != along) continue;
     const double before_m = along ? light.s_m - signal.s_m : signal.s_m - light.s_m;
     if (before_m < 0.0 || before_m > nearest_m) continue;
     nearest_m = before_m;
@@ -61,13 +56,18 @@ double arrival_s(const Participant& other, std::span<const Vec2> way, double rea
 
 }  // namespace
 
+bool applies_along_s(const road::Road& road, const road::Signal& signal) {
+  if (signal.orientation != road::Orientation::both) return signal.orientation == road::Orientation::along;
+  return (signal.t_m <= 0.0) == (road.rule == road::TrafficRule::right_hand);
+}
+
 std::vector<YieldLine> yield_lines(const road::RoadNetwork& network) {
   std::vector<YieldLine> lines;
   for (road::RoadIndex index = 0; index < network.roads.size(); ++index) {
     const road::Road& road = network.roads[index];
     const std::size_t first = lines.size();
     for (const road::Signal& signal : road.signals) {
-      const bool along = is_for_travel_along(road, signal);
+      const bool along = applies_along_s(road, signal);
       if (signal.dynamic && signal.type == "1000001")
         lines.push_back({Kind::light, index, along, stop_line_s(road, signal, along), signal.s_m});
       if (signal.type == "205" || signal.type == "206")

@@ -26,6 +26,9 @@ struct YieldLine {
   double signal_s_m = 0.0;  ///< Station of the light itself.
 };
 
+/// True where a signal is for traffic towards increasing s; one for both directions stands on its traffic's side.
+bool applies_along_s(const road::Road& road, const road::Signal& signal);
+
 /// Lines in the order of roads, along each.
 std::vector<YieldLine> yield_lines(const road::RoadNetwork& network);
 

@@ -1,0 +1,299 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/traffic/network/town_stages.hpp"
+
+namespace septet::traffic {
+namespace {
+
+constexpr double stop_mps2 = 2.0;    ///< Braking before a line.
+constexpr double behind_s = 0.4;     ///< Between one who leaves a conflict and the next who comes to it.
+constexpr double ahead_s = 1.5;      ///< Between one who has left a conflict and him who has right of way.
+constexpr double patience_s = 3.0;   ///< Then somebody who stands before his own right of way is passed.
+constexpr double courtesy_s = 25.0;  ///< Then those who can stop let him in.
+constexpr double tired_s = 15.0;     ///< Then another way is chosen, if what lies beyond this one is full.
+constexpr double at_line_m = 8.0, stands_mps = 0.5;
+constexpr double turning_rad = 0.5;
+
+/// What a claim covers: ways [first, last] of the route, up to the first stretch beyond that holds the vehicle.
+struct Passage {
+  std::size_t first = 0, last = 0;
+  double begin_m = 0.0;  ///< Of the first way, from the route's begin.
+};
+
+Passage passage_from(const LaneGraph& graph, const TownVehicle& vehicle, std::size_t first, double begin_m) {
+  Passage passage{first, first, begin_m};
+  double free_m = 0.0;
+  for (std::size_t k = first; k < vehicle.route.size(); ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    if (way.in_junction())
+      free_m = 0.0, passage.last = k;
+    else
+      free_m += way.length_m;
+    if (free_m >= vehicle.length_m() + standing_gap_m) break;
+  }
+  return passage;
+}
+
+/// True where the vehicle can leave the junction: room beyond it for those who are in it on the way there, and for it.
+bool has_room_beyond(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
+                     const Passage& passage) {
+  const double needed_m = vehicle.length_m() + standing_gap_m;
+  double room_m = 0.0, taken_m = 0.0;
+  for (std::size_t k = passage.last + 1; k < vehicle.route.size() && room_m < 60.0; ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    double end_m = way.length_m;
+    bool is_ended = way.in_junction();
+    for (const Presence& presence : presences.on(vehicle.route[k])) {
+      if (presence.who == self) continue;
+      const bool is_first = k == passage.last + 1;
+      if (is_first && presence.rear_m < 0.0) {
+        taken_m += presence.front_m - presence.rear_m + standing_gap_m;
+        continue;
+      }
+      if (!presence.is_there()) continue;
+      constexpr double leaves_mps2 = 6.0;  // It goes on at least for half of its own hard braking.
+      const double until_m = std::max(0.0, presence.rear_m) + presence.speed_mps * presence.speed_mps / leaves_mps2;
+      if (until_m < end_m) end_m = until_m, is_ended = true;
+    }
+    room_m += is_ended && way.in_junction() ? 0.0 : end_m;
+    if (is_ended) break;
+  }
+  const bool ends_here = passage.last + 1 >= vehicle.route.size();
+  return ends_here || room_m - taken_m >= needed_m;
+}
+
+/// Least gap in traffic with right of way for a vehicle that stands: HCM 2010, table 19-10.
+double critical_gap_s(const Way& way) {
+  const double keeps = way.left_hand ? -1.0 : 1.0;
+  const double left_rad = keeps * way.turns_rad;
+  if (way.rank == Rank::priority || (way.rank == Rank::equal && left_rad > turning_rad)) return 4.1;
+  return left_rad > turning_rad ? 7.1 : left_rad < -turning_rad ? 6.2 : 6.5;
+}
+
+/// Where a way lies on the passage, and the vehicle's speeds there.
+struct Approach {
+  const TownVehicle& vehicle;
+  std::int32_t self = 0;
+  double front_m = 0.0;  ///< Of the vehicle, from the way's begin.
+  double most_mps = 0.0;
+};
+
+/// The greatest speed all along a way.
+double most_mps_on(const Way& way) {
+  return std::min(way.limit_mps, std::sqrt(town_bend_mps2 / std::max(way.tightest_per_m, 1e-6)));
+}
+
+/// True where this presence on the other way of a conflict leaves the vehicle free to go.
+bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, const WayConflict& conflict,
+             const Presence& other, bool has_green) {
+  const TownVehicle& vehicle = approach.vehicle;
+  const Way& his = graph.ways[conflict.with];
+  if (other.rear_m > conflict.with_to_m) return true;
+  const double a = vehicle.driver.following.acceleration_mps2;
+  const double to_begin_m = std::max(0.0, conflict.from_m - approach.front_m);
+  const double his_most = most_mps_on(his);
+  if (other.claims) {
+    if (other.who < 0 && other.speed_mps < stands_mps) return false;  // Nobody knows when it goes on.
+    if (conflict.kind == WayConflict::Kind::merging && other.is_there()) {
+      // Who is ahead of it on the way out is its leader.
+      const double behind_m =
+          (mine.length_m + mine.to_exit_m - approach.front_m) - (his.length_m + his.to_exit_m - other.front_m);
+      if (behind_m > 3.0 && other.speed_mps > 1.0) return true;
+    }
+    const double arrives_s = travel_s(to_begin_m, vehicle.speed_mps, a, approach.most_mps);
+    const double clears_s = travel_s(conflict.with_to_m - other.rear_m, other.speed_mps, 1.0, his_most);
+    return arrives_s > clears_s + behind_s;
+  }
+  if (!yields_to(mine, his)) return true;
+  if (other.gives_way && vehicle.waits_s > patience_s * vehicle.urge) return true;
+  const double to_line_m = -other.front_m;
+  const bool can_stop = other.speed_mps * other.speed_mps < 2.0 * stop_mps2 * to_line_m || other.speed_mps < stands_mps;
+  if (vehicle.waits_s > courtesy_s * vehicle.urge && can_stop && !has_green) return true;
+  if (has_green && vehicle.waits_s > 2.0 * courtesy_s * vehicle.urge && can_stop) return true;
+  const double clears_s =
+      travel_s(conflict.to_m - approach.front_m + vehicle.length_m(), vehicle.speed_mps, 0.8 * a, approach.most_mps);
+  const double his_arrives_s = travel_s(conflict.with_from_m - other.front_m, other.speed_mps, 1.5, his_most);
+  double needed_s = clears_s + ahead_s * vehicle.urge;
+  if (vehicle.speed_mps < 3.0) needed_s = std::max(needed_s, critical_gap_s(mine) * vehicle.urge);
+  return his_arrives_s > needed_s;
+}
+
+bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
+             const Passage& passage, bool has_green) {
+  double begin_m = passage.begin_m;
+  for (std::size_t k = passage.first; k <= passage.last; ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    const Approach approach{vehicle, self, vehicle.front_m - begin_m, most_mps_on(way)};
+    begin_m += way.length_m;
+    for (const Presence& other : presences.on(vehicle.route[k])) {
+      // On a way between two junctions too short to stop on, or one who comes in from elsewhere.
+      if (other.who != self && other.is_there() && !other.claims) return false;
+    }
+    for (const WayConflict& conflict : graph.conflicts_of(way)) {
+      if (conflict.kind == WayConflict::Kind::diverging) continue;
+      for (const Presence& other : presences.on(conflict.with))
+        if (other.who != self && !lets_go(graph, approach, way, conflict, other, has_green)) return false;
+    }
+  }
+  return true;
+}
+
+bool light_allows(LightState light, const TownVehicle& vehicle, double to_line_m) {
+  if (light == LightState::red) return false;
+  if (light != LightState::amber) return true;
+  constexpr double amber_mps2 = 3.0;
+  return vehicle.speed_mps * vehicle.speed_mps > 2.0 * amber_mps2 * std::max(to_line_m, 0.0);
+}
+
+/// Index in its route of the first way of a junction that a vehicle has not reached; the route's size if there is none.
+std::size_t next_entry(const LaneGraph& graph, const TownVehicle& vehicle) {
+  double begin_m = 0.0;
+  for (std::size_t k = 0; k < vehicle.route.size(); ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    if (begin_m >= vehicle.front_m && way.in_junction()) return k;
+    begin_m += way.length_m;
+  }
+  return vehicle.route.size();
+}
+
+/// Gives a claim back that is of no use: before its junction, all of it outside of any, it stands behind somebody.
+void give_back_if_unused(const LaneGraph& graph, double dt_s, TownVehicle& vehicle) {
+  constexpr double unused_s = 4.0;
+  vehicle.unused_s = vehicle.speed_mps < stands_mps ? vehicle.unused_s + dt_s : 0.0;
+  if (vehicle.claimed == 0 || vehicle.unused_s < unused_s) return;
+  const std::size_t entry = next_entry(graph, vehicle);
+  if (entry >= vehicle.claimed) return;
+  for (std::size_t k = 0; k < entry; ++k)
+    if (graph.ways[vehicle.route[k]].in_junction()) return;
+  vehicle.claimed = 0;
+}
+
+/// Others see the claim in the same tick.
+void show_claim(const TownVehicle& vehicle, std::int32_t self, const Passage& passage, Presences& presences) {
+  for (std::size_t k = passage.first; k <= passage.last; ++k) {
+    const WayIndex way = vehicle.route[k];
+    for (std::uint32_t p = presences.first[way]; p < presences.first[way + 1]; ++p)
+      if (presences.all[p].who == self) presences.all[p].claims = true, presences.all[p].claim = vehicle.claim;
+  }
+}
+
+/// Who has stood within a junction for long and longer than one with an earlier claim, who stands as well, takes that
+/// claim's number: the other one waits for somebody else.
+void go_first_if_stuck(TownVehicle& vehicle, TownVehicle& other) {
+  constexpr double stuck_s = 5.0;
+  if (vehicle.stands_s > stuck_s && vehicle.stands_s > other.stands_s && other.stands_s > 1.0)
+    std::swap(vehicle.claim, other.claim);
+}
+
+}  // namespace
+
+std::vector<LightState> light_states(const road::RoadNetwork& network, std::span<const TrafficLight> lights) {
+  std::vector<LightState> states(lights.empty() ? 0 : 2 * network.roads.size(), LightState::dark);
+  for (const TrafficLight& light : lights) {
+    if (light.for_walkers || light.road >= network.roads.size()) continue;
+    LightState& state = states[2 * light.road + (light.along_s ? 0 : 1)];
+    const LightState shown = light.lamps.has(Lamp::signal_red)     ? LightState::red
+                             : light.lamps.has(Lamp::signal_amber) ? LightState::amber
+                             : light.lamps.has(Lamp::signal_green) ? LightState::green
+                                                                   : LightState::dark;
+    // Of several heads the most restrictive one holds.
+    if (state == LightState::dark || (shown != LightState::dark && shown < state)) state = shown;
+  }
+  return states;
+}
+
+double travel_s(double distance_m, double speed_mps, double acceleration_mps2, double most_mps) {
+  if (distance_m <= 0.0) return 0.0;
+  const double most = std::max(most_mps, 1.0), from = std::min(speed_mps, most);
+  const double gains_s = (most - from) / acceleration_mps2;
+  const double gains_m = 0.5 * (from + most) * gains_s;
+  if (gains_m >= distance_m)
+    return (std::sqrt(from * from + 2.0 * acceleration_mps2 * distance_m) - from) / acceleration_mps2;
+  return gains_s + (distance_m - gains_m) / most;
+}
+
+double negotiate(const LaneGraph& graph, std::span<const LightState> lights, const Leader& leader, double dt_s,
+                 Random& random, Presences& presences, TownState& town, std::size_t index) {
+  TownVehicle& vehicle = town.vehicles[index];
+  const auto self = static_cast<std::int32_t>(index);
+  give_back_if_unused(graph, dt_s, vehicle);
+  // The first junction ahead that it has no claim on.
+  std::size_t first = 0;
+  double begin_m = 0.0;
+  for (; first < vehicle.route.size(); ++first) {
+    const Way& way = graph.ways[vehicle.route[first]];
+    if (begin_m >= vehicle.front_m && first >= vehicle.claimed && way.in_junction()) break;
+    begin_m += way.length_m;
+  }
+  vehicle.is_held = false;
+  if (first >= vehicle.route.size() || first == 0) return no_leader;
+  const Way& before = graph.ways[vehicle.route[first - 1]];
+  const double line_m = begin_m - vehicle.front_m - (before.in_junction() ? 0.0 : before.line_before_m);
+  const double v = vehicle.speed_mps;
+  if (line_m > v * v / (2.0 * stop_mps2) + 0.7 * v + 6.0) return no_leader;
+  const double stop_m = std::max(line_m, std::min(0.0, begin_m - vehicle.front_m));
+  const bool waits = v < stands_mps && line_m < at_line_m;
+  vehicle.waits_s = waits ? vehicle.waits_s + dt_s : 0.0;
+  // Behind somebody who waits himself it is not its turn.
+  if (leader.who >= 0) {
+    const TownVehicle& ahead = town.vehicles[static_cast<std::size_t>(leader.who)];
+    if (leader.gap_m + ahead.length_m() < line_m && next_entry(graph, ahead) >= ahead.claimed) return stop_m;
+  }
+  if (leader.who < 0 && leader.gap_m < line_m) return stop_m;
+
+  const LightState light =
+      lights.empty() || !before.has_light ? LightState::dark : lights[2 * before.road + (before.along_s ? 0 : 1)];
+  if (!light_allows(light, vehicle, line_m)) return stop_m;
+  const Passage passage = passage_from(graph, vehicle, first, begin_m);
+  if (!has_room_beyond(graph, presences, vehicle, self, passage)) {
+    vehicle.is_held = true;
+    if (vehicle.waits_s > tired_s) {
+      vehicle.route.resize(first);
+      vehicle.waits_s = 0.0;
+      prolong_route(graph, random, vehicle);
+    }
+    return stop_m;
+  }
+  if (!is_free(graph, presences, vehicle, self, passage, light == LightState::green)) return stop_m;
+  vehicle.claimed = static_cast<std::uint32_t>(passage.last + 1);
+  vehicle.claim = ++town.claims;
+  vehicle.waits_s = vehicle.unused_s = 0.0;
+  show_claim(vehicle, self, passage, presences);
+  return no_leader;
+}
+
+double wait_within_m(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t index) {
+  TownVehicle& vehicle = town.vehicles[index];
+  const auto self = static_cast<std::int32_t>(index);
+  double begin_m = 0.0, nearest_m = no_leader;
+  for (std::size_t k = 0; k < vehicle.claimed; ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    const double front_m = vehicle.front_m - begin_m;
+    begin_m += way.length_m;
+    if (front_m > way.length_m) continue;
+    for (const WayConflict& conflict : graph.conflicts_of(way)) {
+      const double to_begin_m = conflict.from_m - front_m;
+      if (conflict.kind == WayConflict::Kind::diverging || to_begin_m < 0.0 || to_begin_m > nearest_m) continue;
+      for (const Presence& other : presences.on(conflict.with)) {
+        if (other.who == self || !other.claims || other.rear_m > conflict.with_to_m) continue;
+        const bool is_in_it = other.is_there() && other.front_m > conflict.with_from_m;
+        TownVehicle* rival = other.who < 0 ? nullptr : &town.vehicles[static_cast<std::size_t>(other.who)];
+        if (!is_in_it && rival != nullptr && rival->claim < vehicle.claim) go_first_if_stuck(vehicle, *rival);
+        const bool is_earlier = is_in_it || rival == nullptr || rival->claim < vehicle.claim;
+        if (!is_earlier) continue;
+        // He may go on braking, and does not hurry.
+        const double braking = rival == nullptr ? 0.0 : std::min(rival->acceleration_mps2, 0.0);
+        const double his_mps = std::max(0.1, other.speed_mps + braking);
+        const double clears_s = (conflict.with_to_m - other.rear_m) / his_mps;
+        const double arrives_s =
+            travel_s(to_begin_m, vehicle.speed_mps, vehicle.driver.following.acceleration_mps2, most_mps_on(way));
+        if (arrives_s < clears_s + behind_s) nearest_m = to_begin_m;
+      }
+    }
+  }
+  return nearest_m;
+}
+
+}  // namespace septet::traffic

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "engine/traffic/network/lane_graph_parts.hpp"
+
+namespace septet::traffic {
+namespace {
+
+/// Roads farther over each other do not meet: one is a bridge.
+constexpr double level_m = 3.0;
+
+struct Box {
+  Vec2 low_m{1e300}, high_m{-1e300};
+};
+
+Box box_of(const LaneGraph& graph, const Way& way) {
+  Box box;
+  for (std::uint32_t k = 0; k < way.points.count; ++k) {
+    const Vec2 at(graph.points[way.points.first + k].position_m);
+    box.low_m = glm::min(box.low_m, at);
+    box.high_m = glm::max(box.high_m, at);
+  }
+  return box;
+}
+
+bool are_near(const Box& a, const Box& b) {
+  return a.low_m.x < b.high_m.x + meeting_m && b.low_m.x < a.high_m.x + meeting_m &&
+         a.low_m.y < b.high_m.y + meeting_m && b.low_m.y < a.high_m.y + meeting_m;
+}
+
+bool share(std::span<const WayIndex> a, std::span<const WayIndex> b) {
+  return std::ranges::any_of(a, [&](WayIndex way) { return std::ranges::find(b, way) != b.end(); });
+}
+
+/// The stretches of two ways that are nearer to each other than two vehicles can be.
+std::optional<WayConflict> meet(const LaneGraph& graph, const Way& a, const Way& b) {
+  double from_a = 1e300, to_a = -1e300, from_b = 1e300, to_b = -1e300;
+  const double step_a = a.length_m / static_cast<double>(a.points.count - 1);
+  const double step_b = b.length_m / static_cast<double>(b.points.count - 1);
+  for (std::uint32_t i = 0; i < a.points.count; ++i)
+    for (std::uint32_t j = 0; j < b.points.count; ++j) {
+      const Vec3 apart = graph.points[a.points.first + i].position_m - graph.points[b.points.first + j].position_m;
+      if (apart.x * apart.x + apart.y * apart.y > meeting_m * meeting_m || std::abs(apart.z) > level_m) continue;
+      const double at_a = i * step_a, at_b = j * step_b;
+      from_a = std::min(from_a, at_a), to_a = std::max(to_a, at_a);
+      from_b = std::min(from_b, at_b), to_b = std::max(to_b, at_b);
+    }
+  if (from_a > to_a) return std::nullopt;
+  // Between two points a way may already be too near.
+  WayConflict conflict;
+  conflict.from_m = std::max(0.0, from_a - step_a), conflict.to_m = std::min(a.length_m, to_a + step_a);
+  conflict.with_from_m = std::max(0.0, from_b - step_b), conflict.with_to_m = std::min(b.length_m, to_b + step_b);
+  return conflict;
+}
+
+/// By what comes before and after the whole of two connecting roads.
+WayConflict::Kind kind_of(const LaneGraph& graph, const Way& a, const Way& b) {
+  const auto& ways = graph.ways;
+  if (share(graph.before_of(ways[a.entry]), graph.before_of(ways[b.entry]))) return WayConflict::Kind::diverging;
+  if (share(graph.next_of(ways[a.exit]), graph.next_of(ways[b.exit]))) return WayConflict::Kind::merging;
+  return WayConflict::Kind::crossing;
+}
+
+/// True for two ways of one lane, one behind the other.
+bool are_one_lane(const LaneGraph& graph, WayIndex a, WayIndex b) {
+  const auto follows = [&](WayIndex from, WayIndex to) {
+    const auto next = graph.next_of(graph.ways[from]);
+    return std::ranges::find(next, to) != next.end();
+  };
+  return follows(a, b) || follows(b, a) || graph.ways[a].entry == graph.ways[b].entry;
+}
+
+}  // namespace
+
+void find_conflicts(LaneGraph& graph) {
+  std::map<std::uint32_t, std::vector<WayIndex>> junctions;
+  for (WayIndex index = 0; index < graph.ways.size(); ++index)
+    if (graph.ways[index].in_junction()) junctions[graph.ways[index].junction].push_back(index);
+
+  std::vector<std::vector<WayConflict>> found(graph.ways.size());
+  for (const auto& [junction, ways] : junctions) {
+    std::vector<Box> boxes;
+    boxes.reserve(ways.size());
+    for (const WayIndex index : ways) boxes.push_back(box_of(graph, graph.ways[index]));
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      for (std::size_t j = i + 1; j < ways.size(); ++j) {
+        if (!are_near(boxes[i], boxes[j])) continue;
+        const Way &a = graph.ways[ways[i]], &b = graph.ways[ways[j]];
+        if (are_one_lane(graph, ways[i], ways[j])) continue;
+        auto conflict = meet(graph, a, b);
+        if (!conflict) continue;
+        conflict->kind = kind_of(graph, a, b);
+        conflict->with = ways[j];
+        found[ways[i]].push_back(*conflict);
+        found[ways[j]].push_back(
+            {conflict->kind, ways[i], conflict->with_from_m, conflict->with_to_m, conflict->from_m, conflict->to_m});
+      }
+  }
+  for (WayIndex index = 0; index < graph.ways.size(); ++index) {
+    graph.ways[index].conflicts = {static_cast<std::uint32_t>(graph.conflicts.size()),
+                                   static_cast<std::uint32_t>(found[index].size())};
+    graph.conflicts.insert(graph.conflicts.end(), found[index].begin(), found[index].end());
+  }
+}
+
+}  // namespace septet::traffic

@@ -1,0 +1,111 @@
+#include "engine/traffic/network/network_traffic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/traffic/driver_members.hpp"
+#include "engine/traffic/network/town.hpp"
+
+namespace septet::traffic {
+
+// Kept are a vehicle's constants, drawn when it came in.
+SEPTET_MEMBER_GROUPS(TownVehicle, hashed(id), kept(model, paint, driver, law, urge),
+                     hashed(outside, route, front_m, speed_mps, acceleration_mps2), kept(rolled_m),
+                     hashed(claimed, claim, unused_s, waits_s), kept(stands_s), hashed(is_held))
+SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s, claims, foreign_stands_s), kept(bad_numbers, next_id))
+
+namespace {
+
+constexpr auto wrong = "traffic in it does not fit together";
+
+void require_drivable(const LaneGraph& graph, const TownVehicle& vehicle, StateReader& reader) {
+  reader.require(vehicle.model < vehicle_models().size() && vehicle.outside == vehicle.route.empty() &&
+                     vehicle.claimed <= vehicle.route.size(),
+                 wrong);
+  for (const WayIndex way : vehicle.route) reader.require(way < graph.ways.size(), wrong);
+  if (!reader.ok()) return;
+  double length_m = 0.0;
+  for (std::size_t k = 0; k < vehicle.route.size(); ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    length_m += way.length_m;
+    const auto next = graph.next_of(way);
+    if (k + 1 < vehicle.route.size())
+      reader.require(std::ranges::find(next, vehicle.route[k + 1]) != next.end(), wrong);
+  }
+  constexpr double most_mps = 200.0;
+  reader.require(vehicle.front_m >= 0.0 && vehicle.front_m <= length_m + 1.0 && vehicle.speed_mps >= 0.0 &&
+                     vehicle.speed_mps < most_mps && std::isfinite(vehicle.rolled_m) && vehicle.urge > 0.0,
+                 wrong);
+}
+
+class NetworkTraffic final : public TrafficEngine {
+ public:
+  NetworkTraffic(const road::RoadNetwork& network, LaneGraph graph, std::uint64_t seed)
+      : network_(network), graph_(std::move(graph)), random_(seed, 1) {}
+
+  void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
+    parameters_ = parameters;
+    town_ = populate_town(parameters_, network_, graph_, foreign, random_);
+  }
+  void stop() override { town_ = {}; }
+  void show_lights(std::span<const TrafficLight> lights) override { lights_.assign(lights.begin(), lights.end()); }
+  void advance(std::span<const ForeignVehicle> foreign, double dt_s) override {
+    const double before_s = town_.time_s;
+    advance_town(parameters_, network_, graph_, lights_, foreign, dt_s, random_, town_);
+    if (before_s < swarm_remark_s && town_.time_s >= swarm_remark_s)
+      remark_ = swarm_remark(town_.vehicles.size(), on_road());
+  }
+  bool release(ParticipantId id) override {
+    const auto found = std::ranges::find(town_.vehicles, id, &TownVehicle::id);
+    if (found == town_.vehicles.end()) return false;
+    town_.vehicles.erase(found);
+    parameters_.count -= std::min<std::uint32_t>(parameters_.count, 1);
+    return true;
+  }
+  void worsen(std::uint32_t more_vehicles) override {
+    if (!town_.vehicles.empty()) worsen_town(parameters_, graph_, more_vehicles, random_, town_);
+  }
+  std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
+  std::uint32_t take_bad_numbers() override { return std::exchange(town_.bad_numbers, 0); }
+  void append_participants(std::vector<Participant>& participants) const override {
+    traffic::append_participants(graph_, town_, participants);
+  }
+  void add_to_hash(StateHash& hash) const override { hash_members(hash, town_, random_); }
+  bool can_be_saved() const override { return true; }
+  void save(StateWriter& writer) const override {
+    transfer(writer, parameters_);
+    transfer(writer, town_);
+    transfer(writer, random_);
+  }
+  void restore(StateReader& reader) override {
+    transfer(reader, parameters_);
+    transfer(reader, town_);
+    transfer(reader, random_);
+    for (const VehicleClass& kind : parameters_.classes) reader.require(kind.model < vehicle_models().size(), wrong);
+    reader.require(town_.vehicles.empty() || !parameters_.classes.empty(), wrong);
+    for (const TownVehicle& vehicle : town_.vehicles) require_drivable(graph_, vehicle, reader);
+  }
+
+ private:
+  std::size_t on_road() const {
+    return static_cast<std::size_t>(std::ranges::count(town_.vehicles, false, &TownVehicle::outside));
+  }
+
+  const road::RoadNetwork& network_;
+  LaneGraph graph_;
+  TrafficParameters parameters_;
+  TownState town_;
+  std::vector<TrafficLight> lights_;  ///< Of this tick.
+  Random random_;
+  std::optional<std::string> remark_;
+};
+
+}  // namespace
+
+std::unique_ptr<TrafficEngine> network_traffic(const road::RoadNetwork& network, LaneGraph graph, std::uint64_t seed) {
+  return std::make_unique<NetworkTraffic>(network, std::move(graph), seed);
+}
+
+}  // namespace septet::traffic

@@ -1,0 +1,134 @@
+#include "engine/traffic/network/town.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "engine/traffic/looks.hpp"
+#include "engine/traffic/network/town_stages.hpp"
+#include "engine/world/indicator.hpp"
+
+namespace septet::traffic {
+namespace {
+
+/// Speed and place a tick on; ways that its rear has left leave the route.
+void move(const LaneGraph& graph, double dt_s, TownVehicle& vehicle) {
+  const double before = vehicle.speed_mps;
+  double after = before + vehicle.acceleration_mps2 * dt_s, way_m = 0.5 * (before + after) * dt_s;
+  if (after < 0.0) {
+    way_m = vehicle.acceleration_mps2 < 0.0 ? -0.5 * before * before / vehicle.acceleration_mps2 : 0.0;
+    after = 0.0;
+    vehicle.acceleration_mps2 = -before / dt_s;
+  }
+  vehicle.speed_mps = after;
+  vehicle.front_m += way_m;
+  vehicle.rolled_m += way_m;
+  constexpr double walking_mps = 0.5;
+  vehicle.stands_s = after < walking_mps ? vehicle.stands_s + dt_s : 0.0;
+  while (vehicle.route.size() > 1) {
+    const double length_m = graph.ways[vehicle.route.front()].length_m;
+    if (vehicle.front_m - vehicle.length_m() < length_m) break;
+    vehicle.front_m -= length_m;
+    vehicle.route.erase(vehicle.route.begin());
+    vehicle.claimed -= std::min(vehicle.claimed, 1u);
+  }
+}
+
+PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double at_m) {
+  for (std::size_t k = 0;; ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    if (at_m <= way.length_m || k + 1 == vehicle.route.size()) {
+      PlaceOnWay place = place_on_way(graph, way, at_m);
+      // Before its begin and beyond its end a way goes straight on.
+      const double beyond_m = at_m < 0.0 ? at_m : std::max(0.0, at_m - way.length_m);
+      place.position_m += beyond_m * place.tangent;
+      return place;
+    }
+    at_m -= way.length_m;
+  }
+}
+
+/// 1: it turns left at the junction that it is in or comes to; −1: right.
+int indicated_turn(const LaneGraph& graph, const TownVehicle& vehicle) {
+  constexpr double before_m = 40.0, turning_rad = 0.5;
+  double begin_m = 0.0;
+  for (const WayIndex index : vehicle.route) {
+    const Way& way = graph.ways[index];
+    if (begin_m > vehicle.front_m + before_m) break;
+    begin_m += way.length_m;
+    if (!way.in_junction() || begin_m < vehicle.front_m - vehicle.length_m()) continue;
+    return way.turns_rad > turning_rad ? 1 : way.turns_rad < -turning_rad ? -1 : 0;
+  }
+  return 0;
+}
+
+void show_vehicle(const LaneGraph& graph, const TownVehicle& vehicle, double time_s, Participant& participant) {
+  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const double rear_m = vehicle.front_m - model.front_m();
+  const PlaceOnWay rear = place_on_route(graph, vehicle, rear_m);
+  const PlaceOnWay front = place_on_route(graph, vehicle, rear_m + model.wheelbase_m);
+  const Vec3 axles = front.position_m - rear.position_m;
+  const double level_m = std::max(std::hypot(axles.x, axles.y), 0.1);
+  const double heading = std::atan2(axles.y, axles.x);
+  const double v = vehicle.speed_mps;
+  participant.id = vehicle.id;
+  participant.model = look_of(vehicle.model, vehicle.id);
+  participant.paint = vehicle.paint;
+  participant.world_from_vehicle = {rear.position_m,
+                                    orientation_from_angles(heading, -std::atan2(axles.z, level_m), 0.0)};
+  participant.velocity_mps = v * rear.tangent;
+  const Vec3 left(-rear.tangent.y, rear.tangent.x, 0.0);
+  participant.acceleration_mps2 = vehicle.acceleration_mps2 * rear.tangent + v * v * rear.curvature_per_m * left;
+  const Vec3 turned = front.tangent - rear.tangent;
+  participant.angular_velocity_radps.z = v * (axles.x * turned.y - axles.y * turned.x) / (level_m * level_m);
+  participant.front_steer_rad = std::atan2(axles.x * front.tangent.y - axles.y * front.tangent.x,
+                                           axles.x * front.tangent.x + axles.y * front.tangent.y);
+  constexpr double turn_rad = 2.0 * std::numbers::pi;
+  const double turns = vehicle.rolled_m / model.wheel_radius_m / turn_rad;
+  participant.wheel_spin_rad = (turns - std::floor(turns)) * turn_rad;
+  participant.wheel_spin_radps = v / model.wheel_radius_m;
+  participant.lamps.set(Lamp::low_beam, true);
+  participant.lamps.set(Lamp::brake, vehicle.acceleration_mps2 < -0.7 || v < 0.1);
+  const int side = indicated_turn(graph, vehicle);
+  if (side != 0 && indicator_is_lit(time_s, vehicle.id))
+    participant.lamps.set(side > 0 ? Lamp::indicator_left : Lamp::indicator_right, true);
+}
+
+}  // namespace
+
+void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
+                  std::span<const TrafficLight> lights, std::span<const ForeignVehicle> foreign, double dt_s,
+                  Random& random, TownState& town) {
+  const double before_s = town.time_s;
+  town.time_s += dt_s;
+  for (TownVehicle& vehicle : town.vehicles)
+    if (!vehicle.outside) prolong_route(graph, random, vehicle);
+  Presences presences = find_presences(network, graph, foreign, dt_s, town);
+  const std::vector<LightState> shown = light_states(network, lights);
+  for (std::size_t i = 0; i < town.vehicles.size(); ++i) {
+    TownVehicle& vehicle = town.vehicles[i];
+    if (vehicle.outside) continue;
+    const Leader leader = leader_of(graph, presences, town, i);
+    const double line_m = negotiate(graph, shown, leader, dt_s, random, presences, town, i);
+    const double within_m = wait_within_m(graph, presences, town, i);
+    double a = acceleration_of(graph, vehicle, leader, std::min(line_m, within_m));
+    if (!std::isfinite(a)) a = 0.0, ++town.bad_numbers;
+    vehicle.acceleration_mps2 = a;
+  }
+  for (TownVehicle& vehicle : town.vehicles)
+    if (!vehicle.outside) move(graph, dt_s, vehicle);
+  constexpr double recycle_interval_s = 0.5;
+  if (std::floor(before_s / recycle_interval_s) == std::floor(town.time_s / recycle_interval_s)) return;
+  const Vec3 middle_m = foreign.empty() ? Vec3(0.5 * (network.low_m + network.high_m), 0.0)
+                                        : foreign.front().world_from_vehicle.position_m;
+  recycle_town(parameters, graph, presences, middle_m, random, town);
+}
+
+void append_participants(const LaneGraph& graph, const TownState& town, std::vector<Participant>& participants) {
+  for (const TownVehicle& vehicle : town.vehicles)
+    if (!vehicle.outside) show_vehicle(graph, vehicle, town.time_s, participants.emplace_back());
+}
+
+}  // namespace septet::traffic

@@ -1,0 +1,83 @@
+#pragma once
+/// Traffic on a whole road network, junctions included (lane_graph.hpp).
+///
+///     TownState town = populate_town(parameters, network, graph, foreign, random);
+///     each tick:  advance_town(parameters, network, graph, lights, foreign, tick_s, random, town);
+///                 append_participants(graph, town, participants);
+///
+/// A vehicle has a route: the ways from the one that holds its rear to beyond its horizon, drawn at each fork. Both its
+/// axles are on the route, so that what it covers of a junction is a function of where it is on it.
+///
+/// Right of way: a vehicle needs a claim on a junction before it passes the stop line. It gets one when its light
+/// allows it, when what lies beyond has room for it (nobody stands within a junction), when no claim or body is on a
+/// way that meets its own too near in time, and when the gap to everybody whom it lets pass (`yields_to`) is long
+/// enough. Claims are numbered: who has the later one waits, within the junction at the last, for the earlier one, so that
+/// claims never wait in a circle. Who has waited long is let in by those who can stop, and of several who each let the
+/// next one pass one goes first (courtesy).
+///
+/// Foreign vehicles are bodies on whatever ways their outline touches, and come to junctions like others; where they
+/// are going is told by their indicator at most.
+///
+/// Sources: car following driver.hpp; gaps: Highway Capacity Manual (Transportation Research Board, 2010), table 19-10,
+/// base critical headways of two-lane streets. Same arguments: same traffic. One thread a state.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/random.hpp"
+#include "engine/traffic/driver.hpp"
+#include "engine/traffic/network/lane_graph.hpp"
+#include "engine/traffic/traffic.hpp"
+#include "engine/world/snapshot.hpp"
+#include "engine/world/traffic_light.hpp"
+
+namespace septet::traffic {
+
+struct TownVehicle {
+  ParticipantId id = 0;
+  ModelIndex model = 0;
+  std::uint8_t paint = 0;
+  Driver driver;
+  FollowingLaw law;
+  double urge = 1.0;  ///< Of its critical gaps: above 1 for a timid driver.
+
+  bool outside = true;          ///< Waits for room to come in; it is nowhere.
+  std::vector<WayIndex> route;  ///< From the way that holds its rear bumper.
+  double front_m = 0.0;         ///< Of the front bumper, from the route's begin.
+  double speed_mps = 0.0, acceleration_mps2 = 0.0;
+  double rolled_m = 0.0;
+  std::uint32_t claimed = 0;  ///< Ways of the route, from its begin, that it may drive; 0: no claim.
+  std::uint64_t claim = 0;    ///< The claim's number.
+  double unused_s = 0.0;      ///< For which it has stood with its claim.
+  double waits_s = 0.0;       ///< At a stop line without a claim.
+  double stands_s = 0.0;      ///< Below walking speed, for whatever cause.
+  bool is_held = false;       ///< It could go, but what lies beyond its junction has no room for it.
+
+  double length_m() const { return vehicle_models()[model].length_m; }
+};
+
+struct TownState {
+  std::vector<TownVehicle> vehicles;
+  double time_s = 0.0;
+  std::uint64_t claims = 0;              ///< Given so far.
+  std::vector<double> foreign_stands_s;  ///< One a foreign vehicle.
+  std::uint32_t bad_numbers = 0;
+  ParticipantId next_id = 0;
+};
+
+TownState populate_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
+                        std::span<const ForeignVehicle> foreign, Random& random);
+
+void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
+                  std::span<const TrafficLight> lights, std::span<const ForeignVehicle> foreign, double dt_s,
+                  Random& random, TownState& town);
+
+/// Adds vehicles that come in as they find room, and worsens all drivers' manners by a step.
+void worsen_town(TrafficParameters& parameters, const LaneGraph& graph, std::uint32_t more, Random& random,
+                 TownState& town);
+
+void append_participants(const LaneGraph& graph, const TownState& town, std::vector<Participant>& participants);
+
+}  // namespace septet::traffic

@@ -1,0 +1,74 @@
+#pragma once
+/// The stages of one tick of a town's traffic and their shared data. Used by engine/traffic/network only.
+
+#include <limits>
+
+#include "engine/traffic/network/town.hpp"
+
+namespace septet::traffic {
+
+/// Somebody on a way, or on the way to it. Positions from the way's begin; a front below 0 has not reached it.
+struct Presence {
+  WayIndex way = no_way;
+  std::int32_t who = 0;  ///< Index of a vehicle; −1 − k: foreign vehicle k.
+  double front_m = 0.0, rear_m = 0.0;
+  double speed_mps = 0.0;
+  bool claims = false;      ///< It is within the junction, may enter it, or cannot stop before it.
+  bool gives_way = false;   ///< It stands and does not use its right of way for now.
+  std::uint64_t claim = 0;  ///< Its number; 0: before all others.
+
+  bool is_there() const { return front_m > 0.0; }
+};
+
+/// All presences, by way.
+struct Presences {
+  std::vector<Presence> all;
+  std::vector<std::uint32_t> first;  ///< By way; one more at the end.
+
+  std::span<const Presence> on(WayIndex way) const { return {all.data() + first[way], first[way + 1] - first[way]}; }
+};
+
+enum class LightState : std::uint8_t { dark, red, amber, green };
+
+/// Lights by road and direction: 2·road, plus 1 where traffic runs against s.
+std::vector<LightState> light_states(const road::RoadNetwork& network, std::span<const TrafficLight> lights);
+
+/// How far a vehicle looks along its route, beyond its front.
+inline constexpr double horizon_m = 130.0;
+/// Gap at which vehicles stand, as room beyond a junction is reckoned.
+inline constexpr double standing_gap_m = 2.5;
+
+/// Prolongs the route to the horizon. Draws a random number at each fork.
+void prolong_route(const LaneGraph& graph, Random& random, TownVehicle& vehicle);
+
+/// Stage 1: everybody's presences. Keeps up standing times of foreign vehicles.
+Presences find_presences(const road::RoadNetwork& network, const LaneGraph& graph,
+                         std::span<const ForeignVehicle> foreign, double dt_s, TownState& town);
+
+/// The nearest body ahead on the route, at most to the horizon.
+struct Leader {
+  double gap_m = no_leader;
+  double speed_mps = 0.0;
+  std::int32_t who = std::numeric_limits<std::int32_t>::min();
+};
+Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownState& town, std::size_t vehicle);
+
+/// Stage 2: claims a vehicle's next junction if it is due and free. Returns the distance from its front to the line at
+/// which it is to stop; infinite if there is none.
+double negotiate(const LaneGraph& graph, std::span<const LightState> lights, const Leader& leader, double dt_s,
+                 Random& random, Presences& presences, TownState& town, std::size_t vehicle);
+
+/// Distance to the point before which it waits for an earlier claim within a junction; infinite if there is none.
+double wait_within_m(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t vehicle);
+
+/// Stage 3: acceleration behind a leader, before a stop, in bends and below limits.
+double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const Leader& leader, double stop_m);
+
+/// Stage 4: vehicles leave beyond the swarm's rim and come in again there.
+void recycle_town(const TrafficParameters& parameters, const LaneGraph& graph, const Presences& presences,
+                  const Vec3& middle_m, Random& random, TownState& town);
+
+/// Time for a distance from a speed, with this acceleration up to the greatest speed.
+double travel_s(double distance_m, double speed_mps, double acceleration_mps2, double most_mps);
+
+}  // namespace septet::traffic
