@@ -95,6 +95,7 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
   const double to_begin_m = std::max(0.0, conflict.from_m - approach.front_m);
   const double his_most = most_mps_on(his);
   if (other.claims) {
+    if (other.who < 0 && other.speed_mps < stands_mps) return false;  // Nobody knows when it goes on.
     if (conflict.kind == WayConflict::Kind::merging && other.is_there()) {
       // Who is ahead of it on the way out is its leader.
       const double behind_m =

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -19,8 +20,10 @@ namespace septet::traffic {
 /// From the crossing's middle to where an arm ends, and the radius of the lane's middle in a right turn.
 inline constexpr double arm_end_m = 10.0, lane_m = 3.5, right_turn_m = arm_end_m - 0.5 * lane_m;
 
-/// `signs`: give way on the arms of west and east, priority on those of south and north.
-inline road::RoadNetwork crossing(bool left_hand = false, bool signs = false) {
+/// Signs: give way on the arms of west and east, priority on those of south and north; or lights on all arms.
+enum class Posted : std::uint8_t { nothing, signs, lights };
+
+inline road::RoadNetwork crossing(bool left_hand = false, Posted posted = Posted::nothing) {
   struct Arm {
     const char* name;
     double heading;  ///< Of the drive towards the middle.
@@ -44,12 +47,15 @@ inline road::RoadNetwork crossing(bool left_hand = false, bool signs = false) {
   for (const Arm& arm : arms) {
     const double x = -(arm_m + arm_end_m) * std::cos(arm.heading), y = -(arm_m + arm_end_m) * std::sin(arm.heading);
     std::string sign;
-    if (signs) {
-      const bool minor = arm.heading == 0.0 || arm.heading == 2.0 * quarter;
+    if (posted != Posted::nothing) {
+      const bool minor = arm.heading == 0.0 || arm.heading == 2.0 * quarter, lights = posted == Posted::lights;
       sign = fmt::format(
-          "<signals><signal s=\"{}\" t=\"-5\" id=\"s-{}\" name=\"\" dynamic=\"no\" orientation=\"+\" "
-          "zOffset=\"2\" country=\"DE\" type=\"{}\" subtype=\"-1\" height=\"0.6\" width=\"0.6\"/></signals>",
-          arm_m - 2.0, arm.name, minor ? "205" : "301");
+          "<signals><signal s=\"{}\" t=\"-5\" id=\"s-{}\" name=\"\" dynamic=\"{}\" orientation=\"+\" zOffset=\"2\" "
+          "country=\"{}\" type=\"{}\" subtype=\"-1\" height=\"0.6\" width=\"0.6\"/></signals>",
+          arm_m - 2.0, arm.name, lights ? "yes" : "no", lights ? "OpenDRIVE" : "DE",
+          lights  ? "1000001"
+          : minor ? "205"
+                  : "301");
     }
     text += fmt::format(
         "<road id=\"{}\" name=\"\" length=\"{}\" junction=\"-1\" rule=\"{}\"><link><successor "

@@ -74,7 +74,7 @@ TEST_CASE("who comes from the right goes first, from the left where traffic keep
 }
 
 TEST_CASE("a give-way sign ranks below a priority sign, whoever comes from the right") {
-  const road::RoadNetwork network = crossing(false, true);
+  const road::RoadNetwork network = crossing(false, Posted::signs);
   const LaneGraph graph = build_lane_graph(network);
   const auto way = [&](const char* id) -> const Way& { return connection(network, graph, id); };
   CHECK(yields_to(way("west-east"), way("south-north")));

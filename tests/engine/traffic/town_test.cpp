@@ -17,6 +17,7 @@ namespace septet::traffic {
 namespace {
 
 constexpr double dt_s = 1.0 / 30.0;
+constexpr ParticipantId first_id = 1000;
 
 WayIndex way_of_road(const road::RoadNetwork& network, const LaneGraph& graph, const std::string& id, bool along_s) {
   const auto road = road::find_road(network, id);
@@ -32,7 +33,7 @@ void add_car(const road::RoadNetwork& network, const LaneGraph& graph, const std
              double before_m, TownState& town) {
   const TrafficParameters parameters = motorway_traffic(1, 1000.0);
   TownVehicle car;
-  car.id = static_cast<ParticipantId>(1000 + town.vehicles.size());
+  car.id = first_id + static_cast<ParticipantId>(town.vehicles.size());
   car.model = parameters.classes.front().model;
   car.driver = parameters.classes.front().middle;
   car.law = FollowingLaw(car.driver.following);
@@ -59,7 +60,8 @@ std::vector<std::string> order_of_entry(const road::RoadNetwork& network, const 
     append_participants(graph, town, shown);
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const bool is_inside = glm::length(Vec2(shown[i].world_from_vehicle.position_m)) < arm_end_m - 1.0;
-      if (is_inside && std::ranges::find(order, arms[i]) == order.end()) order.push_back(arms[i]);
+      const std::string& arm = arms[shown[i].id - first_id];
+      if (is_inside && std::ranges::find(order, arm) == order.end()) order.push_back(arm);
       for (std::size_t j = i + 1; j < shown.size(); ++j) CHECK_FALSE(outlines_overlap(shown[i], shown[j]));
     }
   }
@@ -92,12 +94,30 @@ TEST_CASE("who turns across the oncoming lets them pass") {
 }
 
 TEST_CASE("a give-way sign stops him who would come from the right") {
-  const road::RoadNetwork network = crossing(false, true);
+  const road::RoadNetwork network = crossing(false, Posted::signs);
   const LaneGraph graph = build_lane_graph(network);
   TownState town;
   add_car(network, graph, "south", "north", 70.0, town);
   add_car(network, graph, "east", "west", 60.0, town);
   CHECK(order_of_entry(network, graph, town) == Order{"south", "east"});
+}
+
+TEST_CASE("nobody passes a red light, and who has green goes") {
+  const road::RoadNetwork network = crossing(false, Posted::lights);
+  const LaneGraph graph = build_lane_graph(network);
+  TownState town;
+  add_car(network, graph, "south", "north", 60.0, town);
+  add_car(network, graph, "east", "west", 60.0, town);
+  const auto light = [&](const char* arm, Lamp lamp) {
+    TrafficLight head;
+    head.road = *road::find_road(network, arm);
+    head.lamps.set(lamp, true);
+    return head;
+  };
+  // East comes from the right of south.
+  const std::vector<TrafficLight> lights{light("south", Lamp::signal_green), light("east", Lamp::signal_red),
+                                         light("north", Lamp::signal_green), light("west", Lamp::signal_red)};
+  CHECK(order_of_entry(network, graph, town, lights) == Order{"south"});
 }
 
 TEST_CASE("four who each have one on their right all get across") {
@@ -124,7 +144,8 @@ TEST_CASE("nobody enters a junction whose exit is full") {
   standing.world_from_vehicle = {place.position_m, orientation_from_angles(0.5 * std::numbers::pi, 0.0, 0.0)};
   const TrafficParameters parameters = motorway_traffic(0, 1000.0);
   Random random(1);
-  for (double t = 0.0; t < 60.0; t += dt_s)
+  // Later on it would choose another exit.
+  for (double t = 0.0; t < 18.0; t += dt_s)
     advance_town(parameters, network, graph, {}, std::span(&standing, 1), dt_s, random, town);
   REQUIRE(town.vehicles.size() == 1);
   CHECK(town.vehicles.front().speed_mps == 0.0);
