@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/sight/air.hpp"
+#include "engine/world/limited_sight.hpp"
 
 namespace septet::driver {
 namespace {
@@ -76,13 +78,17 @@ double open_for_m(const road::RoadNetwork& network, const traffic::Corridor& cor
   return std::numeric_limits<double>::infinity();
 }
 
+/// `sight_m`: how far he sees, where something limits it.
 double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork& network, const OwnPlace& own,
-                         double snow_cover) {
+                         double snow_cover, const std::optional<double>& sight_m) {
   const SpeedParameters& speed = driver.parameters.speed;
   const double limit = road::speed_limit_mps(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
   const double dry = limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
   const double snow = std::clamp(snow_cover / all_snow_cover, 0.0, 1.0);
-  return std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)), driver.course.speed_mps);
+  const double wish = std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)), driver.course.speed_mps);
+  if (!sight_m) return wish;
+  return std::min(
+      wish, sight::stopping_speed_mps(*sight_m - speed.standstill_gap_m, speed.reaction_time_s, speed.braking_mps2));
 }
 
 /// Obstacle for the foot: the vehicle seen on the path a reaction time ago, or the end of the lane. The car's own path
@@ -158,7 +164,8 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
 
   const DriverParameters& parameters = driver.parameters;
   LaneScene scene{.own = *own, .vehicles = driver.vehicles};
-  scene.desired_speed_mps = desired_speed_mps(driver, network, *own, snapshot.environment.snow_cover);
+  scene.desired_speed_mps =
+      desired_speed_mps(driver, network, *own, snapshot.environment.snow_cover, limited_sight_m(snapshot, body->id));
   scene.grows_to_the_right = lanes_grow_to_the_right(traffic::piece_at(*driver.corridor, own->x_m));
   scene.open_inside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane - 1));
   scene.open_outside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane + 1));

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/instant/adaptation.hpp"
+#include "engine/sight/air.hpp"
 
 namespace septet::instant {
 namespace {
@@ -145,15 +146,6 @@ double share_of_sun(const Air& air, double sine, double illuminance_lux) {
 
 }  // namespace
 
-double fall_extinction_per_m(const Environment& environment) {
-  constexpr double snow_below_k = 274.65, dry_below_k = 272.15, per_decibel = 0.23026, per_km = 1e-3;
-  if (!(environment.rain_mm_per_h > 0.0)) return 0.0;
-  const double rate = std::min(environment.rain_mm_per_h, 300.0);
-  if (environment.temperature_k >= snow_below_k) return per_km * 0.312 * std::pow(rate, 0.67);
-  const bool dry = environment.temperature_k < dry_below_k;
-  return per_km * per_decibel * (dry ? 5.50 * std::pow(rate, 1.38) : 3.79 * std::pow(rate, 0.72));
-}
-
 SkyLight sky_light(const Environment& environment) {
   SkyLight light;
   const double elevation = environment.sun_elevation_rad, azimuth = environment.sun_azimuth_rad;
@@ -161,10 +153,11 @@ SkyLight sky_light(const Environment& environment) {
   const Vec3 sun{std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth), std::sin(elevation)};
   light.sun_direction = glm::vec3(sun);
   const double visibility_m = std::clamp(environment.visibility_m, 10.0, 200.0e3);
-  light.fog_per_m = static_cast<float>(3.912 / visibility_m);
+  light.fog_per_m = static_cast<float>(sight::fog_extinction_per_m(visibility_m));
   const double overcast = step_between(0.55, 1.0, environment.cloud_cover);
   light.overcast = static_cast<float>(overcast);
-  light.fall_per_m = static_cast<float>(fall_extinction_per_m(environment));
+  light.fall_per_m =
+      static_cast<float>(sight::fall_extinction_per_m(environment.rain_mm_per_h, environment.temperature_k));
   // Haze near the ground, where visibility is measured, is thicker than in the column above it: a share of it counts.
   const Air air(std::clamp(0.15 * 3.912 / visibility_m, 4.0e-6, 6.0e-5));
   const double sun_scale = share_of_sun(air, sun.z, environment.sun_illuminance_lux);

@@ -52,11 +52,6 @@ struct SkyLight {
   SkyTable table;
 };
 
-/// Extinction of light by precipitation, 1/m, for a rate R in mm of water an hour. Rain: 0.312 R^0.67 per km (Weber et
-/// al. 2015, who sum over Marshall and Palmer's drops). Snow, by the attenuation of optical links (ITU-R P.1814): wet
-/// 3.79 R^0.72, below -1 degrees Celsius dry 5.50 R^1.38 dB per km.
-double fall_extinction_per_m(const Environment& environment);
-
 SkyLight sky_light(const Environment& environment);
 
 /// Radiance of the table in a direction (unit, world frame), bilinear.

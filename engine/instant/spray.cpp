@@ -8,21 +8,23 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/sight/air.hpp"
+
 namespace septet::instant {
 namespace {
 
-struct Wake {
-  float depth;     ///< Optical depth at `full_mps` in standing water.
-  double thins_s;  ///< Time after which a puff has lost 1 − 1/e of its droplets.
+struct WakeShape {
   double height_m, radius_m, growth_mps;
   double interval_s;
 };
-constexpr Wake car_wake{0.29f, 0.5, 0.45, 0.4, 0.45, 0.12}, lorry_wake{1.2f, 1.2, 1.1, 0.8, 0.4, 0.2};
-constexpr double onset_mps = 8.0, full_mps = 25.0, follows_s = 0.5, follows_share = 0.35;
-constexpr double life = 3.0;  ///< Life of a puff in multiples of thins_s.
-constexpr double most_mps = 70.0;
+constexpr WakeShape car_wake{0.45, 0.4, 0.45, 0.12}, lorry_wake{1.1, 0.8, 0.4, 0.2};
+constexpr double follows_s = 0.5, follows_share = 0.35;
+constexpr double life = 3.0;  ///< Life of a puff in multiples of the time in which it thins to 1/e.
 
-const Wake& wake_of(const DrawnParticipant& vehicle) { return vehicle.heavy ? lorry_wake : car_wake; }
+sight::Wake wake_of(const DrawnParticipant& vehicle, double road_wetness) {
+  if (!vehicle.raises_spray) return {};
+  return sight::spray_wake(vehicle.heavy, glm::length(vehicle.velocity_mps), road_wetness);
+}
 
 /// Number in [−1, 1) for a puff.
 double scatter(std::uint32_t participant, std::uint32_t puff, std::uint32_t what) {
@@ -35,18 +37,15 @@ double scatter(std::uint32_t participant, std::uint32_t puff, std::uint32_t what
 }  // namespace
 
 float spray_depth(const DrawnParticipant& vehicle, double road_wetness) {
-  const double mps = glm::length(vehicle.velocity_mps);
-  if (!vehicle.raises_spray || !(mps > onset_mps) || !(mps < most_mps) || !(road_wetness > 0.0)) return 0.0f;
-  const double speed = (mps * mps - onset_mps * onset_mps) / (full_mps * full_mps - onset_mps * onset_mps);
-  const double water = std::clamp((road_wetness - 0.15) / 0.85, 0.0, 1.0);
-  return wake_of(vehicle).depth * static_cast<float>(std::min(speed, 1.6) * water);
+  return static_cast<float>(wake_of(vehicle, road_wetness).depth);
 }
 
 void add_spray(const DrawnParticipant& vehicle, const Environment& environment, double simulated_time_s,
                std::vector<SmokePuff>& puffs) {
-  const float depth = spray_depth(vehicle, environment.road_wetness);
+  const sight::Wake air = wake_of(vehicle, environment.road_wetness);
+  const auto depth = static_cast<float>(air.depth);
   if (depth < 0.01f || !(std::abs(simulated_time_s) < 1e9)) return;
-  const Wake& wake = wake_of(vehicle);
+  const WakeShape& wake = vehicle.heavy ? lorry_wake : car_wake;
   const RigidTransform& place = vehicle.world_from_vehicle;
   const Vec3 up = place.orientation * Vec3(0.0, 0.0, 1.0), aside = place.orientation * Vec3(0.0, 1.0, 0.0);
   const Vec3 from_m = place * Vec3(vehicle.tail_x_m, 0.0, 0.0);
@@ -55,13 +54,13 @@ void add_spray(const DrawnParticipant& vehicle, const Environment& environment, 
   // Sum of the thinning e^−a over the puffs, as a share of thins_s / interval_s: less than one by the cut-off of the
   // old puffs.
   constexpr double whole = 0.935;
-  const auto share = static_cast<float>(wake.interval_s / (whole * wake.thins_s));
+  const auto share = static_cast<float>(wake.interval_s / (whole * air.thins_s));
   const double newest = std::floor(simulated_time_s / wake.interval_s);
-  const int count = static_cast<int>(life * wake.thins_s / wake.interval_s);
+  const int count = static_cast<int>(life * air.thins_s / wake.interval_s);
   for (int n = 0; n < count; ++n) {
     const double age_s = simulated_time_s - (newest - n) * wake.interval_s;
     const auto puff = static_cast<std::uint32_t>(static_cast<std::int64_t>(newest) - n);
-    const double thinned = age_s / wake.thins_s;
+    const double thinned = age_s / air.thins_s;
     // Old puffs fade out without a jump.
     const double left = std::exp(-thinned) * std::clamp((life - thinned) * 2.0, 0.0, 1.0) *
                         std::min(1.0, age_s / (0.5 * wake.interval_s) + 0.5);

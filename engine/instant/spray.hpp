@@ -3,10 +3,8 @@
 ///
 /// A puff leaves a vehicle at fixed times of the simulation, swirls after it for a part of a second, grows and settles.
 /// It depends on the vehicle's number, its present motion and the time alone: screens, replay and film draw the same.
-/// The optical depth along the middle of the cloud is `spray_depth`: zero below 8 m/s, then with the square of the
-/// speed, and with the water on the road. That of a lorry at 25 m/s in standing water takes 70 % of the light (measured
-/// losses run from 20 to 70 %), in a cloud 3 m high that thins over some 30 m; that of a car takes a quarter, 1.5 m
-/// high over some 12 m.
+/// The optical depth along the middle of the cloud is that of sight::spray_wake: a lorry's cloud is 3 m high and thins over
+/// some 30 m, a car's is 1.5 m high and thins over some 12 m.
 
 #include <span>
 #include <vector>

@@ -34,7 +34,7 @@ LIGHT_RECORD(WetLampRecord, energy_road, 2)
 
 /// A puff of smoke: a square that faces the viewer.
 struct PuffRecord {
-  vec4 position_radius;  ///< Place; radius of what is drawn, m.
+  vec4 position_radius;  ///< Place; standard deviation of its density, m.
   vec4 radiance_depth;   ///< Light that it scatters and gives off; optical depth through its middle.
   vec4 turn;             ///< x: where in the noise its pattern lies.
 };

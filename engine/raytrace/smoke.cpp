@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/light/puff.hpp"
+
 namespace septet::raytrace {
 namespace {
 
@@ -60,7 +62,7 @@ void Smoke::add(const instant::SmokePuff& puff, const glm::vec3& middle_m) {
     float total = 0.0f;
     for (int n = first[axis]; n <= last[axis]; ++n) {
       const float away = ((static_cast<float>(n) + 0.5f) * cell_m_ - at) / puff.radius_m;
-      weight[axis].push_back(std::exp(-0.5f * away * away));
+      weight[axis].push_back(light::puff_density(away * away));
       total += weight[axis].back();
     }
     sum *= total;

@@ -24,9 +24,9 @@ float mirroring_wetness(const Environment& environment) {
 }
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
-                          const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
-                          std::span<const SmokePuff> smoke, const LampField& lamps, const DetailOf& detail = {},
-                          const RoadMirror& mirror = {}, const glm::vec2& offset_px = glm::vec2(0.0f)) {
+                          const ShadowCascades& shadows, const DynamicSurfaces& dynamic, const DrawnSmoke& smoke,
+                          const LampField& lamps, const DetailOf& detail = {}, const RoadMirror& mirror = {},
+                          const glm::vec2& offset_px = glm::vec2(0.0f)) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -53,7 +53,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.puff_count = static_cast<std::uint32_t>(puffs.size());
   const std::vector<GlowRecord> glows =
       glow_records(instant.lamps, eye_m, instant.exposure.scale(),
-                   [&](const Vec3& lamp_m) { return transmittance(smoke, eye_m, lamp_m); });
+                   [&](const Vec3& lamp_m) { return transmittance(smoke.puffs, eye_m, lamp_m); });
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
   const std::vector<ContactRecord> contacts =
@@ -136,7 +136,7 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
                             const glm::vec2& offset_px) {
   const Vec3 eye_m = world_eye(instant.views.front());
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant);
-  const std::vector<SmokePuff> smoke = merged_puffs(instant.smoke, eye_m);
+  const DrawnSmoke smoke = drawn_smoke(instant.smoke, instant.headlights, eye_m);
   PreparedFrame frame;
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
   if (road_mirrors(instant))

@@ -39,4 +39,30 @@ double transmittance(const Line& line, double length_m, double step_m, const Ext
   return std::exp(-depth);
 }
 
+/// Distance along a line at which what stands there is no longer seen; `length_m` where all is. Steps and `extinction_per_m` as above;
+/// `is_seen`: of the optical depth up to a distance, and that distance.
+template <class Extinction, class IsSeen>
+double seen_m(const Line& line, double length_m, double step_m, const Extinction& extinction_per_m,
+              const IsSeen& is_seen) {
+  if (!(length_m > 0.0)) return 0.0;
+  const auto steps = static_cast<std::int64_t>(std::ceil(length_m / step_m));
+  const double each_m = length_m / static_cast<double>(steps);
+  double depth = 0.0;
+  for (std::int64_t n = 0; n < steps; ++n) {
+    const double from_m = static_cast<double>(n) * each_m;
+    const double per_m = extinction_per_m(line.from_m + (from_m + 0.5 * each_m) * line.direction);
+    if (!is_seen(depth + per_m * each_m, from_m + each_m)) {
+      // Within the step, by halves.
+      double seen = 0.0, unseen = each_m;
+      for (int half = 0; half < 8; ++half) {
+        const double middle = 0.5 * (seen + unseen);
+        (is_seen(depth + per_m * middle, from_m + middle) ? seen : unseen) = middle;
+      }
+      return from_m + seen;
+    }
+    depth += per_m * each_m;
+  }
+  return length_m;
+}
+
 }  // namespace septet::sight

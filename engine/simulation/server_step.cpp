@@ -7,7 +7,6 @@
 
 #include <fmt/core.h>
 
-#include "engine/effects/smoke/visibility.hpp"
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
@@ -19,6 +18,7 @@
 #include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/game.hpp"
 #include "engine/simulation/lights_stage.hpp"
+#include "engine/simulation/sight_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/simulation/way_ahead.hpp"
@@ -56,21 +56,6 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   return participants;
 }
 
-/// Logs once a second how far the driver sees along the road, where smoke ends it within 200 m: dark objects and lamps.
-void note_visibility(const State& state, std::vector<Event>& events) {
-  if (!state.effects.fires.smoke || state.tick % static_cast<Tick>(tick_rate_hz) != 0) return;
-  constexpr double farthest_m = 200.0, eye_m = 0.6;
-  const RigidTransform& body = state.car.world_from_body;
-  const auto seen_m = [&](bool shines) {
-    return smoke::distance_of_depth_m(*state.effects.fires.smoke, body * Vec3(0.0, 0.0, eye_m),
-                                      body * Vec3(farthest_m, 0.0, eye_m), smoke::visible_depth(shines))
-        .value_or(farthest_m);
-  };
-  if (const double dull = seen_m(false); dull < farthest_m)
-    events.push_back(
-        {"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", dull, seen_m(true))});
-}
-
 void run_effects(const Model& model, const std::vector<Participant>& participants, State& state, DrivenCar& car,
                  std::vector<Event>& events) {
   if (state.tick % effects_step_ticks != 0) return;
@@ -85,7 +70,6 @@ void run_effects(const Model& model, const std::vector<Participant>& participant
   push_car(model, report.impulse_on_driver_ns, state, car);
   for (const BrokenOff& broken : report.crashes.broken_off)
     note_broken_off(broken, before, vehicle::planar_body(model.car.body, state.car), state);
-  note_visibility(state, events);
   if (report.crashes.pieces > 0)
     events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
   if (report.fractures > 0) events.push_back({"fracture", std::nullopt, fmt::format("faces={}", report.fractures)});
@@ -105,6 +89,7 @@ Snapshot capture(const Model& model, const State& state, const DrivenCar& car, s
   snapshot.effects = effect_keyframes(state.effects);
   if (auto lights = light_keyframe(model, state.tick)) snapshot.effects.push_back(std::move(*lights));
   if (auto warnings = warning_keyframe(state)) snapshot.effects.push_back(std::move(*warnings));
+  if (auto sights = sight_keyframe(state)) snapshot.effects.push_back(std::move(*sights));
   snapshot.diagnostics = state.diagnostics;
   if (state.game) snapshot.game = state.game->standing;
   return snapshot;
@@ -143,6 +128,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   DrivenCar car = advance_car(model, state, events);
   advance_storyboard(model, car, state, events);
   if (!model.lights.empty()) state.traffic->show_lights(lit_heads(model, state.time_s()));
+  state.traffic->limit_sight(state.sights);
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});
@@ -156,6 +142,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   advance_game(model, car.participant, state, events);
   advance_examiner(model, participants, car.participant, state, events);
   look_ahead(model, participants, state.effects, state.scenario);
+  look_through_air(model, participants, state, events);
   return capture(model, state, car, std::move(participants));
 }
 

@@ -23,6 +23,7 @@
 #include "engine/simulation/thrown_state.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 #include "engine/world/driver_input.hpp"
+#include "engine/world/limited_sight.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::simulation {
@@ -64,6 +65,7 @@ struct State {
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
+  std::vector<LimitedSight> sights;       ///< Of the last look, ascending. Hashed where there is one.
   std::optional<MotionState> motion;      ///< Present where the car goes by a table (given_motion.hpp).
   std::optional<GameState> game;          ///< Present where the scenario is played as a game.
   std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.

@@ -31,6 +31,9 @@ class CorridorsTraffic final : public TrafficEngine {
           told_missing_ +
           std::max<std::size_t>(1, parameters_.count / 10));  // It thins out where the road is shorter than its radius.
   }
+  void limit_sight(std::span<const LimitedSight> sights) override {
+    state_.sights.assign(sights.begin(), sights.end());
+  }
   bool release(ParticipantId id) override {
     if (!remove_vehicle(id, state_)) return false;
     // It is not missed.

@@ -22,9 +22,10 @@ SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line, ways), has
                      kept(rolled_m, lane_end_m, length_m, half_width_m),
                      hashed(aside_m, aside_mps, aside_target_m, heard_s, making_way, emergency),
                      kept(neighbour_hints, any_aside, order, exits))
-// The corridors are taken one by one.
-SEPTET_MEMBER_GROUPS(TrafficState, left_out(corridors), kept(ramps), hashed(time_s), kept(foreign_places),
-                     hashed(foreign_speeds_mps, foreign_signals_s, bad_numbers), kept(removed_below))
+// The corridors are taken one by one. Sights are given anew each tick.
+SEPTET_MEMBER_GROUPS(TrafficState, left_out(corridors), kept(ramps), hashed(time_s), left_out(sights),
+                     kept(foreign_places), hashed(foreign_speeds_mps, foreign_signals_s, bad_numbers),
+                     kept(removed_below))
 
 namespace {
 

@@ -288,6 +288,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     if (c < directions) show_across_rims(parameters, middle, traffic, placed_foreign[c]);
     refresh_order(traffic, placed_foreign[c]);
     follow(traffic);
+    keep_within_sight(state.sights, traffic);
     make_way(traffic, placed_foreign[c].emergencies, dt_s);
     change_lanes(parameters, network, state.time_s, dt_s, traffic);
     state.bad_numbers += move(network, traffic, dt_s);

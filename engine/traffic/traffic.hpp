@@ -26,6 +26,7 @@
 #include "engine/traffic/lane_table.hpp"
 #include "engine/traffic/lane_way.hpp"
 #include "engine/traffic/line_table.hpp"
+#include "engine/world/limited_sight.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::traffic {
@@ -129,6 +130,7 @@ struct TrafficState {
   std::vector<CorridorTraffic> corridors;  ///< The directions of travel, then the ramps.
   std::vector<Ramp> ramps;
   double time_s = 0.0;
+  std::vector<LimitedSight> sights;                               ///< The caller's, of this tick.
   std::vector<std::optional<road::RoadPosition>> foreign_places;  ///< Hints, one per foreign vehicle.
   std::vector<double> foreign_speeds_mps;                         ///< Speeds a tick ago.
   /// Time since each one's left and right indicator were lit.

@@ -40,6 +40,8 @@ class TrafficEngine {
   /// Advances by one tick. `foreign` has the same vehicles in the same order each time;
   /// new ones come last.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
+  /// Limits how far drivers see, before each tick's `advance`: they go so fast that they stop within it. An engine without this ability ignores it.
+  virtual void limit_sight(std::span<const LimitedSight> /*sights*/) {}
   /// Gives a vehicle up: from now on others move it, and it comes back as a foreign one, the last in their order.
   /// False: it has none of that number, or keeps it.
   virtual bool release(ParticipantId /*id*/) { return false; }

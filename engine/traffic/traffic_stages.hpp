@@ -98,6 +98,8 @@ inline double acceleration_behind(const FollowingLaw& law, double speed_mps, con
 
 /// Stage 1: all accelerations.
 void follow(CorridorTraffic& traffic);
+/// Stage 1, continued: nobody goes faster than he can stop within what he sees.
+void keep_within_sight(std::span<const LimitedSight> sights, CorridorTraffic& traffic);
 /// Stage 2: vehicles that make way for an emergency vehicle, and their shift aside.
 void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s);
 /// Stage 3: lane changes of the drivers whose turn it is to decide.

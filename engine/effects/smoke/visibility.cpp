@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/sight/air.hpp"
+
 namespace septet::smoke {
 namespace {
 
@@ -65,7 +67,7 @@ double extinction_per_m(const State& state, const Vec3& world_m) {
 
 std::optional<double> visibility_m(double extinction_per_m, bool shines) {
   if (!(extinction_per_m > 0.0)) return std::nullopt;
-  return visible_depth(shines) / extinction_per_m;
+  return sight::visible_depth(shines) / extinction_per_m;
 }
 
 double optical_depth(const State& state, const Vec3& from_m, const Vec3& to_m) {

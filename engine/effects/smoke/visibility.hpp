@@ -13,11 +13,7 @@ namespace septet::smoke {
 /// 1/m at a place of the world; 0 outside the grid.
 double extinction_per_m(const State& state, const Vec3& world_m);
 
-/// Optical depth up to which an object is seen: 3 for reflecting ones, 8 for lamps and lit signs (Jin, "Visibility
-/// through fire smoke").
-constexpr double visible_depth(bool shines) { return shines ? 8.0 : 3.0; }
-
-/// Distance at which an object is seen through this even extinction. Empty (unlimited) without smoke.
+/// Distance at which an object is seen (sight::visible_depth) through this even extinction. Empty (unlimited) without smoke.
 std::optional<double> visibility_m(double extinction_per_m, bool shines);
 
 /// ∫ extinction ds along the line, from face to face of the cells (Amanatides and Woo 1987). Walls do not count.

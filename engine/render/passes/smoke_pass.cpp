@@ -8,14 +8,13 @@
 #include <glm/geometric.hpp>
 
 #include "engine/light/lamplight.hpp"
+#include "engine/light/puff.hpp"
 #include "engine/render/passes/billboards.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
 namespace {
 
-/// Radius of a drawn puff in standard deviations of its density.
-constexpr float drawn_deviations = 2.0f;
 /// Optical depth that is taken as opaque: a 400th of the light is left.
 constexpr float opaque_depth = 6.0f;
 
@@ -24,14 +23,14 @@ double cell_side_m(double distance_m) {
   return distance_m < 7.0 ? 1.0 : distance_m < 40.0 ? 2.0 : distance_m < 120.0 ? 4.0 : 8.0;
 }
 
-float depth_through_middle(const SmokePuff& puff) {
-  return puff.extinction_area_m2 / (2.0f * std::numbers::pi_v<float> * puff.radius_m * puff.radius_m);
-}
+float depth_through_middle(const SmokePuff& puff) { return light::puff_depth(puff.extinction_area_m2, puff.radius_m); }
 
 /// Coarse tiles of a view's picture that add up the optical depth seen so far.
 class Coverage {
  public:
   static constexpr int columns = 48, rows = 32;
+  /// Mean depth over the square around a drawn puff relative to that through its middle: 2πσ² over its area.
+  static constexpr float mean_of_square = std::numbers::pi_v<float> / (2.0f * light::puff_reach * light::puff_reach);
 
   /// Adds a puff (NDC and extent in NDC); false where all its tiles are opaque already.
   bool add(float x, float y, float half_width, float half_height, float depth) {
@@ -41,10 +40,9 @@ class Coverage {
     for (int row = top; row <= bottom; ++row)
       for (int column = left; column <= right; ++column) seen = seen || depth_[row * columns + column] < opaque_depth;
     if (!seen) return false;
-    // Only tiles wholly inside count, since a puff's edge is thin. Factor: mean depth over the puff relative to that
-    // through its middle.
+    // Only tiles wholly inside count, since a puff's edge is thin.
     for (int row = top + 1; row < bottom; ++row)
-      for (int column = left + 1; column < right; ++column) depth_[row * columns + column] += 0.4f * depth;
+      for (int column = left + 1; column < right; ++column) depth_[row * columns + column] += mean_of_square * depth;
     return true;
   }
 
@@ -120,6 +118,12 @@ std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3
   return merged;
 }
 
+DrawnSmoke drawn_smoke(std::span<const SmokePuff> puffs, std::span<const Headlight> headlights, const Vec3& eye_m) {
+  DrawnSmoke drawn{merged_puffs(puffs, eye_m), {}};
+  drawn.beams = light_of_beams(drawn.puffs, headlights, eye_m);
+  return drawn;
+}
+
 float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const Vec3& point_m) {
   const Vec3 way = point_m - eye_m;
   const double length = glm::length(way);
@@ -130,25 +134,24 @@ float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const V
     const Vec3 to_puff = puff.position_m - eye_m;
     const double at = glm::dot(to_puff, along);
     if (at < 0.0 || at > length) continue;
-    const double square = glm::dot(to_puff, to_puff) - at * at, radius = puff.radius_m;
-    if (square < 9.0 * radius * radius)
-      depth += depth_through_middle(puff) * std::exp(-0.5 * square / (radius * radius));
+    const double deviations2 = (glm::dot(to_puff, to_puff) - at * at) / (double(puff.radius_m) * puff.radius_m);
+    if (deviations2 < 9.0) depth += depth_through_middle(puff) * light::puff_density(static_cast<float>(deviations2));
   }
   return static_cast<float>(std::exp(-depth));
 }
 
-std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const DeviceScene& scene, const SkyLight& light,
+std::vector<PuffRecord> puff_records(const DrawnSmoke& smoke, const DeviceScene& scene, const SkyLight& light,
                                      const FrameView& view, const Vec3& eye_m) {
   struct Placed {
     glm::vec3 at;
     float distance_m;
-    const SmokePuff* puff;
+    std::size_t puff;
   };
   const ViewVolume volume = view_volume(view);
   std::vector<Placed> placed;
-  for (const SmokePuff& puff : merged) {
-    const glm::vec3 at(puff.position_m - eye_m);
-    if (intersects(volume, at, drawn_deviations * puff.radius_m)) placed.push_back({at, glm::length(at), &puff});
+  for (std::size_t i = 0; i < smoke.puffs.size(); ++i) {
+    const glm::vec3 at(smoke.puffs[i].position_m - eye_m);
+    if (intersects(volume, at, light::puff_reach * smoke.puffs[i].radius_m)) placed.push_back({at, glm::length(at), i});
   }
   std::ranges::stable_sort(placed, {}, &Placed::distance_m);
   // Front to back, so that puffs behind dense smoke are found; then reversed.
@@ -157,7 +160,8 @@ std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const De
   Coverage coverage;
   std::vector<PuffRecord> records;
   for (const Placed& p : placed) {
-    const float radius = drawn_deviations * p.puff->radius_m, depth = depth_through_middle(*p.puff);
+    const SmokePuff& puff = smoke.puffs[p.puff];
+    const float radius = light::puff_reach * puff.radius_m, depth = depth_through_middle(puff);
     const Vec3 in_car = car_from_world * Vec3(p.at);
     const double ahead = -glm::dot(in_car, projection.back);
     if (ahead > 2.0 * radius) {
@@ -170,9 +174,10 @@ std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const De
                         static_cast<float>(2.0 * radius / (ahead * high)), depth))
         continue;
     }
-    const glm::vec3 radiance = scattered(*p.puff, share_of_sky(scene.summary, p.puff->position_m), light);
-    records.push_back({glm::vec4(p.at, radius), glm::vec4(radiance, depth),
-                       glm::vec4(static_cast<float>(p.puff->seed % 1024u) / 1024.0f)});
+    const glm::vec3 radiance = scattered(puff, share_of_sky(scene.summary, puff.position_m), light) +
+                               light::puff_scatters(puff.albedo, smoke.beams[p.puff]);
+    records.push_back({glm::vec4(p.at, puff.radius_m), glm::vec4(radiance, depth),
+                       glm::vec4(static_cast<float>(puff.seed % 1024u) / 1024.0f)});
   }
   std::ranges::reverse(records);
   return records;

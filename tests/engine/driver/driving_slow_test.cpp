@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/world/limited_sight.hpp"
 #include "logging/study/measures/glances.hpp"
 #include "logging/study/measures/lane_changes.hpp"
 #include "logging/study/measures/lateral_position.hpp"
@@ -266,6 +267,25 @@ TEST_CASE("behind a car that stops the driver clutches in and drives off again")
   }
   CHECK(stood);
   CHECK(loop.snapshot.driver_car.speed_mps > 8.0);
+}
+
+TEST_CASE("a simulated driver goes so fast that he stops within what he sees and stands where he sees nothing") {
+  ClosedLoop loop("plain", 1, -3, 100.0, 27.8);
+  const auto settled_mps = [&](double seen_m) {
+    for (int tick = 0; tick < 30 * 120; ++tick) {
+      loop.snapshot.effects = {
+          {limited_sight_effect_id, limited_sight_keyframe_kind,
+           encode_limited_sights(std::vector<LimitedSight>{{simulation::driver_participant, seen_m}}),
+           loop.snapshot.tick}};
+      loop.tick();
+    }
+    return loop.snapshot.driver_car.speed_mps;
+  };
+  // 43 km/h at 50 m, as StVO § 3 allows at most 50 there.
+  CHECK(settled_mps(50.0) == relative(12.1, 0.05));
+  CHECK(settled_mps(20.0) == relative(6.9, 0.07));
+  CHECK(settled_mps(2.0) < 0.1);
+  CHECK(settled_mps(50.0) > 11.0);  // It lifts, and he goes on.
 }
 
 }  // namespace septet::driver

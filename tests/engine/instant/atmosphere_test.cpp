@@ -1,8 +1,6 @@
 #include "engine/instant/atmosphere.hpp"
 
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -91,31 +89,6 @@ TEST_CASE("night is dark and a moon stands opposite the sun") {
 TEST_CASE("fog hides at its visibility all but a fiftieth of the contrast") {
   // Koschmieder: contrast falls to 2 % at the meteorological range.
   CHECK(std::exp(-light_at(0.8, 0.0, 400.0).fog_per_m * 400.0f) == relative(0.02, 0.01));
-}
-
-TEST_CASE("rain hides as much as its drops do, snow more, and neither where none falls") {
-  Environment environment;
-  environment.temperature_k = 283.0;
-  CHECK(fall_extinction_per_m(environment) == 0.0);
-  // Per km, for millimetres an hour.
-  for (const std::array<double, 2>& row : {std::array{1.0, 0.31}, std::array{5.0, 0.92}, std::array{10.0, 1.46},
-                                           std::array{25.0, 2.7}, std::array{50.0, 4.3}}) {
-    environment.rain_mm_per_h = row[0];
-    CHECK(1000.0 * fall_extinction_per_m(environment) == relative(row[1], 0.02));
-  }
-  environment.rain_mm_per_h = 2.0;
-  const double rain = fall_extinction_per_m(environment);
-  environment.temperature_k = 273.0;
-  const double wet_snow = fall_extinction_per_m(environment);
-  environment.temperature_k = 265.0;
-  const double dry_snow = fall_extinction_per_m(environment);
-  CHECK(wet_snow > 2.0 * rain);
-  CHECK(dry_snow > wet_snow);
-  for (const double nonsense : {-3.0, std::numeric_limits<double>::quiet_NaN(), 1e300}) {
-    environment.rain_mm_per_h = nonsense;
-    CHECK(fall_extinction_per_m(environment) >= 0.0);
-    CHECK(fall_extinction_per_m(environment) < 4.0);
-  }
 }
 
 TEST_CASE("light is finite for every elevation and weather") {

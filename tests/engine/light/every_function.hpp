@@ -13,6 +13,7 @@
 #include "engine/light/lamplight.hpp"
 #include "engine/light/language.hpp"
 #include "engine/light/microfacets.hpp"
+#include "engine/light/puff.hpp"
 #include "engine/light/ruts.hpp"
 #include "engine/light/sky_irradiance.hpp"
 #include "engine/light/sky_tables.hpp"
@@ -23,7 +24,7 @@
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 52u;
+LIGHT_CONST uint function_count = 54u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -153,6 +154,11 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
       return vec4(beacon_share(one, normalize(vec2(b.x - 0.5f, 0.6f * b.y + 0.1f))));
     case 51u:
       return vec4(beacon_irradiance((1.0f + 3.0f * b.z) * one, other, normalize(vec2(b.x - 0.5f, 0.6f * b.y + 0.1f))));
+    case 52u:
+      return vec4(puff_falloff(a.x), puff_density(9.0f * a.y), puff_depth(a.z, 0.1f + a.w), puff_billows(b.x, b.y));
+    case 53u:
+      return vec4(puff_passes(a.x, a.y), puff_half_side(a.z), puff_shown(3.0f * a.w),
+                  puff_scatters(vec3(b.x), vec3(b.y)).x);
     default:
       return vec4(0.0f);
   }

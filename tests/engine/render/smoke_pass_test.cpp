@@ -65,10 +65,10 @@ TEST_CASE("what lies behind much smoke is not drawn and what is drawn comes fart
   std::vector<SmokePuff> puffs = cloud(45'000, {30, 0, 0}, 14.0);
   const auto far = cloud(500, {200, 0, 0}, 5.0);
   puffs.insert(puffs.end(), far.begin(), far.end());
-  const auto merged = merged_puffs(puffs, {0, 0, 0});
-  const auto records = puff_records(merged, {}, {}, level_view(), {0, 0, 0});
+  const DrawnSmoke smoke = drawn_smoke(puffs, {}, {0, 0, 0});
+  const auto records = puff_records(smoke, {}, {}, level_view(), {0, 0, 0});
   REQUIRE(!records.empty());
-  CHECK(records.size() < merged.size() * 3 / 4);
+  CHECK(records.size() < smoke.puffs.size() * 3 / 4);
   for (const PuffRecord& record : records) CHECK(record.position_radius.x < 100.0f);
   for (std::size_t i = 1; i < records.size(); ++i)
     CHECK(glm::length(glm::vec3(records[i - 1].position_radius)) >= glm::length(glm::vec3(records[i].position_radius)));
@@ -76,8 +76,25 @@ TEST_CASE("what lies behind much smoke is not drawn and what is drawn comes fart
 
 TEST_CASE("thin smoke far away is drawn") {
   const auto records =
-      puff_records(merged_puffs(cloud(50, {200, 0, 0}, 5.0), {0, 0, 0}), {}, {}, level_view(), {0, 0, 0});
+      puff_records(drawn_smoke(cloud(50, {200, 0, 0}, 5.0), {}, {0, 0, 0}), {}, {}, level_view(), {0, 0, 0});
   CHECK(!records.empty());
+}
+
+TEST_CASE("a beam lights smoke by its candela over the square of the way and less behind other smoke") {
+  const auto puff_at = [](double x_m, float depth) {
+    SmokePuff puff;
+    puff.position_m = {x_m, 0.0, 0.0};
+    puff.radius_m = 1.0f;
+    puff.extinction_area_m2 = depth * 2.0f * std::numbers::pi_v<float>;
+    return puff;
+  };
+  const Headlight lamp{{0.0, 0.0, 0.0}, {1.0f, 0.0f, 0.0f}, 4.0f, 1.0f};
+  const std::vector puffs{puff_at(20.0, 1.0f), puff_at(10.0, 0.3f)};
+  const auto both = light_of_beams(puffs, std::span(&lamp, 1), {0, 0, 0});
+  const auto alone = light_of_beams(std::span(puffs).first(1), std::span(&lamp, 1), {0, 0, 0});
+  CHECK(both[1].r / alone[0].r == relative((400.0 + 1.0) / (100.0 + 1.0), 1e-4));
+  CHECK(both[0].r / alone[0].r == relative(std::exp(-0.3), 0.1));
+  CHECK(light_of_beams(puffs, {}, {0, 0, 0})[0] == glm::vec3(0.0f));
 }
 
 }  // namespace septet::render

@@ -79,11 +79,13 @@ TEST_CASE("flames stand on the vehicle that burns within a second and in a tunne
     for (const int steps : {60, 180, 600}) {
       const FireState state = burn(s_m, steps, 3);
       const Vec3 fire = van_at(s_m).world_from_vehicle.position_m;
+      const VehicleModel& van = vehicle_models()[van_at(s_m).model];
+      const Vec3 below_seat = van_at(s_m).world_from_vehicle * Vec3(van.front_m() - 0.25 * van.length_m, 0.0, 0.0);
       double flames_m2 = 0.0, on_van_m2 = 0.0;
       for (const smoke::Puff& puff : smoke::puffs_of(state.keyframes, steps / 60.0)) {
         if (puff.glow < 0.2f) continue;
         flames_m2 += puff.extinction_area_m2;
-        if (puff.position_m.z < fire.z + 4.5 && glm::length(glm::dvec2(puff.position_m - fire)) < 5.0)
+        if (puff.position_m.z < fire.z + 4.5 && glm::length(glm::dvec2(puff.position_m - below_seat)) < 5.0)
           on_van_m2 += puff.extinction_area_m2;
       }
       CAPTURE(s_m);
@@ -91,8 +93,8 @@ TEST_CASE("flames stand on the vehicle that burns within a second and in a tunne
       CAPTURE(flames_m2);
       // Two metres wide and two high, they hide a third of the picture behind them.
       CHECK(on_van_m2 > (steps < 100 ? 0.6 : 1.6));
-      // The current under the roof carries the rest along.
-      CHECK(on_van_m2 > 0.38 * flames_m2);
+      // Rising for 1.4 s at 2.5 m/s from 2.2 m up, 0.78 of them are below 4.5 m; the current under the roof bends the tips away.
+      CHECK(on_van_m2 > 0.5 * flames_m2);
     }
 }
 
