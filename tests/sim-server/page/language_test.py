@@ -67,7 +67,7 @@ def told_of_clients(root):
     host = (root / "sim-server/host/screen_host.cpp").read_text(encoding="utf-8")
     joined = re.sub(r'"\s*\n\s*"', "", host)
     found = re.findall(r'tell\(\w+,\s*(?:fmt::format\()?"([^"]+)"', joined)
-    assert len(found) == joined.count("  tell(client,"), found
+    assert len(found) == joined.count(" tell(client,"), found
     yield from (re.sub(r"\{[^}]*\}", "{}", sentence) for sentence in found)
 
 
