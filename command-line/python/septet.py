@@ -203,6 +203,11 @@ class Handle:
         """One colour, each part from 0 to 1 as in pictures, in the place of all its materials."""
         self._world._change(f"color {self.node} {_numbers((red, green, blue))}")
 
+    def hang_on(self, participant: Union[int, "Participant", "Car"]) -> None:
+        """On one vehicle: its position is then in that one's frame, x forward, y left, z up from the ground below the rear axle."""
+        number = participant if isinstance(participant, int) else participant.id
+        self._world._change(f"hang {self.node} {number}")
+
     def remove(self) -> None:
         self._world._change(f"remove {self.node}")
 

@@ -1,11 +1,14 @@
 #include "sim-client/frame/client_frame.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
@@ -159,6 +162,37 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
   return result;
 }
 
+namespace {
+
+/// What editors have hung on participants, by their numbers: the prototypes `participant/NUMBER`. Mostly nothing.
+std::vector<std::pair<ParticipantId, std::uint32_t>> hung_things(const scene::ResolvedScene& scene) {
+  constexpr std::string_view prefix = "participant/";
+  std::vector<std::pair<ParticipantId, std::uint32_t>> hung;
+  for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i) {
+    const std::string& name = scene.prototypes[i].name;
+    ParticipantId number = 0;
+    if (name.starts_with(prefix) &&
+        std::from_chars(name.data() + prefix.size(), name.data() + name.size(), number).ptr ==
+            name.data() + name.size())
+      hung.emplace_back(number, i);
+  }
+  return hung;
+}
+
+/// Added with the vehicle's motion, without its lamps and its spray.
+void add_hung_things(instant::FrameInput& frame, const Participant& participant,
+                     const std::vector<std::pair<ParticipantId, std::uint32_t>>& hung) {
+  for (const auto& [number, prototype] : hung) {
+    if (number != participant.id) continue;
+    auto drawn = instant::drawn_participant(participant, prototype);
+    drawn.lamps = {};
+    drawn.raises_spray = false;
+    frame.participants.push_back(drawn);
+  }
+}
+
+}  // namespace
+
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
                                  const scene::ResolvedScene& scene) {
   if (views.only_instruments) return panel_frame(shown, views, viewpoint, scene);
@@ -168,7 +202,9 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
   frame.views = views.views;
   for (auto& view : frame.views) view.world_from_car = viewpoint.world_from_views;
 
+  const auto hung = hung_things(scene);
   for (const Participant& participant : shown.participants) {
+    add_hung_things(frame, participant, hung);
     const auto prototype = prototype_of(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;
     auto drawn = instant::drawn_participant(participant, *prototype);

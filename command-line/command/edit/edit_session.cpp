@@ -44,7 +44,8 @@ EditSession::EditSession(EditClient& client, const EditOutput& output)
     : client_(client), output_(output), names_{client.own_ids(), client.own_ids()}, before_(client.store()) {}
 
 bool EditSession::reads_scene(std::string_view line) {
-  constexpr std::array<std::string_view, 6> verbs{"find", "read", "save", "undo", "wait", "remove"};
+  constexpr std::array<std::string_view, 9> verbs{"find",   "read", "save",    "undo", "wait",
+                                                  "remove", "text", "picture", "color"};
   return std::ranges::find(verbs, first_word(line)) != verbs.end();
 }
 

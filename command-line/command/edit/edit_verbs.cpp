@@ -76,6 +76,7 @@ class Verbs {
     if (verb == "picture") return picture(rest);
     if (verb == "text") return text(rest);
     if (verb == "color") return color(rest);
+    if (verb == "hang") return hang(rest);
     auto command = command_from_words(words, {store_, names_.own_ids, nullptr, &names_.fresh});
     if (!command) return tl::unexpected(command.error());
     learn(*command);
@@ -241,6 +242,27 @@ class Verbs {
     for (int i = 0; i < 3; ++i)
       linear[i] = static_cast<float>(image::light_of_srgb(std::clamp((*rgb)[static_cast<std::size_t>(i)], 0.0, 1.0)));
     return keep(make_colour(store_, *id, linear, *first));
+  }
+
+  /// The prototype of what hangs on one participant has a link of each thing's own, by its id.
+  Expected<EditedLine> hang(Words words) {
+    constexpr std::string_view usage = "hang NODE NUMBER, a node of this editor's own and the number of a participant";
+    const auto number = words.size() == 2 ? numbers(words.subspan(1)) : std::nullopt;
+    const auto id = words.empty() ? std::nullopt : object(words[0]);
+    if (!number || number->front() < 0.0 || number->front() > 4e9 || !id ||
+        *id - names_.own_ids >= replication::ids_per_session)
+      return wrong("a thing and a participant are needed", usage);
+    const auto first = free_ids("");
+    if (!first) return tl::unexpected(first.error());
+    const std::string root = fmt::format("model/participant/{:.0f}", number->front());
+    Made made{{}, *first};
+    auto parent = object({root, true});
+    if (!parent) {
+      parent = made.next++;
+      made.commands = {NodeCreate{*parent, NodeType::object}, NodeNameSet{*parent, root}};
+    }
+    made.commands.emplace_back(LinkSet{*parent, static_cast<PartId>(*id - names_.own_ids), {"child", *id, 0}});
+    return keep(std::move(made));
   }
 
   const Store& store_;

@@ -1,7 +1,10 @@
 #include "command-line/command/edit/shapes.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <utility>
 #include <variant>
@@ -26,24 +29,37 @@ Made built(scene::NodeId first, const std::function<void(scene::SceneBuilder&)>&
   return made;
 }
 
-/// The links to materials of an object, those of the first index first.
-std::vector<std::pair<scene::PartId, std::uint32_t>> material_links(const scene::Store& store, scene::NodeId id) {
+/// A link by which an object wears a material.
+struct Worn {
+  scene::NodeId object = scene::no_node;
+  scene::PartId link = 0;
+  std::uint32_t index = 0;  ///< Of the material in the object's geometry.
+};
+
+/// The links of an object and of those below it, each object's of the first index first.
+void find_worn(const scene::Store& store, scene::NodeId id, std::set<scene::NodeId>& seen, std::vector<Worn>& worn) {
   const scene::Node* node = store.find(id);
   const auto* object = node ? std::get_if<scene::ObjectData>(&node->data) : nullptr;
-  // What make_board and SceneBuilder make: the geometry's link, then that of the first material.
-  if (!object) return {{1, 0}};
-  std::vector<std::pair<scene::PartId, std::uint32_t>> links;
+  if (!object || !seen.insert(id).second) return;
+  const auto first = static_cast<std::ptrdiff_t>(worn.size());
   for (const auto& [link_id, link] : object->links)
-    if (link.label == "material") links.emplace_back(link_id, link.target_id);
-  if (links.empty())
-    links.emplace_back(
-        object->links.empty() ? scene::PartId{0} : static_cast<scene::PartId>(object->links.rbegin()->first + 1), 0u);
-  std::ranges::stable_sort(links, {}, &std::pair<scene::PartId, std::uint32_t>::second);
-  return links;
+    if (link.label == "material") worn.push_back({id, link_id, link.target_id});
+  std::stable_sort(worn.begin() + first, worn.end(), [](const Worn& a, const Worn& b) { return a.index < b.index; });
+  for (const auto& [link_id, link] : object->links)
+    if (link.label == "child") find_worn(store, link.target, seen, worn);
 }
 
-void wear(Made& made, scene::NodeId object, std::pair<scene::PartId, std::uint32_t> link, scene::NodeId material) {
-  made.commands.emplace_back(scene::LinkSet{object, link.first, {"material", material, link.second}});
+std::vector<Worn> worn_by(const scene::Store& store, scene::NodeId object) {
+  std::vector<Worn> worn;
+  std::set<scene::NodeId> seen;
+  find_worn(store, object, seen, worn);
+  // One of the same batch: a board, whose first link is to its geometry.
+  if (worn.empty()) worn.push_back({object, 1, 0});
+  return worn;
+}
+
+void wear(Made& made, const Worn& worn, scene::NodeId material) {
+  made.commands.emplace_back(scene::LinkSet{worn.object, worn.link, {"material", material, worn.index}});
 }
 
 }  // namespace
@@ -95,7 +111,7 @@ Made make_picture(const scene::Store& store, scene::NodeId object, const image::
     look.two_sided = true;
     material = builder.add_material("", look);
   });
-  wear(made, object, material_links(store, object).front(), material);
+  wear(made, worn_by(store, object).front(), material);
   return made;
 }
 
@@ -107,7 +123,7 @@ Made make_colour(const scene::Store& store, scene::NodeId object, glm::vec3 line
     look.two_sided = true;
     material = builder.add_material("", look);
   });
-  for (const auto& link : material_links(store, object)) wear(made, object, link, material);
+  for (const Worn& worn : worn_by(store, object)) wear(made, worn, material);
   return made;
 }
 

@@ -25,8 +25,8 @@ Expected<Made> make_model(const std::string& name, const std::filesystem::path& 
 /// A board that stands upright, its middle at the object's origin; it is seen from both sides and reads from +x.
 Made make_board(const std::string& name, double width_m, double height_m, const scene::Transform& transform,
                 scene::NodeId first);
-/// A material with this picture, or of this colour, in the place of the object's first: `object` may be one that the
-/// store has not yet, then it is a board.
+/// A material with this picture in the place of the first of the object and what is below it, or of this colour in the
+/// place of all: `object` may be one that the store has not yet, then it is a board.
 Made make_picture(const scene::Store& store, scene::NodeId object, const image::Image& picture, scene::NodeId first);
 Made make_colour(const scene::Store& store, scene::NodeId object, glm::vec3 linear_rgb, scene::NodeId first);
 

@@ -79,6 +79,11 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         sign = world.board("stimuli/sign", 2, 1, first.driver.ahead(60))
         sign.show_text("STOP")
         sign.paint(1, 0, 0)
+        lines = world._ask(["read stimuli/sign"]).result(60)
+        assert [line.split()[3] for line in lines if line.startswith("link-set")] == ["geometry", "material"], lines
+        sign.hang_on(first.driver)
+        sign.position = (-1, 0, 2)
+        assert len(world.find(f"model/participant/{first.car.id}")) == 1
         # A batch is done whole at its tick, or nothing of it.
         at = first.tick + 240
         with world.batch(at_tick=at) as later:
