@@ -12,6 +12,7 @@
 
 #include "engine/math/polygon.hpp"
 #include "engine/road/road_position.hpp"
+#include "engine/roadside/mentions.hpp"
 #include "engine/roadside/plane_cells.hpp"
 
 namespace septet::roadside {
@@ -48,6 +49,7 @@ class AreaBuilder {
       : network_(network), areas_(areas), complete_(complete) {}
 
   void add(road::RoadIndex index, const road::RoadObject& object) {
+    is_grown_ = mentions(object.subtype, "grass");
     for (const road::ObjectRepeat& repeat : object.repeats)
       repeat.distance_m > 0.0 ? add_row(index, object, repeat) : add_strip(index, repeat);
     if (!object.repeats.empty()) return;
@@ -79,7 +81,7 @@ class AreaBuilder {
     if (corners.size() > most_corners || corners.size() > corners_left_) return void(complete_ = false);
     const double most_m = std::ranges::max(corners, {}, &Corner::over_m).over_m;
     if (!(most_m > lowest_m && most_m <= highest_kerb_m)) return;
-    RaisedArea area{at.road, at.s_m, {}, Vec2(corners.front().top_m), Vec2(corners.front().top_m)};
+    RaisedArea area{at.road, at.s_m, {}, Vec2(corners.front().top_m), Vec2(corners.front().top_m), is_grown_};
     for (const Corner& corner : corners) {
       area.top_m.push_back(corner.top_m);
       area.low_m = glm::min(area.low_m, Vec2(corner.top_m));
@@ -160,6 +162,7 @@ class AreaBuilder {
   std::vector<RaisedArea>& areas_;
   bool& complete_;
   std::size_t corners_left_ = most_corners_of_all;
+  bool is_grown_ = false;
 };
 
 RaisedArea area_of(const JunctionCorner& corner) {

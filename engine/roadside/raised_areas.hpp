@@ -27,6 +27,7 @@ struct RaisedArea {
   double s_m = 0.0;          ///< Station of its beginning.
   std::vector<Vec3> top_m;   ///< Corners of its upper edge, world frame; the last one is joined to the first.
   Vec2 low_m{0.0}, high_m{0.0};
+  bool is_grown = false;  ///< Grass within its kerb, by the object's subtype.
 };
 
 class RaisedAreas {

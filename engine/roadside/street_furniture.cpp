@@ -15,7 +15,9 @@ namespace {
 constexpr double least_pavement_m = 2.0, from_end_m = 8.0, clear_m = 4.0;
 constexpr double beside_kerb_m = 0.5, before_edge_m = 0.45;
 using enum FurnitureKind;
-constexpr std::array standing{bin, bench, letter_box, cabinet, advertising_column, cycle_stands, planter, bollard, bin};
+/// What stands there, by how often.
+constexpr std::array standing{bin,     bin,     bin,          bench,   bench,   bollard,    bollard,
+                              bollard, cabinet, cycle_stands, planter, planter, letter_box, advertising_column};
 
 bool stands_at_kerb(FurnitureKind kind) { return kind == bin || kind == bollard || kind == cycle_stands; }
 

@@ -76,14 +76,14 @@ bool begins_in(const RoadTile& tile, const WorldContext& world, road::RoadIndex 
 
 }  // namespace
 
-void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised) {
+void build_kerbs(const WorldContext& world) {
+  const roadside::RaisedAreas& raised = world.raised;
   if (raised.of_objects().empty() && raised.corners().empty()) return;
   constexpr float foot_m = 0.5f;  // Depth of the face: the road under it may fall away.
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
     geometry::MeshBuilder builder;
     for (const roadside::JunctionCorner& corner : raised.corners())
       if (begins_in(tile, world, corner.road, corner.s_m)) draw_corner(builder, world, tile, corner);
-    builder.material = index_of(Ground::concrete);
     for (const roadside::RaisedArea& area : raised.of_objects()) {
       if (!begins_in(tile, world, area.road, area.s_m)) continue;
       std::vector<glm::vec3> top;
@@ -94,10 +94,12 @@ void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised)
         around += a.x * b.y - a.y * b.x;
       }
       if (around < 0.0) top = {top.rbegin(), top.rend()};
+      builder.material = index_of(area.is_grown ? Ground::kerb_stone : Ground::concrete);
       for (std::size_t i = 0; i < top.size(); ++i) {
         const glm::vec3 &a = top[i], &b = top[(i + 1) % top.size()], down(0.0f, 0.0f, -foot_m);
         builder.patch(a + down, b + down, b, a);
       }
+      if (area.is_grown) builder.material = index_of(Ground::verge);
       fill_top(builder, top);
     }
     geometry::PolygonMesh mesh = builder.take();

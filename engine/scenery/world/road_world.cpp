@@ -30,14 +30,15 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   const Terrain terrain(roads, seed);
   const Palette palette = add_world_finishes(builder, seed, has_towns(network));
   OwnShapes own(builder, options.own);
-  const WorldContext world{builder, roads, terrain, palette, own, seed};
   std::optional<roadside::RaisedAreas> own_raised;
+  const roadside::RaisedAreas& raised = options.raised ? *options.raised : own_raised.emplace(network);
+  const WorldContext world{builder, roads, terrain, raised, palette, own, seed};
   build_pavement(world);
   build_verges(world);
   build_far_road(world);
   build_land(world);
   build_barriers(world);
-  build_kerbs(world, options.raised ? *options.raised : own_raised.emplace(network));
+  build_kerbs(world);
   build_bridges(world);
   build_tunnels(world);
   build_gantries(world);

@@ -184,6 +184,13 @@ bool is_driven_along(const road::Road& road, const RoadTile& tile, double side) 
   return outermost == 0 || road::is_drivable(section.lane(outermost).type);
 }
 
+/// True where a pavement goes round a corner along this edge: behind it lies lawn.
+bool is_beside_corner(const WorldContext& world, const RoadTile& tile, double s, double side, const Vec3& edge) {
+  constexpr double beside_m = 0.3, least_rise_m = 0.05;
+  const Vec2 p = Vec2(edge) + outwards(world, tile, s, side) * beside_m;
+  return world.raised.ground_at(p, edge.z) > edge.z + least_rise_m;
+}
+
 /// True where another road may lie within the strip beside this tile.
 bool is_among_roads(const WorldContext& world, const RoadTile& tile) {
   const road::Road& road = world.roads.road(tile.road);
@@ -224,6 +231,9 @@ void draw_strip(const WorldContext& world, const RoadTile& tile, double side, St
   const bool lawn = columns.data() == town_columns.data();
   for (std::size_t i = 0; i < along.size(); ++i) {
     std::uint32_t row = 0;
+    const bool paved = driven && strip.among_roads && i > 0 &&
+                       (strip.free[i - 1].out_m < island_m || strip.free[i].out_m < island_m) &&
+                       !is_beside_corner(world, tile, along[i], side, strip.rows[i][0]);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const std::uint32_t v = builder.vertex(world.roads.local(tile, strip.rows[i][k]));
       if (k == 0) row = v;
@@ -236,8 +246,7 @@ void draw_strip(const WorldContext& world, const RoadTile& tile, double side, St
           break;
         if (left_out.contains({i, k})) continue;
         builder.material = index_of(!near ? Ground::far_verge : k == 0 && !lawn ? Ground::gravel : Ground::verge);
-        if (driven && strip.among_roads && (strip.free[i - 1].out_m < island_m || strip.free[i].out_m < island_m))
-          builder.material = index_of(Ground::asphalt_plain);
+        if (paved) builder.material = index_of(Ground::asphalt_plain);
         const auto u0 = static_cast<float>(columns[k].out_m / 3.5), u1 = static_cast<float>(columns[k + 1].out_m / 3.5);
         const auto v0 = static_cast<float>((along[i - 1] - tile.s0_m) / 3.5),
                    v1 = static_cast<float>((along[i] - tile.s0_m) / 3.5);

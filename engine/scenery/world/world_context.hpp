@@ -23,6 +23,7 @@ struct WorldContext {
   scene::SceneBuilder& builder;
   const RoadShape& roads;
   const Terrain& terrain;
+  const roadside::RaisedAreas& raised;
   const Palette& palette;  ///< Materials by Ground.
   OwnShapes& own;          ///< User's own models.
   std::uint64_t seed;
@@ -52,7 +53,7 @@ void build_far_road(const WorldContext& world);  ///< All parts of the road, sim
 void build_verges(const WorldContext& world);    ///< Ground from the asphalt's edge into the land.
 void build_land(const WorldContext& world);      ///< Fields, woods, far hills, water.
 void build_barriers(const WorldContext& world);  ///< Guard rails, median barrier, parapets, noise walls, posts.
-void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised);
+void build_kerbs(const WorldContext& world);     ///< Kerbs, islands, pavements round corners.
 void build_bridges(const WorldContext& world);
 void build_tunnels(const WorldContext& world);
 void build_gantries(const WorldContext& world);    ///< Gantries with signs and speed displays.

@@ -1,5 +1,6 @@
 #include "engine/roadside/junction_corners.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -38,8 +39,8 @@ bool is_driven(const road::RoadNetwork& network, const Vec2& p) {
   return false;
 }
 
-/// Distance of a place from the nearest pavement of a road outside of junctions.
-double off_pavement_m(const road::RoadNetwork& network, const Vec2& p) {
+/// Distance of a place from the nearest lane of these types outside of junctions; 1 if further than 0.3 m.
+double distance_m(const road::RoadNetwork& network, const Vec2& p, const std::vector<road::LaneType>& types) {
   for (double reach_m = 0.0; reach_m <= 0.3; reach_m += 0.02)
     for (int i = 0; i < 12; ++i) {
       const double angle = i * 0.5236;
@@ -47,7 +48,8 @@ double off_pavement_m(const road::RoadNetwork& network, const Vec2& p) {
            road::roads_holding(network, p + reach_m * Vec2(std::cos(angle), std::sin(angle)))) {
         const road::RoadPosition& at = location.position;
         if (network.roads[at.road].junction == road::no_index &&
-            road::lane_type(network, at.road, location.lanes.lane_any_type, at.s_m) == road::LaneType::sidewalk)
+            std::ranges::find(types, road::lane_type(network, at.road, location.lanes.lane_any_type, at.s_m)) !=
+                types.end())
           return reach_m;
       }
     }
@@ -63,7 +65,7 @@ TEST_CASE("pavements go round every corner of the town's junctions, from one str
   for (const JunctionCorner& corner : corners) {
     REQUIRE(corner.kerb_m.size() == corner.edge_m.size());
     for (const Vec3& end : {corner.kerb_m.front(), corner.kerb_m.back()})
-      apart += off_pavement_m(network, Vec2(end)) > 0.05;
+      apart += distance_m(network, Vec2(end), {road::LaneType::sidewalk, road::LaneType::biking}) > 0.05;
     for (std::size_t i = 0; i < corner.kerb_m.size(); ++i)
       driven += is_driven(network, Vec2(glm::mix(corner.kerb_m[i], corner.edge_m[i], 0.05)));
   }
@@ -117,7 +119,7 @@ TEST_CASE("benches, bins and boxes stand on a town's pavements, and lids lie in 
     if (radius_of(thing.kind) <= 0.0) continue;
     const Vec2 p(thing.world_from_thing.position_m);
     driven += is_driven(network, p);
-    off += off_pavement_m(network, p) > 0.0;
+    off += distance_m(network, p, {road::LaneType::sidewalk}) > 0.0;
   }
   for (const int count : of_kind) CHECK(count > 20);
   CHECK(driven == 0);
