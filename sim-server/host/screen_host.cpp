@@ -385,7 +385,7 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
     unicast_.erase(destination);
   }
   watchers_.erase(client);
-  if (!is_of_the_rig(known->second)) tell(client, fmt::format("{} left: {}", known->second, reason), now_s);
+  if (!is_of_the_rig(known->second)) tell(client, fmt::format("the client {} left: {}", known->second, reason), now_s);
   if (car_client_ == client) {
     tell(client, fmt::format("the car left: {}", reason), now_s);
     options_.car->device.lose("the connection to septet-car was lost");

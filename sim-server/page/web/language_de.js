@@ -430,6 +430,7 @@ languages.de = {
   "said.screen {screen} shows tick {tick}, {seconds} s after it connected": "Bildschirm {screen} zeigt Tick {tick}, {seconds} s nach dem Verbinden",
   "said.the car connected": "das Auto ist verbunden",
   "said.the car left: {why}": "das Auto ist weg: {why}",
+  "said.the client {client} left: {why}": "der Klient {client} ist weg: {why}",
   "said.refused the client {client} at {address}: {why}": "abgewiesen: {client} von {address}: {why}",
   "said.replaced by a new connection": "von einer neuen Verbindung ersetzt",
   "said.not heard for {seconds} s": "seit {seconds} s nicht gehört",

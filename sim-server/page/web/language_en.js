@@ -430,6 +430,7 @@ languages.en = {
   "said.screen {screen} shows tick {tick}, {seconds} s after it connected": "screen {screen} shows tick {tick}, {seconds} s after it connected",
   "said.the car connected": "the car connected",
   "said.the car left: {why}": "the car left: {why}",
+  "said.the client {client} left: {why}": "the client {client} left: {why}",
   "said.refused the client {client} at {address}: {why}": "refused the client {client} at {address}: {why}",
   "said.replaced by a new connection": "replaced by a new connection",
   "said.not heard for {seconds} s": "not heard for {seconds} s",

@@ -430,6 +430,7 @@ languages.sv = {
   "said.screen {screen} shows tick {tick}, {seconds} s after it connected": "skärm {screen} visar tick {tick}, {seconds} s efter anslutningen",
   "said.the car connected": "bilen är ansluten",
   "said.the car left: {why}": "bilen är borta: {why}",
+  "said.the client {client} left: {why}": "klienten {client} är borta: {why}",
   "said.refused the client {client} at {address}: {why}": "avvisad: {client} från {address}: {why}",
   "said.replaced by a new connection": "ersatt av en ny anslutning",
   "said.not heard for {seconds} s": "inte hörd på {seconds} s",
