@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/sight/air.hpp"
+
 namespace septet::traffic {
 namespace {
 
@@ -49,6 +51,13 @@ FollowingLaw::FollowingLaw(const FollowingParameters& driver)
       standstill_gap_m(driver.standstill_gap_m),
       half_inverse_root_ab(0.5 / std::sqrt(driver.acceleration_mps2 * driver.comfortable_braking_mps2)),
       comfortable_braking_mps2(driver.comfortable_braking_mps2) {}
+
+double acceleration_within_sight(const FollowingParameters& driver, double speed_mps, double seen_m) {
+  constexpr double reaction_s = 1.0, settles_s = 1.0;
+  const double braking_mps2 = driver.comfortable_braking_mps2;
+  const double most_mps = sight::stopping_speed_mps(seen_m - driver.standstill_gap_m, reaction_s, braking_mps2);
+  return std::max(-2.0 * braking_mps2, (most_mps - speed_mps) / settles_s);
+}
 
 double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m) {
   const FollowingLaw law(driver);

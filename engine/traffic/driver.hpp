@@ -56,6 +56,10 @@ double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m);
 /// Δv) in equilibrium (Treiber and Kesting, "Traffic Flow Dynamics", 2013, section 15.4).
 double idm_stability_margin(const FollowingParameters& driver, double gap_m);
 
+/// Acceleration of one who goes no faster than he can stop within what he sees, by his comfortable braking after a reaction of a second; braking is at
+/// most twice the comfortable.
+double acceleration_within_sight(const FollowingParameters& driver, double speed_mps, double seen_m);
+
 /// IDM, eqs. 3 and 4, with its constants computed once, for the loop over all vehicles.
 struct FollowingLaw {
   double inverse_desired_speed = 1.0, time_gap_s = 1.0, acceleration_mps2 = 1.0;

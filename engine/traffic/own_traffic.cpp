@@ -98,6 +98,7 @@ class CrossingTraffic final : public TrafficEngine {
   void stop() override { now().stop(); }
   void show_lights(std::span<const TrafficLight> lights) override { now().show_lights(lights); }
   void advance(std::span<const ForeignVehicle> foreign, double dt_s) override { now().advance(foreign, dt_s); }
+  void limit_sight(std::span<const LimitedSight> sights) override { now().limit_sight(sights); }
   bool release(ParticipantId id) override { return now().release(id); }
   void worsen(std::uint32_t more_vehicles) override { now().worsen(more_vehicles); }
   void append_participants(std::vector<Participant>& participants) const override {

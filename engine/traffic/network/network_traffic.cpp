@@ -14,7 +14,9 @@ namespace septet::traffic {
 SEPTET_MEMBER_GROUPS(TownVehicle, hashed(id), kept(model, paint, driver, law, urge),
                      hashed(outside, route, front_m, speed_mps, acceleration_mps2), kept(rolled_m),
                      hashed(claimed, claim, unused_s, waits_s), kept(stands_s), hashed(is_held))
-SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s, claims, foreign_stands_s), kept(bad_numbers, next_id))
+// Sights are given anew each tick.
+SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights), hashed(claims, foreign_stands_s),
+                     kept(bad_numbers, next_id))
 
 namespace {
 
@@ -57,6 +59,7 @@ class NetworkTraffic final : public TrafficEngine {
     if (before_s < swarm_remark_s && town_.time_s >= swarm_remark_s)
       remark_ = swarm_remark(town_.vehicles.size(), on_road());
   }
+  void limit_sight(std::span<const LimitedSight> sights) override { town_.sights.assign(sights.begin(), sights.end()); }
   bool release(ParticipantId id) override {
     const auto found = std::ranges::find(town_.vehicles, id, &TownVehicle::id);
     if (found == town_.vehicles.end()) return false;

@@ -114,6 +114,9 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
     const double line_m = negotiate(graph, shown, leader, dt_s, random, presences, town, i);
     const double within_m = wait_within_m(graph, presences, town, i);
     double a = acceleration_of(graph, vehicle, leader, std::min(line_m, within_m));
+    if (const auto sight = std::ranges::find(town.sights, vehicle.id, &LimitedSight::driver);
+        sight != town.sights.end())
+      a = std::min(a, acceleration_within_sight(vehicle.driver.following, vehicle.speed_mps, sight->seen_m));
     if (!std::isfinite(a)) a = 0.0, ++town.bad_numbers;
     vehicle.acceleration_mps2 = a;
   }

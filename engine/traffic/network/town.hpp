@@ -30,6 +30,7 @@
 #include "engine/traffic/driver.hpp"
 #include "engine/traffic/network/lane_graph.hpp"
 #include "engine/traffic/traffic.hpp"
+#include "engine/world/limited_sight.hpp"
 #include "engine/world/snapshot.hpp"
 #include "engine/world/traffic_light.hpp"
 
@@ -61,6 +62,7 @@ struct TownVehicle {
 struct TownState {
   std::vector<TownVehicle> vehicles;
   double time_s = 0.0;
+  std::vector<LimitedSight> sights;      ///< The caller's, of this tick.
   std::uint64_t claims = 0;              ///< Given so far.
   std::vector<double> foreign_stands_s;  ///< One a foreign vehicle.
   std::uint32_t bad_numbers = 0;
