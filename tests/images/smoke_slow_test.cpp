@@ -67,7 +67,7 @@ Picture rastered(const scene::ResolvedScene& scene, const instant::Instant& inst
 
 Picture traced(const scene::ResolvedScene& scene, const instant::Instant& instant) {
   auto tracer = *raytrace::RayTracer::create(scene);
-  tracer.begin(instant, {.samples = 512, .filter = raytrace::Filter::box});
+  tracer.begin(instant, {.samples = 256, .filter = raytrace::Filter::box});
   Picture picture;
   for (const raytrace::TracedPixel& pixel : raytrace::whole_picture(tracer, smoke_width_px, smoke_height_px).pixels)
     picture.push_back(pixel.radiance);
