@@ -24,6 +24,7 @@ _OF_BODY = ("mass_kg", "yaw_inertia_kgm2", "mass_centre_ahead_m", "delta_v_x_mps
             "principal_direction_rad", "crush_m")
 # What recomputed() holds against the snapshots.
 _MEASURED = {"with", "kinetic_before_j", "kinetic_after_j", "crush_j", "friction_j"} | {f"{of}{key}" for of in ("", "its_") for key in _OF_BODY}
+_LEAST_TURN_RADPS = 0.1  # Of less the snapshots' steps are too large a share.
 _MOST_TICKS = 240  # engine/world/crash_record.hpp
 _CORNER_M = 0.3  # engine/physics/impact/impact.toml: vehicles' corners in plan.
 
@@ -196,6 +197,6 @@ def recomputed(session):
             elif key.endswith("_j"):
                 scale = record["kinetic_before_j"] - record["kinetic_after_j"]
             elif key.endswith("delta_yaw_rate_radps"):
-                scale = max(abs(record["delta_yaw_rate_radps"]), abs(record["its_delta_yaw_rate_radps"]))
+                scale = max(abs(record["delta_yaw_rate_radps"]), abs(record["its_delta_yaw_rate_radps"]), _LEAST_TURN_RADPS)
             rows.append((int(record["tick"]), record["first"], int(record["with"]), key, logged, value, value - logged, scale))
     return pandas.DataFrame(rows, columns=columns)
