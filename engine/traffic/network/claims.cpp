@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "engine/traffic/network/town_stages.hpp"
 
@@ -268,13 +269,18 @@ double wait_within_m(const LaneGraph& graph, const Presences& presences, TownSta
   TownVehicle& vehicle = town.vehicles[index];
   const auto self = static_cast<std::int32_t>(index);
   double begin_m = 0.0, nearest_m = no_leader;
+  // Other lanes that it is over already: several sections of one are met one after the other.
+  std::vector<WayIndex> met;
   for (std::size_t k = 0; k < vehicle.claimed; ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
     const double front_m = vehicle.front_m - begin_m;
     begin_m += way.length_m;
+    for (const WayConflict& conflict : graph.conflicts_of(way))
+      if (conflict.from_m < front_m) met.push_back(graph.ways[conflict.with].entry);
     if (front_m > way.length_m) continue;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
       const double to_begin_m = conflict.from_m - front_m;
+      if (std::ranges::find(met, graph.ways[conflict.with].entry) != met.end()) continue;
       if (conflict.kind == WayConflict::Kind::diverging || to_begin_m < 0.0 || to_begin_m > nearest_m) continue;
       for (const Presence& other : presences.on(conflict.with)) {
         if (other.who == self || !other.claims || other.rear_m > conflict.with_to_m) continue;

@@ -5,8 +5,8 @@
 
 namespace septet::traffic {
 
-TEST_CASE("in an hour of two public towns no outlines overlap and nobody stands for three minutes") {
-  for (const std::string town : {"Town01", "Town03"})
+TEST_CASE("in an hour of a public town no outlines overlap and nobody stands for three minutes") {
+  for (const std::string town : {"Town01"})
     for (const std::uint32_t count : {40u, 100u}) {
       CAPTURE(town);
       CAPTURE(count);
