@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t batch_bytes = 32 * 1024;
 /// Answers to batches that are kept, of each kind.
-constexpr std::size_t most_answers = 10'000;
+constexpr std::size_t most_kept_answers = 10'000;
 
 /// Commands kept back at most, by their bytes; beyond that they are shown early.
 constexpr std::size_t most_held_bytes = 64u << 20;
@@ -221,11 +221,11 @@ struct ReplicationClient::State {
     return {};
   }
   Expected<void> operator()(const Refused& message) {
-    if (refusals.size() < most_answers) refusals.push_back(message);
+    if (refusals.size() < most_kept_answers) refusals.push_back(message);
     return {};
   }
   Expected<void> operator()(const Done& message) {
-    if (done.size() < most_answers) done.push_back(message);
+    if (done.size() < most_kept_answers) done.push_back(message);
     return {};
   }
   Expected<void> operator()(const Hello&) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int nodes_listed_at_once = 256;
 constexpr int requests_per_pump = 8192;
-constexpr std::size_t most_answers = 1000;
+constexpr std::size_t most_waiting_answers = 1000;
 /// Sessions' own ids lie above those that the server assigns, and begin again after many sessions.
 constexpr NodeId first_own_id = 0x40000000u, sessions_with_ids = 0xA000u;
 
@@ -242,7 +242,7 @@ struct ReplicationServer::State {
     const auto found = connections.find(connection);
     if (found == connections.end() || !found->second.session) return;
     std::deque<Message>& answers = found->second.session->answers;
-    if (answers.size() < most_answers) answers.push_back(std::move(message));
+    if (answers.size() < most_waiting_answers) answers.push_back(std::move(message));
   }
 
   Expected<ClientBatch> batch(Session& session, const CommandBatch& message) {

@@ -16,7 +16,7 @@ namespace septet::roadside {
 namespace {
 
 constexpr std::size_t points_of_corner = 13;
-constexpr double least_pavement_m = 0.5, joined_m = 0.3, longest_m = 80.0, inside_m = 0.05;
+constexpr double least_pavement_m = 0.5, joined_m = 0.3, longest_m = 80.0, inside_pavement_m = 0.05;
 
 /// Pavement on one side of a road's end.
 struct Pavement {
@@ -57,7 +57,7 @@ std::optional<Pavement> pavement_of(const road::RoadNetwork& network, road::Road
     const Vec3 on_lane = road::evaluate(network, {index, s_m, inside_t_m}).position_m;
     return Vec3(Vec2(road::evaluate(network, {index, s_m, t_m}).position_m), on_lane.z);
   };
-  return Pavement{point(kerb_t, kerb_t + side * inside_m), point(edge_t, edge_t - side * inside_m)};
+  return Pavement{point(kerb_t, kerb_t + side * inside_pavement_m), point(edge_t, edge_t - side * inside_pavement_m)};
 }
 
 Arm arm_of(const road::RoadNetwork& network, road::RoadIndex index, road::ContactPoint contact) {

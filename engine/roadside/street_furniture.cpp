@@ -12,7 +12,7 @@
 namespace septet::roadside {
 namespace {
 
-constexpr double least_pavement_m = 2.0, from_end_m = 8.0, clear_m = 4.0;
+constexpr double furnished_pavement_m = 2.0, from_road_end_m = 8.0, clear_of_signal_or_crossing_m = 4.0;
 constexpr double beside_kerb_m = 0.5, before_edge_m = 0.45;
 using enum FurnitureKind;
 /// What stands there, by how often.
@@ -27,14 +27,14 @@ class Street {
       : roads_(roads), index_(index), road_(roads.road(index)), things_(things) {}
 
   void furnish(double side, Random& random) {
-    for (double s = from_end_m + random.uniform(0.0, 10.0); s < road_.length_m - from_end_m;
+    for (double s = from_road_end_m + random.uniform(0.0, 10.0); s < road_.length_m - from_road_end_m;
          s += random.uniform(9.0, 24.0)) {
       const FurnitureKind kind = standing[random.below(standing.size())];
       const auto [kerb_t_m, edge_t_m] = pavement(s, side);
-      if (std::abs(edge_t_m - kerb_t_m) < least_pavement_m || !is_clear(s)) continue;
+      if (std::abs(edge_t_m - kerb_t_m) < furnished_pavement_m || !is_clear(s)) continue;
       place(kind, s, stands_at_kerb(kind) ? kerb_t_m + side * beside_kerb_m : edge_t_m - side * before_edge_m, side);
     }
-    for (double s = from_end_m + random.uniform(0.0, 20.0); s < road_.length_m - from_end_m;
+    for (double s = from_road_end_m + random.uniform(0.0, 20.0); s < road_.length_m - from_road_end_m;
          s += random.uniform(22.0, 34.0)) {
       place(gully, s, gutter_t_m(s, side) - side * 0.25, side);
       if (side > 0.0) place(manhole, s + 6.0, random.uniform(-1.0, 1.0), side);
@@ -70,9 +70,12 @@ class Street {
 
   bool is_clear(double s_m) const {
     return std::ranges::none_of(road_.signals,
-                                [&](const road::Signal& signal) { return std::abs(signal.s_m - s_m) < clear_m; }) &&
+                                [&](const road::Signal& signal) {
+                                  return std::abs(signal.s_m - s_m) < clear_of_signal_or_crossing_m;
+                                }) &&
            std::ranges::none_of(road_.objects, [&](const road::RoadObject& object) {
-             return object.type == "crosswalk" && std::abs(object.s_m - s_m) < clear_m + 0.5 * object.length_m;
+             return object.type == "crosswalk" &&
+                    std::abs(object.s_m - s_m) < clear_of_signal_or_crossing_m + 0.5 * object.length_m;
            });
   }
 
@@ -110,7 +113,7 @@ std::vector<Furniture> street_furniture(const RoadShape& roads, std::uint64_t se
   std::vector<Furniture> things;
   for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index) {
     const road::Road& road = roads.road(index);
-    if (road.junction != road::no_index || road.length_m < 3.0 * from_end_m ||
+    if (road.junction != road::no_index || road.length_m < 3.0 * from_road_end_m ||
         !is_in_town(roads.network(), index, 0.5 * road.length_m))
       continue;
     for (const double side : {1.0, -1.0}) {

@@ -122,7 +122,7 @@ double wall_m(const smoke::State& smoke, const View& view) {
 }
 
 /// What one driver sees.
-struct Seen {
+struct DriverSight {
   double reflecting_m = farthest_sight_m, shining_m = farthest_sight_m;
   double road_m = farthest_sight_m;  ///< Of the road, or to a vehicle that shines: from the front bumper on.
   Ahead nearest;
@@ -130,10 +130,10 @@ struct Seen {
   double wall_m = farthest_sight_m;
 };
 
-Seen look(const Model& model, const State& state, const std::vector<Participant>& participants, const Air& air,
-          const Participant& driver) {
+DriverSight look(const Model& model, const State& state, const std::vector<Participant>& participants, const Air& air,
+                 const Participant& driver) {
   const View view = view_of(model, driver);
-  Seen seen;
+  DriverSight seen;
   seen.nearest = nearest_ahead(participants, driver, view);
   if (air.smoke) seen.wall_m = wall_m(*air.smoke, view);
   const double end_m = std::min(seen.nearest.away_m, seen.wall_m);
@@ -171,7 +171,7 @@ Seen look(const Model& model, const State& state, const std::vector<Participant>
   return seen;
 }
 
-void note(const Seen& seen, ParticipantId driver, std::vector<Event>& events) {
+void note(const DriverSight& seen, ParticipantId driver, std::vector<Event>& events) {
   std::string detail =
       fmt::format("reflecting_m={:.1f} shining_m={:.1f} road_m={:.1f}", seen.reflecting_m, seen.shining_m, seen.road_m);
   const bool wall = seen.wall_m < seen.nearest.away_m;
@@ -194,7 +194,7 @@ void look_through_air(const Model& model, const std::vector<Participant>& partic
   for (const Participant& driver : participants) {
     if (driver.id != driver_participant && driver.id < first_traffic_participant) continue;
     if (!may_be_limited(air, driver)) continue;
-    const Seen seen = look(model, state, participants, air, driver);
+    const DriverSight seen = look(model, state, participants, air, driver);
     if (seen.road_m >= farthest_sight_m) continue;
     state.sights.push_back({driver.id, seen.road_m});
     if (notes) note(seen, driver.id, events);

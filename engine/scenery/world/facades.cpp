@@ -14,20 +14,20 @@ using geometry::lattice_random;
 using image::Color;
 using image::Image;
 
-constexpr std::uint32_t side_px = 128;
+constexpr std::uint32_t facade_px = 128;
 constexpr Color frame{246, 246, 242}, pane{52, 60, 72}, curtain{150, 152, 150}, sill{228, 226, 220},
     shade{150, 146, 140};
 
-Color grey(double value) {
+Color grey_pixel(double value) {
   const auto byte = static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
   return {byte, byte, byte};
 }
 
 template <class Value>
 Image wall(Value value) {
-  Image image(side_px, side_px);
-  for (std::uint32_t y = 0; y < side_px; ++y)
-    for (std::uint32_t x = 0; x < side_px; ++x) image.set(x, y, grey(value(x, y)));
+  Image image(facade_px, facade_px);
+  for (std::uint32_t y = 0; y < facade_px; ++y)
+    for (std::uint32_t x = 0; x < facade_px; ++x) image.set(x, y, grey_pixel(value(x, y)));
   return image;
 }
 
@@ -62,14 +62,14 @@ Image brick_facade_texture(std::uint64_t seed) {
     const std::uint32_t course = y / course_px, shifted = x + (course % 2) * brick_px / 2;
     const bool joint = y % course_px == 0 || shifted % brick_px == 0;
     return joint ? 190.0
-                 : 206.0 + 60.0 * (lattice_random(shifted / brick_px % (side_px / brick_px), course, seed) - 0.5);
+                 : 206.0 + 60.0 * (lattice_random(shifted / brick_px % (facade_px / brick_px), course, seed) - 0.5);
   });
   add_window(image);
   return image;
 }
 
 Image shop_front_texture(std::string_view name, Color sign) {
-  Image image(2 * side_px, side_px);
+  Image image(2 * facade_px, facade_px);
   image::fill(image, 0, 0, image.width, image.height, {188, 184, 176});
   image::fill(image, 4, 6, 248, 26, sign);
   const Lettering bold(image::FontStyle::bold);

@@ -5,6 +5,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/roadside/street_furniture.hpp"
+#include "engine/scenery/world/ground_box.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
@@ -13,11 +14,6 @@ namespace {
 
 using geometry::MeshBuilder;
 using roadside::FurnitureKind;
-
-void add_box(MeshBuilder& builder, Ground ground, const glm::vec3& low, const glm::vec3& high) {
-  builder.material = index_of(ground);
-  builder.append(geometry::box(low, high), glm::mat4(1.0f), true);
-}
 
 void add_post(MeshBuilder& builder, Ground ground, float radius, float low, float high, std::uint32_t sides = 10) {
   builder.material = index_of(ground);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/geometry/shapes.hpp"
+#include "engine/scenery/world/ground_box.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -18,11 +19,6 @@ constexpr std::array<Ground, town_walls> walls{Ground::plaster_white, Ground::br
                                                Ground::plaster_green, Ground::brick_brown};
 constexpr std::array<Ground, 4> shops{Ground::shop_bakery, Ground::shop_chemist, Ground::shop_cafe,
                                       Ground::shop_flowers};
-
-void add_box(MeshBuilder& builder, Ground ground, const glm::vec3& low, const glm::vec3& high) {
-  builder.material = index_of(ground);
-  builder.append(geometry::box(low, high), glm::mat4(1.0f), true);
-}
 
 /// Door on its step, in the middle of the front.
 void add_door(MeshBuilder& builder, float x, float front) {

@@ -17,7 +17,7 @@ namespace {
 
 using document::escaped;
 
-constexpr double degrees = 180.0 / std::numbers::pi;
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// A cell of a number that may be missing.
 std::string cell(const std::optional<double>& value, double unit, int decimals) {
@@ -30,8 +30,8 @@ std::string row(const std::string& who, const CrashedBody& body) {
                      cell(body.mass_kg, 1.0, 0), cell(speed(body.before_mps), kmh_per_mps, 1),
                      cell(speed(body.delta_v_mps), kmh_per_mps, 1),
                      body.principal_direction_rad ? whence(*body.principal_direction_rad) : "–",
-                     cell(body.principal_direction_rad, degrees, 0), cell(body.delta_yaw_rate_radps, degrees, 0),
-                     cell(body.crush_m, 1.0, 2));
+                     cell(body.principal_direction_rad, degrees_per_radian, 0),
+                     cell(body.delta_yaw_rate_radps, degrees_per_radian, 0), cell(body.crush_m, 1.0, 2));
 }
 
 std::string energies(const CrashRecord& crash) {

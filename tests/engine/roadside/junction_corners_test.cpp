@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
-#include <iterator>
-#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -17,19 +14,13 @@
 #include "engine/roadside/parked_cars.hpp"
 #include "engine/roadside/raised_areas.hpp"
 #include "engine/roadside/street_furniture.hpp"
-#include "tests/checkout.hpp"
 #include "tests/engine/road/third_party_road.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::roadside {
 namespace {
 
-road::RoadNetwork shipped(const std::string& path) {
-  std::ifstream file(source_folder() + "/" + path);
-  REQUIRE(file);
-  return road::read_or_fail({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
-}
-
-road::RoadNetwork town() { return shipped("scenarios/town/town.xodr"); }
+road::RoadNetwork town() { return road::read_or_fail(shipped_text("scenarios/town/town.xodr")); }
 
 bool is_driven(const road::RoadNetwork& network, const Vec2& p) {
   for (const road::Location& location : road::roads_holding(network, p)) {
@@ -127,7 +118,7 @@ TEST_CASE("benches, bins and boxes stand on a town's pavements, and lids lie in 
 }
 
 TEST_CASE("the motorway has corners, parked cars and benches nowhere") {
-  const road::RoadNetwork network = shipped("scenarios/motorway-ambulance/motorway.xodr");
+  const road::RoadNetwork network = road::read_or_fail(shipped_text("scenarios/motorway-ambulance/motorway.xodr"));
   CHECK(junction_corners(network).empty());
   CHECK(parked_cars(RoadShape(network, 0.0), 7).empty());
   CHECK(street_furniture(RoadShape(network, 0.0), 7).empty());

@@ -18,7 +18,7 @@
 namespace septet::simulation {
 namespace {
 
-constexpr ParticipantId first_other = first_scripted_participant + 1;
+constexpr ParticipantId first_struck = first_scripted_participant + 1;
 constexpr double quarter_rad = 0.5 * 3.141592653589793;
 
 struct Pair {
@@ -75,8 +75,8 @@ Crashed crashed(CrashSite& site, bool with_wheels, std::size_t first, std::size_
 
 CrashSite site_of(const Pair& pair) {
   return CrashSite(
-      {placed_participant(first_other, pair.first_model, 0.0, 0.0, 0.0, pair.first_mps),
-       placed_participant(first_other + 1, pair.second_model, pair.x_m, pair.y_m, pair.heading_rad, pair.second_mps)});
+      {placed_participant(first_struck, pair.first_model, 0.0, 0.0, 0.0, pair.first_mps),
+       placed_participant(first_struck + 1, pair.second_model, pair.x_m, pair.y_m, pair.heading_rad, pair.second_mps)});
 }
 
 }  // namespace
@@ -163,10 +163,10 @@ TEST_CASE("the principal direction is whence the blow came: ahead for who runs i
 
 TEST_CASE("a crash of the driver's car is recorded as any other, in the same words") {
   CrashSite site(plane_model(1), {{0.0, 0.0, 0.0}, {}}, 15.0,
-                 {placed_participant(first_other, "saloon", 12.0, 0.4, 0.0, 0.0)});
+                 {placed_participant(first_struck, "saloon", 12.0, 0.4, 0.0, 0.0)});
   const Crashed told = crashed(site, false, 0, 1);
   CHECK(told.record.first == driver_participant);
-  CHECK(told.record.second == first_other);
+  CHECK(told.record.second == first_struck);
   REQUIRE(told.record.ledger.has_value());
   CHECK(share_missing(*told.record.ledger) < 0.001);
   CHECK(*told.record.of_first.mass_kg == site.model.car.body.mass_kg);
@@ -177,8 +177,8 @@ TEST_CASE("a crash of the driver's car is recorded as any other, in the same wor
 }
 
 TEST_CASE("who meets a person that stays on the rails has a record without what nobody measured") {
-  CrashSite site({placed_participant(first_other, "saloon", 0.0, 0.0, 0.0, 10.0),
-                  placed_participant(first_other + 1, "pedestrian", 6.0, 0.2, 0.0, 0.0)});
+  CrashSite site({placed_participant(first_struck, "saloon", 0.0, 0.0, 0.0, 10.0),
+                  placed_participant(first_struck + 1, "pedestrian", 6.0, 0.2, 0.0, 0.0)});
   for (int i = 0; i < 120; ++i) site.tick();
   const auto record = record_among(site.events);
   REQUIRE(record.has_value());
@@ -193,7 +193,7 @@ TEST_CASE("who meets a person that stays on the rails has a record without what 
 TEST_CASE("five that pile up are told pair by pair, and every ledger closes") {
   std::vector<Participant> row;
   for (ParticipantId i = 0; i < 5; ++i)
-    row.push_back(placed_participant(first_other + i, "saloon", -12.0 * i, 0.25 * (i % 3), 0.0, i == 0 ? 0.0 : 22.0));
+    row.push_back(placed_participant(first_struck + i, "saloon", -12.0 * i, 0.25 * (i % 3), 0.0, i == 0 ? 0.0 : 22.0));
   CrashSite site(row);
   for (int i = 0; i < 900; ++i) site.tick();
   int told = 0;
