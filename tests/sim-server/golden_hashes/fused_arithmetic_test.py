@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 
-DRAWS = "unit_polynomial"
+DRAWS = "polynomial_"
 
 
 def fused_functions(program):
