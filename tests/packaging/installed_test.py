@@ -54,7 +54,7 @@ class Installed(unittest.TestCase):
         listed = {kind: {line.split()[0] for line in run(program("septet"), "list", kind).splitlines()} for kind in ("rigs", "scenarios", "vehicles")}
         self.assertEqual(listed["rigs"], {file.stem for file in (data / "rigs").glob("*.toml")})
         self.assertEqual(listed["vehicles"], {file.stem for file in (data / "vehicles").glob("*.toml")})
-        self.assertEqual(listed["scenarios"], {file.stem for file in data.glob("scenarios/*/*.xosc")})
+        self.assertEqual(listed["scenarios"], {file.stem for file in data.glob("scenarios/*/*.xosc") if file.stem == file.parent.name})
         self.assertIn("motorway-ambulance", listed["scenarios"])
 
     def test_a_drive_is_drawn_logged_and_summed_up(self):

@@ -48,14 +48,14 @@ geometry::PolygonMesh shape_of(FurnitureKind kind) {
       break;
     case FurnitureKind::letter_box:
       add_post(builder, Ground::metal_dark, 0.05f, 0.0f, 0.8f, 6);
-      add_box(builder, Ground::facade_yellow, {-0.28f, -0.2f, 0.75f}, {0.28f, 0.2f, 1.5f});
+      add_box(builder, Ground::awning_red, {-0.28f, -0.2f, 0.75f}, {0.28f, 0.2f, 1.5f});
       break;
     case FurnitureKind::cabinet:
       add_box(builder, Ground::metal, {-0.55f, -0.18f, 0.0f}, {0.55f, 0.18f, 1.25f});
       add_box(builder, Ground::metal_dark, {-0.58f, -0.2f, 1.25f}, {0.58f, 0.2f, 1.3f});
       break;
     case FurnitureKind::advertising_column:
-      add_post(builder, Ground::plaster_ochre, 0.55f, 0.0f, 2.7f, 16);
+      add_post(builder, Ground::concrete, 0.55f, 0.0f, 2.7f, 16);
       add_post(builder, Ground::metal_dark, 0.66f, 2.7f, 2.95f, 16);
       break;
     case FurnitureKind::cycle_stands:

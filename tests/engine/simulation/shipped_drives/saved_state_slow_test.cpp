@@ -138,6 +138,13 @@ TEST_CASE("a drive that is saved in the middle of breaking ice goes on as if not
   for (const SavedDrive& saved : drives) check_that_it_goes_on("winter-lorry", 1, saved);
 }
 
+TEST_CASE("a staged crash that is saved in the middle of it goes on as if nothing had been") {
+  for (const auto& [scenario, tick] :
+       {std::pair("crossing-crash", 1424), std::pair("pile-up", 735), std::pair("walker-behind-van", 800)})
+    for (const SavedDrive& saved : drive_and_save(scenario, "plain", 1, {static_cast<Tick>(tick)}))
+      check_that_it_goes_on(scenario, 1, saved);
+}
+
 TEST_CASE("a game that is saved after its second level has begun goes on as if nothing had been") {
   for (const SavedDrive& saved : drive_and_save("motorway-ambulance", "experienced", 1, {1200, 5500}))
     check_that_it_goes_on("motorway-ambulance", 1, saved);
@@ -148,8 +155,9 @@ TEST_CASE("no shipped scenario is without a drive that is saved") {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(source_folder()) / "scenarios"))
     if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
       shipped.insert(entry.path().filename().string());
-  CHECK(shipped == std::set<std::string>{"motorway-ambulance", "first-lesson", "behind-ambulance", "rescue-lane",
-                                         "town", "tunnel-fire", "winter-lorry"});
+  CHECK(shipped == std::set<std::string>{"behind-ambulance", "crossing-crash", "first-lesson", "motorway-ambulance",
+                                         "pile-up", "rescue-lane", "town", "tunnel-fire", "walker-behind-van",
+                                         "winter-lorry"});
 }
 
 TEST_CASE(
