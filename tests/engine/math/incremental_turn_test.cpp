@@ -128,13 +128,14 @@ TEST_CASE("a turn refuses sigma beyond one and no steps and vectors that are not
 
 TEST_CASE("Chebyshev's recurrence turns by equal angles, and its error grows with steps over angle") {
   const double theta = 1.3;
-  for (const auto& [steps, most_rad] : {std::pair(50, 1e-12), std::pair(4096, 1e-8)}) {
+  for (const auto& bound : {std::pair(50, 1e-12), std::pair(4096, 1e-8)}) {
+    const int steps = bound.first;
     CAPTURE(steps);
     ChebyshevTurn<2> turn({1, 0}, {std::cos(theta), std::sin(theta)}, static_cast<std::size_t>(steps));
     double worst_rad = 0.0;
     for (int n = 0; n <= steps; ++n, turn.advance())
       worst_rad = std::max(worst_rad, std::abs(angle_of<double>(turn.value()) - theta * n / steps));
-    CHECK(worst_rad < most_rad);
+    CHECK(worst_rad < bound.second);
   }
 }
 
