@@ -94,7 +94,7 @@ TEST_CASE("text with any byte altered, or cut off anywhere, is read with finite 
     std::string altered = text;
     for (int i = 0; i < 3; ++i)
       altered[static_cast<std::size_t>(random.uniform() * static_cast<double>(text.size()))] =
-          static_cast<char>(random.uniform() * 256.0);
+          static_cast<char>(static_cast<unsigned char>(random.uniform() * 256.0));
     if (round % 4 == 0) altered.resize(static_cast<std::size_t>(random.uniform() * static_cast<double>(text.size())));
     const auto crash = read_crash(1, altered);
     if (!crash) continue;
