@@ -2,13 +2,12 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
-#include "engine/simulation/driver_car.hpp"
-#include "engine/simulation/server_step.hpp"
-#include "sim-server/drive/driver_seat.hpp"
+#include "tests/engine/simulation/shipped_drives/staged_crash.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::simulation {
@@ -16,18 +15,9 @@ namespace {
 
 /// Events of the first seconds of a shipped scenario, driven by a simulated driver.
 std::vector<Event> driven(const std::string& scenario, const std::string& driver, double seconds) {
-  const server::LoadedDrive loaded = server::shipped_drive(scenario, "desktop");
-  auto state = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 1));
-  REQUIRE(state.has_value());
-  const auto seat = server::open_driver_seat(rig::Car{.driver = driver}, 1, loaded.model);
-  REQUIRE(seat.has_value());
-  std::vector<Event> events;
-  Snapshot now = capture_snapshot(*loaded.model, *state);
-  while (state->time_s() < seconds) {
-    for (const auto& device : seat->devices) device->see(now);
-    now = server_step(*loaded.model, seat->car->poll(state->time_s()).input, *state, events);
-  }
-  return events;
+  StagedCrash crash(server::shipped_drive(scenario, "desktop"), driver);
+  while (crash.state.time_s() < seconds) crash.step();
+  return std::move(crash.events);
 }
 
 std::vector<ParticipantId> hit(const std::vector<Event>& events, std::string_view kind) {

@@ -18,7 +18,7 @@
 
 namespace septet::simulation {
 
-/// A scenario beside this file, driven by a simulated novice.
+/// A scenario, driven by a simulated driver: one beside this file by a novice, or any other.
 struct StagedCrash {
   server::LoadedDrive loaded;
   State state;
@@ -27,19 +27,22 @@ struct StagedCrash {
   std::vector<Event> events;
   std::vector<DriverInput> inputs;
 
-  explicit StagedCrash(const std::string& name) {
+  explicit StagedCrash(const std::string& name) : StagedCrash(loaded_beside(name), "novice") {}
+  StagedCrash(server::LoadedDrive drive, const std::string& driver) : loaded(std::move(drive)) {
+    auto begun = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 1));
+    REQUIRE(begun.has_value());
+    state = std::move(*begun);
+    auto sits = server::open_driver_seat(rig::Car{.driver = driver}, 1, loaded.model);
+    REQUIRE(sits.has_value());
+    seat = std::move(*sits);
+    now = capture_snapshot(*loaded.model, state);
+  }
+  static server::LoadedDrive loaded_beside(const std::string& name) {
     const std::string root = source_folder();
     auto drive = server::load_drive(server::DriveFiles{
         root + "/tests/engine/simulation/shipped_drives/" + name + ".xosc", root + "/rigs/seven-screens.toml", 1});
     REQUIRE_MESSAGE(drive.has_value(), why_not(drive));
-    loaded = std::move(*drive);
-    auto begun = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 1));
-    REQUIRE(begun.has_value());
-    state = std::move(*begun);
-    auto sits = server::open_driver_seat(rig::Car{.driver = "novice"}, 1, loaded.model);
-    REQUIRE(sits.has_value());
-    seat = std::move(*sits);
-    now = capture_snapshot(*loaded.model, state);
+    return std::move(*drive);
   }
   void step() {
     for (const auto& device : seat.devices) device->see(now);
