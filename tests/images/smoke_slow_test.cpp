@@ -28,20 +28,7 @@ scene::ResolvedScene bright_wall() {
   scene::SurfaceMaterial material;
   material.base_color = glm::vec3(0.0f);
   material.emission = glm::vec3(2000.0f);
-  scene::SurfaceMesh wall;
-  constexpr std::uint32_t squares = 8;
-  for (std::uint32_t row = 0; row <= squares; ++row)
-    for (std::uint32_t column = 0; column <= squares; ++column)
-      wall.vertices.push_back(
-          {{0.0f, 400.0f - 100.0f * static_cast<float>(column), -400.0f + 100.0f * static_cast<float>(row)},
-           {-1, 0, 0},
-           {}});
-  for (std::uint32_t row = 0; row < squares; ++row)
-    for (std::uint32_t column = 0; column < squares; ++column) {
-      const std::uint32_t low = row * (squares + 1) + column, high = low + squares + 1;
-      wall.indices.insert(wall.indices.end(), {low, low + 1, high + 1, low, high + 1, high});
-    }
-  return instant::lone_mesh(material, wall, {Vec3(100, 0, 0), {1, 0, 0, 0}});
+  return instant::lone_mesh(material, instant::wide_wall(), {Vec3(100, 0, 0), {1, 0, 0, 0}});
 }
 
 /// Straight ahead, 1.05 rad wide or, to have all of what is near, 2.3.

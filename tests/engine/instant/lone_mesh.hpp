@@ -28,4 +28,22 @@ inline scene::ResolvedScene lone_mesh(scene::SurfaceMaterial material, scene::Su
   return scene;
 }
 
+/// Wall, 800 m wide and high, that faces −x: of squares as large as those of distant land.
+inline scene::SurfaceMesh wide_wall() {
+  scene::SurfaceMesh wall;
+  constexpr std::uint32_t squares = 8;
+  for (std::uint32_t row = 0; row <= squares; ++row)
+    for (std::uint32_t column = 0; column <= squares; ++column)
+      wall.vertices.push_back(
+          {{0.0f, 400.0f - 100.0f * static_cast<float>(column), -400.0f + 100.0f * static_cast<float>(row)},
+           {-1, 0, 0},
+           {}});
+  for (std::uint32_t row = 0; row < squares; ++row)
+    for (std::uint32_t column = 0; column < squares; ++column) {
+      const std::uint32_t low = row * (squares + 1) + column, high = low + squares + 1;
+      wall.indices.insert(wall.indices.end(), {low, low + 1, high + 1, low, high + 1, high});
+    }
+  return wall;
+}
+
 }  // namespace septet::instant

@@ -50,20 +50,7 @@ void upload_wall(Renderer& renderer, float emission, double away_m) {
   static std::uint64_t revision = 1;
   scene::SurfaceMaterial material = glowing_material();
   material.emission = glm::vec3(emission);
-  scene::SurfaceMesh wall;
-  constexpr std::uint32_t squares = 8;
-  for (std::uint32_t row = 0; row <= squares; ++row)
-    for (std::uint32_t column = 0; column <= squares; ++column)
-      wall.vertices.push_back(
-          {{0.0f, 400.0f - 100.0f * static_cast<float>(column), -400.0f + 100.0f * static_cast<float>(row)},
-           {-1, 0, 0},
-           {}});
-  for (std::uint32_t row = 0; row < squares; ++row)
-    for (std::uint32_t column = 0; column < squares; ++column) {
-      const std::uint32_t low = row * (squares + 1) + column, high = low + squares + 1;
-      wall.indices.insert(wall.indices.end(), {low, low + 1, high + 1, low, high + 1, high});
-    }
-  scene::ResolvedScene scene = lone_mesh(material, wall, {Vec3(away_m, 0, 0), {1, 0, 0, 0}});
+  scene::ResolvedScene scene = lone_mesh(material, wide_wall(), {Vec3(away_m, 0, 0), {1, 0, 0, 0}});
   scene.revision = ++revision;
   for (scene::SurfaceMesh& mesh : scene.meshes) mesh.revision = revision;
   REQUIRE(renderer.upload(scene).has_value());
