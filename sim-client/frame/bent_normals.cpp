@@ -19,17 +19,18 @@ float weight_at(float cosine) {
 }  // namespace
 
 BentNormals::BentNormals(std::span<const std::array<std::uint16_t, 3>> triangles, std::size_t vertices)
-    : triangles_(triangles.begin(), triangles.end()), first_face_(vertices + 1, 0), faces_(3 * triangles.size()) {
-  for (const auto& triangle : triangles_)
+    : first_face_(vertices + 1, 0), faces_(3 * triangles.size()) {
+  for (const auto& triangle : triangles)
     for (const std::uint16_t vertex : triangle) ++first_face_[vertex + 1u];
   for (std::size_t v = 0; v < vertices; ++v) first_face_[v + 1] += first_face_[v];
   std::vector<std::uint32_t> next(first_face_.begin(), first_face_.end() - 1);
-  for (std::uint32_t n = 0; n < triangles_.size(); ++n)
-    for (const std::uint16_t vertex : triangles_[n]) faces_[next[vertex]++] = n;
+  for (std::uint32_t n = 0; n < triangles.size(); ++n)
+    for (const std::uint16_t vertex : triangles[n]) faces_[next[vertex]++] = n;
 }
 
-std::vector<glm::vec3> BentNormals::of_corners(const FaceNormals& faces) const {
-  const std::size_t count = triangles_.size();
+std::vector<glm::vec3> BentNormals::of_corners(std::span<const std::array<std::uint16_t, 3>> triangles,
+                                               const FaceNormals& faces) const {
+  const std::size_t count = triangles.size();
   std::vector<glm::vec3> areas(count), units(count);
   for (std::size_t n = 0; n < count; ++n) {
     areas[n] = {faces.x[n], faces.y[n], faces.z[n]};
@@ -39,7 +40,7 @@ std::vector<glm::vec3> BentNormals::of_corners(const FaceNormals& faces) const {
   std::vector<glm::vec3> corners(3 * count);
   for (std::size_t n = 0; n < count; ++n)
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint16_t vertex = triangles_[n][c];
+      const std::uint16_t vertex = triangles[n][c];
       const bool has_area = units[n] != glm::vec3(0.0f);
       glm::vec3 sum(0.0f);
       for (std::uint32_t at = first_face_[vertex]; at < first_face_[vertex + 1u]; ++at) {

@@ -21,12 +21,13 @@ class BentNormals {
   /// Triangles by their vertices, each below `vertices`.
   BentNormals(std::span<const std::array<std::uint16_t, 3>> triangles, std::size_t vertices);
 
-  /// Unit normals of all corners, three a triangle. `faces`: TemporalNormals::area_vectors_at of these triangles. The
-  /// corner of a face without area has the normal of the faces around it, else (0, 0, 1).
-  std::vector<glm::vec3> of_corners(const FaceNormals& faces) const;
+  /// Unit normals of all corners, three a triangle. `triangles`: those that it was made of; `faces`: their
+  /// TemporalNormals::area_vectors_at. The corner of a face without area has the normal of the faces around it, else
+  /// (0, 0, 1).
+  std::vector<glm::vec3> of_corners(std::span<const std::array<std::uint16_t, 3>> triangles,
+                                    const FaceNormals& faces) const;
 
  private:
-  std::vector<std::array<std::uint16_t, 3>> triangles_;
   std::vector<std::uint32_t> first_face_;  ///< By vertex, where its faces begin; one more than vertices.
   std::vector<std::uint32_t> faces_;       ///< Faces around each vertex.
 };

@@ -141,7 +141,7 @@ instant::DynamicMesh DebrisWay::at(double share) const {
   std::vector<glm::vec3> bent;
   if (bent_) {
     normals_.area_vectors_at(static_cast<float>(share), faces);
-    bent = bent_->of_corners(faces);
+    bent = bent_->of_corners(triangles_, faces);
   } else {
     normals_.at(static_cast<float>(share), faces);
   }

@@ -46,7 +46,7 @@ std::vector<glm::vec3> corners_between(const Sheet& from, const Sheet& to, float
     }
   FaceNormals areas;
   TemporalNormals(NormalMethod::t_variant, faces).area_vectors_at(share, areas);
-  return BentNormals(from.triangles, from.places.size()).of_corners(areas);
+  return BentNormals(from.triangles, from.places.size()).of_corners(from.triangles, areas);
 }
 
 }  // namespace
