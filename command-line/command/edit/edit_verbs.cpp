@@ -142,6 +142,7 @@ class Verbs {
           next.push_back(link.target);
     }
     std::vector<Command> commands;
+    commands.reserve(gone.size());
     for (const NodeId each : gone) commands.emplace_back(NodeDestroy{each});
     std::erase_if(names_.fresh, [&](const auto& entry) { return gone.contains(entry.second); });
     return commands;
