@@ -24,7 +24,7 @@ from septet_snapshot import DIAGNOSTICS, DRIVER_CAR, ENVIRONMENT, FIELDS, LAMPS,
 from septet_untrusted import DAMAGE, UntrustedDatabase
 
 APPLICATION_ID = 0x53535444
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 _TEXTS = ("role", "name", "kind", "detail", "item", "question", "answer", "reason")
 
 

@@ -190,17 +190,17 @@ Expected<HeadRecord> read_head(const Statement& row) {
   return record;
 }
 
-Expected<void> insert(Statement& statement, const SceneEdit& edit) {
-  RowBinder(statement).add(edit.tick).add_bytes(edit.command);
+Expected<void> insert(Statement& statement, const SceneRun& run) {
+  RowBinder(statement).add(run.tick).add_bytes(run.data);
   return statement.run();
 }
 
-Expected<SceneEdit> read_scene_edit(const Statement& row) {
-  SceneEdit edit;
+Expected<SceneRun> read_scene_run(const Statement& row) {
+  SceneRun run;
   RowReader in(row);
-  in.to(edit.tick);
-  edit.command = in.bytes();
-  return edit;
+  in.to(run.tick);
+  run.data = in.bytes();
+  return run;
 }
 
 Expected<void> insert(Statement& statement, const StateRecord& state) {

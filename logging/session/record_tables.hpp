@@ -4,6 +4,7 @@
 
 #include "engine/core/expected.hpp"
 #include "logging/session/records.hpp"
+#include "logging/session/scene_runs.hpp"
 #include "logging/session/sqlite_database.hpp"
 
 namespace septet::logging {
@@ -15,7 +16,7 @@ struct HeadRecord {
 };
 
 struct InsertStatements {
-  Statement snapshot, input, scene_edit, sample, event, answer, state, actuators, head;
+  Statement snapshot, input, scene_run, sample, event, answer, state, actuators, head;
 };
 Expected<InsertStatements> prepare_inserts(const Database& database);
 Expected<Statement> prepare_answer_insert(const Database& database);  ///< Works for a session that lacks later tables.
@@ -24,7 +25,7 @@ Expected<void> insert_info(const Database& database, const SessionInfo& info);
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value);
 Expected<void> insert(Statement& statement, const InputRecord& record);
 Expected<void> insert_head(Statement& statement, const InputRecord& record);  ///< Writes no row for a head at rest.
-Expected<void> insert(Statement& statement, const SceneEdit& edit);
+Expected<void> insert(Statement& statement, const SceneRun& run);
 Expected<void> insert(Statement& statement, const Sample& sample);
 Expected<void> insert(Statement& statement, const Event& event);
 Expected<void> insert(Statement& statement, const QuestionnaireRecord& answer);
@@ -34,7 +35,7 @@ Expected<void> insert(Statement& statement, const ActuatorRecord& actuators);
 Expected<SessionInfo> read_info(const Database& database);
 Expected<InputRecord> read_input(const Statement& row);  ///< Without the head.
 Expected<HeadRecord> read_head(const Statement& row);
-Expected<SceneEdit> read_scene_edit(const Statement& row);  ///< Columns tick, data.
+Expected<SceneRun> read_scene_run(const Statement& row);  ///< Columns tick, data.
 Expected<StateRecord> read_state(const Statement& row);
 Expected<ActuatorRecord> read_actuators(const Statement& row);
 Expected<Sample> read_sample(const Statement& row);

@@ -8,8 +8,8 @@
 namespace septet::logging {
 
 inline constexpr std::int32_t application_id = 0x53535444;
-inline constexpr std::int32_t format_version = 2;
-inline constexpr std::int32_t oldest_format_version = 1;  ///< With unpacked snapshots.
+inline constexpr std::int32_t format_version = 3;
+inline constexpr std::int32_t oldest_format_version = 1;  ///< FORMAT.md says what earlier ones differ in.
 
 /// A row of `snapshots` is near 1 KB: with SQLite's usual pages of 4 KB a fifth of each would stay empty.
 inline constexpr std::uint32_t page_bytes = 16384;

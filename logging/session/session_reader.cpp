@@ -225,7 +225,22 @@ Expected<std::vector<InputRecord>> SessionReader::inputs(TickRange range) const 
   return inputs;
 }
 Expected<std::vector<SceneEdit>> SessionReader::scene_edits(TickRange range) const {
-  return read_rows(prepare_range(state_->database, "tick, data", "scene_edits", range, "id"), read_scene_edit);
+  const auto format = state_->database.query_integer("PRAGMA user_version");
+  if (!format) return tl::unexpected(format.error());
+  auto rows = prepare_range(state_->database, "tick, data", "scene_edits", range, "id");
+  if (!rows) return tl::unexpected(rows.error());
+  SceneUnpacker unpacker(static_cast<int>(*format));
+  std::vector<SceneEdit> edits;
+  for (;;) {
+    const auto row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return edits;
+    const auto run = read_scene_run(*rows);
+    if (!run) return tl::unexpected(run.error());
+    if (auto done = unpacker.unpack(*run, edits); !done)
+      return failure(done.error().what, fmt::format("{}, {}", state_->path.string(), done.error().where),
+                     done.error().remedy);
+  }
 }
 Expected<std::vector<Sample>> SessionReader::samples(TickRange range) const {
   return read_rows(prepare_range(state_->database, "*", "samples", range, "tick"), read_sample);

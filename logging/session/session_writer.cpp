@@ -16,6 +16,7 @@
 #include "engine/core/check.hpp"
 #include "logging/session/packed_snapshot.hpp"
 #include "logging/session/record_tables.hpp"
+#include "logging/session/scene_runs.hpp"
 #include "logging/session/schema.hpp"
 #include "logging/session/sqlite_database.hpp"
 
@@ -141,6 +142,8 @@ struct SessionWriter::State {
   void fail(Error reason);
   Expected<void> write_all(const std::vector<Record>& batch);
   Expected<void> write_snapshot(const std::shared_ptr<const TakenSnapshot>& taken);
+  Expected<void> write_edit(const SceneEdit& edit);
+  Expected<void> write_run();
   Expected<void> check_file() const;
   Expected<void> join_side_files();
 
@@ -163,6 +166,7 @@ struct SessionWriter::State {
   bool is_finished = false;
   bool is_still_read = false;
   SnapshotPacker packer;
+  SceneRunPacker scene_run;  ///< Of the transaction that is open.
   Bytes encoded;
 
   std::thread thread;
@@ -184,6 +188,7 @@ void SessionWriter::State::commit() {
   if (has_failed) return;
   // Checked without new records too, so that callers learn that the file is gone.
   auto done = check_file();
+  if (done) done = write_run();
   if (done && uncommitted > 0) done = database.execute("COMMIT");
   if (!done) return fail(std::move(done.error()));
   uncommitted = 0;
@@ -210,7 +215,7 @@ Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch)
       if (auto done = insert(state.inserts.input, record); !done) return done;
       return insert_head(state.inserts.head, record);
     }
-    Expected<void> operator()(const SceneEdit& record) { return insert(state.inserts.scene_edit, record); }
+    Expected<void> operator()(const SceneEdit& record) { return state.write_edit(record); }
     Expected<void> operator()(const Sample& record) { return insert(state.inserts.sample, record); }
     Expected<void> operator()(const Event& record) { return insert(state.inserts.event, record); }
     Expected<void> operator()(const QuestionnaireRecord& record) { return insert(state.inserts.answer, record); }
@@ -238,6 +243,16 @@ Expected<void> SessionWriter::State::write_snapshot(const std::shared_ptr<const 
   statement.bind(5, std::span<const std::byte>(encoded));
   previous = taken;
   return statement.run();
+}
+
+Expected<void> SessionWriter::State::write_edit(const SceneEdit& edit) {
+  auto done = scene_run.has_room_for(edit) ? Expected<void>{} : write_run();
+  if (done) scene_run.add(edit);
+  return done;
+}
+
+Expected<void> SessionWriter::State::write_run() {
+  return scene_run.is_empty() ? Expected<void>{} : insert(inserts.scene_run, scene_run.take());
 }
 
 /// Writes to a deleted open file succeed silently, and are lost in the end.

@@ -152,7 +152,7 @@ TEST_CASE("a session of another format version is refused by number") {
   write_file(folder / "newer.sqlite", content);
   const auto reader = SessionReader::open(folder / "newer.sqlite");
   REQUIRE_FALSE(reader.has_value());
-  CHECK(reader.error().what == "the session has format 9, and this Septet reads formats 1 to 2");
+  CHECK(reader.error().what == "the session has format 9, and this Septet reads formats 1 to 3");
 }
 
 TEST_CASE("a truncated session is refused or read up to the damage and never crashes") {
