@@ -23,14 +23,13 @@ std::size_t count(const std::string& text, const std::string& word) {
   return number;
 }
 
-/// Ends one of the film's programs once tiles have come: mpirun, or the program of a number.
-void kill_amid(program::ChildProcess& launcher, const fs::path& out, std::optional<int> rank) {
+/// Ends one of the film's programs once tiles have come: mpirun, or the program of a number. False: it had ended before, as
+/// it may on a busy machine.
+bool kill_amid(program::ChildProcess& launcher, const fs::path& out, std::optional<int> rank) {
   REQUIRE(becomes_true([&] { return has_tiles(out) || launcher.poll(); }));
   const auto mpirun = mpirun_of(launcher.process_id());
-  REQUIRE(mpirun.has_value());
-  const auto victim = rank ? rank_of(*mpirun, *rank) : mpirun;
-  REQUIRE(victim.has_value());
-  REQUIRE(::kill(*victim, SIGKILL) == 0);
+  const auto victim = mpirun && rank ? rank_of(*mpirun, *rank) : mpirun;
+  return victim && ::kill(*victim, SIGKILL) == 0;
 }
 
 }  // namespace
@@ -51,12 +50,13 @@ TEST_CASE("a film is the same bytes by one program and by two and a worker or th
     std::optional<int> rank;
     const char* said;
   };
+  int killed = 0;
   for (const Victim& victim : {Victim{"worker", 1, "program 1 of mpirun is gone"}, Victim{"master", 0, "was lost"},
                                Victim{"mpirun", std::nullopt, "was lost"}}) {
     CAPTURE(victim.name);
     const fs::path out = film.folder / victim.name;
     auto launcher = film.begin(out, {"--ranks", "2"});
-    kill_amid(launcher, out, victim.rank);
+    killed += kill_amid(launcher, out, victim.rank);
     std::size_t whole = 0;  // On a busy machine the kill may come late.
     for (const fs::directory_entry& entry : fs::directory_iterator(out)) whole += entry.path().extension() == ".png";
     CHECK(exit_code(launcher) == 0);
@@ -67,6 +67,7 @@ TEST_CASE("a film is the same bytes by one program and by two and a worker or th
     if (victim.rank != 1 && whole < pictures.size()) CHECK(said.find(victim.said) != std::string::npos);
     CHECK(pictures_in(out) == pictures);
   }
+  CHECK(killed > 0);
 }
 
 TEST_CASE("how tiles are dealt changes no picture and every tile counts once") {
