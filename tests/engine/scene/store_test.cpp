@@ -35,7 +35,15 @@ TEST_CASE("stores that differ in one value are not the same") {
   for (const Command& change :
        {Command(HideSet{1, false}), Command(TagSet{1, 0, 0, {"flag", false}}), Command(VerticesSet{2, 4, {{1, 2, 3}}}),
         Command(LayerIntegersSet{2, 2, 0, {3}}), Command(FragmentSet{3, 0, ColorFragment{}}),
-        Command(BitmapTilesSet{4, 0, 0, std::vector<std::uint8_t>(64, 1)})}) {
+        Command(BitmapTilesSet{4, 0, 0, std::vector<std::uint8_t>(64, 1)}), Command(NodeNameSet{1, "model/lorry"}),
+        Command(TagGroupSet{1, 0, "drawn"}), Command(TagSet{1, 0, 1, {"number", std::uint32_t{4000000000u}}}),
+        Command(LinkSet{1, 1, {"material", 3, 6}}), Command(LightSet{1, {10.0f, 9.0f, 7.0f}}),
+        Command(GeometryLayerSet{2, 0, "map_v", LayerType::corner_real, 0, 0.5f}),
+        Command(GeometryLayerSet{2, 0, "map_u", LayerType::corner_real, 0, 0.25f}),
+        Command(CreaseSet{2, CreaseKind::edge, {"crease", 8}}), Command(BitmapSizeSet{4, 17, 10, 1}),
+        Command(BitmapLayerSet{4, 0, "color_g", PixelType::byte}),
+        Command(BitmapLayerSet{4, 1, "height", PixelType::real64}), Command(NodeDestroy{2})}) {
+    CAPTURE(name_of(change));
     Store changed = sample_store();
     must_apply(changed, change);
     CHECK_FALSE(same_content(changed, sample_store()));

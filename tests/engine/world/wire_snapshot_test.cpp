@@ -1,6 +1,7 @@
 #include "engine/world/wire_snapshot.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <glm/gtc/constants.hpp>
@@ -85,6 +86,24 @@ TEST_CASE("the head travels exactly and only while it is not at rest") {
     encode_snapshot(to_wire(snapshot), nullptr, bytes);
     CHECK_FALSE(decode_snapshot(bytes, nullptr));
   }
+}
+
+TEST_CASE("a gear or a lane that no car can have comes as the nearest that one can") {
+  Random random(4);
+  const auto sent = [&](std::int8_t gear, std::int32_t lane) {
+    Snapshot snapshot = random_snapshot(random, 5, 2);
+    snapshot.driver_car.gear = gear;
+    snapshot.driver_car.lane = lane;
+    Bytes bytes;
+    encode_snapshot(to_wire(snapshot), nullptr, bytes);
+    const auto decoded = decode_snapshot(bytes, nullptr);
+    REQUIRE(decoded.has_value());
+    return std::pair(int{decoded->rest.driver_car.gear}, decoded->rest.driver_car.lane);
+  };
+  CHECK(sent(-1, -1000) == std::pair(-1, -1000));
+  CHECK(sent(20, 1000) == std::pair(20, 1000));
+  CHECK(sent(-2, -1001) == std::pair(-1, -1000));
+  CHECK(sent(21, 1001) == std::pair(20, 1000));
 }
 
 TEST_CASE("a keyframe and a difference decode to exactly what was encoded") {
