@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/scenery/vehicles/cockpit.hpp"
+#include "engine/scenery/vehicles/cockpit_finish.hpp"
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/vehicle_mirrors.hpp"
@@ -164,6 +165,18 @@ TEST_CASE("a rider sees handlebars and arms, a walker nothing of the own head, a
   }
   for (const char* name : {"caravan", "semitrailer", "volvo-s80"})
     CHECK(inside_parts(vehicle_models()[*find_vehicle_model(name)]).empty());
+}
+
+TEST_CASE("in the driver's car the bonnet is seen over the dashboard, and the road over the bonnet") {
+  const auto triangles = triangles_of(interior_parts());
+  const Vec3 eye_m(1.35, 0.37, 1.17);
+  CHECK_FALSE(met_by(triangles, eye_m, towards(0.0, 0.0)).has_value());
+  int bonnet = 0;
+  for (double pitch_deg = -0.5; pitch_deg > -30.0; pitch_deg -= 0.5) {
+    const auto met = met_by(triangles, eye_m, towards(0.0, pitch_deg));
+    bonnet += met && met->finish == index_of(CockpitFinish::paint) ? 1 : 0;
+  }
+  CHECK(bonnet >= 4);  // Two degrees.
 }
 
 }  // namespace septet::scenery
