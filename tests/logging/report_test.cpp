@@ -164,6 +164,20 @@ TEST_CASE("the report shows the charts and one mark per lane change and needs no
   CHECK(html.find("felt &lt;sick&gt;") != std::string::npos);
 }
 
+TEST_CASE("the report's curve of the speed is one line from the drive's start to its end, however fast it was") {
+  for (const double times : {0.05, 1.0, 3.0}) {
+    CAPTURE(times);
+    ReportData data = example_drive();
+    for (Sample& sample : data.samples) sample.speed_mps *= times;
+    const std::string html = to_html(data);
+    const auto chart = html.find(">Speed<"), line = html.find("<path class=\"line\" d=\"", chart);
+    REQUIRE(line != std::string::npos);
+    const std::string curve = html.substr(line + 22, html.find('"', line + 22) - line - 22);
+    CHECK(count_of(curve, "M") == 1);
+    CHECK(count_of(curve, "L") > 500);
+  }
+}
+
 TEST_CASE("distance speed and headway of a drive equal those computed by hand") {
   std::vector<Sample> samples{sample_at(0, -1, 0), sample_at(1, -1, 0), sample_at(2, -1, 0)};
   samples[0].speed_mps = 10;

@@ -173,6 +173,9 @@ TEST_CASE("what is taken in another way than it is written is named") {
   CHECK(findings_text(with(plain, "value=\"0.000000\"/>", "value=\"0.000000\" followingMode=\"follow\"/>"))
             .find("warning") == 0);
   CHECK(findings_text(with(plain, "value=\"0.000000\"/>", "value=\"0.000000\" followingMode=\"position\"/>")) == "");
+  CHECK(findings_text(with(plain, "value=\"0.000000\"/>", "value=\"1e-6\"/>")) == "");
+  CHECK(findings_text(with(plain, "value=\"0.000000\"/>", "value=\"9e-7\"/>")).find("is as good as 0") !=
+        std::string::npos);
   const auto weather = [&](const std::string& time, const std::string& sun) {
     return findings_text(scenario_text("<GlobalAction><EnvironmentAction><Environment name=\"e\">" + time +
                                            "<Weather>" + sun +
