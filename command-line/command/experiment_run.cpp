@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +16,7 @@
 
 #include <fmt/core.h>
 
+#include "command-line/command/experiment_progress.hpp"
 #include "command-line/command/experiment_results.hpp"
 #include "engine/core/printable.hpp"
 #include "program/child_process.hpp"
@@ -215,13 +215,12 @@ Expected<void> ExperimentRun::take(RunningDrive drive, const program::ChildExit&
 void ExperimentRun::show() {
   const double now_s = wall_s();
   if (!progress_.is_due(now_s)) return;
-  const double rate = now_s > 0.0 ? driven_now_s() / now_s : 0.0;
-  // Drives that end earlier than they might are why the rest is at most that long.
-  const std::string left = rate > 0.0
-                               ? fmt::format("at most {:.0f} min left", std::ceil((total_s_ - done_s_) / rate / 60.0))
-                               : std::string("time left not known yet");
-  progress_.show(fmt::format("{} of {} subjects, {:.2f} of {:.2f} h driven, {:.0f} times as fast as real time, {}",
-                             finished_, stands_.size(), done_s_ / 3600.0, total_s_ / 3600.0, rate, left));
+  progress_.show(text_of({.finished = finished_,
+                          .subjects = stands_.size(),
+                          .driven_s = done_s_,
+                          .planned_s = total_s_,
+                          .driven_now_s = driven_now_s(),
+                          .wall_s = now_s}));
 }
 
 }  // namespace septet::server

@@ -106,6 +106,15 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
     with septet.connect(host, port, keys / "guest/guest.key") as guest:
         assert "which lab made" in refused(lambda: guest.get("stimuli/ball").remove()).why
         assert "needs the word create" in refused(lambda: guest.add("mine")).why
+        # Of a batch that is refused the change is told that may not be, and none is made.
+        tree, ball = guest.find("tree/*")[1], guest.get("stimuli/ball")
+        def second_may_not():
+            with guest.batch():
+                tree.visible = False
+                ball.visible = False
+        why = refused(second_may_not)
+        assert why.line == 2 and "which lab made" in why.why, (why.line, why.why)
+        assert guest.get(tree.node.strip('"')).visible
     with septet.connect(host, port, keys / "reader/reader.key") as reader:
         assert next(reader.ticks()).everybody
         assert "may look, not edit" in refused(lambda: reader.get("stimuli/ball").remove()).why

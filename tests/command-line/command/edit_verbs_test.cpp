@@ -1,0 +1,120 @@
+#include "command-line/command/edit/edit_verbs.hpp"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include "engine/core/random.hpp"
+#include "engine/scene/builder.hpp"
+
+namespace septet::server {
+namespace {
+
+constexpr scene::NodeId own_ids = 1000;
+
+/// One editor's lines, each done to the scene at once.
+struct Editor {
+  scene::Store store;
+  EditNames names{own_ids, own_ids};
+
+  Expected<EditedLine> take(std::string_view line) {
+    auto edit = edit_of(scene::words_of(line).value(), store, names);
+    if (!edit) return edit;
+    for (const scene::Command& command : edit->commands) REQUIRE(store.apply(command).has_value());
+    return edit;
+  }
+  std::vector<std::string> find(std::string_view what) const {
+    const auto found = found_nodes(scene::words_of(fmt::format("find {}", what)).value(), store);
+    REQUIRE(found.has_value());
+    std::vector<std::string> called;
+    called.reserve(found->size());
+    for (const scene::NodeId id : *found) called.push_back(store.find(id)->name);
+    std::ranges::sort(called);
+    return called;
+  }
+};
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("a pattern finds the names that a shell's pattern fits, whole, and no others") {
+  Editor editor;
+  scene::SceneBuilder build(editor.store);
+  Names all{"a", "b"};
+  all.reserve(30);
+  for (std::size_t i = 0; all[i].size() < 4; ++i)
+    for (const char* letter : {"a", "b"}) all.push_back(all[i] + letter);
+  for (const std::string& name : all) build.add_object(name, {});
+  std::ranges::sort(all);
+  Random random(1);
+  for (int round = 0; round < 300; ++round) {
+    std::string pattern(1 + random.below(6), '*');
+    for (char& letter : pattern) letter = "ab*?"[random.below(4)];
+    CAPTURE(pattern);
+    Names fit;
+    std::ranges::copy_if(all, std::back_inserter(fit),
+                         [&](const std::string& name) { return fnmatch(pattern.c_str(), name.c_str(), 0) == 0; });
+    CHECK(editor.find(pattern) == fit);
+  }
+}
+
+TEST_CASE("what lies within so many metres of a place is found, whatever its height") {
+  Editor editor;
+  for (const char* line : {"create at 3 4 100", "create beyond 3.1 4 0", "create away -40 0 0"})
+    REQUIRE(editor.take(line).has_value());
+  CHECK(editor.find("near 0 0 5") == Names{"at"});
+  CHECK(editor.find("* near 0 0 6") == Names{"at", "beyond"});
+  CHECK(editor.find("b* near 0 0 6") == Names{"beyond"});
+}
+
+TEST_CASE("a board is from a millimetre to a kilometre wide and high, and stands where it is said or at the origin") {
+  for (const char* size : {"0.001 1000", "1000 0.001", "2 1", "2 1 3 4 5", "2 1 3 4 5 90"}) {
+    CAPTURE(size);
+    Editor editor;
+    CHECK(editor.take(fmt::format("board sign {}", size)).has_value());
+  }
+  for (const char* size : {"0.0009 1", "1 0.0009", "1000.1 1", "1 1000.1", "-1 1", "1 -1", "nan 1", "1 wide", "1",
+                           "2 1 3", "2 1 3 4", "2 1 3 4 up", "0 1 3 4 5", "2 1 3 4 5 90 6"}) {
+    CAPTURE(size);
+    Editor editor;
+    CHECK_FALSE(editor.take(fmt::format("board sign {}", size)).has_value());
+    CHECK(editor.store.nodes().empty());
+  }
+}
+
+TEST_CASE("what is made under a name again takes the place of what had it, with all its parts") {
+  Editor editor;
+  REQUIRE(editor.take("board sign 2 1").has_value());
+  const std::size_t parts = editor.store.nodes().size();
+  REQUIRE(parts > 1);
+  REQUIRE(editor.take("board sign 3 1 5 0 0").has_value());
+  CHECK(editor.store.nodes().size() == parts);
+  REQUIRE(editor.take("create sign").has_value());
+  CHECK(editor.store.nodes().size() == 1);
+  REQUIRE(editor.take("remove sign").has_value());
+  CHECK(editor.store.nodes().empty());
+}
+
+TEST_CASE("what is moved keeps its heading unless another is given, and its scale always") {
+  Editor editor;
+  for (const char* line : {"create cone 1 2 3 90", "transform-set cone 1 2 3 0 0 0 1 2 2 2", "move cone 4 5 6"})
+    REQUIRE(editor.take(line).has_value());
+  const auto place = [&] { return std::get<scene::ObjectData>(editor.store.find(own_ids)->data).transform; };
+  CHECK(place().position_m == Vec3(4, 5, 6));
+  CHECK(place().rotation == Quat(0, 0, 0, 1));
+  REQUIRE(editor.take("move cone 4 5 6 0").has_value());
+  CHECK(place().rotation == Quat(1, 0, 0, 0));
+  CHECK(place().scale == glm::vec3(2));
+}
+
+}  // namespace septet::server
