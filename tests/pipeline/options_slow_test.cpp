@@ -131,6 +131,15 @@ TEST_CASE("septet list names what there is with a description each") {
   CHECK(has(output_of("septet list drivers"), "tired        Corrects late"));
 }
 
+TEST_CASE("septet devices succeeds whatever is plugged in, and a question without its verb is refused") {
+  CHECK_FALSE(output_of("septet devices").empty());
+  const TemporaryFolder folder;
+  for (const char* command : {"road", "rig", "session", "vehicle"}) {
+    CAPTURE(command);
+    CHECK(run("septet", {command}, folder / "err").code == 2);
+  }
+}
+
 TEST_CASE("what cannot be written fails and what nobody reads on does not") {
   for (const char* command : {"septet list scenarios", "septet --help", "septet-car --version"}) {
     CAPTURE(command);
