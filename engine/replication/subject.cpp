@@ -63,7 +63,6 @@ struct ChangeOf {
   Result operator()(const TransformSet& c) const { return whole(c.node, Kind::transform); }
   Result operator()(const LinkSet& c) const { return whole(c.node, Kind::link, c.link); }
   Result operator()(const LinkDestroy& c) const { return whole(c.node, Kind::link, c.link); }
-  Result operator()(const LightSet& c) const { return whole(c.node, Kind::light); }
   Result operator()(const HideSet& c) const { return whole(c.node, Kind::hide); }
   Result operator()(const GeometrySizeSet& c) const {
     Change change{{c.node, Kind::geometry_size, 0, 0}};
@@ -109,7 +108,6 @@ std::optional<NodeType> type_of(Kind kind) {
       return {};
     case Kind::transform:
     case Kind::link:
-    case Kind::light:
     case Kind::hide:
       return NodeType::object;
     case Kind::geometry_size:
@@ -225,8 +223,6 @@ void describe_change(const Store& store, const Change& change, const std::functi
         emit(LinkDestroy{id, part});
       return;
     }
-    case Kind::light:
-      return emit(LightSet{id, object->light});
     case Kind::hide:
       return emit(HideSet{id, object->hidden});
     case Kind::geometry_size: {
@@ -288,7 +284,6 @@ void mark_node(const Node& node, const Mark& mark) {
   if (const auto* object = std::get_if<ObjectData>(&node.data)) {
     whole(Kind::transform);
     for (const auto& [id, link] : object->links) whole(Kind::link, id);
-    if (object->light != glm::vec3(0.0f)) whole(Kind::light);
     if (object->hidden) whole(Kind::hide);
   }
   if (const auto* geometry = std::get_if<GeometryData>(&node.data)) {

@@ -22,7 +22,6 @@ enum class SubjectKind : std::uint8_t {
   tag,
   transform,
   link,
-  light,
   hide,
   geometry_size,
   crease,

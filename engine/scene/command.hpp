@@ -102,11 +102,6 @@ struct LinkDestroy {
   PartId link = 0;
   bool operator==(const LinkDestroy&) const = default;
 };
-struct LightSet {
-  NodeId node = no_node;
-  glm::vec3 light{0.0f};
-  bool operator==(const LightSet&) const = default;
-};
 struct HideSet {
   NodeId node = no_node;
   bool hidden = false;
@@ -218,12 +213,12 @@ struct BitmapTilesSet {
   bool operator==(const BitmapTilesSet&) const = default;
 };
 
-/// The order is the wire's opcode: new commands go at the end.
+/// In the order of their opcodes (COMMANDS.md): new commands go at the end.
 using Command = std::variant<NodeIndexSubscribe, NodeSubscribe, PartSubscribe, NodeCreate, NodeDestroy, NodeNameSet,
                              TagGroupSet, TagGroupDestroy, TagSet, TagDestroy, TransformSet, LinkSet, LinkDestroy,
-                             LightSet, HideSet, GeometrySizeSet, GeometryLayerSet, GeometryLayerDestroy, VerticesSet,
-                             PolygonsSet, LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy,
-                             BitmapSizeSet, BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet>;
+                             HideSet, GeometrySizeSet, GeometryLayerSet, GeometryLayerDestroy, VerticesSet, PolygonsSet,
+                             LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy, BitmapSizeSet,
+                             BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet>;
 
 /// "vertices set", for messages and logs.
 std::string_view name_of(const Command& command);

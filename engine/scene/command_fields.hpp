@@ -121,6 +121,9 @@ void fields(C& c, Ref<C, Blob> v) {
   c.bytes(v, max_tag_blob_bytes);
 }
 
+template <>
+inline constexpr std::size_t free_code<Command> = 13;
+
 /// A variant: which alternative, then its fields.
 template <class C, class V>
 void variant(C& c, V& value);
@@ -141,7 +144,7 @@ void fields(C& c, Ref<C, PartSubscribe> v) {
 }
 template <class C>
 void fields(C& c, Ref<C, NodeCreate> v) {
-  c.node(v.node), c.kind(v.type, NodeType::audio);
+  c.node(v.node), c.kind(v.type, NodeType::bitmap);
 }
 template <class C>
 void fields(C& c, Ref<C, NodeDestroy> v) {
@@ -185,10 +188,6 @@ void fields(C& c, Ref<C, LinkSet> v) {
 template <class C>
 void fields(C& c, Ref<C, LinkDestroy> v) {
   c.node(v.node), c.part(v.link);
-}
-template <class C>
-void fields(C& c, Ref<C, LightSet> v) {
-  c.node(v.node), vec3(c, v.light);
 }
 template <class C>
 void fields(C& c, Ref<C, HideSet> v) {

@@ -92,7 +92,7 @@ struct TagValueCheck {
 };
 
 struct CommandCheck {
-  Problem operator()(const NodeCreate& c) const { return in_range(c.type, NodeType::audio) ? none : bad_kind; }
+  Problem operator()(const NodeCreate& c) const { return in_range(c.type, NodeType::bitmap) ? none : bad_kind; }
   Problem operator()(const PartSubscribe& c) const { return in_range(c.kind, PartKind::layer) ? none : bad_kind; }
   Problem operator()(const NodeNameSet& c) const { return check_name(c.name); }
   Problem operator()(const TagGroupSet& c) const { return check_name(c.name); }
@@ -106,7 +106,6 @@ struct CommandCheck {
     return length > 0.99 && length < 1.01 ? none : "the rotation is not a unit quaternion";
   }
   Problem operator()(const LinkSet& c) const { return check_name(c.value.label); }
-  Problem operator()(const LightSet& c) const { return finite(c.light) ? none : not_finite; }
   Problem operator()(const GeometryLayerSet& c) const {
     return first_of({check_name(c.name), in_range(c.type, LayerType::face_real) ? none : bad_kind,
                      finite(c.default_real) ? none : not_finite});

@@ -32,8 +32,6 @@ Expected<void> Store::Application::operator()(const NodeCreate& c) const {
     case NodeType::bitmap:
       created.data = BitmapData{};
       break;
-    default:
-      return no("this node type is not kept yet", "use object, geometry, material or bitmap");
   }
   if (auto ok = charge(0, weight(created)); !ok) return ok;
   Node& node = store.nodes_.emplace(c.node, std::move(created)).first->second;
@@ -110,11 +108,6 @@ Expected<void> Store::Application::operator()(const TagDestroy& c) const {
 
 Expected<void> Store::Application::operator()(const TransformSet& c) const {
   return with_object(c.node, [&](ObjectData& object) { object.transform = c.transform; });
-}
-
-Expected<void> Store::Application::operator()(const LightSet& c) const {
-  return with_object(
-      c.node, [&](ObjectData& object) { object.light = c.light; }, false);
 }
 
 Expected<void> Store::Application::operator()(const HideSet& c) const {

@@ -24,8 +24,8 @@ EditKind kind_of(const C& command) {
     return EditKind::move;
   else if constexpr (std::is_same_v<C, LinkSet>)
     return command.value.label == "material" ? EditKind::paint : EditKind::create;
-  else if constexpr (is_one_of<C, LightSet, FragmentSet, FragmentDestroy, BitmapSizeSet, BitmapLayerSet,
-                               BitmapLayerDestroy, BitmapTilesSet, TagGroupSet, TagGroupDestroy, TagSet, TagDestroy>)
+  else if constexpr (is_one_of<C, FragmentSet, FragmentDestroy, BitmapSizeSet, BitmapLayerSet, BitmapLayerDestroy,
+                               BitmapTilesSet, TagGroupSet, TagGroupDestroy, TagSet, TagDestroy>)
     return EditKind::paint;
   return EditKind::create;
 }

@@ -98,7 +98,7 @@ void ScreenHost::pump(double now_s) {
   for (const net::ClientId client : clients)
     scene_.pump(client, scene_bytes_per_pump / clients.size(), [&](std::span<const std::byte> message) {
       const auto sent = lane_.send(client, control::scene_message(message), net::Reliability::reliable);
-      return sent == net::SendResult::queued || sent == net::SendResult::overwrote;
+      return sent == net::SendResult::queued;
     });
   if (options_.welcome.group_ip != 0) send_unicast_to_the_deaf(now_s);
 }

@@ -162,7 +162,7 @@ TEST_CASE("the changes that a scene tells are all that a copy of it needs") {
   CHECK(followed > 100);
 }
 
-TEST_CASE("what is not drawn changes nothing of the scene: other tags, names, lights") {
+TEST_CASE("what is not drawn changes nothing of the scene: other tags, names") {
   EditedWorld world;
   Resolver resolver;
   resolver.update(world.store);
@@ -171,7 +171,6 @@ TEST_CASE("what is not drawn changes nothing of the scene: other tags, names, li
     for (const Command& command : std::vector<Command>{TagGroupSet{node, 900, "lab"},
                                                        TagSet{node, 900, 0, {"trial", 7u}}, NodeNameSet{node, "x"}})
       REQUIRE(world.store.apply(command).has_value());
-  REQUIRE(world.store.apply(LightSet{world.objects[3], {1, 1, 1}}).has_value());
   CHECK_FALSE(resolver.update(world.store));
   CHECK(resolver.scene().revision == revision);
 }

@@ -70,7 +70,6 @@ inline std::vector<Command> sample_commands() {
       LinkSet{1, 1, {"material", 3, 7}},
       LinkSet{1, 2, {"child", no_node, 0}},
       LinkDestroy{1, 2},
-      LightSet{1, {10.0f, 9.0f, 8.0f}},
       HideSet{1, true},
       GeometrySizeSet{2, 5, 2},
       GeometryLayerSet{2, 0, "map_u", LayerType::corner_real, 0, 0.5f},
