@@ -23,7 +23,7 @@ import subprocess
 import tempfile
 import threading
 from concurrent.futures import Future
-from typing import Any, AsyncIterator, Callable, Iterator, Optional, Sequence, Union
+from typing import Any, AsyncIterator, Callable, Iterable, Iterator, Optional, Sequence, Union
 
 __all__ = ["connect", "World", "Handle", "Batch", "Tick", "Car", "Participant", "Refused", "Ended"]
 
@@ -136,12 +136,19 @@ def _turned(heading_deg: float) -> tuple[float, float, float, float]:
     return (math.cos(half), 0.0, 0.0, math.sin(half))
 
 
+def _leg(velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float = 0.0) -> str:
+    if (len(velocity), len(acceleration)) != (3, 3):
+        raise ValueError("a velocity and an acceleration are x, y, z")
+    return _numbers((*velocity, *acceleration, turn_degps))
+
+
 class Handle:
     """An object of the world, by its name. Assigning a property is the change."""
 
     def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
         self._world, self.node = world, node
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
+        self._is_moving = False
 
     def __repr__(self) -> str:
         return f"<septet.Handle {self.node} at {self._position}>"
@@ -152,6 +159,20 @@ class Handle:
             raise ValueError("a position is x, y, z, a rotation w, x, y, z, a scale x, y, z")
         self._world._change(f"transform-set {self.node} {_numbers(position)} {_numbers(wxyz)} {_numbers(scale)}")
         self._position, self._wxyz, self._scale = position, wxyz, scale
+        if self._is_moving:
+            self._world._change(f"motion-set {self.node} 0 0 0 0 1 0 0 0 0")
+        self._is_moving = False
+
+    def go(self, velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float = 0.0, then: Iterable[tuple[Any, ...]] = ()) -> None:
+        """In motion from where it is, m/s, m/s² and degrees a second about the vertical, until a position is assigned.
+
+        `then` holds later legs, each (seconds after the beginning, velocity[, acceleration[, turn_degps]]).
+        """
+        line = f"go {self.node} {_leg(velocity, acceleration, turn_degps)}"
+        for after_s, *leg in then:
+            line += f" then {float(after_s)!r} {_leg(*leg)}"
+        self._world._change(line)
+        self._is_moving = True
 
     @property
     def position(self) -> tuple[float, ...]:

@@ -21,6 +21,7 @@ enum class SubjectKind : std::uint8_t {
   tag_group,
   tag,
   transform,
+  motion,
   link,
   hide,
   geometry_size,

@@ -30,7 +30,8 @@ constexpr std::array<std::string_view, std::variant_size_v<Command>> command_nam
                                                                                       "bitmap size set",
                                                                                       "bitmap layer set",
                                                                                       "bitmap layer destroy",
-                                                                                      "bitmap tiles set"};
+                                                                                      "bitmap tiles set",
+                                                                                      "motion set"};
 
 }  // namespace
 

@@ -102,6 +102,15 @@ struct LinkDestroy {
   PartId link = 0;
   bool operator==(const LinkDestroy&) const = default;
 };
+/// `legs` empty: the motion ends, and the object stands at its transform.
+struct MotionSet {
+  NodeId node = no_node;
+  Motion motion;
+  /// Of a request: times count from the tick at which it is done, and it begins where the object is then. The server
+  /// puts the true ones in their place.
+  bool from_now = false;
+  bool operator==(const MotionSet&) const = default;
+};
 struct HideSet {
   NodeId node = no_node;
   bool hidden = false;
@@ -218,7 +227,7 @@ using Command = std::variant<NodeIndexSubscribe, NodeSubscribe, PartSubscribe, N
                              TagGroupSet, TagGroupDestroy, TagSet, TagDestroy, TransformSet, LinkSet, LinkDestroy,
                              HideSet, GeometrySizeSet, GeometryLayerSet, GeometryLayerDestroy, VerticesSet, PolygonsSet,
                              LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy, BitmapSizeSet,
-                             BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet>;
+                             BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet, MotionSet>;
 
 /// "vertices set", for messages and logs.
 std::string_view name_of(const Command& command);

@@ -257,6 +257,16 @@ void fields(C& c, Ref<C, BitmapTilesSet> v) {
   c.node(v.node), c.part(v.layer), c.number(v.first_tile), c.bytes(v.tiles, max_run_bytes);
 }
 
+template <class C>
+void fields(C& c, Ref<C, MotionSet> v) {
+  auto& m = v.motion;
+  c.node(v.node), c.flag(v.from_now), vec3(c, m.position_m);
+  c.real(m.rotation.w), c.real(m.rotation.x), c.real(m.rotation.y), c.real(m.rotation.z);
+  c.count(m.legs, max_motion_legs);
+  for (auto& leg : m.legs)
+    c.real(leg.from_s), vec3(c, leg.velocity_mps), vec3(c, leg.acceleration_mps2), vec3(c, leg.turn_radps);
+}
+
 // ---- a variant
 
 template <class C, class V>

@@ -27,6 +27,11 @@ DrawnObject read_object(const Node& node) {
   object.transform = data.transform;
   object.transform.rotation = glm::normalize(data.transform.rotation);
   object.hidden = data.hidden;
+  if (!object.prototype && !data.motion.legs.empty()) {
+    object.motion = data.motion;
+    object.motion.rotation = glm::normalize(data.motion.rotation);
+    object.transform = {.scale = data.transform.scale};
+  }
   for (const auto& [id, link] : data.links) {
     if (link.label == "geometry" && object.geometry == no_node) object.geometry = link.target;
     if (link.label == "material") object.materials.emplace_back(link.target_id, link.target);

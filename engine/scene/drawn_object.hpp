@@ -17,7 +17,8 @@ using FaceMaterials = std::vector<std::pair<std::uint32_t, NodeId>>;
 
 struct DrawnObject {
   std::optional<std::string> prototype;  ///< Name of the prototype that it is; none: it is placed in the world.
-  Transform transform;
+  Transform transform;                   ///< Of what moves the scale alone.
+  Motion motion;                         ///< With legs: drawn at its motion's pose, as a prototype of its own.
   bool hidden = false;
   NodeId geometry = no_node;
   FaceMaterials materials;

@@ -20,6 +20,7 @@
 #include "engine/geometry/polygon_mesh.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/material_fragment.hpp"
+#include "engine/scene/motion.hpp"
 
 namespace septet::scene {
 
@@ -71,6 +72,8 @@ struct Link {
 
 struct ObjectData {
   Transform transform;  ///< parent_from_object.
+  Motion
+      motion;  ///< Of an object that no other links to: with legs it stands in place of `transform`, but for the scale.
   std::map<PartId, Link> links;
   bool hidden = false;
 };

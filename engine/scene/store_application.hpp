@@ -121,6 +121,7 @@ struct Store::Application {
   Expected<void> operator()(const TagDestroy& c) const;
   Expected<void> operator()(const TransformSet& c) const;
   Expected<void> operator()(const HideSet& c) const;
+  Expected<void> operator()(const MotionSet& c) const;
   Expected<void> operator()(const LinkSet& c) const;
   Expected<void> operator()(const LinkDestroy& c) const;
   Expected<void> operator()(const GeometrySizeSet& c) const;

@@ -114,6 +114,16 @@ Expected<void> Store::Application::operator()(const HideSet& c) const {
   return with_object(c.node, [&](ObjectData& object) { object.hidden = c.hidden; });
 }
 
+Expected<void> Store::Application::operator()(const MotionSet& c) const {
+  if (c.from_now) return no("the motion's times are not known yet", "ask the server of a drive");
+  const auto object = node_with<ObjectData>(c.node);
+  if (!object) return tl::unexpected(object.error());
+  if (auto ok = charge(weight(object->second->motion), weight(c.motion)); !ok) return ok;
+  object->second->motion = c.motion;
+  touch(*object->first);
+  return {};
+}
+
 Expected<void> Store::Application::operator()(const LinkSet& c) const {
   const auto object = node_with<ObjectData>(c.node);
   if (!object) return tl::unexpected(object.error());

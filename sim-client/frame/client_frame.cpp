@@ -17,6 +17,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/instant/mirror_view.hpp"
+#include "engine/scene/motion.hpp"
 #include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/world/instrument_panel.hpp"
 #include "engine/world/paint.hpp"
@@ -191,6 +192,21 @@ void add_hung_things(instant::FrameInput& frame, const Participant& participant,
   }
 }
 
+/// Objects that move by themselves, where they are now.
+void add_moving_things(instant::FrameInput& frame, const scene::ResolvedScene& scene) {
+  for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i) {
+    const scene::Prototype& prototype = scene.prototypes[i];
+    if (prototype.motion.legs.empty()) continue;
+    const scene::MovingPose now = scene::pose_at(prototype.motion, frame.simulated_time_s);
+    instant::DrawnParticipant drawn;
+    drawn.prototype = i;
+    drawn.number = prototype.number;
+    drawn.world_from_vehicle = now.world_from_object;
+    drawn.velocity_mps = now.velocity_mps;
+    frame.participants.push_back(drawn);
+  }
+}
+
 }  // namespace
 
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
@@ -239,6 +255,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     }
     frame.participants.push_back(drawn);
   }
+  add_moving_things(frame, scene);
   for (const TrafficLight& light : traffic_lights_of(shown)) {
     const auto prototype = prototype_of(scene, light.for_walkers ? "pedestrian light" : "traffic light");
     if (!prototype) continue;

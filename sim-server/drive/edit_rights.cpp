@@ -20,7 +20,7 @@ EditKind kind_of(const C& command) {
   using namespace scene;
   if constexpr (std::is_same_v<C, HideSet>)
     return EditKind::hide;
-  else if constexpr (std::is_same_v<C, TransformSet>)
+  else if constexpr (std::is_same_v<C, TransformSet> || std::is_same_v<C, MotionSet>)
     return EditKind::move;
   else if constexpr (std::is_same_v<C, LinkSet>)
     return command.value.label == "material" ? EditKind::paint : EditKind::create;

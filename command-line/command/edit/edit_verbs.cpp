@@ -22,6 +22,7 @@
 #include "engine/image/png.hpp"
 #include "engine/image/srgb.hpp"
 #include "engine/replication/message.hpp"
+#include "engine/scene/command_validation.hpp"
 
 namespace septet::server {
 namespace {
@@ -60,6 +61,21 @@ std::optional<Transform> transform_of(Words words) {
   return transform;
 }
 
+/// A leg of `go`; a later one begins with its time after the first one's beginning.
+std::optional<MotionLeg> leg_of(Words words, bool is_later) {
+  const auto given = numbers(words);
+  const std::size_t first = is_later ? 1 : 0;
+  if (!given || (given->size() != first + 3 && given->size() != first + 6 && given->size() != first + 7))
+    return std::nullopt;
+  const auto vector = [&](std::size_t at) {
+    return at + 2 < given->size() ? Vec3((*given)[at], (*given)[at + 1], (*given)[at + 2]) : Vec3(0.0);
+  };
+  MotionLeg leg{.velocity_mps = vector(first), .acceleration_mps2 = vector(first + 3)};
+  if (is_later) leg.from_s = given->front();
+  if (given->size() == first + 7) leg.turn_radps.z = given->back() * std::numbers::pi / 180.0;
+  return leg;
+}
+
 class Verbs {
  public:
   Verbs(const Store& store, EditNames& names) : store_(store), names_(names) {}
@@ -69,6 +85,7 @@ class Verbs {
     const Words rest = std::span(words).subspan(1);
     if (verb == "create") return create(rest);
     if (verb == "move") return move(rest);
+    if (verb == "go") return go(rest);
     if (verb == "hide" || verb == "show") return hide(rest, verb == "hide");
     if (verb == "remove") return remove(rest);
     if (verb == "import") return import_model(rest);
@@ -171,7 +188,25 @@ class Verbs {
       transform->scale = now->transform.scale;
       if (words.size() == 4) transform->rotation = now->transform.rotation;
     }
-    return EditedLine{{TransformSet{*id, *transform}}};
+    EditedLine line{{TransformSet{*id, *transform}}};
+    if (const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr; now && !now->motion.legs.empty())
+      line.commands.emplace_back(MotionSet{*id, {}});
+    return line;
+  }
+  Expected<EditedLine> go(Words words) {
+    constexpr std::string_view usage = "go NODE VX VY VZ [AX AY AZ [TURN_DEGPS]] [then AFTER_S VX VY VZ …]";
+    if (words.empty()) return wrong("a node is missing", usage);
+    const auto id = object(words[0]);
+    if (!id) return no_node_called(words[0]);
+    MotionSet motion{*id, {}, true};
+    for (Words rest = words.subspan(1);;) {
+      const auto then = std::ranges::find(rest, "then", &TextWord::text);
+      const auto leg = leg_of(rest.first(static_cast<std::size_t>(then - rest.begin())), !motion.motion.legs.empty());
+      if (!leg) return wrong("a velocity is three numbers, an acceleration three more, a turn one more", usage);
+      motion.motion.legs.push_back(*leg);
+      if (then == rest.end()) return EditedLine{{std::move(motion)}};
+      rest = rest.subspan(static_cast<std::size_t>(then - rest.begin()) + 1);
+    }
   }
   Expected<EditedLine> hide(Words words, bool hidden) {
     if (words.size() != 1) return wrong("one node is needed", hidden ? "hide NODE" : "show NODE");
@@ -290,7 +325,11 @@ bool matches(std::string_view pattern, std::string_view name) {
 }  // namespace
 
 Expected<EditedLine> edit_of(const std::vector<TextWord>& words, const Store& store, EditNames& names) {
-  return Verbs(store, names).line(words);
+  auto line = Verbs(store, names).line(words);
+  if (!line) return line;
+  for (const Command& command : line->commands)  // A server ends the connection of who sends what is out of range.
+    if (auto valid = validate(command); !valid) return tl::unexpected(valid.error());
+  return line;
 }
 
 Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store) {

@@ -84,6 +84,16 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         sign.hang_on(first.driver)
         sign.position = (-1, 0, 2)
         assert len(world.find(f"model/participant/{first.car.id}")) == 1
+        # What moves is sent once, and begins where it is when the server does it.
+        deer = world.add("stimuli/deer", glb, (5, 6, 7))
+        deer.go((0, 3, 0), turn_degps=90, then=[(2, (0, 0, 0))])
+        (line,) = [line.split() for line in world._ask(["read stimuli/deer"]).result(60) if line.startswith("motion-set")]
+        assert [float(word) for word in line[2:6]] == [0, 5, 6, 7] and line[10] == "2", line
+        assert float(line[11]) > first.time_s and abs(float(line[21]) - float(line[11]) - 2) < 1e-9, line
+        deer.position = (1, 1, 1)
+        assert not [line for line in world._ask(["read stimuli/deer"]).result(60) if line.startswith("motion-set")]
+        why = refused(lambda: deer.go((20000, 0, 0)))
+        assert "faster than 10 km/s" in why.why, why.why
         # A batch is done whole at its tick, or nothing of it.
         at = first.tick + 240
         with world.batch(at_tick=at) as later:
@@ -129,7 +139,7 @@ with tempfile.TemporaryDirectory() as name:
         port = ready.split()[1]
         use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
-        for script, more in (("ball.py", [str(folder / "ball.glb")]), ("sign_at_200_m.py", [])):
+        for script, more in (("ball.py", [str(folder / "ball.glb")]), ("deer.py", [str(folder / "ball.glb")]), ("sign_at_200_m.py", [])):
             said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
             assert script != "sign_at_200_m.py" or said.startswith("changed at "), said
     except BaseException:

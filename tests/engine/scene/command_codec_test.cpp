@@ -76,7 +76,6 @@ TEST_CASE("mutated bytes are refused or give a command that is written and read 
 }
 
 TEST_CASE("numbers that are not finite are refused") {
-  const float bad = std::numeric_limits<float>::quiet_NaN();
   CHECK_FALSE(decode(bytes_of(VerticesSet{1, 0, {{0, INFINITY, 0}}})).has_value());
   CHECK_FALSE(decode(bytes_of(TransformSet{1, {{NAN, 0.0, 0.0}}})).has_value());
   CHECK_FALSE(decode(bytes_of(TagSet{1, 0, 0, {"x", double{NAN}}})).has_value());
