@@ -111,13 +111,14 @@ Expected<int> run_edit(const EditOptions& options) {
   for (;;) {
     (*client)->pump();
     session.hear();
+    session.look_at_files(program::monotonic_s());
     if (auto read = lines->pump(); !read) return tl::unexpected(read.error());
     const auto may_take = [&](const std::string& line) {
       return session.is_settled() || ((options.json || session.is_in_batch()) && !EditSession::reads_scene(line) &&
                                       session.answers_owed() < most_answers_owed);
     };
     while (!lines->empty() && may_take(lines->front())) session.take(lines->take());
-    if (lines->ended() && session.answers_owed() == 0) break;
+    if (lines->ended() && session.answers_owed() == 0 && !session.is_watching()) break;
     if (link.finished() || link.server_is_gone() || link.refusal() || program::should_stop()) {
       end = link.finished() ? "the drive has ended" : program::should_stop() ? "stopped" : "the server is gone";
       break;

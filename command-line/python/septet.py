@@ -288,10 +288,13 @@ class World:
 
     # ---- changes
 
-    def add(self, name: str, glb: Optional[Path] = None, position: Vector = (0, 0, 0), heading_deg: float = 0.0) -> Handle:
-        """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced."""
+    def add(self, name: str, glb: Optional[Path] = None, position: Vector = (0, 0, 0), heading_deg: float = 0.0, watch: bool = False) -> Handle:
+        """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced.
+
+        `watch`: the file is read again each time when it was saved, as long as this connection stands; nothing is replaced.
+        """
         at = f"{_numbers(position)} {float(heading_deg)!r}"
-        what = f"create {_word(name)} {at}" if glb is None else f"import {_word(name)} {_word(os.path.abspath(glb))} {at}"
+        what = f"create {_word(name)} {at}" if glb is None else f"{'watch' if watch else 'import'} {_word(name)} {_word(os.path.abspath(glb))} {at}"
         return self._made(name, what, position, heading_deg)
 
     def board(self, name: str, width_m: float, height_m: float, position: Vector = (0, 0, 0), heading_deg: float = 0.0) -> Handle:

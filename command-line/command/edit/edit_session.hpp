@@ -11,6 +11,7 @@
 #include "command-line/command/edit/edit_client.hpp"
 #include "command-line/command/edit/edit_output.hpp"
 #include "command-line/command/edit/edit_verbs.hpp"
+#include "command-line/command/edit/watched_model.hpp"
 
 namespace septet::server {
 
@@ -30,6 +31,9 @@ class EditSession {
   void take(const std::string& line);
   /// Says what the server has answered, and the ticks that have come.
   void hear();
+  /// Sends what differs in files that are watched and were saved.
+  void look_at_files(double now_s);
+  bool is_watching() const { return !watched_.empty(); }
   std::uint64_t refusals() const { return refusals_; }
 
  private:
@@ -40,7 +44,8 @@ class EditSession {
     std::vector<std::size_t> line_of;  ///< Of each command.
     std::vector<std::string> messages;
     std::optional<std::pair<std::size_t, std::string>> wrong;  ///< The first line that cannot be read, and why.
-    bool is_undo = false;
+    bool may_be_undone = true;
+    bool was_asked = true;  ///< False: of a file that was saved; its answer is a message.
   };
   struct Waiting {
     std::uint64_t request = 0;
@@ -56,6 +61,7 @@ class EditSession {
   bool query(const std::string& line, const std::vector<scene::TextWord>& words);
   void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
   void undo();
+  void watch(const std::string& line, const std::vector<scene::TextWord>& words);
 
   EditClient& client_;
   const EditOutput& output_;
@@ -65,6 +71,7 @@ class EditSession {
   std::optional<Batch> batch_;
   std::map<std::uint64_t, Waiting> waiting_;  ///< By the batch's number.
   std::vector<std::vector<scene::Command>> undo_;
+  std::vector<WatchedModel> watched_;
   bool tells_ticks_ = false;
   std::optional<Tick> told_tick_;
 };

@@ -51,7 +51,8 @@ std::optional<std::vector<double>> numbers(Words words) {
 
 Quat turned(double heading_deg) { return glm::angleAxis(heading_deg * std::numbers::pi / 180.0, Vec3(0, 0, 1)); }
 
-/// Nothing, X Y Z, or X Y Z HEADING.
+}  // namespace
+
 std::optional<Transform> transform_of(Words words) {
   const auto read = numbers(words);
   if (!read || !(read->empty() || read->size() == 3 || read->size() == 4)) return std::nullopt;
@@ -60,6 +61,8 @@ std::optional<Transform> transform_of(Words words) {
   if (read->size() == 4) transform.rotation = turned((*read)[3]);
   return transform;
 }
+
+namespace {
 
 /// A leg of `go`; a later one begins with its time after the first one's beginning.
 std::optional<MotionLeg> leg_of(Words words, bool is_later) {

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import queue
 import sqlite3
 import struct
 import subprocess
@@ -32,9 +33,9 @@ upper_left_m = [2.15, 0.77, 1.47]
 """
 
 
-def triangle_glb() -> bytes:
-    """A red triangle of a metre."""
-    numbers = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+def triangle_glb(height_m: float = 1) -> bytes:
+    """A red triangle, a metre wide."""
+    numbers = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, height_m, 0)
     document = {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -42,7 +43,7 @@ def triangle_glb() -> bytes:
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
         "materials": [{"name": "red", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, height_m, 0]}],
         "bufferViews": [{"buffer": 0, "byteLength": len(numbers)}],
         "buffers": [{"byteLength": len(numbers)}],
     }
@@ -94,6 +95,19 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         assert not [line for line in world._ask(["read stimuli/deer"]).result(60) if line.startswith("motion-set")]
         why = refused(lambda: deer.go((20000, 0, 0)))
         assert "faster than 10 km/s" in why.why, why.why
+        # A file that is watched: what differs is sent when it was saved, and a half-written one is told.
+        live = folder / "live.glb"
+        live.write_bytes(triangle_glb())
+        told = queue.Queue()
+        world.on("message")(told.put)
+        world.add("stimuli/live", live, watch=True)
+        assert "already" in refused(lambda: world.add("stimuli/live", live, watch=True)).why
+        live.write_bytes(triangle_glb(2))
+        while "changes, from tick" not in (message := told.get(timeout=60)):
+            pass
+        assert message.startswith(f"{live}: 1 changes"), message
+        live.write_bytes(triangle_glb()[:100])
+        assert "live.glb" in (message := told.get(timeout=60)) and "changes" not in message, message
         # A batch is done whole at its tick, or nothing of it.
         at = first.tick + 240
         with world.batch(at_tick=at) as later:
