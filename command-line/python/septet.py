@@ -326,6 +326,43 @@ class World:
         """Writes what differs from the world as it was when this script came, for `septet drive --edits`."""
         self._ask([f"save {_word(os.path.abspath(file))}"]).result(60.0)
 
+    # ---- the drive
+
+    def operate(self, line: str) -> int:
+        """A line of an operator's, as docs/editing.md has them; the tick after which it was done."""
+        if "\n" in line:
+            raise ValueError("a line has no end within")
+        return self._ask([f"operate {line}"]).result(60.0)
+
+    def mark(self, text: str) -> int:
+        """A mark in the log, at this tick."""
+        return self.operate(f"mark {text}")
+
+    def conditions(self, **values: float) -> int:
+        """Weather, light and grip: conditions(rain_mm_per_h=20, road_wetness=0.6)."""
+        return self.operate("conditions " + " ".join(f"{name}={float(value)!r}" for name, value in values.items()))
+
+    def trigger(self, element: str) -> int:
+        """An act or event of the storyboard begins now, Story::Act or longer."""
+        return self.operate(f"trigger element={element}")
+
+    def pause(self) -> int:
+        """The world stands still until go_on, or this connection's end."""
+        return self.operate("pause")
+
+    def go_on(self) -> int:
+        return self.operate("go_on")
+
+    def step(self, ticks: int = 1, timeout_s: float = 60.0) -> Tick:
+        """So many ticks, then the world stands still; returns the last of them."""
+        self._want_ticks()
+        last = self.operate(f"step {int(ticks)}") + int(ticks)
+        with self._news:
+            self._news.wait_for(lambda: (self.newest is not None and self.newest.tick >= last) or self.why_ended is not None, timeout_s)
+            if self.newest is None or self.newest.tick < last:
+                raise Ended(self.why_ended or "the ticks do not come")
+            return self.newest
+
     # ---- ticks
 
     def ticks(self, every: int = 1) -> Iterator[Tick]:

@@ -133,6 +133,16 @@ void EditSession::hear() {
     if (undo_.size() > most_undone) undo_.erase(undo_.begin());
     output_.done(waiting.request, answer.tick, batch.messages);
   }
+  for (const control::OperatorAnswer& answer : client_.take_operator_answers()) {
+    const auto found = operating_.find(answer.number);
+    if (found == operating_.end()) continue;
+    const auto [request, line] = std::move(found->second);
+    operating_.erase(found);
+    if (answer.why_not.empty())
+      output_.done(request, answer.tick, {});
+    else
+      refuse(request, 1, line, answer.why_not);
+  }
   for (const std::string& message : client_.take_messages()) output_.message(message);
   if (!tells_ticks_) return;
   for (const frame::HistoryTick& tick : client_.link().history().ticks()) {
@@ -179,6 +189,8 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
       refuse(request, 1, line, describe(saved.error()));
   } else if (verb == "undo") {
     undo();
+  } else if (verb == "operate") {
+    operate(line);
   } else if (verb == "watch") {
     watch(line, words);
   } else {
@@ -211,6 +223,17 @@ void EditSession::undo() {
   else
     batch.commands = std::move(undo_.back()), undo_.pop_back();
   send(std::move(batch));
+}
+
+/// What stands behind the word is the server's to read.
+void EditSession::operate(const std::string& line) {
+  const std::uint64_t request = ++requests_;
+  const auto begin = line.find_first_not_of(" \t", line.find("operate") + std::string_view("operate").size());
+  const std::string text = begin == std::string::npos ? std::string() : line.substr(begin);
+  if (text.empty() || text.size() > control::most_operator_line_bytes)
+    return refuse(request, 1, line.substr(0, 80), "write operate and a line of an operator's: docs/editing.md");
+  operating_[++operated_] = {request, line};
+  client_.operate(operated_, text);
 }
 
 void EditSession::watch(const std::string& line, const std::vector<scene::TextWord>& words) {

@@ -25,9 +25,9 @@ class EditSession {
   /// True if the line reads the scene, so that everything before it must have arrived.
   static bool reads_scene(std::string_view line);
   /// True if no answer is owed and the mirror is whole.
-  bool is_settled() const { return waiting_.empty() && client_.is_complete(); }
+  bool is_settled() const { return answers_owed() == 0 && client_.is_complete(); }
   bool is_in_batch() const { return batch_.has_value(); }
-  std::size_t answers_owed() const { return waiting_.size(); }
+  std::size_t answers_owed() const { return waiting_.size() + operating_.size(); }
   void take(const std::string& line);
   /// Says what the server has answered, and the ticks that have come.
   void hear();
@@ -61,6 +61,7 @@ class EditSession {
   bool query(const std::string& line, const std::vector<scene::TextWord>& words);
   void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
   void undo();
+  void operate(const std::string& line);
   void watch(const std::string& line, const std::vector<scene::TextWord>& words);
 
   EditClient& client_;
@@ -72,6 +73,9 @@ class EditSession {
   std::map<std::uint64_t, Waiting> waiting_;  ///< By the batch's number.
   std::vector<std::vector<scene::Command>> undo_;
   std::vector<WatchedModel> watched_;
+  std::map<std::uint32_t, std::pair<std::uint64_t, std::string>>
+      operating_;  ///< Requests and lines, by the line's number.
+  std::uint32_t operated_ = 0;
   bool tells_ticks_ = false;
   std::optional<Tick> told_tick_;
 };

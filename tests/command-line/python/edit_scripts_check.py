@@ -8,6 +8,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 septet_program = pathlib.Path(sys.argv[1])
 root = pathlib.Path(__file__).resolve().parents[3]
@@ -85,6 +86,18 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         sign.hang_on(first.driver)
         sign.position = (-1, 0, 2)
         assert len(world.find(f"model/participant/{first.car.id}")) == 1
+        # A script marks, sets the weather, stops the world and takes it tick by tick.
+        world.mark("phase 2")
+        world.conditions(rain_mm_per_h=12, road_wetness=0.5)
+        assert "is not" in (why := refused(lambda: world.conditions(rain=1))).why or why.why, why
+        stood = world.pause()
+        for n in (1, 5):
+            assert world.step(n).tick == stood + n
+            stood += n
+        time.sleep(0.3)
+        assert world.newest.tick == stood
+        world.go_on()
+        assert next(tick for tick in world.ticks() if tick.tick > stood).tick > stood
         # What moves is sent once, and begins where it is when the server does it.
         deer = world.add("stimuli/deer", glb, (5, 6, 7))
         deer.go((0, 3, 0), turn_degps=90, then=[(2, (0, 0, 0))])
@@ -129,6 +142,7 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         assert f"hide-set {tree.node} 1" in text and "stimuli/ball" in text
     with septet.connect(host, port, keys / "guest/guest.key") as guest:
         assert "which lab made" in refused(lambda: guest.get("stimuli/ball").remove()).why
+        assert "may not operate" in refused(lambda: guest.mark("no")).why
         assert "needs the word create" in refused(lambda: guest.add("mine")).why
     with septet.connect(host, port, keys / "reader/reader.key") as reader:
         assert next(reader.ticks()).everybody
@@ -140,7 +154,7 @@ with tempfile.TemporaryDirectory() as name:
     (folder / "small.toml").write_text(RIG)
     (folder / "ball.glb").write_bytes(triangle_glb())
     keys = folder / "keys"
-    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit",
+    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit operate",
         "--editor", "guest=edit hide move", "--editor", "reader=look")
     server = subprocess.Popen(
         [str(septet_program.parent / "septet-server"), "--scenario", "first-lesson", "--rig", str(folder / "small.toml"), "--keys",
@@ -163,10 +177,13 @@ with tempfile.TemporaryDirectory() as name:
         server.terminate()
         server.wait(300)
     log = (folder / "server.log").read_text()
-    assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create" in log, log
+    assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create, and operates" in log, log
     assert "refused so far: 2" in log, log
     session = folder / "out/session.sqlite"
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
+    notes = [row for row in sqlite3.connect(session).execute("SELECT kind, detail FROM events WHERE detail LIKE 'by=lab %'")]
+    assert ("mark", "by=lab note=phase 2") in notes and ("operator", "by=lab wish=pause") in notes, notes
+    assert any(detail.startswith("by=lab wish=conditions") for _, detail in notes), notes
     assert logged > 20, logged
     print(run(str(septet_program), "replay", "--verify", str(session)))
     assert "stimuli/sign" in (folder / "saved.edits").read_text()
