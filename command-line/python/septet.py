@@ -127,6 +127,10 @@ def _word(text: str) -> str:
     return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
 
 
+def _number(participant: Union[int, Participant, Car]) -> int:
+    return participant if isinstance(participant, int) else participant.id
+
+
 def _numbers(values: Vector) -> str:
     return " ".join(repr(float(value)) for value in values)
 
@@ -226,8 +230,7 @@ class Handle:
 
     def hang_on(self, participant: Union[int, "Participant", "Car"]) -> None:
         """On one vehicle: its position is then in that one's frame, x forward, y left, z up from the ground below the rear axle."""
-        number = participant if isinstance(participant, int) else participant.id
-        self._world._change(f"hang {self.node} {number}")
+        self._world._change(f"hang {self.node} {_number(participant)}")
 
     def remove(self) -> None:
         self._world._change(f"remove {self.node}")
@@ -301,6 +304,10 @@ class World:
         """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it."""
         what = f"board {_word(name)} {_numbers((width_m, height_m))} {_numbers(position)} {float(heading_deg)!r}"
         return self._made(name, what, position, heading_deg)
+
+    def repaint(self, participant: Union[int, "Participant", "Car"], red: float, green: float, blue: float) -> None:
+        """The paint of one participant, each part from 0 to 1 as in pictures."""
+        self._change(f"repaint {_number(participant)} {_numbers((red, green, blue))}")
 
     def find(self, pattern: str = "*", near: Optional[tuple[float, float, float]] = None) -> list[Handle]:
         """Objects whose names match (* and ?), `near` (x, y, metres); a thousand at most."""

@@ -26,6 +26,7 @@ struct DrawnObject {
   float visible_from_m = 0.0f, visible_to_m = 1e9f;
   PartRole role = PartRole::fixed;
   bool casts_shadow = true;
+  std::optional<glm::vec3> paint;  ///< Of a prototype.
 
   bool operator==(const DrawnObject&) const = default;
 };

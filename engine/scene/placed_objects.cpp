@@ -135,8 +135,11 @@ void PlacedObjects::set_parts(std::uint32_t prototype, std::vector<Instance> par
 }
 
 bool PlacedObjects::place_model(Root& root, const Object& object, std::vector<Instance> parts, ResolvedScene& scene) {
-  const Prototype& prototype = scene.prototypes[root.prototype];
+  Prototype& prototype = scene.prototypes[root.prototype];
   if (prototype.name != *object.drawn.prototype) return false;
+  if (prototype.paint != object.drawn.paint)
+    scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
+  prototype.paint = object.drawn.paint;
   const bool is_changed = prototype.parts != parts;
   if (is_changed) scene.prototypes_revision = scene.revision;
   set_parts(root.prototype, std::move(parts), scene);
@@ -298,8 +301,8 @@ void PlacedObjects::place_all(const Store& store, ResolvedScene& scene) {
     place(object, id, {}, path, root.visits, instances, scene);
     if (root.is_model || root.moves) {
       root.prototype = static_cast<std::uint32_t>(scene.prototypes.size());
-      scene.prototypes.push_back({object.drawn.prototype.value_or(""), std::move(instances), object.drawn.motion,
-                                  root.moves ? moving_number(id) : 0});
+      scene.prototypes.push_back({object.drawn.prototype.value_or(""), std::move(instances), object.drawn.paint,
+                                  object.drawn.motion, root.moves ? moving_number(id) : 0});
     } else {
       root.first = static_cast<std::uint32_t>(scene.instances.size());
       root.capacity = static_cast<std::uint32_t>(instances.size());

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -146,8 +147,9 @@ struct Instance {
 struct Prototype {
   std::string name;  ///< Empty: of an object.
   std::vector<Instance> parts;
-  Motion motion;             ///< Of an object; without legs it has gone.
-  std::uint32_t number = 0;  ///< Tells objects that move apart from each other and from participants.
+  std::optional<glm::vec3> paint;  ///< Of what it hangs on, in place of that one's own; linear Rec. 709.
+  Motion motion;                   ///< Of an object; without legs it has gone.
+  std::uint32_t number = 0;        ///< Tells objects that move apart from each other and from participants.
 };
 
 /// Pixels of an image, from the upper left.

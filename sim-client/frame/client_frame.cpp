@@ -180,6 +180,14 @@ std::vector<std::pair<ParticipantId, std::uint32_t>> hung_things(const scene::Re
   return hung;
 }
 
+/// Its own, or that which an editor gave it.
+glm::vec3 paint_of(const Participant& participant, const scene::ResolvedScene& scene,
+                   const std::vector<std::pair<ParticipantId, std::uint32_t>>& hung) {
+  for (const auto& [number, prototype] : hung)
+    if (number == participant.id && scene.prototypes[prototype].paint) return *scene.prototypes[prototype].paint;
+  return body_color(participant.paint);
+}
+
 /// Added with the vehicle's motion, without its lamps and its spray.
 void add_hung_things(instant::FrameInput& frame, const Participant& participant,
                      const std::vector<std::pair<ParticipantId, std::uint32_t>>& hung) {
@@ -224,7 +232,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     const auto prototype = prototype_of(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;
     auto drawn = instant::drawn_participant(participant, *prototype);
-    drawn.paint = body_color(participant.paint);
+    drawn.paint = paint_of(participant, scene, hung);
     if (participant.id == viewpoint.inside) {
       for (auto& view : frame.views) view.velocity_mps = participant.velocity_mps;
       // A real car is around the driver, or its inside is drawn: of the model only the shadow and the light remain.

@@ -79,6 +79,14 @@ std::optional<MotionLeg> leg_of(Words words, bool is_later) {
   return leg;
 }
 
+/// Of three numbers as in pictures.
+glm::vec3 linear_rgb(std::span<const double> srgb) {
+  const auto light = [&](std::size_t i) {
+    return static_cast<float>(image::light_of_srgb(std::clamp(srgb[i], 0.0, 1.0)));
+  };
+  return {light(0), light(1), light(2)};
+}
+
 class Verbs {
  public:
   Verbs(const Store& store, EditNames& names) : store_(store), names_(names) {}
@@ -97,6 +105,7 @@ class Verbs {
     if (verb == "text") return text(rest);
     if (verb == "color") return color(rest);
     if (verb == "hang") return hang(rest);
+    if (verb == "repaint") return repaint(rest);
     auto command = command_from_words(words, {store_, names_.own_ids, nullptr, &names_.fresh});
     if (!command) return tl::unexpected(command.error());
     learn(*command);
@@ -277,30 +286,43 @@ class Verbs {
     if (!id) return no_node_called(words[0]);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
-    glm::vec3 linear;
-    for (int i = 0; i < 3; ++i)
-      linear[i] = static_cast<float>(image::light_of_srgb(std::clamp((*rgb)[static_cast<std::size_t>(i)], 0.0, 1.0)));
-    return keep(make_colour(store_, *id, linear, *first));
+    return keep(make_colour(store_, *id, linear_rgb(*rgb), *first));
   }
 
-  /// The prototype of what hangs on one participant has a link of each thing's own, by its id.
+  /// What hangs on a participant, and its paint, are of this root's; made by `made` where it is not there yet.
+  NodeId root_of(double number, Made& made) const {
+    const std::string root = fmt::format("model/participant/{:.0f}", number);
+    if (const auto known = object({root, true})) return *known;
+    const NodeId id = made.next++;
+    made.commands = {NodeCreate{id, NodeType::object}, NodeNameSet{id, root}};
+    return id;
+  }
+  static bool is_participant(double number) { return number >= 0.0 && number <= 4e9; }
+
+  /// A link of each thing's own, by its id.
   Expected<EditedLine> hang(Words words) {
     constexpr std::string_view usage = "hang NODE NUMBER, a node of this editor's own and the number of a participant";
     const auto number = words.size() == 2 ? numbers(words.subspan(1)) : std::nullopt;
     const auto id = words.empty() ? std::nullopt : object(words[0]);
-    if (!number || number->front() < 0.0 || number->front() > 4e9 || !id ||
-        *id - names_.own_ids >= replication::ids_per_session)
+    if (!number || !is_participant(number->front()) || !id || *id - names_.own_ids >= replication::ids_per_session)
       return wrong("a thing and a participant are needed", usage);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
-    const std::string root = fmt::format("model/participant/{:.0f}", number->front());
     Made made{{}, *first};
-    auto parent = object({root, true});
-    if (!parent) {
-      parent = made.next++;
-      made.commands = {NodeCreate{*parent, NodeType::object}, NodeNameSet{*parent, root}};
-    }
-    made.commands.emplace_back(LinkSet{*parent, static_cast<PartId>(*id - names_.own_ids), {"child", *id, 0}});
+    const NodeId parent = root_of(number->front(), made);
+    made.commands.emplace_back(LinkSet{parent, static_cast<PartId>(*id - names_.own_ids), {"child", *id, 0}});
+    return keep(std::move(made));
+  }
+  Expected<EditedLine> repaint(Words words) {
+    constexpr std::string_view usage = "repaint NUMBER RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
+    const auto given = words.size() == 4 ? numbers(words) : std::nullopt;
+    if (!given || !is_participant(given->front())) return wrong("a participant and three numbers are needed", usage);
+    const auto first = free_ids("");
+    if (!first) return tl::unexpected(first.error());
+    Made made{{}, *first};
+    const NodeId root = root_of(given->front(), made);
+    made.commands.emplace_back(TagGroupSet{root, 0, "draw"});
+    made.commands.emplace_back(TagSet{root, 0, 0, {"paint", Vec3(linear_rgb(std::span(*given).subspan(1)))}});
     return keep(std::move(made));
   }
 

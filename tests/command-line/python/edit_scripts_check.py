@@ -167,9 +167,13 @@ with tempfile.TemporaryDirectory() as name:
         port = ready.split()[1]
         use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
-        for script, more in (("ball.py", [str(folder / "ball.glb")]), ("deer.py", [str(folder / "ball.glb")]), ("sign_at_200_m.py", [])):
+        glb = str(folder / "ball.glb")
+        said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
+        for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["3"]), ("repaint_traffic.py", []),
+                             ("log_gaze.py", [str(folder / "gaze.csv"), "1"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),
+                             ("step_by_step.py", ["4"]), ("too_close.py", ["2"])):
             said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
-            assert script != "sign_at_200_m.py" or said.startswith("changed at "), said
+            assert said.startswith(said_by.get(script, "")), (script, said)
     except BaseException:
         print((folder / "server.log").read_text(), file=sys.stderr)
         raise
@@ -183,6 +187,8 @@ with tempfile.TemporaryDirectory() as name:
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
     notes = [row for row in sqlite3.connect(session).execute("SELECT kind, detail FROM events WHERE detail LIKE 'by=lab %'")]
     assert ("mark", "by=lab note=phase 2") in notes and ("operator", "by=lab wish=pause") in notes, notes
+    assert len((folder / "gaze.csv").read_text().splitlines()) > 9
+    assert sum(detail.startswith("by=lab note=n-back") for _, detail in notes) > 1, notes
     assert any(detail.startswith("by=lab wish=conditions") for _, detail in notes), notes
     assert logged > 20, logged
     print(run(str(septet_program), "replay", "--verify", str(session)))

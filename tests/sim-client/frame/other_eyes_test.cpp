@@ -131,7 +131,9 @@ TEST_CASE("before somebody is there the screens wait at the driver's eyes, and a
   CHECK(place_of(without, false) == there_m);
 }
 
-TEST_CASE("what an editor hangs on a participant is drawn where that one is, without lamps of its own") {
+TEST_CASE(
+    "what an editor hangs on a participant is drawn where that one is, without lamps of its own, and its paint is "
+    "worn") {
   const Snapshot world = crossing();
   const rig::Rig rig = seven_screens();
   ScreenFrames frames;
@@ -139,8 +141,10 @@ TEST_CASE("what an editor hangs on a participant is drawn where that one is, wit
   scene::ResolvedScene scene;
   scene.prototypes = {
       {.name = "lorry"}, {.name = "participant/4"}, {.name = "participant/44"}, {.name = "participant/4x"}};
+  scene.prototypes[1].paint = glm::vec3(0.5f, 0.0f, 0.25f);
   const auto frame = frames.frame(world, scene);
   REQUIRE(frame.participants.size() == 2);
+  CHECK(std::ranges::count(frame.participants, *scene.prototypes[1].paint, &instant::DrawnParticipant::paint) == 1);
   CHECK(std::ranges::count(frame.participants, 1u, &instant::DrawnParticipant::prototype) == 1);
   for (const instant::DrawnParticipant& drawn : frame.participants)
     CHECK(drawn.world_from_vehicle.position_m == world.participants[1].world_from_vehicle.position_m);
