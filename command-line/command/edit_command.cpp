@@ -85,7 +85,7 @@ Expected<std::unique_ptr<EditClient>> connected(const EditOptions& options, cons
       return failure("the drive has ended", net::to_text(place.server), "start another one");
     if (program::should_stop() || program::monotonic_s() > until_s)
       return failure("the server does not let this editor in", net::to_text(place.server),
-                     options.server.empty() ? "check that the drive runs and that its list names this key"
+                     options.server.empty() ? "check that the drive runs, that its list names this key, and that no other script holds it"
                                             : "check --server, and that the server's list names this key");
     (*client)->wait(0.02);
   }
