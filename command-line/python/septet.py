@@ -109,7 +109,7 @@ class Tick:
         """The driver's car as a participant."""
         return next(one for one in self.everybody if one.id == self.car.id)
 
-    def participant(self, number: int) -> Optional[Participant]:
+    def participant(self, number: Optional[int]) -> Optional[Participant]:
         return next((one for one in self.everybody if one.id == number), None)
 
 
@@ -127,8 +127,8 @@ def _word(text: str) -> str:
     return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
 
 
-def _number(participant: Union[int, Participant, Car]) -> int:
-    return participant if isinstance(participant, int) else participant.id
+def _who(participant: Union[int, str, Participant, Car]) -> str:
+    return _word(participant) if isinstance(participant, str) else str(participant if isinstance(participant, int) else participant.id)
 
 
 def _numbers(values: Vector) -> str:
@@ -228,9 +228,9 @@ class Handle:
         """One colour, each part from 0 to 1 as in pictures, in the place of all its materials."""
         self._world._change(f"color {self.node} {_numbers((red, green, blue))}")
 
-    def hang_on(self, participant: Union[int, "Participant", "Car"]) -> None:
+    def hang_on(self, participant: Union[int, str, "Participant", "Car"]) -> None:
         """On one vehicle: its position is then in that one's frame, x forward, y left, z up from the ground below the rear axle."""
-        self._world._change(f"hang {self.node} {_number(participant)}")
+        self._world._change(f"hang {self.node} {_who(participant)}")
 
     def remove(self) -> None:
         self._world._change(f"remove {self.node}")
@@ -305,9 +305,9 @@ class World:
         what = f"board {_word(name)} {_numbers((width_m, height_m))} {_numbers(position)} {float(heading_deg)!r}"
         return self._made(name, what, position, heading_deg)
 
-    def repaint(self, participant: Union[int, "Participant", "Car"], red: float, green: float, blue: float) -> None:
+    def repaint(self, participant: Union[int, str, "Participant", "Car"], red: float, green: float, blue: float) -> None:
         """The paint of one participant, each part from 0 to 1 as in pictures."""
-        self._change(f"repaint {_number(participant)} {_numbers((red, green, blue))}")
+        self._change(f"repaint {_who(participant)} {_numbers((red, green, blue))}")
 
     def find(self, pattern: str = "*", near: Optional[tuple[float, float, float]] = None) -> list[Handle]:
         """Objects whose names match (* and ?), `near` (x, y, metres); a thousand at most."""
@@ -369,6 +369,11 @@ class World:
             if self.newest is None or self.newest.tick < last:
                 raise Ended(self.why_ended or "the ticks do not come")
             return self.newest
+
+    @property
+    def participants(self) -> dict[str, int]:
+        """Numbers by the scenario's names: tick.participant(world.participants["ambulance"])."""
+        return self.hello["participants"]
 
     # ---- ticks
 

@@ -297,32 +297,40 @@ class Verbs {
     made.commands = {NodeCreate{id, NodeType::object}, NodeNameSet{id, root}};
     return id;
   }
-  static bool is_participant(double number) { return number >= 0.0 && number <= 4e9; }
+  /// A number, or a name of the scenario's.
+  std::optional<double> participant(const TextWord& word) const {
+    if (const auto number = numbers(std::span(&word, 1)))
+      return number->front() >= 0.0 && number->front() <= 4e9 ? std::optional(number->front()) : std::nullopt;
+    for (const auto& [name, number] : participant_names(store_))
+      if (name == word.text) return number;
+    return std::nullopt;
+  }
 
   /// A link of each thing's own, by its id.
   Expected<EditedLine> hang(Words words) {
-    constexpr std::string_view usage = "hang NODE NUMBER, a node of this editor's own and the number of a participant";
-    const auto number = words.size() == 2 ? numbers(words.subspan(1)) : std::nullopt;
+    constexpr std::string_view usage = "hang NODE PARTICIPANT, a node of this editor's own and a number or a name";
+    const auto number = words.size() == 2 ? participant(words[1]) : std::nullopt;
     const auto id = words.empty() ? std::nullopt : object(words[0]);
-    if (!number || !is_participant(number->front()) || !id || *id - names_.own_ids >= replication::ids_per_session)
+    if (!number || !id || *id - names_.own_ids >= replication::ids_per_session)
       return wrong("a thing and a participant are needed", usage);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
     Made made{{}, *first};
-    const NodeId parent = root_of(number->front(), made);
+    const NodeId parent = root_of(*number, made);
     made.commands.emplace_back(LinkSet{parent, static_cast<PartId>(*id - names_.own_ids), {"child", *id, 0}});
     return keep(std::move(made));
   }
   Expected<EditedLine> repaint(Words words) {
-    constexpr std::string_view usage = "repaint NUMBER RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
-    const auto given = words.size() == 4 ? numbers(words) : std::nullopt;
-    if (!given || !is_participant(given->front())) return wrong("a participant and three numbers are needed", usage);
+    constexpr std::string_view usage = "repaint PARTICIPANT RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
+    const auto number = words.empty() ? std::nullopt : participant(words[0]);
+    const auto rgb = words.size() == 4 ? numbers(words.subspan(1)) : std::nullopt;
+    if (!number || !rgb) return wrong("a participant's number or name and three numbers are needed", usage);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
     Made made{{}, *first};
-    const NodeId root = root_of(given->front(), made);
+    const NodeId root = root_of(*number, made);
     made.commands.emplace_back(TagGroupSet{root, 0, "draw"});
-    made.commands.emplace_back(TagSet{root, 0, 0, {"paint", Vec3(linear_rgb(std::span(*given).subspan(1)))}});
+    made.commands.emplace_back(TagSet{root, 0, 0, {"paint", Vec3(linear_rgb(*rgb))}});
     return keep(std::move(made));
   }
 
@@ -348,6 +356,19 @@ bool matches(std::string_view pattern, std::string_view name) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, double>> participant_names(const Store& store) {
+  std::vector<std::pair<std::string, double>> names;
+  for (const auto& [id, node] : store.nodes()) {
+    constexpr std::string_view root = "model/participant/";
+    const TagValue* tag = node.name.starts_with(root) ? find_tag(node, "participant", "name") : nullptr;
+    const auto* name = tag ? std::get_if<std::string>(tag) : nullptr;
+    const TextWord number{node.name.substr(std::min(root.size(), node.name.size()))};
+    const auto read = name ? numbers(std::span(&number, 1)) : std::nullopt;
+    if (read) names.emplace_back(*name, read->front());
+  }
+  return names;
+}
 
 Expected<EditedLine> edit_of(const std::vector<TextWord>& words, const Store& store, EditNames& names) {
   auto line = Verbs(store, names).line(words);

@@ -86,6 +86,10 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         sign.hang_on(first.driver)
         sign.position = (-1, 0, 2)
         assert len(world.find(f"model/participant/{first.car.id}")) == 1
+        (driver,) = [name for name, number in world.participants.items() if number == first.car.id]
+        world.repaint(driver, 0, 0, 1)
+        assert any("paint" in line for line in world._ask([f"read model/participant/{first.car.id}"]).result(60))
+        assert "number or name" in refused(lambda: world.repaint("nobody", 0, 0, 1)).why
         # A script marks, sets the weather, stops the world and takes it tick by tick.
         world.mark("phase 2")
         world.conditions(rain_mm_per_h=12, road_wetness=0.5)
