@@ -20,6 +20,7 @@
 #include "sim-server/attendants/console.hpp"
 #include "sim-server/attendants/desk.hpp"
 #include "sim-server/attendants/drive_log.hpp"
+#include "sim-server/attendants/operator_lines.hpp"
 #include "sim-server/attendants/scene_edits.hpp"
 #include "sim-server/attendants/screens.hpp"
 #include "sim-server/attendants/sound.hpp"
@@ -114,6 +115,7 @@ Expected<Attendance> gather(const ServerOptions& options, const ServeOptions& se
     all.list.push_back(std::make_unique<Sound>(
         SoundSources{rig, drive.loaded.model, drive.session ? &*drive.session : nullptr, drive.store}, drive.live));
   if (screens) {
+    all.list.push_back(std::make_unique<OperatorLines>(drive, *host, all.log));
     all.list.push_back(std::make_unique<SceneEdits>(drive, *host, all.log, options.save));
     all.list.push_back(std::make_unique<AllowedList>(options.keys / "allowed-clients", *host));
     all.screens = screens.get();

@@ -59,7 +59,7 @@ Expected<std::string> admit_editor(const fs::path& folder, const net::PublicKey&
   if (!identity) return tl::unexpected(identity.error());
   if (auto put = document::write_text_file(folder / "server.public", net::to_text(server) + '\n'); !put)
     return tl::unexpected(put.error());
-  return fmt::format("{} {} edit\n", net::to_text(identity->public_key()), editor_name);
+  return fmt::format("{} {} edit operate\n", net::to_text(identity->public_key()), editor_name);
 }
 
 /// Keys of a drive on this machine alone: made for it, removed with it. `editors`: folder of an editor's key, which stays;

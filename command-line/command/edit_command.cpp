@@ -85,8 +85,9 @@ Expected<std::unique_ptr<EditClient>> connected(const EditOptions& options, cons
       return failure("the drive has ended", net::to_text(place.server), "start another one");
     if (program::should_stop() || program::monotonic_s() > until_s)
       return failure("the server does not let this editor in", net::to_text(place.server),
-                     options.server.empty() ? "check that the drive runs and that its list names this key"
-                                            : "check --server, and that the server's list names this key");
+                     options.server.empty()
+                         ? "check that the drive runs, that its list names this key, and that no other script holds it"
+                         : "check --server, and that the server's list names this key");
     (*client)->wait(0.02);
   }
   return client;
@@ -106,18 +107,20 @@ Expected<int> run_edit(const EditOptions& options) {
   const screen::ScreenLink& link = (*client)->link();
   EditSession session(**client, output);
   output.hello(place->name, link.welcome()->tick_rate_hz, link.welcome()->lockstep,
-               link.history().empty() ? 0 : link.history().newest().snapshot.tick);
+               link.history().empty() ? 0 : link.history().newest().snapshot.tick,
+               participant_names((*client)->store()));
   std::string end = "all lines are done";
   for (;;) {
     (*client)->pump();
     session.hear();
+    session.look_at_files(program::monotonic_s());
     if (auto read = lines->pump(); !read) return tl::unexpected(read.error());
     const auto may_take = [&](const std::string& line) {
       return session.is_settled() || ((options.json || session.is_in_batch()) && !EditSession::reads_scene(line) &&
                                       session.answers_owed() < most_answers_owed);
     };
     while (!lines->empty() && may_take(lines->front())) session.take(lines->take());
-    if (lines->ended() && session.answers_owed() == 0) break;
+    if (lines->ended() && session.answers_owed() == 0 && !session.is_watching()) break;
     if (link.finished() || link.server_is_gone() || link.refusal() || program::should_stop()) {
       end = link.finished() ? "the drive has ended" : program::should_stop() ? "stopped" : "the server is gone";
       break;

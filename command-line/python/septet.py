@@ -23,7 +23,7 @@ import subprocess
 import tempfile
 import threading
 from concurrent.futures import Future
-from typing import Any, AsyncIterator, Callable, Iterator, Optional, Sequence, Union
+from typing import Any, AsyncIterator, Callable, Iterable, Iterator, Optional, Sequence, Union
 
 __all__ = ["connect", "World", "Handle", "Batch", "Tick", "Car", "Participant", "Refused", "Ended"]
 
@@ -109,7 +109,7 @@ class Tick:
         """The driver's car as a participant."""
         return next(one for one in self.everybody if one.id == self.car.id)
 
-    def participant(self, number: int) -> Optional[Participant]:
+    def participant(self, number: Optional[int]) -> Optional[Participant]:
         return next((one for one in self.everybody if one.id == number), None)
 
 
@@ -127,6 +127,10 @@ def _word(text: str) -> str:
     return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
 
 
+def _who(participant: Union[int, str, Participant, Car]) -> str:
+    return _word(participant) if isinstance(participant, str) else str(participant if isinstance(participant, int) else participant.id)
+
+
 def _numbers(values: Vector) -> str:
     return " ".join(repr(float(value)) for value in values)
 
@@ -136,12 +140,19 @@ def _turned(heading_deg: float) -> tuple[float, float, float, float]:
     return (math.cos(half), 0.0, 0.0, math.sin(half))
 
 
+def _leg(velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float = 0.0) -> str:
+    if (len(velocity), len(acceleration)) != (3, 3):
+        raise ValueError("a velocity and an acceleration are x, y, z")
+    return _numbers((*velocity, *acceleration, turn_degps))
+
+
 class Handle:
     """An object of the world, by its name. Assigning a property is the change."""
 
     def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
         self._world, self.node = world, node
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
+        self._is_moving = False
 
     def __repr__(self) -> str:
         return f"<septet.Handle {self.node} at {self._position}>"
@@ -152,6 +163,20 @@ class Handle:
             raise ValueError("a position is x, y, z, a rotation w, x, y, z, a scale x, y, z")
         self._world._change(f"transform-set {self.node} {_numbers(position)} {_numbers(wxyz)} {_numbers(scale)}")
         self._position, self._wxyz, self._scale = position, wxyz, scale
+        if self._is_moving:
+            self._world._change(f"motion-set {self.node} 0 0 0 0 1 0 0 0 0")
+        self._is_moving = False
+
+    def go(self, velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float = 0.0, then: Iterable[tuple[Any, ...]] = ()) -> None:
+        """In motion from where it is, m/s, m/s² and degrees a second about the vertical, until a position is assigned.
+
+        `then` holds later legs, each (seconds after the beginning, velocity[, acceleration[, turn_degps]]).
+        """
+        line = f"go {self.node} {_leg(velocity, acceleration, turn_degps)}"
+        for after_s, *leg in then:
+            line += f" then {float(after_s)!r} {_leg(*leg)}"
+        self._world._change(line)
+        self._is_moving = True
 
     @property
     def position(self) -> tuple[float, ...]:
@@ -203,10 +228,9 @@ class Handle:
         """One colour, each part from 0 to 1 as in pictures, in the place of all its materials."""
         self._world._change(f"color {self.node} {_numbers((red, green, blue))}")
 
-    def hang_on(self, participant: Union[int, "Participant", "Car"]) -> None:
+    def hang_on(self, participant: Union[int, str, "Participant", "Car"]) -> None:
         """On one vehicle: its position is then in that one's frame, x forward, y left, z up from the ground below the rear axle."""
-        number = participant if isinstance(participant, int) else participant.id
-        self._world._change(f"hang {self.node} {number}")
+        self._world._change(f"hang {self.node} {_who(participant)}")
 
     def remove(self) -> None:
         self._world._change(f"remove {self.node}")
@@ -267,16 +291,23 @@ class World:
 
     # ---- changes
 
-    def add(self, name: str, glb: Optional[Path] = None, position: Vector = (0, 0, 0), heading_deg: float = 0.0) -> Handle:
-        """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced."""
+    def add(self, name: str, glb: Optional[Path] = None, position: Vector = (0, 0, 0), heading_deg: float = 0.0, watch: bool = False) -> Handle:
+        """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced.
+
+        `watch`: the file is read again each time when it was saved, as long as this connection stands; nothing is replaced.
+        """
         at = f"{_numbers(position)} {float(heading_deg)!r}"
-        what = f"create {_word(name)} {at}" if glb is None else f"import {_word(name)} {_word(os.path.abspath(glb))} {at}"
+        what = f"create {_word(name)} {at}" if glb is None else f"{'watch' if watch else 'import'} {_word(name)} {_word(os.path.abspath(glb))} {at}"
         return self._made(name, what, position, heading_deg)
 
     def board(self, name: str, width_m: float, height_m: float, position: Vector = (0, 0, 0), heading_deg: float = 0.0) -> Handle:
         """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it."""
         what = f"board {_word(name)} {_numbers((width_m, height_m))} {_numbers(position)} {float(heading_deg)!r}"
         return self._made(name, what, position, heading_deg)
+
+    def repaint(self, participant: Union[int, str, "Participant", "Car"], red: float, green: float, blue: float) -> None:
+        """The paint of one participant, each part from 0 to 1 as in pictures."""
+        self._change(f"repaint {_who(participant)} {_numbers((red, green, blue))}")
 
     def find(self, pattern: str = "*", near: Optional[tuple[float, float, float]] = None) -> list[Handle]:
         """Objects whose names match (* and ?), `near` (x, y, metres); a thousand at most."""
@@ -301,6 +332,48 @@ class World:
     def save(self, file: Path) -> None:
         """Writes what differs from the world as it was when this script came, for `septet drive --edits`."""
         self._ask([f"save {_word(os.path.abspath(file))}"]).result(60.0)
+
+    # ---- the drive
+
+    def operate(self, line: str) -> int:
+        """A line of an operator's, as docs/editing.md has them; the tick after which it was done."""
+        if "\n" in line:
+            raise ValueError("a line has no end within")
+        return self._ask([f"operate {line}"]).result(60.0)
+
+    def mark(self, text: str) -> int:
+        """A mark in the log, at this tick."""
+        return self.operate(f"mark {text}")
+
+    def conditions(self, **values: float) -> int:
+        """Weather, light and grip: conditions(rain_mm_per_h=20, road_wetness=0.6)."""
+        return self.operate("conditions " + " ".join(f"{name}={float(value)!r}" for name, value in values.items()))
+
+    def trigger(self, element: str) -> int:
+        """An act or event of the storyboard begins now, Story::Act or longer."""
+        return self.operate(f"trigger element={element}")
+
+    def pause(self) -> int:
+        """The world stands still until go_on, or this connection's end."""
+        return self.operate("pause")
+
+    def go_on(self) -> int:
+        return self.operate("go_on")
+
+    def step(self, ticks: int = 1, timeout_s: float = 60.0) -> Tick:
+        """So many ticks, then the world stands still; returns the last of them."""
+        self._want_ticks()
+        last = self.operate(f"step {int(ticks)}") + int(ticks)
+        with self._news:
+            self._news.wait_for(lambda: (self.newest is not None and self.newest.tick >= last) or self.why_ended is not None, timeout_s)
+            if self.newest is None or self.newest.tick < last:
+                raise Ended(self.why_ended or "the ticks do not come")
+            return self.newest
+
+    @property
+    def participants(self) -> dict[str, int]:
+        """Numbers by the scenario's names: tick.participant(world.participants["ambulance"])."""
+        return self.hello["participants"]
 
     # ---- ticks
 

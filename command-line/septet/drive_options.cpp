@@ -58,11 +58,12 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->add_option("--save", options.drive.save,
                    "At the end, write what differs from the generated world to this file of edits")
       ->default_str("nothing is written");
-  drive_command
-      ->add_option(
-          "--editors", options.drive.editors,
-          "Folder for the key and address by which septet edit, and scripts, change the world while it is driven")
-      ->default_str("none: nobody edits");
+  auto* editors =
+      drive_command
+          ->add_option(
+              "--editors", options.drive.editors,
+              "Folder for the key and address by which septet edit, and scripts, change the world while it is driven")
+          ->default_str("none: nobody edits");
   add_models_option(*drive_command, options.drive.models);
   drive_command
       ->add_option("--participant", options.drive.participant, "The driver's code, for log, summary and report")
@@ -116,7 +117,8 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->type_name("NAME")
       ->default_str("")
       ->allow_extra_args(false);
-  drive_command->add_flag("--no-screens", options.drive.no_screens, "Server and car only, as fast as it goes");
+  drive_command->add_flag("--no-screens", options.drive.no_screens, "Server and car only, as fast as it goes")
+      ->excludes(editors);
   drive_command->footer(car_io::driving_keys_text());
   drive_command->callback([&] { options.work = [&] { return run_drive(options.drive); }; });
 

@@ -139,6 +139,18 @@ void fields(LargePicture& m, Visitor& v) {
   v.text(m.picture, most_picture_bytes);
 }
 
+template <class Visitor>
+void fields(OperatorLine& m, Visitor& v) {
+  v(m.number);
+  v.text(m.line, most_operator_line_bytes);
+}
+template <class Visitor>
+void fields(OperatorAnswer& m, Visitor& v) {
+  v(m.number);
+  v(m.tick);
+  v(m.why_not);
+}
+
 struct Put {
   ByteWriter writer;
   template <class T>

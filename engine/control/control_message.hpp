@@ -22,7 +22,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Version of these messages; a program of another version is refused.
-inline constexpr std::uint16_t protocol_version = 6;
+inline constexpr std::uint16_t protocol_version = 7;
 
 /// Screen → server, first of all.
 struct Hello {
@@ -153,9 +153,23 @@ struct LargePicture {
   std::string picture;  ///< Any bytes, as of a thumbnail.
 };
 
-using ControlMessage =
-    std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport,
-                 CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause, Thumbnail, Look, LargePicture>;
+/// Editor → server: a mark, a pause or a command of an operator's (sim-server/attendants/operator_lines.hpp).
+struct OperatorLine {
+  std::uint32_t number = 0;  ///< Names it in its answer.
+  std::string line;
+};
+inline constexpr std::size_t most_operator_line_bytes = 4096;
+
+/// Server → editor: what became of the line.
+struct OperatorAnswer {
+  std::uint32_t number = 0;
+  Tick tick = 0;        ///< After which it was done.
+  std::string why_not;  ///< Empty: done.
+};
+
+using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish,
+                                    ScreenReport, CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause,
+                                    Thumbnail, Look, LargePicture, OperatorLine, OperatorAnswer>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);

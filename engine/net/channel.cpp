@@ -41,7 +41,6 @@ ChannelCounters& ChannelCounters::operator+=(const ChannelCounters& other) {
   datagrams_received += other.datagrams_received;
   bytes_received += other.bytes_received;
   resent += other.resent;
-  overwritten += other.overwritten;
   forged += other.forged;
   replayed += other.replayed;
   malformed += other.malformed;
@@ -118,7 +117,6 @@ Channel::Verdict Channel::take(const Frame& frame, double now_s, double arrived_
       kept_protocol = sender_.acknowledge(frame.received, next_number_, now_s);
       break;
     case FrameKind::fragment:
-    case FrameKind::void_message:
       acknowledge_due_ = true;
       completed_.clear();
       kept_protocol = receiver_.accept(frame, completed_);
@@ -143,8 +141,8 @@ Channel::Verdict Channel::take(const Frame& frame, double now_s, double arrived_
   return Verdict::broken;
 }
 
-SendResult Channel::send(SharedBytes message, Reliability reliability, AddressKey key) {
-  if (reliability == Reliability::reliable) return sender_.enqueue(std::move(message), key);
+SendResult Channel::send(SharedBytes message, Reliability reliability) {
+  if (reliability == Reliability::reliable) return sender_.enqueue(std::move(message));
   if (message->size() + unreliable_overhead > max_text_bytes_) return SendResult::too_large;
   if (unreliable_bytes_ + message->size() > max_unreliable_bytes) return SendResult::queue_full;
   unreliable_bytes_ += message->size() + unreliable_overhead;
@@ -213,7 +211,6 @@ bool Channel::seal_and_send(DatagramSocket& socket) {
 ChannelCounters Channel::counters() const {
   ChannelCounters result = counters_;
   result.resent = sender_.resent();
-  result.overwritten = sender_.overwritten();
   return result;
 }
 

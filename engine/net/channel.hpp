@@ -54,7 +54,7 @@ class Channel {
   /// Opens a datagram that carries this connection's number, and appends the messages that it completes.
   Verdict accept(const ReceivedDatagram& datagram, double now_s, std::vector<ChannelMessage>& messages);
 
-  SendResult send(SharedBytes message, Reliability reliability, AddressKey key);
+  SendResult send(SharedBytes message, Reliability reliability);
   void ping() { ping_due_ = true; }
   void say_goodbye(std::string_view reason, DatagramSocket& socket);
 

@@ -152,7 +152,7 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
       return failure(
           fmt::format("\"{}\" is no right", *read.bad), where,
           "write `KEY NAME` for a screen, `KEY NAME look` for a reader, `KEY NAME edit [PREFIX/…] [hide] [move] "
-          "[paint] [create]` for an editor");
+          "[paint] [create]` for an editor, and `operate` for who may command the drive");
     clients.push_back({*parsed, name, std::move(read.rights)});
   }
   return clients;

@@ -7,30 +7,24 @@ namespace septet::net {
 bool ReliableReceiver::accept(const Frame& frame, std::vector<Bytes>& completed) {
   if (frame.message < next_) return true;  // Delivered already: a redundant resend.
   if (frame.message - next_ > window_bytes_ / fragment_weight + 1) return false;
-  const bool is_void = frame.kind == FrameKind::void_message;
-  if (!is_void && frame.message_bytes > max_message_bytes_) return false;
+  if (frame.message_bytes > max_message_bytes_) return false;
 
   const auto [entry, is_first] = incoming_.try_emplace(frame.message);
   Incoming& incoming = entry->second;
-  if (is_void) {
-    bytes_held_ -= incoming.bytes.size();
-    incoming = {.bytes = {}, .missing = 0, .voided = true, .runs = {}};
-  } else if (!incoming.voided) {
-    if (is_first) {
-      if (bytes_held_ + frame.message_bytes > window_bytes_ + 2 * max_message_bytes_) return false;
-      bytes_held_ += frame.message_bytes;
-      incoming.bytes.resize(frame.message_bytes);
-      incoming.missing = frame.message_bytes;
-    } else if (incoming.bytes.size() != frame.message_bytes) {
-      return false;
-    }
-    if (!add(incoming, frame.offset, frame.bytes)) return false;
+  if (is_first) {
+    if (bytes_held_ + frame.message_bytes > window_bytes_ + 2 * max_message_bytes_) return false;
+    bytes_held_ += frame.message_bytes;
+    incoming.bytes.resize(frame.message_bytes);
+    incoming.missing = frame.message_bytes;
+  } else if (incoming.bytes.size() != frame.message_bytes) {
+    return false;
   }
+  if (!add(incoming, frame.offset, frame.bytes)) return false;
 
   for (auto first = incoming_.begin(); first != incoming_.end() && first->first == next_ && first->second.missing == 0;
        first = incoming_.erase(first), ++next_) {
     bytes_held_ -= first->second.bytes.size();
-    if (!first->second.voided) completed.push_back(std::move(first->second.bytes));
+    completed.push_back(std::move(first->second.bytes));
   }
   return true;
 }

@@ -15,7 +15,7 @@ class ReliableReceiver {
   ReliableReceiver(std::size_t max_message_bytes, std::size_t window_bytes)
       : max_message_bytes_(max_message_bytes), window_bytes_(window_bytes) {}
 
-  /// Takes a fragment or void frame and appends the messages that it completes, in order. False: the other end broke
+  /// Takes a fragment and appends the messages that it completes, in order. False: the other end broke
   /// the protocol (overlap, contradiction, beyond the bounds), and no more frames should be taken from it.
   bool accept(const Frame& frame, std::vector<Bytes>& completed);
   /// Sum of the sizes of messages begun and not yet delivered.
@@ -25,7 +25,6 @@ class ReliableReceiver {
   struct Incoming {
     Bytes bytes;
     std::size_t missing = 0;
-    bool voided = false;
     std::map<std::size_t, std::size_t> runs;  ///< Received ranges: begin to end.
   };
   bool add(Incoming& incoming, std::size_t offset, std::span<const std::byte> bytes);

@@ -19,41 +19,12 @@ ReliableSender::ReliableSender(const ReliableSenderLimits& limits)
       congestion_window_(std::min(64 * limits.max_datagram_bytes, limits.max_flight_bytes)),
       smallest_window_(congestion_window_) {}
 
-SendResult ReliableSender::enqueue(SharedBytes bytes, AddressKey key) {
+SendResult ReliableSender::enqueue(SharedBytes bytes) {
   if (bytes->size() > limits_.max_message_bytes) return SendResult::too_large;
-  if (key != no_address_key && overwrite(key, bytes)) return SendResult::overwrote;
   if (queued_bytes_ + bytes->size() + fragment_weight > limits_.max_queue_bytes) return SendResult::queue_full;
   queued_bytes_ += bytes->size() + fragment_weight;
-  const std::uint64_t id = first_message_ + messages_.size();
-  messages_.push_back({.bytes = std::move(bytes), .key = key});
-  if (key != no_address_key) newest_with_key_[key] = id;
+  messages_.push_back({.bytes = std::move(bytes)});
   return SendResult::queued;
-}
-
-/// True: the bytes have replaced a message of which no fragment has been sent.
-bool ReliableSender::overwrite(AddressKey key, const SharedBytes& bytes) {
-  const auto entry = newest_with_key_.find(key);
-  if (entry == newest_with_key_.end() || message(entry->second).started) return false;
-  Message& older = message(entry->second);
-  queued_bytes_ += bytes->size() - older.bytes->size();
-  older.bytes = bytes;
-  ++overwritten_;
-  return true;
-}
-
-/// A lost fragment whose message has a newer one with its key is resent as a void, which stands for the whole message.
-void ReliableSender::void_if_outdated(std::uint64_t fragment_id) {
-  Fragment& lost = fragment(fragment_id);
-  Message& source = message(lost.message);
-  if (lost.is_void || source.key == no_address_key || source.cut < source.bytes->size() ||
-      newest_with_key_.at(source.key) == lost.message)
-    return;
-  for (std::uint64_t id = std::max(source.first_fragment, first_fragment_); id <= source.last_fragment; ++id)
-    if (fragment(id).message == lost.message) fragment(id).done = true;
-  lost.done = false;
-  lost.is_void = true;
-  source.open = 1;
-  ++overwritten_;
 }
 
 bool ReliableSender::has_new() const {
@@ -70,11 +41,10 @@ void ReliableSender::fill(ByteWriter& writer, std::size_t room, std::vector<std:
   while (!lost_.empty()) {
     const std::uint64_t id = lost_.front();
     const bool stale = id < first_fragment_ || fragment(id).done;
-    if (!stale) void_if_outdated(id);
     if (!stale && !write_fragment(id, writer, room)) return;
     lost_.pop_front();
     if (stale) continue;
-    if (!fragment(id).is_void) ++resent_;
+    ++resent_;
     fragment(id).lost = false;
     fragments.push_back(id);
   }
@@ -96,10 +66,6 @@ bool ReliableSender::cut_fragment(std::size_t room) {
   const std::size_t length = std::min(rest, room - overhead);
   fragments_.push_back({.message = next_cut_, .offset = source.cut, .length = length, .position = position_});
   position_ += length + fragment_weight;
-  const std::uint64_t id = first_fragment_ + fragments_.size() - 1;
-  if (!source.started) source.first_fragment = id;
-  source.last_fragment = id;
-  source.started = true;
   source.cut += length;
   ++source.open;
   if (source.cut == source.bytes->size()) ++next_cut_;
@@ -108,18 +74,15 @@ bool ReliableSender::cut_fragment(std::size_t room) {
 
 bool ReliableSender::write_fragment(std::uint64_t id, ByteWriter& writer, std::size_t& room) {
   const Fragment& piece = fragment(id);
-  Frame frame{.kind = FrameKind::void_message, .message = piece.message};
-  std::size_t bytes = 1 + varint_bytes(piece.message);
-  if (!piece.is_void) {
-    const Bytes& source = *message(piece.message).bytes;
-    frame.kind = FrameKind::fragment;
-    frame.message_bytes = source.size();
-    frame.offset = piece.offset;
-    frame.bytes = std::span(source).subspan(piece.offset, piece.length);
-    bytes = piece.length + fragment_overhead(piece.message, source.size(), piece.offset, piece.length);
-  }
+  const Bytes& source = *message(piece.message).bytes;
+  const std::size_t bytes = piece.length + fragment_overhead(piece.message, source.size(), piece.offset, piece.length);
   if (bytes > room) return false;
-  write_frame(frame, writer);
+  write_frame({.kind = FrameKind::fragment,
+               .message = piece.message,
+               .message_bytes = source.size(),
+               .offset = piece.offset,
+               .bytes = std::span(source).subspan(piece.offset, piece.length)},
+              writer);
   room -= bytes;
   return true;
 }
@@ -222,10 +185,7 @@ void ReliableSender::trim() {
     ++first_fragment_;
   }
   while (!messages_.empty() && first_message_ < next_cut_ && messages_.front().open == 0) {
-    const Message& done = messages_.front();
-    queued_bytes_ -= done.bytes->size() + fragment_weight;
-    const auto entry = newest_with_key_.find(done.key);
-    if (entry != newest_with_key_.end() && entry->second == first_message_) newest_with_key_.erase(entry);
+    queued_bytes_ -= messages_.front().bytes->size() + fragment_weight;
     messages_.pop_front();
     ++first_message_;
   }

@@ -1,11 +1,10 @@
 #pragma once
-/// The sending half of a reliable lane: queue, fragments, acknowledgement, resend, overwriting by address, congestion.
+/// The sending half of a reliable lane: queue, fragments, acknowledgement, resend, congestion.
 ///
 /// Independent of keys and sockets: a channel asks it to fill packets and reports their fate.
 
 #include <cstdint>
 #include <deque>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/core/bytes.hpp"
@@ -27,7 +26,7 @@ class ReliableSender {
  public:
   explicit ReliableSender(const ReliableSenderLimits& limits);
 
-  SendResult enqueue(SharedBytes message, AddressKey key);
+  SendResult enqueue(SharedBytes message);
 
   /// True if there is something to send now.
   bool wants_to_send() const;
@@ -44,22 +43,18 @@ class ReliableSender {
   const RoundTrip& round_trip() const { return round_trip_; }
   std::size_t queued_bytes() const { return queued_bytes_; }
   std::uint64_t resent() const { return resent_; }
-  std::uint64_t overwritten() const { return overwritten_; }
 
  private:
   struct Message {
     SharedBytes bytes;
-    AddressKey key = no_address_key;
     std::size_t cut = 0;   ///< Bytes already cut into fragments.
     std::size_t open = 0;  ///< Fragments not yet acknowledged.
-    bool started = false;
-    std::uint64_t first_fragment = 0, last_fragment = 0;
   };
   struct Fragment {
     std::uint64_t message = 0;
     std::size_t offset = 0, length = 0;
     std::uint64_t position = 0;  ///< Position in the stream of all first sendings.
-    bool is_void = false, lost = false, done = false;
+    bool lost = false, done = false;
   };
   struct Packet {
     std::uint64_t number = 0;
@@ -73,8 +68,6 @@ class ReliableSender {
   bool has_new() const;
   bool cut_fragment(std::size_t room);
   bool write_fragment(std::uint64_t id, ByteWriter& writer, std::size_t& room);
-  bool overwrite(AddressKey key, const SharedBytes& bytes);
-  void void_if_outdated(std::uint64_t fragment_id);
   void finish(std::uint64_t fragment_id);
   void lose(Packet& packet);
   void find_losses(double now_s);
@@ -89,7 +82,6 @@ class ReliableSender {
   std::uint64_t first_fragment_ = 0;
   std::uint64_t position_ = 0;
   std::deque<std::uint64_t> lost_;
-  std::unordered_map<AddressKey, std::uint64_t> newest_with_key_;
   std::size_t queued_bytes_ = 0;
 
   std::deque<Packet> packets_;
@@ -105,7 +97,7 @@ class ReliableSender {
   bool was_full_ = false;  ///< True if the window has limited sending in this round.
   std::uint64_t round_end_ = 0;
   std::size_t round_acknowledged_ = 0, round_lost_ = 0;
-  std::uint64_t resent_ = 0, overwritten_ = 0;
+  std::uint64_t resent_ = 0;
 };
 
 }  // namespace septet::net

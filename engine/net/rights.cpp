@@ -7,6 +7,7 @@ namespace septet::net {
 namespace {
 
 constexpr std::array<std::string_view, 4> kind_names{"hide", "move", "paint", "create"};
+constexpr std::string_view operate = "operate";
 
 }  // namespace
 
@@ -20,8 +21,10 @@ RightsWords read_rights(std::span<const std::string> words) {
   RightsWords read;
   if (words.empty()) return read;
   read.rights.may_look = true;
-  if (words[0] == "look") {
-    if (words.size() > 1) read.bad = words[1];
+  read.rights.may_operate = std::ranges::find(words, operate) != words.end();
+  if (words[0] == "look" || words[0] == operate) {
+    const auto bad = std::ranges::find_if(words.subspan(1), [](const std::string& word) { return word != operate; });
+    if (bad != words.subspan(1).end()) read.bad = *bad;
     return read;
   }
   if (words[0] != "edit") {
@@ -35,7 +38,7 @@ RightsWords read_rights(std::span<const std::string> words) {
       edit.kinds = static_cast<std::uint8_t>(edit.kinds | 1u << (kind - kind_names.begin()));
     else if (word.find('/') != std::string::npos)
       edit.prefixes.push_back(word);
-    else if (!read.bad)
+    else if (!read.bad && word != operate)
       read.bad = word;
   }
   if (edit.kinds == 0) edit.kinds = all_edit_kinds;
@@ -44,7 +47,8 @@ RightsWords read_rights(std::span<const std::string> words) {
 }
 
 std::string describe(const Rights& rights) {
-  if (!rights.edit) return rights.may_look ? "looks" : "is a screen or the car";
+  if (!rights.edit)
+    return rights.may_operate ? "looks and operates" : rights.may_look ? "looks" : "is a screen or the car";
   std::string text = "may";
   for (std::size_t k = 0; k < kind_names.size(); ++k)
     if (rights.edit->includes(static_cast<EditKind>(k))) {
@@ -55,6 +59,7 @@ std::string describe(const Rights& rights) {
     text += &prefix == rights.edit->prefixes.data() ? " below " : ", ";
     text += prefix;
   }
+  if (rights.may_operate) text += ", and operates";
   return text;
 }
 

@@ -3,9 +3,10 @@
 ///
 ///     KEY NAME                                            a screen of the rig, or its car
 ///     KEY NAME look                                       reads the scene and all ticks
+///     KEY NAME operate                                    marks, pauses and commands the drive as its operator does
 ///     KEY NAME edit [PREFIX…] [hide] [move] [paint] [create]   changes the scene as well
 ///
-/// Without a prefix an editor may change what the world was generated with; with prefixes, the nodes whose names begin
+/// `operate` may also stand behind `look` and `edit`. Without a prefix an editor may change what the world was generated with; with prefixes, the nodes whose names begin
 /// with one of them. Without any of the four words it may do all four. What it made is its own.
 
 #include <cstdint>
@@ -35,6 +36,7 @@ struct EditRights {
 struct Rights {
   bool may_look = false;           ///< May read without being a screen of the rig; an editor may.
   std::optional<EditRights> edit;  ///< Empty: it changes nothing.
+  bool may_operate = false;
 };
 
 /// Returns the first word that is no right in its place where there is one.

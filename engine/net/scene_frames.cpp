@@ -49,9 +49,6 @@ bool read_frame(ByteReader& reader, Frame& out) {
       if (out.offset > out.message_bytes || out.bytes.size() > out.message_bytes - out.offset) reader.fail();
       break;
     }
-    case FrameKind::void_message:
-      out.message = reader.get_varint();
-      break;
     case FrameKind::unreliable:
       out.bytes = reader.take(reader.get_count(reader.remaining()));
       break;
@@ -87,9 +84,6 @@ void write_frame(const Frame& frame, ByteWriter& writer) {
     case FrameKind::goodbye:
       writer.put_varint(frame.bytes.size());
       writer.put_bytes(frame.bytes);
-      break;
-    case FrameKind::void_message:
-      writer.put_varint(frame.message);
       break;
     case FrameKind::ping:
       writer.put(frame.sent_s);

@@ -12,7 +12,6 @@ namespace septet::net {
 enum class FrameKind : std::uint8_t {
   acknowledge = 1,
   fragment = 2,
-  void_message = 3,
   unreliable = 4,
   ping = 5,
   pong = 6,
@@ -23,7 +22,7 @@ enum class FrameKind : std::uint8_t {
 struct Frame {
   FrameKind kind = FrameKind::ping;
   PacketRanges received{};             ///< acknowledge
-  std::uint64_t message = 0;           ///< fragment, void_message
+  std::uint64_t message = 0;           ///< fragment
   std::uint64_t message_bytes = 0;     ///< fragment
   std::uint64_t offset = 0;            ///< fragment
   std::span<const std::byte> bytes{};  ///< fragment, unreliable, goodbye

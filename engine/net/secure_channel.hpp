@@ -17,19 +17,12 @@ enum class Reliability : std::uint8_t {
   unreliable,  ///< At most one datagram; may be lost, repeated messages are not delivered twice.
 };
 
-/// Names the subject of a reliable message: of several with one key the newest suffices. An unsent message is replaced
-/// in its place in the order; a lost one is not sent again. So give keys only to commands that depend on nothing sent
-/// between the two, and never reuse the number of a destroyed object.
-using AddressKey = std::uint64_t;
-inline constexpr AddressKey no_address_key = 0;
-
 /// A message that several clients share without copies.
 using SharedBytes = std::shared_ptr<const Bytes>;
 inline SharedBytes share(Bytes bytes) { return std::make_shared<const Bytes>(std::move(bytes)); }
 
 enum class SendResult : std::uint8_t {
   queued,
-  overwrote,  ///< Replaced an unsent message with its key.
   not_connected,
   too_large,   ///< Longer than the message limit, or, if unreliable, than one datagram.
   queue_full,  ///< A server drops such a client; a client may try again later.
@@ -50,7 +43,6 @@ struct ChannelCounters {
   std::uint64_t datagrams_sent = 0, bytes_sent = 0;
   std::uint64_t datagrams_received = 0, bytes_received = 0;
   std::uint64_t resent = 0;       ///< Fragments sent again.
-  std::uint64_t overwritten = 0;  ///< Messages replaced by a newer one with their key.
   std::uint64_t forged = 0;       ///< Authentication failed.
   std::uint64_t replayed = 0;     ///< Packet number seen before or too old.
   std::uint64_t malformed = 0;    ///< Not a datagram of this protocol, or broken inside.

@@ -234,13 +234,13 @@ Obstacle SecureClient::State::obstacle() const {
 
 bool SecureClient::has_backlog() const { return state_->channel && state_->channel->wants_to_send(); }
 
-SendResult SecureClient::send(SharedBytes message, Reliability reliability, AddressKey key) {
+SendResult SecureClient::send(SharedBytes message, Reliability reliability) {
   if (!state_->channel || state_->closed) return SendResult::not_connected;
-  return state_->channel->send(std::move(message), reliability, key);
+  return state_->channel->send(std::move(message), reliability);
 }
 
-SendResult SecureClient::send(std::span<const std::byte> message, Reliability reliability, AddressKey key) {
-  return send(share(Bytes(message.begin(), message.end())), reliability, key);
+SendResult SecureClient::send(std::span<const std::byte> message, Reliability reliability) {
+  return send(share(Bytes(message.begin(), message.end())), reliability);
 }
 
 void SecureClient::close() {

@@ -55,8 +55,8 @@ class SecureClient {
   std::vector<ClientEvent> pump(double now_s);
   bool has_backlog() const;
 
-  SendResult send(SharedBytes message, Reliability reliability, AddressKey key = no_address_key);
-  SendResult send(std::span<const std::byte> message, Reliability reliability, AddressKey key = no_address_key);
+  SendResult send(SharedBytes message, Reliability reliability);
+  SendResult send(std::span<const std::byte> message, Reliability reliability);
   /// Says goodbye and stays silent from then on.
   void close();
 

@@ -327,19 +327,18 @@ bool SecureServer::has_backlog() const {
                      [](const auto& entry) { return entry.second.confirmed && entry.second.channel.wants_to_send(); });
 }
 
-SendResult SecureServer::send(ClientId client, SharedBytes message, Reliability reliability, AddressKey key) {
+SendResult SecureServer::send(ClientId client, SharedBytes message, Reliability reliability) {
   const auto found = state_->connections.find(client);
   if (found == state_->connections.end() || !found->second.confirmed || !found->second.drop_reason.empty())
     return SendResult::not_connected;
-  const SendResult result = found->second.channel.send(std::move(message), reliability, key);
+  const SendResult result = found->second.channel.send(std::move(message), reliability);
   if (result == SendResult::queue_full && reliability == Reliability::reliable)
     found->second.drop_reason = "it does not keep up: its queue is full";
   return result;
 }
 
-SendResult SecureServer::send(ClientId client, std::span<const std::byte> message, Reliability reliability,
-                              AddressKey key) {
-  return send(client, share(Bytes(message.begin(), message.end())), reliability, key);
+SendResult SecureServer::send(ClientId client, std::span<const std::byte> message, Reliability reliability) {
+  return send(client, share(Bytes(message.begin(), message.end())), reliability);
 }
 
 void SecureServer::disconnect(ClientId client, std::string reason) {

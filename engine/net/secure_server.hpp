@@ -70,9 +70,8 @@ class SecureServer {
   /// True if more is waiting to be sent than the last pump was allowed to: pump again soon.
   bool has_backlog() const;
 
-  SendResult send(ClientId client, SharedBytes message, Reliability reliability, AddressKey key = no_address_key);
-  SendResult send(ClientId client, std::span<const std::byte> message, Reliability reliability,
-                  AddressKey key = no_address_key);
+  SendResult send(ClientId client, SharedBytes message, Reliability reliability);
+  SendResult send(ClientId client, std::span<const std::byte> message, Reliability reliability);
   /// Says goodbye; the event `disconnected` comes with the next pump.
   void disconnect(ClientId client, std::string reason);
 

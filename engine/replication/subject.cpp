@@ -61,9 +61,9 @@ struct ChangeOf {
   Result operator()(const TagSet& c) const { return whole(c.node, Kind::tag, c.group, c.tag); }
   Result operator()(const TagDestroy& c) const { return whole(c.node, Kind::tag, c.group, c.tag); }
   Result operator()(const TransformSet& c) const { return whole(c.node, Kind::transform); }
+  Result operator()(const MotionSet& c) const { return whole(c.node, Kind::motion); }
   Result operator()(const LinkSet& c) const { return whole(c.node, Kind::link, c.link); }
   Result operator()(const LinkDestroy& c) const { return whole(c.node, Kind::link, c.link); }
-  Result operator()(const LightSet& c) const { return whole(c.node, Kind::light); }
   Result operator()(const HideSet& c) const { return whole(c.node, Kind::hide); }
   Result operator()(const GeometrySizeSet& c) const {
     Change change{{c.node, Kind::geometry_size, 0, 0}};
@@ -108,8 +108,8 @@ std::optional<NodeType> type_of(Kind kind) {
     case Kind::tag:
       return {};
     case Kind::transform:
+    case Kind::motion:
     case Kind::link:
-    case Kind::light:
     case Kind::hide:
       return NodeType::object;
     case Kind::geometry_size:
@@ -218,6 +218,8 @@ void describe_change(const Store& store, const Change& change, const std::functi
     }
     case Kind::transform:
       return emit(TransformSet{id, object->transform});
+    case Kind::motion:
+      return emit(MotionSet{id, object->motion});
     case Kind::link: {
       if (const auto* link = find_part(object->links, part))
         emit(LinkSet{id, part, *link});
@@ -225,8 +227,6 @@ void describe_change(const Store& store, const Change& change, const std::functi
         emit(LinkDestroy{id, part});
       return;
     }
-    case Kind::light:
-      return emit(LightSet{id, object->light});
     case Kind::hide:
       return emit(HideSet{id, object->hidden});
     case Kind::geometry_size: {
@@ -287,8 +287,8 @@ void mark_node(const Node& node, const Mark& mark) {
   for (const auto& [id, group] : node.tag_groups) whole(Kind::tag_group, id);
   if (const auto* object = std::get_if<ObjectData>(&node.data)) {
     whole(Kind::transform);
+    if (object->motion != Motion{}) whole(Kind::motion);
     for (const auto& [id, link] : object->links) whole(Kind::link, id);
-    if (object->light != glm::vec3(0.0f)) whole(Kind::light);
     if (object->hidden) whole(Kind::hide);
   }
   if (const auto* geometry = std::get_if<GeometryData>(&node.data)) {

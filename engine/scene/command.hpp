@@ -102,10 +102,14 @@ struct LinkDestroy {
   PartId link = 0;
   bool operator==(const LinkDestroy&) const = default;
 };
-struct LightSet {
+/// `legs` empty: the motion ends, and the object stands at its transform.
+struct MotionSet {
   NodeId node = no_node;
-  glm::vec3 light{0.0f};
-  bool operator==(const LightSet&) const = default;
+  Motion motion;
+  /// Of a request: times count from the tick at which it is done, and it begins where the object is then. The server
+  /// puts the true ones in their place.
+  bool from_now = false;
+  bool operator==(const MotionSet&) const = default;
 };
 struct HideSet {
   NodeId node = no_node;
@@ -218,12 +222,12 @@ struct BitmapTilesSet {
   bool operator==(const BitmapTilesSet&) const = default;
 };
 
-/// The order is the wire's opcode: new commands go at the end.
+/// In the order of their opcodes (COMMANDS.md): new commands go at the end.
 using Command = std::variant<NodeIndexSubscribe, NodeSubscribe, PartSubscribe, NodeCreate, NodeDestroy, NodeNameSet,
                              TagGroupSet, TagGroupDestroy, TagSet, TagDestroy, TransformSet, LinkSet, LinkDestroy,
-                             LightSet, HideSet, GeometrySizeSet, GeometryLayerSet, GeometryLayerDestroy, VerticesSet,
-                             PolygonsSet, LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy,
-                             BitmapSizeSet, BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet>;
+                             HideSet, GeometrySizeSet, GeometryLayerSet, GeometryLayerDestroy, VerticesSet, PolygonsSet,
+                             LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy, BitmapSizeSet,
+                             BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet, MotionSet>;
 
 /// "vertices set", for messages and logs.
 std::string_view name_of(const Command& command);

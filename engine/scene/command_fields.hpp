@@ -121,6 +121,9 @@ void fields(C& c, Ref<C, Blob> v) {
   c.bytes(v, max_tag_blob_bytes);
 }
 
+template <>
+inline constexpr std::size_t free_code<Command> = 13;
+
 /// A variant: which alternative, then its fields.
 template <class C, class V>
 void variant(C& c, V& value);
@@ -141,7 +144,7 @@ void fields(C& c, Ref<C, PartSubscribe> v) {
 }
 template <class C>
 void fields(C& c, Ref<C, NodeCreate> v) {
-  c.node(v.node), c.kind(v.type, NodeType::audio);
+  c.node(v.node), c.kind(v.type, NodeType::bitmap);
 }
 template <class C>
 void fields(C& c, Ref<C, NodeDestroy> v) {
@@ -185,10 +188,6 @@ void fields(C& c, Ref<C, LinkSet> v) {
 template <class C>
 void fields(C& c, Ref<C, LinkDestroy> v) {
   c.node(v.node), c.part(v.link);
-}
-template <class C>
-void fields(C& c, Ref<C, LightSet> v) {
-  c.node(v.node), vec3(c, v.light);
 }
 template <class C>
 void fields(C& c, Ref<C, HideSet> v) {
@@ -256,6 +255,16 @@ void fields(C& c, Ref<C, BitmapLayerDestroy> v) {
 template <class C>
 void fields(C& c, Ref<C, BitmapTilesSet> v) {
   c.node(v.node), c.part(v.layer), c.number(v.first_tile), c.bytes(v.tiles, max_run_bytes);
+}
+
+template <class C>
+void fields(C& c, Ref<C, MotionSet> v) {
+  auto& m = v.motion;
+  c.node(v.node), c.flag(v.from_now), vec3(c, m.position_m);
+  c.real(m.rotation.w), c.real(m.rotation.x), c.real(m.rotation.y), c.real(m.rotation.z);
+  c.count(m.legs, max_motion_legs);
+  for (auto& leg : m.legs)
+    c.real(leg.from_s), vec3(c, leg.velocity_mps), vec3(c, leg.acceleration_mps2), vec3(c, leg.turn_radps);
 }
 
 // ---- a variant

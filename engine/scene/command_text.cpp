@@ -18,8 +18,7 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::array<std::string_view, node_type_count> type_words{"object", "geometry", "material", "bitmap",
-                                                                   "text",   "curve",    "audio"};
+constexpr std::array<std::string_view, node_type_count> type_words{"object", "geometry", "material", "bitmap"};
 constexpr std::array<std::string_view, std::variant_size_v<TagValue>> value_words{"flag",   "count", "real", "text",
                                                                                   "vector", "node",  "bytes"};
 constexpr std::array<std::string_view, std::variant_size_v<Fragment>> fragment_words{

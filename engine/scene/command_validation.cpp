@@ -92,7 +92,7 @@ struct TagValueCheck {
 };
 
 struct CommandCheck {
-  Problem operator()(const NodeCreate& c) const { return in_range(c.type, NodeType::audio) ? none : bad_kind; }
+  Problem operator()(const NodeCreate& c) const { return in_range(c.type, NodeType::bitmap) ? none : bad_kind; }
   Problem operator()(const PartSubscribe& c) const { return in_range(c.kind, PartKind::layer) ? none : bad_kind; }
   Problem operator()(const NodeNameSet& c) const { return check_name(c.name); }
   Problem operator()(const TagGroupSet& c) const { return check_name(c.name); }
@@ -105,8 +105,21 @@ struct CommandCheck {
     const double length = glm::dot(t.rotation, t.rotation);
     return length > 0.99 && length < 1.01 ? none : "the rotation is not a unit quaternion";
   }
+  Problem operator()(const MotionSet& c) const {
+    const Motion& m = c.motion;
+    const double length = glm::dot(m.rotation, m.rotation);
+    if (!finite(m.position_m) || !(length > 0.99 && length < 1.01)) return "the motion begins at no pose";
+    if (m.legs.size() > max_motion_legs) return "a motion has at most 16 legs";
+    for (std::size_t i = 0; i < m.legs.size(); ++i) {
+      const MotionLeg& leg = m.legs[i];
+      if (!finite(leg.from_s) || leg.from_s < 0.0 || (i > 0 && leg.from_s < m.legs[i - 1].from_s))
+        return "the legs of a motion do not begin one after the other";
+      for (const Vec3& rate : {leg.velocity_mps, leg.acceleration_mps2, leg.turn_radps})
+        if (!(glm::dot(rate, rate) <= max_motion_rate * max_motion_rate)) return "a motion is faster than 10 km/s";
+    }
+    return none;
+  }
   Problem operator()(const LinkSet& c) const { return check_name(c.value.label); }
-  Problem operator()(const LightSet& c) const { return finite(c.light) ? none : not_finite; }
   Problem operator()(const GeometryLayerSet& c) const {
     return first_of({check_name(c.name), in_range(c.type, LayerType::face_real) ? none : bad_kind,
                      finite(c.default_real) ? none : not_finite});

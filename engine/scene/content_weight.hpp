@@ -18,6 +18,7 @@ inline std::uint64_t weight(const TagGroup& group) {
   return sum;
 }
 inline std::uint64_t weight(const Link& link) { return container_bytes + link.label.size(); }
+inline std::uint64_t weight(const Motion& motion) { return motion.legs.size() * sizeof(MotionLeg); }
 inline std::uint64_t weight(const GeometryLayer& layer) {
   return container_bytes + layer.name.size() + 4 * (layer.integers.size() + layer.reals.size());
 }
@@ -39,7 +40,8 @@ inline std::uint64_t shape_weight(std::uint64_t vertices, std::uint64_t polygons
 }
 inline std::uint64_t weight(const Node& node) {
   std::uint64_t sum = 4 * container_bytes + node.name.size() + weight_of_all(node.tag_groups);
-  if (const auto* object = std::get_if<ObjectData>(&node.data)) sum += weight_of_all(object->links);
+  if (const auto* object = std::get_if<ObjectData>(&node.data))
+    sum += weight_of_all(object->links) + weight(object->motion);
   if (const auto* geometry = std::get_if<GeometryData>(&node.data))
     sum += shape_weight(geometry->vertices_m.size(), geometry->polygons.size()) + weight_of_all(geometry->layers);
   if (const auto* material = std::get_if<MaterialData>(&node.data)) sum += weight_of_all(material->fragments);

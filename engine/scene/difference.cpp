@@ -23,7 +23,7 @@ bool is_one_of(const Command& command) {
 /// Commands that `describe_node` leaves out where the value is the usual one.
 std::vector<Command> usual_values(const Node& node) {
   if (const auto* object = std::get_if<ObjectData>(&node.data))
-    return {TransformSet{node.id, object->transform}, LightSet{node.id, object->light},
+    return {TransformSet{node.id, object->transform}, MotionSet{node.id, object->motion},
             HideSet{node.id, object->hidden}};
   if (const auto* geometry = std::get_if<GeometryData>(&node.data))
     return {GeometrySizeSet{node.id, static_cast<std::uint32_t>(geometry->vertices_m.size()),

@@ -27,6 +27,11 @@ DrawnObject read_object(const Node& node) {
   object.transform = data.transform;
   object.transform.rotation = glm::normalize(data.transform.rotation);
   object.hidden = data.hidden;
+  if (!object.prototype && !data.motion.legs.empty()) {
+    object.motion = data.motion;
+    object.motion.rotation = glm::normalize(data.motion.rotation);
+    object.transform = {.scale = data.transform.scale};
+  }
   for (const auto& [id, link] : data.links) {
     if (link.label == "geometry" && object.geometry == no_node) object.geometry = link.target;
     if (link.label == "material") object.materials.emplace_back(link.target_id, link.target);
@@ -38,6 +43,8 @@ DrawnObject read_object(const Node& node) {
   object.visible_to_m = static_cast<float>(draw_tag(node, "to_m", 1e9));
   object.role = part_role(draw_tag(node, "role", std::string()));
   object.casts_shadow = draw_tag(node, "casts_shadow", true);
+  if (const TagValue* paint = find_tag(node, "draw", "paint"); paint && object.prototype)
+    if (const auto* rgb = std::get_if<Vec3>(paint)) object.paint = glm::clamp(glm::vec3(*rgb), 0.0f, 1.0f);
   return object;
 }
 

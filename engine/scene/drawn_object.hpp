@@ -17,7 +17,8 @@ using FaceMaterials = std::vector<std::pair<std::uint32_t, NodeId>>;
 
 struct DrawnObject {
   std::optional<std::string> prototype;  ///< Name of the prototype that it is; none: it is placed in the world.
-  Transform transform;
+  Transform transform;                   ///< Of what moves the scale alone.
+  Motion motion;                         ///< With legs: drawn at its motion's pose, as a prototype of its own.
   bool hidden = false;
   NodeId geometry = no_node;
   FaceMaterials materials;
@@ -25,6 +26,7 @@ struct DrawnObject {
   float visible_from_m = 0.0f, visible_to_m = 1e9f;
   PartRole role = PartRole::fixed;
   bool casts_shadow = true;
+  std::optional<glm::vec3> paint;  ///< Of a prototype.
 
   bool operator==(const DrawnObject&) const = default;
 };

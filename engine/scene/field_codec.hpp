@@ -16,6 +16,10 @@
 
 namespace septet::scene {
 
+/// The code that no alternative of a variant has: codes are alternatives' indices, but for those from this one on.
+template <class Variant>
+inline constexpr std::size_t free_code = std::variant_npos;
+
 /// Appends to the bytes given at construction.
 struct Writer {
   static constexpr bool writes = true;
@@ -51,7 +55,7 @@ struct Writer {
   }
   template <class Variant>
   void alternative(std::size_t index) {
-    out.put(static_cast<std::uint8_t>(index));
+    out.put(static_cast<std::uint8_t>(index < free_code<Variant> ? index : index + 1));
   }
 };
 
@@ -100,8 +104,9 @@ struct Reader {
   /// Its index; no alternative's after bad bytes.
   template <class Variant>
   std::size_t alternative() {
-    const auto index = in.get<std::uint8_t>();
-    if (index >= std::variant_size_v<Variant>) in.fail();
+    const std::size_t code = in.get<std::uint8_t>();
+    const std::size_t index = code < free_code<Variant> ? code : code - 1;
+    if (code == free_code<Variant> || index >= std::variant_size_v<Variant>) in.fail();
     return in.ok() ? index : std::variant_npos;
   }
 

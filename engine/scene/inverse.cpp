@@ -99,8 +99,8 @@ struct Inverse {
   void operator()(const TransformSet& c) const {
     if (const auto* object = data<ObjectData>(c.node)) undo.emplace_back(TransformSet{c.node, object->transform});
   }
-  void operator()(const LightSet& c) const {
-    if (const auto* object = data<ObjectData>(c.node)) undo.emplace_back(LightSet{c.node, object->light});
+  void operator()(const MotionSet& c) const {
+    if (const auto* object = data<ObjectData>(c.node)) undo.emplace_back(MotionSet{c.node, object->motion});
   }
   void operator()(const HideSet& c) const {
     if (const auto* object = data<ObjectData>(c.node)) undo.emplace_back(HideSet{c.node, object->hidden});

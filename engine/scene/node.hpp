@@ -3,8 +3,7 @@
 ///
 /// Source: Brink, Steenberg and Svensson, "The Verse Networked 3D Graphics Platform" (2006), §2.2 and §2.4. A node has
 /// a 32-bit id that the server assigns and never uses twice, a name, and groups of typed tags; the rest depends on its
-/// type. Node types to come (text, curve, audio) are further alternatives of `NodeData`; nothing else of the store
-/// changes.
+/// type. Verse's text, curve and audio nodes have no user here and are left out.
 ///
 /// Units: metres, world frame and object frames as in rigid_transform.hpp. `revision` is the store's revision of the
 /// last change of that part; a node's is the highest of its parts.
@@ -21,14 +20,15 @@
 #include "engine/geometry/polygon_mesh.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/material_fragment.hpp"
+#include "engine/scene/motion.hpp"
 
 namespace septet::scene {
 
 using geometry::PolygonCorners;
 
 /// Numbered as on the wire.
-enum class NodeType : std::uint8_t { object, geometry, material, bitmap, text, curve, audio };
-inline constexpr int node_type_count = 7;
+enum class NodeType : std::uint8_t { object, geometry, material, bitmap };
+inline constexpr int node_type_count = 4;
 
 using PartId = std::uint16_t;  ///< Id of a tag group, tag, link, layer within its node.
 
@@ -72,8 +72,9 @@ struct Link {
 
 struct ObjectData {
   Transform transform;  ///< parent_from_object.
+  Motion
+      motion;  ///< Of an object that no other links to: with legs it stands in place of `transform`, but for the scale.
   std::map<PartId, Link> links;
-  glm::vec3 light{0.0f};  ///< Luminous intensity emitted by the object, linear RGB; 0 is no light.
   bool hidden = false;
 };
 
@@ -183,7 +184,7 @@ struct Node {
   std::map<PartId, TagGroup> tag_groups;
   NodeData data;
   std::uint64_t revision = 0;
-  /// Revision of the last change of anything that a picture may show: not of names (but a prototype's), of light, nor of
+  /// Revision of the last change of anything that a picture may show: not of names (but a prototype's), nor of
   /// tags outside the groups of CONVENTIONS.md.
   std::uint64_t drawn_revision = 0;
 

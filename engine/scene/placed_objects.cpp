@@ -12,6 +12,9 @@ constexpr std::size_t most_visits = 1u << 20;
 /// Unused instances from which on all are placed anew, if they are the greater part.
 constexpr std::size_t many_unused = 4096;
 
+/// Of no participant: those count from 0.
+std::uint32_t moving_number(NodeId id) { return 0x8000'0000u | id; }
+
 }  // namespace
 
 // ---- meshes
@@ -124,29 +127,64 @@ void PlacedObjects::keep(Root& root, const std::vector<Instance>& instances, Res
     set_instance(root.first + i, i < count ? instances[i] : none, scene);
 }
 
-bool PlacedObjects::place_prototype(Root& root, const Object& object, std::vector<Instance> parts,
-                                    ResolvedScene& scene) {
+void PlacedObjects::set_parts(std::uint32_t prototype, std::vector<Instance> parts, ResolvedScene& scene) {
+  for (const Instance& part : scene.prototypes[prototype].parts) leave_mesh(part.mesh);
+  if (scene.prototypes[prototype].parts == parts) return;
+  scene.prototypes[prototype].parts = std::move(parts);
+  scene.changes.add(scene.revision, {SceneChange::Kind::prototype, prototype});
+}
+
+bool PlacedObjects::place_model(Root& root, const Object& object, std::vector<Instance> parts, ResolvedScene& scene) {
   Prototype& prototype = scene.prototypes[root.prototype];
   if (prototype.name != *object.drawn.prototype) return false;
-  for (const Instance& part : prototype.parts) leave_mesh(part.mesh);
-  if (prototype.parts == parts) return true;
-  prototype.parts = std::move(parts);
-  scene.prototypes_revision = scene.revision;
-  scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
+  if (prototype.paint != object.drawn.paint)
+    scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
+  prototype.paint = object.drawn.paint;
+  const bool is_changed = prototype.parts != parts;
+  if (is_changed) scene.prototypes_revision = scene.revision;
+  set_parts(root.prototype, std::move(parts), scene);
   return true;
+}
+
+/// Prototypes keep their indices, so one of an object comes and goes for the price of its parts.
+void PlacedObjects::place_moving(Root& root, NodeId id, const Object& object, std::vector<Instance> parts,
+                                 ResolvedScene& scene) {
+  if (!root.moves) {
+    clear(root, scene);
+    root = {.visits = root.visits, .moves = true, .prototype = static_cast<std::uint32_t>(scene.prototypes.size())};
+    if (free_prototypes_.empty()) {
+      scene.prototypes.emplace_back();
+    } else {
+      root.prototype = free_prototypes_.back();
+      free_prototypes_.pop_back();
+    }
+  }
+  Prototype& prototype = scene.prototypes[root.prototype];
+  if (prototype.motion != object.drawn.motion)
+    scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
+  prototype.motion = object.drawn.motion;
+  prototype.number = moving_number(id);
+  set_parts(root.prototype, std::move(parts), scene);
+}
+
+void PlacedObjects::stop_moving(Root& root, ResolvedScene& scene) {
+  set_parts(root.prototype, {}, scene);
+  scene.prototypes[root.prototype] = {};
+  free_prototypes_.push_back(root.prototype);
+  root.moves = false;
 }
 
 bool PlacedObjects::place_root(NodeId id, ResolvedScene& scene) {
   const auto found = objects_.find(id);
   const auto known = roots_.find(id);
   const bool is_root = found != objects_.end() && !parents_.contains(id);
-  const bool is_prototype = is_root && found->second.drawn.prototype;
-  const bool was_prototype = known != roots_.end() && known->second.is_prototype;
-  if (is_prototype != was_prototype) return false;
+  const bool is_model = is_root && found->second.drawn.prototype;
+  const bool was_model = known != roots_.end() && known->second.is_model;
+  if (is_model != was_model) return false;
   if (known == roots_.end() && !is_root) return true;
 
   std::vector<std::uint32_t> meshes_before;
-  if (known != roots_.end() && !was_prototype)
+  if (known != roots_.end())
     for (std::uint32_t i = 0; i < known->second.capacity; ++i)
       meshes_before.push_back(scene.instances[known->second.first + i].mesh);
   Root& root = known != roots_.end() ? known->second : roots_[id];
@@ -156,8 +194,12 @@ bool PlacedObjects::place_root(NodeId id, ResolvedScene& scene) {
   if (is_root) place(found->second, id, {}, path, root.visits, instances, scene);
   visits_ += root.visits;
   ++scene.revision;
-  if (is_prototype) return place_prototype(root, found->second, std::move(instances), scene);
-  if (is_root) {
+  if (is_model) return place_model(root, found->second, std::move(instances), scene);
+  const bool moves = is_root && !found->second.drawn.motion.legs.empty();
+  if (root.moves && !moves) stop_moving(root, scene);
+  if (moves) {
+    place_moving(root, id, found->second, std::move(instances), scene);
+  } else if (is_root) {
     keep(root, instances, scene);
   } else {
     clear(root, scene);
@@ -238,7 +280,7 @@ void PlacedObjects::place_changed(const Store& store, const std::set<NodeId>& ch
 }
 
 void PlacedObjects::place_all(const Store& store, ResolvedScene& scene) {
-  objects_.clear(), parents_.clear(), roots_.clear(), free_ranges_.clear();
+  objects_.clear(), parents_.clear(), roots_.clear(), free_ranges_.clear(), free_prototypes_.clear();
   visits_ = unused_instances_ = 0;
   for (const auto& [id, node] : store.nodes())
     if (node.type() == NodeType::object) {
@@ -253,16 +295,18 @@ void PlacedObjects::place_all(const Store& store, ResolvedScene& scene) {
   for (auto& [id, object] : objects_) {
     if (parents_.contains(id)) continue;
     Root& root = roots_[id];
-    root.is_prototype = object.drawn.prototype.has_value();
-    if (root.is_prototype) {
+    root.is_model = object.drawn.prototype.has_value();
+    root.moves = !object.drawn.motion.legs.empty();
+    std::vector<Instance> instances;
+    place(object, id, {}, path, root.visits, instances, scene);
+    if (root.is_model || root.moves) {
       root.prototype = static_cast<std::uint32_t>(scene.prototypes.size());
-      Prototype& prototype = scene.prototypes.emplace_back();
-      prototype.name = *object.drawn.prototype;
-      place(object, id, {}, path, root.visits, prototype.parts, scene);
+      scene.prototypes.push_back({object.drawn.prototype.value_or(""), std::move(instances), object.drawn.paint,
+                                  object.drawn.motion, root.moves ? moving_number(id) : 0});
     } else {
       root.first = static_cast<std::uint32_t>(scene.instances.size());
-      place(object, id, {}, path, root.visits, scene.instances, scene);
-      root.capacity = static_cast<std::uint32_t>(scene.instances.size()) - root.first;
+      root.capacity = static_cast<std::uint32_t>(instances.size());
+      scene.instances.insert(scene.instances.end(), instances.begin(), instances.end());
     }
     visits_ += root.visits;
   }

@@ -49,7 +49,7 @@ class PlacedObjects {
   struct Root {
     std::uint32_t first = 0, capacity = 0;
     std::size_t visits = 0;
-    bool is_prototype = false;
+    bool is_model = false, moves = false;  ///< Either: its instances are parts of a prototype.
     std::uint32_t prototype = 0;
   };
   struct Placement {
@@ -67,9 +67,12 @@ class PlacedObjects {
   void unlink_children(NodeId parent, const std::vector<NodeId>& children);
   void add_roots_above(NodeId id, std::set<NodeId>& roots) const;
   bool read(const Store& store, NodeId id, std::set<NodeId>& to_place);
-  /// False where prototypes come or go, which only place_all does.
+  /// False where models come or go, which only place_all does.
   bool place_root(NodeId id, ResolvedScene& scene);
-  bool place_prototype(Root& root, const Object& object, std::vector<Instance> parts, ResolvedScene& scene);
+  bool place_model(Root& root, const Object& object, std::vector<Instance> parts, ResolvedScene& scene);
+  void place_moving(Root& root, NodeId id, const Object& object, std::vector<Instance> parts, ResolvedScene& scene);
+  void stop_moving(Root& root, ResolvedScene& scene);
+  void set_parts(std::uint32_t prototype, std::vector<Instance> parts, ResolvedScene& scene);
   void keep(Root& root, const std::vector<Instance>& instances, ResolvedScene& scene);
   void set_instance(std::uint32_t index, const Instance& instance, ResolvedScene& scene);
   void clear(const Root& root, ResolvedScene& scene);
@@ -77,6 +80,7 @@ class PlacedObjects {
   std::map<NodeId, Object> objects_;
   std::map<NodeId, std::vector<NodeId>> parents_;  ///< By child, once for each link.
   std::map<NodeId, Root> roots_;
+  std::vector<std::uint32_t> free_prototypes_;               ///< Of objects that moved.
   std::multimap<std::uint32_t, std::uint32_t> free_ranges_;  ///< First instance, by capacity.
   std::size_t visits_ = 0;                                   ///< Of all roots.
   std::size_t unused_instances_ = 0;

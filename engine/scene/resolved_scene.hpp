@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/change_list.hpp"
+#include "engine/scene/motion.hpp"
 
 namespace septet::scene {
 
@@ -141,10 +143,13 @@ struct Instance {
   }
 };
 
-/// The drawing of every participant of one model ("model/NAME").
+/// The drawing of every participant of one model ("model/NAME"), or of one object that moves by itself.
 struct Prototype {
-  std::string name;
+  std::string name;  ///< Empty: of an object.
   std::vector<Instance> parts;
+  std::optional<glm::vec3> paint;  ///< Of what it hangs on, in place of that one's own; linear Rec. 709.
+  Motion motion;                   ///< Of an object; without legs it has gone.
+  std::uint32_t number = 0;        ///< Tells objects that move apart from each other and from participants.
 };
 
 /// Pixels of an image, from the upper left.

@@ -22,8 +22,8 @@ std::vector<T> slice(const std::vector<T>& values, std::size_t first, std::size_
 
 void describe(NodeId id, const ObjectData& object, const Emit& emit, std::size_t) {
   if (object.transform != Transform{}) emit(TransformSet{id, object.transform});
+  if (object.motion != Motion{}) emit(MotionSet{id, object.motion});
   for (const auto& [link, value] : object.links) emit(LinkSet{id, link, value});
-  if (object.light != glm::vec3(0.0f)) emit(LightSet{id, object.light});
   if (object.hidden) emit(HideSet{id, true});
 }
 
@@ -89,7 +89,7 @@ bool same_parts(const Parts& a, const Parts& b) {
                     [](const auto& x, const auto& y) { return x.first == y.first && same(x.second, y.second); });
 }
 bool same(const ObjectData& a, const ObjectData& b) {
-  return a.transform == b.transform && a.links == b.links && a.light == b.light && a.hidden == b.hidden;
+  return a.transform == b.transform && a.motion == b.motion && a.links == b.links && a.hidden == b.hidden;
 }
 bool same(const GeometryData& a, const GeometryData& b) {
   return a.vertices_m == b.vertices_m && a.polygons == b.polygons && same_parts(a.layers, b.layers) &&

@@ -75,11 +75,11 @@ struct Store::Application {
 
   /// Finds the object and applies `change` to it.
   template <class Change>
-  Expected<void> with_object(NodeId id, Change change, bool drawn = true) const {
+  Expected<void> with_object(NodeId id, Change change) const {
     const auto object = node_with<ObjectData>(id);
     if (!object) return tl::unexpected(object.error());
     change(*object->second);
-    touch(*object->first, drawn);
+    touch(*object->first);
     return {};
   }
   /// Copies a run into an array that must contain it; `first` and the run count single values.
@@ -120,8 +120,8 @@ struct Store::Application {
   Expected<void> operator()(const TagSet& c) const;
   Expected<void> operator()(const TagDestroy& c) const;
   Expected<void> operator()(const TransformSet& c) const;
-  Expected<void> operator()(const LightSet& c) const;
   Expected<void> operator()(const HideSet& c) const;
+  Expected<void> operator()(const MotionSet& c) const;
   Expected<void> operator()(const LinkSet& c) const;
   Expected<void> operator()(const LinkDestroy& c) const;
   Expected<void> operator()(const GeometrySizeSet& c) const;

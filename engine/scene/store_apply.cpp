@@ -32,8 +32,6 @@ Expected<void> Store::Application::operator()(const NodeCreate& c) const {
     case NodeType::bitmap:
       created.data = BitmapData{};
       break;
-    default:
-      return no("this node type is not kept yet", "use object, geometry, material or bitmap");
   }
   if (auto ok = charge(0, weight(created)); !ok) return ok;
   Node& node = store.nodes_.emplace(c.node, std::move(created)).first->second;
@@ -112,13 +110,18 @@ Expected<void> Store::Application::operator()(const TransformSet& c) const {
   return with_object(c.node, [&](ObjectData& object) { object.transform = c.transform; });
 }
 
-Expected<void> Store::Application::operator()(const LightSet& c) const {
-  return with_object(
-      c.node, [&](ObjectData& object) { object.light = c.light; }, false);
-}
-
 Expected<void> Store::Application::operator()(const HideSet& c) const {
   return with_object(c.node, [&](ObjectData& object) { object.hidden = c.hidden; });
+}
+
+Expected<void> Store::Application::operator()(const MotionSet& c) const {
+  if (c.from_now) return no("the motion's times are not known yet", "ask the server of a drive");
+  const auto object = node_with<ObjectData>(c.node);
+  if (!object) return tl::unexpected(object.error());
+  if (auto ok = charge(weight(object->second->motion), weight(c.motion)); !ok) return ok;
+  object->second->motion = c.motion;
+  touch(*object->first);
+  return {};
 }
 
 Expected<void> Store::Application::operator()(const LinkSet& c) const {

@@ -17,6 +17,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/instant/mirror_view.hpp"
+#include "engine/scene/motion.hpp"
 #include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/world/instrument_panel.hpp"
 #include "engine/world/paint.hpp"
@@ -179,6 +180,14 @@ std::vector<std::pair<ParticipantId, std::uint32_t>> hung_things(const scene::Re
   return hung;
 }
 
+/// Its own, or that which an editor gave it.
+glm::vec3 paint_of(const Participant& participant, const scene::ResolvedScene& scene,
+                   const std::vector<std::pair<ParticipantId, std::uint32_t>>& hung) {
+  for (const auto& [number, prototype] : hung)
+    if (number == participant.id && scene.prototypes[prototype].paint) return *scene.prototypes[prototype].paint;
+  return body_color(participant.paint);
+}
+
 /// Added with the vehicle's motion, without its lamps and its spray.
 void add_hung_things(instant::FrameInput& frame, const Participant& participant,
                      const std::vector<std::pair<ParticipantId, std::uint32_t>>& hung) {
@@ -187,6 +196,21 @@ void add_hung_things(instant::FrameInput& frame, const Participant& participant,
     auto drawn = instant::drawn_participant(participant, prototype);
     drawn.lamps = {};
     drawn.raises_spray = false;
+    frame.participants.push_back(drawn);
+  }
+}
+
+/// Objects that move by themselves, where they are now.
+void add_moving_things(instant::FrameInput& frame, const scene::ResolvedScene& scene) {
+  for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i) {
+    const scene::Prototype& prototype = scene.prototypes[i];
+    if (prototype.motion.legs.empty()) continue;
+    const scene::MovingPose now = scene::pose_at(prototype.motion, frame.simulated_time_s);
+    instant::DrawnParticipant drawn;
+    drawn.prototype = i;
+    drawn.number = prototype.number;
+    drawn.world_from_vehicle = now.world_from_object;
+    drawn.velocity_mps = now.velocity_mps;
     frame.participants.push_back(drawn);
   }
 }
@@ -208,7 +232,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     const auto prototype = prototype_of(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;
     auto drawn = instant::drawn_participant(participant, *prototype);
-    drawn.paint = body_color(participant.paint);
+    drawn.paint = paint_of(participant, scene, hung);
     if (participant.id == viewpoint.inside) {
       for (auto& view : frame.views) view.velocity_mps = participant.velocity_mps;
       // A real car is around the driver, or its inside is drawn: of the model only the shadow and the light remain.
@@ -239,6 +263,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     }
     frame.participants.push_back(drawn);
   }
+  add_moving_things(frame, scene);
   for (const TrafficLight& light : traffic_lights_of(shown)) {
     const auto prototype = prototype_of(scene, light.for_walkers ? "pedestrian light" : "traffic light");
     if (!prototype) continue;

@@ -99,6 +99,8 @@ void ScreenLink::on_control(std::span<const std::byte> bytes, double now_s) {
     notice_ = std::move(*notice);
   } else if (const auto* look = std::get_if<Look>(&*message)) {
     looked_at_until_s_ = look->closely ? now_s + looked_at_for_s : -1e9;
+  } else if (auto* answer = std::get_if<OperatorAnswer>(&*message)) {
+    operator_answers_.push_back(std::move(*answer));
   } else if (std::holds_alternative<Finish>(*message)) {
     finished_ = true;
   }

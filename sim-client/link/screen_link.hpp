@@ -57,6 +57,9 @@ class ScreenLink {
   /// Events of the connection since the last call, for the terminal.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
+  /// Answers to an editor's lines since the last call.
+  std::vector<control::OperatorAnswer> take_operator_answers() { return std::exchange(operator_answers_, {}); }
+
   const frame::TickHistory& history() const { return history_; }
   const scene::Store& scene() const { return scene_.store(); }
   /// By which an editor asks for changes.
@@ -115,6 +118,7 @@ class ScreenLink {
   std::uint64_t refused_ticks_ = 0;
   net::ConnectionReport connection_;
   std::vector<std::string> messages_;
+  std::vector<control::OperatorAnswer> operator_answers_;
   std::string refused_;  ///< Server's last refusal of this screen.
   std::uint64_t told_forged_ = 0;
   double told_s_ = 0.0;

@@ -6,7 +6,9 @@
 
 #include "engine/document/text_file.hpp"
 #include "engine/scene/edit_file.hpp"
+#include "engine/simulation/model.hpp"
 #include "program/console.hpp"
+#include "sim-server/drive/motion_times.hpp"
 
 namespace septet::server {
 namespace {
@@ -36,17 +38,18 @@ void SceneEdits::before_tick(const Moment& moment) {
     }
   }
   while (!ahead_.empty() && ahead_.begin()->first <= from) {
-    const SceneRequest request = std::move(ahead_.begin()->second);
+    SceneRequest request = std::move(ahead_.begin()->second);
     ahead_.erase(ahead_.begin());
     bytes_ahead_ -= bytes_of(request);
-    make(request, from, moment.now_s);
+    make(std::move(request), from, moment.now_s);
   }
 }
 
-void SceneEdits::make(const SceneRequest& request, Tick from, double now_s) {
+void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
   // The list may have changed since it was asked for.
   const auto rights = host_.rights_of(request.editor.name).edit;
   if (!rights) return host_.refuse_scene(request, 0, "the right to edit was taken from this key", now_s);
+  put_true_times(drive_.store, request.batch.changes, static_cast<double>(from) / simulation::tick_rate_hz);
   const Editor editor{request.editor.name, *rights, request.editor.own_ids};
   const auto refused = pass_gate(drive_.store, request.batch.changes, editor, makers_,
                                  [&](const scene::Command& command) { host_.scene_changed(command, from); });

@@ -31,7 +31,7 @@ class SceneEdits final : public Attendant {
   void close(ServeResult& result) override;
 
  private:
-  void make(const SceneRequest& request, Tick from, double now_s);
+  void make(SceneRequest request, Tick from, double now_s);
 
   OpenedDrive& drive_;
   ScreenHost& host_;

@@ -20,12 +20,12 @@ EditKind kind_of(const C& command) {
   using namespace scene;
   if constexpr (std::is_same_v<C, HideSet>)
     return EditKind::hide;
-  else if constexpr (std::is_same_v<C, TransformSet>)
+  else if constexpr (std::is_same_v<C, TransformSet> || std::is_same_v<C, MotionSet>)
     return EditKind::move;
   else if constexpr (std::is_same_v<C, LinkSet>)
     return command.value.label == "material" ? EditKind::paint : EditKind::create;
-  else if constexpr (is_one_of<C, LightSet, FragmentSet, FragmentDestroy, BitmapSizeSet, BitmapLayerSet,
-                               BitmapLayerDestroy, BitmapTilesSet, TagGroupSet, TagGroupDestroy, TagSet, TagDestroy>)
+  else if constexpr (is_one_of<C, FragmentSet, FragmentDestroy, BitmapSizeSet, BitmapLayerSet, BitmapLayerDestroy,
+                               BitmapTilesSet, TagGroupSet, TagGroupDestroy, TagSet, TagDestroy>)
     return EditKind::paint;
   return EditKind::create;
 }

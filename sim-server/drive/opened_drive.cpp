@@ -22,6 +22,7 @@
 #include "sim-server/drive/seat/can_seat.hpp"
 #include "sim-server/drive/seat/tracked_head.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
+#include "sim-server/drive/who_is_who.hpp"
 #include "sim-server/host/replay_source.hpp"
 
 namespace septet::server {
@@ -64,6 +65,15 @@ Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vecto
   return parameters;
 }
 
+/// Roots for what hangs on those who have names, by which editors mean them (CONVENTIONS.md).
+void add_names(scene::SceneBuilder& builder, const simulation::Model& model) {
+  for (const auto& [id, name] : participant_names(model)) {
+    const scene::NodeId root = builder.add_prototype(fmt::format("participant/{}", id));
+    builder.apply(scene::TagGroupSet{root, 1, "participant"});
+    builder.apply(scene::TagSet{root, 1, 0, {"name", name}});
+  }
+}
+
 Expected<void> build_scene(const ServerOptions& options, OpenedDrive& drive, program::ProgressLine& line) {
   OwnModelsFolder own;
   if (!options.models.empty()) {
@@ -79,6 +89,7 @@ Expected<void> build_scene(const ServerOptions& options, OpenedDrive& drive, pro
   scenery::build_debris_looks(builder);
   scenery::build_road_world(builder, roads, options.seed,
                             {.own = &own.models, .raised = drive.loaded.model->raised.get()});
+  add_names(builder, *drive.loaded.model);
   if (!options.save.empty()) drive.generated = drive.store;
   if (options.edits.empty()) return {};
   const auto edits = read_regular_file(options.edits);

@@ -11,6 +11,19 @@
 
 namespace septet::server {
 
+std::vector<std::pair<ParticipantId, std::string>> participant_names(const simulation::Model& model) {
+  std::vector<std::pair<ParticipantId, std::string>> names;
+  const auto& entities = model.scenario.entities;
+  names.reserve(entities.size());
+  for (std::size_t i = 0; i < entities.size(); ++i) {
+    const bool is_driver = i == static_cast<std::size_t>(model.driver_entity);
+    names.emplace_back(is_driver ? simulation::driver_participant
+                                 : simulation::first_scripted_participant + static_cast<ParticipantId>(i),
+                       entities[i].name);
+  }
+  return names;
+}
+
 std::map<std::string, std::string> who_is_who(const simulation::Model& model) {
   document::Json models = document::Json::array(), names = document::Json::object();
   for (const VehicleModel& vehicle : vehicle_models()) {
@@ -26,13 +39,7 @@ std::map<std::string, std::string> who_is_who(const simulation::Model& model) {
     row["wheel_radius_m"] = vehicle.wheel_radius_m;
     models.push_back(std::move(row));
   }
-  const auto& entities = model.scenario.entities;
-  for (std::size_t i = 0; i < entities.size(); ++i) {
-    const bool is_driver = i == static_cast<std::size_t>(model.driver_entity);
-    const auto id = is_driver ? simulation::driver_participant
-                              : simulation::first_scripted_participant + static_cast<ParticipantId>(i);
-    names[std::to_string(id)] = entities[i].name;
-  }
+  for (auto& [id, name] : participant_names(model)) names[std::to_string(id)] = std::move(name);
   return {{"vehicle_models", document::text_of(models)}, {"participant_names", document::text_of(names)}};
 }
 

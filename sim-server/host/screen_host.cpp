@@ -98,7 +98,7 @@ void ScreenHost::pump(double now_s) {
   for (const net::ClientId client : clients)
     scene_.pump(client, scene_bytes_per_pump / clients.size(), [&](std::span<const std::byte> message) {
       const auto sent = lane_.send(client, control::scene_message(message), net::Reliability::reliable);
-      return sent == net::SendResult::queued || sent == net::SendResult::overwrote;
+      return sent == net::SendResult::queued;
     });
   if (options_.welcome.group_ip != 0) send_unicast_to_the_deaf(now_s);
 }
@@ -224,6 +224,22 @@ void ScreenHost::refuse_scene(const SceneRequest& request, std::size_t index, co
          now_s);
 }
 
+void ScreenHost::on_operator_line(net::ClientId client, const OperatorLine& line) {
+  OperatorRequest request{client, clients_.at(client), line.number, line.line};
+  if (!rights_of(request.name).may_operate)
+    return answer(
+        request, fmt::format("the key of {0} may not operate: allowed-clients needs `KEY {0} … operate`", request.name),
+        0);
+  if (operator_requests_.size() >= most_operator_lines)
+    return answer(request, "too many lines wait for this tick already: send fewer", 0);
+  operator_requests_.push_back(std::move(request));
+}
+
+void ScreenHost::answer(const OperatorRequest& request, const std::optional<std::string>& why_not, Tick tick) {
+  if (clients_.contains(request.client))
+    send(request.client, OperatorAnswer{request.number, tick, why_not.value_or("")});
+}
+
 void ScreenHost::on_control(net::ClientId client, const ControlMessage& message, double now_s) {
   if (const auto* hello = std::get_if<Hello>(&message)) return on_hello(client, *hello, now_s);
   if (const auto* car = std::get_if<CarHello>(&message)) return on_car_hello(client, *car, now_s);
@@ -231,6 +247,7 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     if (car_client_ == client) options_.car->device.receive(report->number, to_bytes(report->report), report->problem);
     return;
   }
+  if (const auto* line = std::get_if<OperatorLine>(&message)) return on_operator_line(client, *line);
   HostedScreen* screen = screen_of(client);
   if (const auto* arrived = std::get_if<TickArrived>(&message); arrived && watchers_.contains(client))
     return arrived->lost_baseline ? baselines_.join(client, now_s)

@@ -54,6 +54,15 @@ struct SceneRequest {
   Editor editor;
   replication::ClientBatch batch;
 };
+/// A line of a client that may operate.
+struct OperatorRequest {
+  net::ClientId client = 0;
+  std::string name;  ///< Of its key.
+  std::uint32_t number = 0;
+  std::string line;
+};
+/// Lines that may wait for the next tick.
+inline constexpr std::size_t most_operator_lines = 64;
 /// Commands that may wait for the next tick.
 inline constexpr std::size_t most_edits = 50'000;
 
@@ -109,6 +118,11 @@ class ScreenHost {
   /// The batches of scene changes that clients have asked for since the last call, in the order of their arrival. Those of
   /// clients without the right, and those beyond `most_edits` waiting, are refused already.
   std::vector<SceneRequest> take_scene_requests();
+  /// The lines that clients have sent since the last call. Those of clients without the right are answered already.
+  std::vector<OperatorRequest> take_operator_requests() { return std::exchange(operator_requests_, {}); }
+  void answer(const OperatorRequest& request, const std::optional<std::string>& why_not, Tick tick);
+  /// True while this client is connected.
+  bool has(net::ClientId client) const { return clients_.contains(client); }
   /// The rights of a name in the list; none for a name that is no longer there.
   net::Rights rights_of(const std::string& name) const;
   /// Call after every command that was applied to the store; `from`: the first tick that shows it.
@@ -168,6 +182,7 @@ class ScreenHost {
   void leave_behind(HostedScreen& screen, Tick tick);
   void on_connected(const net::ServerEvent& event, double now_s);
   void on_message(const net::ServerEvent& event, double now_s);
+  void on_operator_line(net::ClientId client, const control::OperatorLine& line);
   void on_scene(const net::ServerEvent& event, double now_s);
   void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);
   void on_hello(net::ClientId client, const control::Hello& hello, double now_s);
@@ -214,6 +229,7 @@ class ScreenHost {
   bool is_finishing_ = false;
   std::size_t last_tick_bytes_ = 0;
   std::vector<std::string> messages_;
+  std::vector<OperatorRequest> operator_requests_;
   std::vector<SceneRequest> scene_requests_;
   std::size_t edits_waiting_ = 0;  ///< Their commands.
 };

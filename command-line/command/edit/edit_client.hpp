@@ -43,6 +43,11 @@ class EditClient {
   Expected<std::uint64_t> request(std::span<const scene::Command> batch, std::uint64_t tick) {
     return link_.replication().request_batch(batch, tick);
   }
+  /// A line of an operator's; its answer has the number.
+  void operate(std::uint32_t number, const std::string& line) {
+    link_.send(control::OperatorLine{number, line}, net::Reliability::reliable);
+  }
+  std::vector<control::OperatorAnswer> take_operator_answers() { return link_.take_operator_answers(); }
   std::vector<EditAnswer> take_answers();
   std::vector<std::string> take_messages() { return link_.take_messages(); }
 

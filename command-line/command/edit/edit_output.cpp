@@ -24,10 +24,17 @@ void put(std::ostream& out, const Json& object) {
 
 }  // namespace
 
-void EditOutput::hello(const std::string& name, double tick_rate_hz, bool lockstep, Tick tick) const {
-  if (json_)
-    put(out_,
-        {{"type", "hello"}, {"name", name}, {"tick_rate_hz", tick_rate_hz}, {"lockstep", lockstep}, {"tick", tick}});
+void EditOutput::hello(const std::string& name, double tick_rate_hz, bool lockstep, Tick tick,
+                       const std::vector<std::pair<std::string, double>>& names) const {
+  if (!json_) return;
+  Json by_name = Json::object();
+  for (const auto& [text, number] : names) by_name[text] = static_cast<std::uint64_t>(number);
+  put(out_, {{"type", "hello"},
+             {"name", name},
+             {"tick_rate_hz", tick_rate_hz},
+             {"lockstep", lockstep},
+             {"tick", tick},
+             {"participants", std::move(by_name)}});
 }
 
 void EditOutput::done(std::uint64_t request, Tick tick, const std::vector<std::string>& messages) const {

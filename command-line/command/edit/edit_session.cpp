@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/core.h>
+
 #include "engine/document/text_file.hpp"
 #include "engine/scene/edit_file.hpp"
 #include "engine/scene/inverse.hpp"
@@ -83,7 +85,7 @@ void EditSession::add(Batch& batch, const std::string& line, const std::vector<s
 }
 
 void EditSession::send(Batch batch) {
-  const std::uint64_t request = ++requests_;
+  const std::uint64_t request = batch.was_asked ? ++requests_ : 0;
   if (batch.wrong) {
     forget_created(batch);
     return refuse(request, batch.wrong->first, batch.lines[batch.wrong->first - 1], batch.wrong->second);
@@ -92,10 +94,11 @@ void EditSession::send(Batch batch) {
   const auto number = client_.request(batch.commands, batch.tick);
   if (!number) {
     forget_created(batch);
+    if (!batch.was_asked) return output_.message(describe(number.error()));
     return refuse(request, 1, batch.lines.empty() ? "" : batch.lines.front(), describe(number.error()));
   }
   std::vector<scene::Command> undo;
-  if (!batch.is_undo) undo = undo_of(client_.store(), batch.commands);
+  if (batch.may_be_undone) undo = undo_of(client_.store(), batch.commands);
   waiting_.emplace(*number, Waiting{request, std::move(batch), std::move(undo)});
 }
 
@@ -114,6 +117,12 @@ void EditSession::hear() {
     const Waiting waiting = std::move(found->second);
     waiting_.erase(found);
     const Batch& batch = waiting.batch;
+    if (!batch.was_asked) {
+      output_.message(answer.refused ? fmt::format("{}: {}", batch.lines.front(), answer.refused->why)
+                                     : fmt::format("{}: {} changes, from tick {} on", batch.lines.front(),
+                                                   batch.commands.size(), answer.tick));
+      continue;
+    }
     if (answer.refused) {
       forget_created(batch);
       const std::size_t line = answer.refused->index < batch.line_of.size() ? batch.line_of[answer.refused->index] : 1;
@@ -123,6 +132,16 @@ void EditSession::hear() {
     if (!waiting.undo.empty()) undo_.push_back(waiting.undo);
     if (undo_.size() > most_undone) undo_.erase(undo_.begin());
     output_.done(waiting.request, answer.tick, batch.messages);
+  }
+  for (const control::OperatorAnswer& answer : client_.take_operator_answers()) {
+    const auto found = operating_.find(answer.number);
+    if (found == operating_.end()) continue;
+    const auto [request, line] = std::move(found->second);
+    operating_.erase(found);
+    if (answer.why_not.empty())
+      output_.done(request, answer.tick, {});
+    else
+      refuse(request, 1, line, answer.why_not);
   }
   for (const std::string& message : client_.take_messages()) output_.message(message);
   if (!tells_ticks_) return;
@@ -170,6 +189,10 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
       refuse(request, 1, line, describe(saved.error()));
   } else if (verb == "undo") {
     undo();
+  } else if (verb == "operate") {
+    operate(line);
+  } else if (verb == "watch") {
+    watch(line, words);
   } else {
     return false;
   }
@@ -194,12 +217,60 @@ void EditSession::read(std::uint64_t request, const std::vector<scene::TextWord>
 void EditSession::undo() {
   Batch batch;
   batch.lines = {"undo"};
-  batch.is_undo = true;
+  batch.may_be_undone = false;
   if (undo_.empty())
     batch.wrong = {1, "there is nothing of this editor's to be undone"};
   else
     batch.commands = std::move(undo_.back()), undo_.pop_back();
   send(std::move(batch));
+}
+
+/// What stands behind the word is the server's to read.
+void EditSession::operate(const std::string& line) {
+  const std::uint64_t request = ++requests_;
+  const auto begin = line.find_first_not_of(" \t", line.find("operate") + std::string_view("operate").size());
+  const std::string text = begin == std::string::npos ? std::string() : line.substr(begin);
+  if (text.empty() || text.size() > control::most_operator_line_bytes)
+    return refuse(request, 1, line.substr(0, 80), "write operate and a line of an operator's: docs/editing.md");
+  operating_[++operated_] = {request, line};
+  client_.operate(operated_, text);
+}
+
+void EditSession::watch(const std::string& line, const std::vector<scene::TextWord>& words) {
+  Batch batch;
+  batch.lines = {line};
+  batch.may_be_undone = false;
+  auto watched = watched_of(words, client_.store(), names_);
+  if (!watched) {
+    batch.wrong = {1, describe(watched.error())};
+    return send(std::move(batch));
+  }
+  auto first = watched->read();
+  if (!first) {
+    batch.wrong = {1, describe(first.error())};
+    return send(std::move(batch));
+  }
+  batch.commands = std::move(first->commands);
+  batch.messages = std::move(first->messages);
+  watched_.push_back(std::move(*watched));
+  send(std::move(batch));
+}
+
+void EditSession::look_at_files(double now_s) {
+  for (WatchedModel& watched : watched_) {
+    if (!watched.is_saved(now_s)) continue;
+    auto line = watched.read();
+    if (!line) {
+      output_.message(describe(line.error()));
+      continue;
+    }
+    for (const std::string& message : line->messages) output_.message(message);
+    Batch batch;
+    batch.lines = {watched.file().string()};
+    batch.commands = std::move(line->commands);
+    batch.may_be_undone = batch.was_asked = false;
+    if (!batch.commands.empty()) send(std::move(batch));
+  }
 }
 
 }  // namespace septet::server

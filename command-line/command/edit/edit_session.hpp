@@ -11,6 +11,7 @@
 #include "command-line/command/edit/edit_client.hpp"
 #include "command-line/command/edit/edit_output.hpp"
 #include "command-line/command/edit/edit_verbs.hpp"
+#include "command-line/command/edit/watched_model.hpp"
 
 namespace septet::server {
 
@@ -24,12 +25,15 @@ class EditSession {
   /// True if the line reads the scene, so that everything before it must have arrived.
   static bool reads_scene(std::string_view line);
   /// True if no answer is owed and the mirror is whole.
-  bool is_settled() const { return waiting_.empty() && client_.is_complete(); }
+  bool is_settled() const { return answers_owed() == 0 && client_.is_complete(); }
   bool is_in_batch() const { return batch_.has_value(); }
-  std::size_t answers_owed() const { return waiting_.size(); }
+  std::size_t answers_owed() const { return waiting_.size() + operating_.size(); }
   void take(const std::string& line);
   /// Says what the server has answered, and the ticks that have come.
   void hear();
+  /// Sends what differs in files that are watched and were saved.
+  void look_at_files(double now_s);
+  bool is_watching() const { return !watched_.empty(); }
   std::uint64_t refusals() const { return refusals_; }
 
  private:
@@ -40,7 +44,8 @@ class EditSession {
     std::vector<std::size_t> line_of;  ///< Of each command.
     std::vector<std::string> messages;
     std::optional<std::pair<std::size_t, std::string>> wrong;  ///< The first line that cannot be read, and why.
-    bool is_undo = false;
+    bool may_be_undone = true;
+    bool was_asked = true;  ///< False: of a file that was saved; its answer is a message.
   };
   struct Waiting {
     std::uint64_t request = 0;
@@ -56,6 +61,8 @@ class EditSession {
   bool query(const std::string& line, const std::vector<scene::TextWord>& words);
   void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
   void undo();
+  void operate(const std::string& line);
+  void watch(const std::string& line, const std::vector<scene::TextWord>& words);
 
   EditClient& client_;
   const EditOutput& output_;
@@ -65,6 +72,10 @@ class EditSession {
   std::optional<Batch> batch_;
   std::map<std::uint64_t, Waiting> waiting_;  ///< By the batch's number.
   std::vector<std::vector<scene::Command>> undo_;
+  std::vector<WatchedModel> watched_;
+  std::map<std::uint32_t, std::pair<std::uint64_t, std::string>>
+      operating_;  ///< Requests and lines, by the line's number.
+  std::uint32_t operated_ = 0;
   bool tells_ticks_ = false;
   std::optional<Tick> told_tick_;
 };

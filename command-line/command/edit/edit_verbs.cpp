@@ -22,6 +22,7 @@
 #include "engine/image/png.hpp"
 #include "engine/image/srgb.hpp"
 #include "engine/replication/message.hpp"
+#include "engine/scene/command_validation.hpp"
 
 namespace septet::server {
 namespace {
@@ -50,7 +51,8 @@ std::optional<std::vector<double>> numbers(Words words) {
 
 Quat turned(double heading_deg) { return glm::angleAxis(heading_deg * std::numbers::pi / 180.0, Vec3(0, 0, 1)); }
 
-/// Nothing, X Y Z, or X Y Z HEADING.
+}  // namespace
+
 std::optional<Transform> transform_of(Words words) {
   const auto read = numbers(words);
   if (!read || !(read->empty() || read->size() == 3 || read->size() == 4)) return std::nullopt;
@@ -58,6 +60,31 @@ std::optional<Transform> transform_of(Words words) {
   if (!read->empty()) transform.position_m = {(*read)[0], (*read)[1], (*read)[2]};
   if (read->size() == 4) transform.rotation = turned((*read)[3]);
   return transform;
+}
+
+namespace {
+
+/// A leg of `go`; a later one begins with its time after the first one's beginning.
+std::optional<MotionLeg> leg_of(Words words, bool is_later) {
+  const auto given = numbers(words);
+  const std::size_t first = is_later ? 1 : 0;
+  if (!given || (given->size() != first + 3 && given->size() != first + 6 && given->size() != first + 7))
+    return std::nullopt;
+  const auto vector = [&](std::size_t at) {
+    return at + 2 < given->size() ? Vec3((*given)[at], (*given)[at + 1], (*given)[at + 2]) : Vec3(0.0);
+  };
+  MotionLeg leg{.velocity_mps = vector(first), .acceleration_mps2 = vector(first + 3)};
+  if (is_later) leg.from_s = given->front();
+  if (given->size() == first + 7) leg.turn_radps.z = given->back() * std::numbers::pi / 180.0;
+  return leg;
+}
+
+/// Of three numbers as in pictures.
+glm::vec3 linear_rgb(std::span<const double> srgb) {
+  const auto light = [&](std::size_t i) {
+    return static_cast<float>(image::light_of_srgb(std::clamp(srgb[i], 0.0, 1.0)));
+  };
+  return {light(0), light(1), light(2)};
 }
 
 class Verbs {
@@ -69,6 +96,7 @@ class Verbs {
     const Words rest = std::span(words).subspan(1);
     if (verb == "create") return create(rest);
     if (verb == "move") return move(rest);
+    if (verb == "go") return go(rest);
     if (verb == "hide" || verb == "show") return hide(rest, verb == "hide");
     if (verb == "remove") return remove(rest);
     if (verb == "import") return import_model(rest);
@@ -77,6 +105,7 @@ class Verbs {
     if (verb == "text") return text(rest);
     if (verb == "color") return color(rest);
     if (verb == "hang") return hang(rest);
+    if (verb == "repaint") return repaint(rest);
     auto command = command_from_words(words, {store_, names_.own_ids, nullptr, &names_.fresh});
     if (!command) return tl::unexpected(command.error());
     learn(*command);
@@ -171,7 +200,25 @@ class Verbs {
       transform->scale = now->transform.scale;
       if (words.size() == 4) transform->rotation = now->transform.rotation;
     }
-    return EditedLine{{TransformSet{*id, *transform}}};
+    EditedLine line{{TransformSet{*id, *transform}}};
+    if (const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr; now && !now->motion.legs.empty())
+      line.commands.emplace_back(MotionSet{*id, {}});
+    return line;
+  }
+  Expected<EditedLine> go(Words words) {
+    constexpr std::string_view usage = "go NODE VX VY VZ [AX AY AZ [TURN_DEGPS]] [then AFTER_S VX VY VZ …]";
+    if (words.empty()) return wrong("a node is missing", usage);
+    const auto id = object(words[0]);
+    if (!id) return no_node_called(words[0]);
+    MotionSet motion{*id, {}, true};
+    for (Words rest = words.subspan(1);;) {
+      const auto then = std::ranges::find(rest, "then", &TextWord::text);
+      const auto leg = leg_of(rest.first(static_cast<std::size_t>(then - rest.begin())), !motion.motion.legs.empty());
+      if (!leg) return wrong("a velocity is three numbers, an acceleration three more, a turn one more", usage);
+      motion.motion.legs.push_back(*leg);
+      if (then == rest.end()) return EditedLine{{std::move(motion)}};
+      rest = rest.subspan(static_cast<std::size_t>(then - rest.begin()) + 1);
+    }
   }
   Expected<EditedLine> hide(Words words, bool hidden) {
     if (words.size() != 1) return wrong("one node is needed", hidden ? "hide NODE" : "show NODE");
@@ -239,30 +286,51 @@ class Verbs {
     if (!id) return no_node_called(words[0]);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
-    glm::vec3 linear;
-    for (int i = 0; i < 3; ++i)
-      linear[i] = static_cast<float>(image::light_of_srgb(std::clamp((*rgb)[static_cast<std::size_t>(i)], 0.0, 1.0)));
-    return keep(make_colour(store_, *id, linear, *first));
+    return keep(make_colour(store_, *id, linear_rgb(*rgb), *first));
   }
 
-  /// The prototype of what hangs on one participant has a link of each thing's own, by its id.
+  /// What hangs on a participant, and its paint, are of this root's; made by `made` where it is not there yet.
+  NodeId root_of(double number, Made& made) const {
+    const std::string root = fmt::format("model/participant/{:.0f}", number);
+    if (const auto known = object({root, true})) return *known;
+    const NodeId id = made.next++;
+    made.commands = {NodeCreate{id, NodeType::object}, NodeNameSet{id, root}};
+    return id;
+  }
+  /// A number, or a name of the scenario's.
+  std::optional<double> participant(const TextWord& word) const {
+    if (const auto number = numbers(std::span(&word, 1)))
+      return number->front() >= 0.0 && number->front() <= 4e9 ? std::optional(number->front()) : std::nullopt;
+    for (const auto& [name, number] : participant_names(store_))
+      if (name == word.text) return number;
+    return std::nullopt;
+  }
+
+  /// A link of each thing's own, by its id.
   Expected<EditedLine> hang(Words words) {
-    constexpr std::string_view usage = "hang NODE NUMBER, a node of this editor's own and the number of a participant";
-    const auto number = words.size() == 2 ? numbers(words.subspan(1)) : std::nullopt;
+    constexpr std::string_view usage = "hang NODE PARTICIPANT, a node of this editor's own and a number or a name";
+    const auto number = words.size() == 2 ? participant(words[1]) : std::nullopt;
     const auto id = words.empty() ? std::nullopt : object(words[0]);
-    if (!number || number->front() < 0.0 || number->front() > 4e9 || !id ||
-        *id - names_.own_ids >= replication::ids_per_session)
+    if (!number || !id || *id - names_.own_ids >= replication::ids_per_session)
       return wrong("a thing and a participant are needed", usage);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
-    const std::string root = fmt::format("model/participant/{:.0f}", number->front());
     Made made{{}, *first};
-    auto parent = object({root, true});
-    if (!parent) {
-      parent = made.next++;
-      made.commands = {NodeCreate{*parent, NodeType::object}, NodeNameSet{*parent, root}};
-    }
-    made.commands.emplace_back(LinkSet{*parent, static_cast<PartId>(*id - names_.own_ids), {"child", *id, 0}});
+    const NodeId parent = root_of(*number, made);
+    made.commands.emplace_back(LinkSet{parent, static_cast<PartId>(*id - names_.own_ids), {"child", *id, 0}});
+    return keep(std::move(made));
+  }
+  Expected<EditedLine> repaint(Words words) {
+    constexpr std::string_view usage = "repaint PARTICIPANT RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
+    const auto number = words.empty() ? std::nullopt : participant(words[0]);
+    const auto rgb = words.size() == 4 ? numbers(words.subspan(1)) : std::nullopt;
+    if (!number || !rgb) return wrong("a participant's number or name and three numbers are needed", usage);
+    const auto first = free_ids("");
+    if (!first) return tl::unexpected(first.error());
+    Made made{{}, *first};
+    const NodeId root = root_of(*number, made);
+    made.commands.emplace_back(TagGroupSet{root, 0, "draw"});
+    made.commands.emplace_back(TagSet{root, 0, 0, {"paint", Vec3(linear_rgb(*rgb))}});
     return keep(std::move(made));
   }
 
@@ -289,8 +357,25 @@ bool matches(std::string_view pattern, std::string_view name) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, double>> participant_names(const Store& store) {
+  std::vector<std::pair<std::string, double>> names;
+  for (const auto& [id, node] : store.nodes()) {
+    constexpr std::string_view root = "model/participant/";
+    const TagValue* tag = node.name.starts_with(root) ? find_tag(node, "participant", "name") : nullptr;
+    const auto* name = tag ? std::get_if<std::string>(tag) : nullptr;
+    const TextWord number{node.name.substr(std::min(root.size(), node.name.size()))};
+    const auto read = name ? numbers(std::span(&number, 1)) : std::nullopt;
+    if (read) names.emplace_back(*name, read->front());
+  }
+  return names;
+}
+
 Expected<EditedLine> edit_of(const std::vector<TextWord>& words, const Store& store, EditNames& names) {
-  return Verbs(store, names).line(words);
+  auto line = Verbs(store, names).line(words);
+  if (!line) return line;
+  for (const Command& command : line->commands)  // A server ends the connection of who sends what is out of range.
+    if (auto valid = validate(command); !valid) return tl::unexpected(valid.error());
+  return line;
 }
 
 Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store) {

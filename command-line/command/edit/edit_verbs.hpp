@@ -3,8 +3,11 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/expected.hpp"
@@ -29,6 +32,12 @@ struct EditedLine {
 
 /// The commands of one line. Error: which word is wrong, what a file lacks, or that the own ids are used up.
 Expected<EditedLine> edit_of(const std::vector<scene::TextWord>& words, const scene::Store& store, EditNames& names);
+
+/// A place: nothing, X Y Z, or X Y Z HEADING_DEG. Empty: other words.
+std::optional<scene::Transform> transform_of(std::span<const scene::TextWord> words);
+
+/// Those that the scenario names, with their numbers.
+std::vector<std::pair<std::string, double>> participant_names(const scene::Store& store);
 
 /// The nodes that `find` means: a pattern of names (* and ?), then `type TYPE`, `tag GROUP.TAG`, `near X Y METRES`. At most
 /// a thousand.

@@ -2,11 +2,13 @@
 import json
 import os
 import pathlib
+import queue
 import sqlite3
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 septet_program = pathlib.Path(sys.argv[1])
 root = pathlib.Path(__file__).resolve().parents[3]
@@ -32,9 +34,9 @@ upper_left_m = [2.15, 0.77, 1.47]
 """
 
 
-def triangle_glb() -> bytes:
-    """A red triangle of a metre."""
-    numbers = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+def triangle_glb(height_m: float = 1) -> bytes:
+    """A red triangle, a metre wide."""
+    numbers = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, height_m, 0)
     document = {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -42,7 +44,7 @@ def triangle_glb() -> bytes:
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
         "materials": [{"name": "red", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, height_m, 0]}],
         "bufferViews": [{"buffer": 0, "byteLength": len(numbers)}],
         "buffers": [{"byteLength": len(numbers)}],
     }
@@ -84,6 +86,45 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         sign.hang_on(first.driver)
         sign.position = (-1, 0, 2)
         assert len(world.find(f"model/participant/{first.car.id}")) == 1
+        (driver,) = [name for name, number in world.participants.items() if number == first.car.id]
+        world.repaint(driver, 0, 0, 1)
+        assert any("paint" in line for line in world._ask([f"read model/participant/{first.car.id}"]).result(60))
+        assert "number or name" in refused(lambda: world.repaint("nobody", 0, 0, 1)).why
+        # A script marks, sets the weather, stops the world and takes it tick by tick.
+        world.mark("phase 2")
+        world.conditions(rain_mm_per_h=12, road_wetness=0.5)
+        assert "is not" in (why := refused(lambda: world.conditions(rain=1))).why or why.why, why
+        stood = world.pause()
+        for n in (1, 5):
+            assert world.step(n).tick == stood + n
+            stood += n
+        time.sleep(0.3)
+        assert world.newest.tick == stood
+        world.go_on()
+        assert next(tick for tick in world.ticks() if tick.tick > stood).tick > stood
+        # What moves is sent once, and begins where it is when the server does it.
+        deer = world.add("stimuli/deer", glb, (5, 6, 7))
+        deer.go((0, 3, 0), turn_degps=90, then=[(2, (0, 0, 0))])
+        (line,) = [line.split() for line in world._ask(["read stimuli/deer"]).result(60) if line.startswith("motion-set")]
+        assert [float(word) for word in line[2:6]] == [0, 5, 6, 7] and line[10] == "2", line
+        assert float(line[11]) > first.time_s and abs(float(line[21]) - float(line[11]) - 2) < 1e-9, line
+        deer.position = (1, 1, 1)
+        assert not [line for line in world._ask(["read stimuli/deer"]).result(60) if line.startswith("motion-set")]
+        why = refused(lambda: deer.go((20000, 0, 0)))
+        assert "faster than 10 km/s" in why.why, why.why
+        # A file that is watched: what differs is sent when it was saved, and a half-written one is told.
+        live = folder / "live.glb"
+        live.write_bytes(triangle_glb())
+        told = queue.Queue()
+        world.on("message")(told.put)
+        world.add("stimuli/live", live, watch=True)
+        assert "already" in refused(lambda: world.add("stimuli/live", live, watch=True)).why
+        live.write_bytes(triangle_glb(2))
+        while "changes, from tick" not in (message := told.get(timeout=60)):
+            pass
+        assert message.startswith(f"{live}: 1 changes"), message
+        live.write_bytes(triangle_glb()[:100])
+        assert "live.glb" in (message := told.get(timeout=60)) and "changes" not in message, message
         # A batch is done whole at its tick, or nothing of it.
         at = first.tick + 240
         with world.batch(at_tick=at) as later:
@@ -105,6 +146,7 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         assert f"hide-set {tree.node} 1" in text and "stimuli/ball" in text
     with septet.connect(host, port, keys / "guest/guest.key") as guest:
         assert "which lab made" in refused(lambda: guest.get("stimuli/ball").remove()).why
+        assert "may not operate" in refused(lambda: guest.mark("no")).why
         assert "needs the word create" in refused(lambda: guest.add("mine")).why
         # Of a batch that is refused the change is told that may not be, and none is made.
         tree, ball = guest.find("tree/*")[1], guest.get("stimuli/ball")
@@ -125,7 +167,7 @@ with tempfile.TemporaryDirectory() as name:
     (folder / "small.toml").write_text(RIG)
     (folder / "ball.glb").write_bytes(triangle_glb())
     keys = folder / "keys"
-    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit",
+    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit operate",
         "--editor", "guest=edit hide move", "--editor", "reader=look")
     server = subprocess.Popen(
         [str(septet_program.parent / "septet-server"), "--scenario", "first-lesson", "--rig", str(folder / "small.toml"), "--keys",
@@ -138,9 +180,13 @@ with tempfile.TemporaryDirectory() as name:
         port = ready.split()[1]
         use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
-        for script, more in (("ball.py", [str(folder / "ball.glb")]), ("sign_at_200_m.py", [])):
+        glb = str(folder / "ball.glb")
+        said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
+        for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["3"]), ("repaint_traffic.py", []),
+                             ("log_gaze.py", [str(folder / "gaze.csv"), "1"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),
+                             ("step_by_step.py", ["4"]), ("too_close.py", ["2"])):
             said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
-            assert script != "sign_at_200_m.py" or said.startswith("changed at "), said
+            assert said.startswith(said_by.get(script, "")), (script, said)
     except BaseException:
         print((folder / "server.log").read_text(), file=sys.stderr)
         raise
@@ -148,10 +194,15 @@ with tempfile.TemporaryDirectory() as name:
         server.terminate()
         server.wait(300)
     log = (folder / "server.log").read_text()
-    assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create" in log, log
+    assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create, and operates" in log, log
     assert "refused so far: 2" in log, log
     session = folder / "out/session.sqlite"
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
+    notes = [row for row in sqlite3.connect(session).execute("SELECT kind, detail FROM events WHERE detail LIKE 'by=lab %'")]
+    assert ("mark", "by=lab note=phase 2") in notes and ("operator", "by=lab wish=pause") in notes, notes
+    assert len((folder / "gaze.csv").read_text().splitlines()) > 9
+    assert sum(detail.startswith("by=lab note=n-back") for _, detail in notes) > 1, notes
+    assert any(detail.startswith("by=lab wish=conditions") for _, detail in notes), notes
     assert logged > 20, logged
     print(run(str(septet_program), "replay", "--verify", str(session)))
     assert "stimuli/sign" in (folder / "saved.edits").read_text()

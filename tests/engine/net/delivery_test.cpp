@@ -88,51 +88,6 @@ TEST_CASE("unreliable messages arrive at most once and never without authenticat
   CHECK(site.clients[0]->send(random_bytes(1200, 1), Reliability::unreliable) == SendResult::too_large);
 }
 
-TEST_CASE("a message not yet sent is overwritten by a newer one with its key and keeps its place") {
-  Site site(1, {});
-  site.run(0.1);
-  const ClientId id = site.id_of(0);
-  const auto send = [&](const char* text, AddressKey key) {
-    return site.server->send(id, bytes_of(text), Reliability::reliable, key);
-  };
-  CHECK(send("pose 1", 7) == SendResult::queued);
-  CHECK(send("name", no_address_key) == SendResult::queued);
-  CHECK(send("other pose", 8) == SendResult::queued);
-  CHECK(send("pose 2", 7) == SendResult::overwrote);
-  CHECK(send("pose 3", 7) == SendResult::overwrote);
-  site.run(0.05);
-  REQUIRE(site.received[0].size() == 3);
-  CHECK(text_of(site.received[0][0]) == "pose 3");
-  CHECK(text_of(site.received[0][1]) == "name");
-  CHECK(text_of(site.received[0][2]) == "other pose");
-  CHECK(send("pose 4", 7) == SendResult::queued);
-  site.run(0.05);
-  CHECK(text_of(site.received[0].back()) == "pose 4");
-}
-
-TEST_CASE("under loss the newest message of every key arrives last whatever was overwritten") {
-  Site site(1, {.loss = 0.3, .latency_s = 0.001, .jitter_s = 0.005});
-  site.run(1.0);
-  const ClientId id = site.id_of(0);
-  REQUIRE(id != 0);
-  for (int n = 0; n < 500; ++n) {
-    const AddressKey key = 1 + static_cast<AddressKey>(n % 3);
-    site.server->send(id, bytes_of(std::to_string(key) + " " + std::to_string(n)), Reliability::reliable, key);
-    site.run(0.002);
-  }
-  site.run(2.0);
-  CHECK(site.server->counters().overwritten > 0);
-  CHECK(site.server->info(id)->queued_bytes == 0);
-  std::array<int, 4> last{};
-  for (const Bytes& message : site.received[0]) {
-    const std::string text = text_of(message);
-    const int key = text[0] - '0', n = std::stoi(text.substr(2));
-    CHECK(n > last[static_cast<std::size_t>(key)] - 1);
-    last[static_cast<std::size_t>(key)] = n;
-  }
-  CHECK(last == std::array<int, 4>{0, 498, 499, 497});
-}
-
 TEST_CASE("a client whose queue is full is dropped so that memory is bounded") {
   ChannelLimits limits;
   limits.max_queue_bytes = 100'000;

@@ -118,6 +118,13 @@ TEST_CASE("words behind a name are its rights and a word that is none is refused
   };
   CHECK_FALSE(rights("look").edit.has_value());
   CHECK(rights("look").may_look);
+  CHECK_FALSE(rights("edit").may_operate);
+  for (const char* words : {"operate", "look operate", "edit tree/ operate hide"}) {
+    CHECK(rights(words).may_operate);
+    CHECK(rights(words).may_look);
+  }
+  CHECK_FALSE(rights("operate").edit.has_value());
+  CHECK_FALSE(rights("edit tree/ operate hide").edit->includes(EditKind::move));
   const auto all = rights("edit");
   REQUIRE(all.edit.has_value());
   CHECK(all.edit->kinds == all_edit_kinds);
@@ -129,7 +136,7 @@ TEST_CASE("words behind a name are its rights and a word that is none is refused
   CHECK(some.edit->names("sign/a/1"));
   CHECK_FALSE(some.edit->names("sign/b"));
   CHECK(describe(some) == "may hide, move below tree/, sign/a/");
-  for (const char* words : {"edits", "look hide", "edit hides", "hide"}) {
+  for (const char* words : {"edits", "look hide", "operate hide", "operates", "edit hides", "hide"}) {
     std::ofstream(file) << a << " left\n" << b << " lab " << words << '\n';
     const auto refused = load_allowed_clients(file);
     REQUIRE_FALSE(refused.has_value());

@@ -30,19 +30,6 @@ TEST_CASE("fragments in any order make the message and later messages wait for e
   CHECK(completed.size() == 2);
 }
 
-TEST_CASE("a void message lets the next ones through and its late fragments are ignored") {
-  ReliableReceiver receiver(1000, 1000);
-  std::vector<Bytes> completed;
-  const Bytes a = bytes_of("abc");
-  CHECK(receiver.accept(fragment(0, 6, 0, a), completed));
-  CHECK(receiver.accept(fragment(1, 3, 0, a), completed));
-  CHECK(receiver.accept({.kind = FrameKind::void_message, .message = 0}, completed));
-  REQUIRE(completed.size() == 1);
-  CHECK(receiver.accept(fragment(0, 6, 3, a), completed));
-  CHECK(completed.size() == 1);
-  CHECK(receiver.bytes_held() == 0);
-}
-
 TEST_CASE("overlaps contradictions and excess are refused") {
   const Bytes a = bytes_of("abc");
   const auto second_is_refused = [&](const Frame& first, const Frame& second) {
@@ -91,7 +78,6 @@ TEST_CASE("every frame reads back as it was written and a cut one is refused") {
   ranges.ranges[2] = {5, 0};
   const std::vector<Frame> frames = {{.kind = FrameKind::acknowledge, .received = ranges},
                                      fragment(12, 5000, 700, payload),
-                                     {.kind = FrameKind::void_message, .message = 1u << 20},
                                      {.kind = FrameKind::unreliable, .bytes = payload},
                                      {.kind = FrameKind::ping, .sent_s = 1.5},
                                      {.kind = FrameKind::pong, .sent_s = 1.5, .answered_s = 2.5},

@@ -21,9 +21,7 @@ struct Lane {
                 .window_bytes = 8u << 20,
                 .max_flight_bytes = max_flight_bytes}) {}
 
-  SendResult enqueue(std::uint64_t seed, AddressKey key = no_address_key) {
-    return sender.enqueue(share(random_bytes(1000, seed)), key);
-  }
+  SendResult enqueue(std::uint64_t seed) { return sender.enqueue(share(random_bytes(1000, seed))); }
   // Sends as much as allowed and returns the number of packets.
   std::size_t send(double now_s, std::size_t most = ~std::size_t{0}) {
     std::size_t packets = 0;
@@ -158,7 +156,7 @@ TEST_CASE("more than a tenth lost in a round cuts by a third what may be under w
 
 TEST_CASE("a queue takes exactly what its limit says and has room again for what was acknowledged") {
   Lane lane(1u << 20, 2 * 1032);
-  CHECK(lane.sender.enqueue(share(Bytes(4001)), no_address_key) == SendResult::too_large);
+  CHECK(lane.sender.enqueue(share(Bytes(4001))) == SendResult::too_large);
   CHECK(lane.enqueue(1) == SendResult::queued);
   CHECK(lane.enqueue(2) == SendResult::queued);
   CHECK(lane.sender.queued_bytes() == 2 * 1032);
@@ -168,14 +166,6 @@ TEST_CASE("a queue takes exactly what its limit says and has room again for what
   CHECK(lane.sender.queued_bytes() == 1032);
   CHECK(lane.enqueue(3) == SendResult::queued);
   CHECK(lane.enqueue(4) == SendResult::queue_full);
-}
-
-TEST_CASE("the account of a queue is of the message that took another one's place") {
-  Lane lane;
-  CHECK(lane.sender.enqueue(share(Bytes(700)), 5) == SendResult::queued);
-  CHECK(lane.sender.enqueue(share(Bytes(300)), 5) == SendResult::overwrote);
-  CHECK(lane.sender.queued_bytes() == 332);
-  CHECK(lane.sender.overwritten() == 1);
 }
 
 TEST_CASE("an acknowledgement of what was never sent is refused") {

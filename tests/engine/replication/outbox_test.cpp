@@ -157,8 +157,8 @@ TEST_CASE("a tag's group is there before its tag whichever of them waits longer"
 TEST_CASE("what waits of a node that is of another type by now says nothing") {
   const Store store = store_of(3);  // A geometry.
   Outbox outbox;
-  for (const SubjectKind kind : {SubjectKind::transform, SubjectKind::hide, SubjectKind::light, SubjectKind::link,
-                                 SubjectKind::fragment, SubjectKind::bitmap_size, SubjectKind::bitmap_layer})
+  for (const SubjectKind kind : {SubjectKind::transform, SubjectKind::hide, SubjectKind::link, SubjectKind::fragment,
+                                 SubjectKind::bitmap_size, SubjectKind::bitmap_layer})
     outbox.mark({{node, kind, 0, 0}});
   CHECK(written(outbox, store).empty());
   CHECK(outbox.empty());

@@ -76,11 +76,17 @@ TEST_CASE("mutated bytes are refused or give a command that is written and read 
 }
 
 TEST_CASE("numbers that are not finite are refused") {
-  const float bad = std::numeric_limits<float>::quiet_NaN();
-  CHECK_FALSE(decode(bytes_of(LightSet{1, {bad, 0, 0}})).has_value());
   CHECK_FALSE(decode(bytes_of(VerticesSet{1, 0, {{0, INFINITY, 0}}})).has_value());
   CHECK_FALSE(decode(bytes_of(TransformSet{1, {{NAN, 0.0, 0.0}}})).has_value());
   CHECK_FALSE(decode(bytes_of(TagSet{1, 0, 0, {"x", double{NAN}}})).has_value());
+}
+
+TEST_CASE("opcode 13 is of no command and those behind it stay what they were") {
+  CHECK_FALSE(decode(Bytes{std::byte{13}, std::byte{2}, std::byte{1}}).has_value());
+  CHECK(decode(Bytes{std::byte{14}, std::byte{2}, std::byte{1}}).value() == Command(HideSet{1, true}));
+  CHECK(bytes_of(LinkDestroy{1, 2})[0] == std::byte{12});
+  CHECK(bytes_of(HideSet{1, true})[0] == std::byte{14});
+  CHECK(bytes_of(BitmapTilesSet{1, 0, 0, {}})[0] == std::byte{28});
 }
 
 TEST_CASE("a claimed length beyond the limit is refused before it is allocated") {

@@ -56,7 +56,6 @@ TEST_CASE("a refused command changes nothing") {
       NodeIndexSubscribe{1},
       NodeCreate{1, NodeType::object},
       NodeCreate{no_node, NodeType::object},
-      NodeCreate{9, NodeType::audio},
       NodeNameSet{99, "nobody"},
       NodeNameSet{1, std::string(256, 'x')},
       TagSet{1, 9, 0, {"no group", true}},

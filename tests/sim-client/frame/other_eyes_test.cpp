@@ -131,7 +131,9 @@ TEST_CASE("before somebody is there the screens wait at the driver's eyes, and a
   CHECK(place_of(without, false) == there_m);
 }
 
-TEST_CASE("what an editor hangs on a participant is drawn where that one is, without lamps of its own") {
+TEST_CASE(
+    "what an editor hangs on a participant is drawn where that one is, without lamps of its own, and its paint is "
+    "worn") {
   const Snapshot world = crossing();
   const rig::Rig rig = seven_screens();
   ScreenFrames frames;
@@ -139,11 +141,33 @@ TEST_CASE("what an editor hangs on a participant is drawn where that one is, wit
   scene::ResolvedScene scene;
   scene.prototypes = {
       {.name = "lorry"}, {.name = "participant/4"}, {.name = "participant/44"}, {.name = "participant/4x"}};
+  scene.prototypes[1].paint = glm::vec3(0.5f, 0.0f, 0.25f);
   const auto frame = frames.frame(world, scene);
   REQUIRE(frame.participants.size() == 2);
+  CHECK(std::ranges::count(frame.participants, *scene.prototypes[1].paint, &instant::DrawnParticipant::paint) == 1);
   CHECK(std::ranges::count(frame.participants, 1u, &instant::DrawnParticipant::prototype) == 1);
   for (const instant::DrawnParticipant& drawn : frame.participants)
     CHECK(drawn.world_from_vehicle.position_m == world.participants[1].world_from_vehicle.position_m);
+}
+
+TEST_CASE("an object that moves is drawn where its motion has it at the instant shown") {
+  Snapshot world = crossing();
+  const rig::Rig rig = seven_screens();
+  ScreenFrames frames;
+  REQUIRE(frames.look_through(rig, rig.screens.front(), std::nullopt).has_value());
+  scene::ResolvedScene scene;
+  scene.prototypes.resize(2);
+  scene.prototypes[1] = {.motion = {{10, 0, 0}, {1, 0, 0, 0}, {{2.0, {4, 0, 0}, {0, 2, 0}, {}}, {3.0, {}, {}, {}}}},
+                         .number = 0x80000009};
+  for (const auto& [time_s, place_m] :
+       {std::pair(1.0, Vec3(10, 0, 0)), std::pair(2.5, Vec3(12, 0.25, 0)), std::pair(9.0, Vec3(14, 1, 0))}) {
+    world.simulated_time_s = time_s;
+    const auto frame = frames.frame(world, scene);
+    REQUIRE(frame.participants.size() == 1);
+    CHECK(frame.participants.front().prototype == 1);
+    CHECK(frame.participants.front().number == 0x80000009);
+    CHECK(glm::distance(frame.participants.front().world_from_vehicle.position_m, place_m) < 1e-12);
+  }
 }
 
 }  // namespace septet::frame

@@ -1,0 +1,78 @@
+#include "sim-server/attendants/operator_lines.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "engine/simulation/operator_command.hpp"
+
+namespace septet::server {
+namespace {
+
+/// What stands behind a first word; empty: the line begins with another one.
+std::optional<std::string_view> behind(std::string_view line, std::string_view word) {
+  if (!line.starts_with(word) || (line.size() > word.size() && line[word.size()] != ' ')) return std::nullopt;
+  line.remove_prefix(word.size());
+  return line.substr(std::min(line.find_first_not_of(' '), line.size()));
+}
+
+}  // namespace
+
+void OperatorLines::before_tick(const Moment&) {
+  if (pauser_ && !host_.has(pauser_->client)) go_on(pauser_->name);
+  for (const OperatorRequest& request : host_.take_operator_requests())
+    host_.answer(request, fulfil(request), drive_.live ? drive_.live->state().tick : 0);
+}
+
+void OperatorLines::after_tick(const std::shared_ptr<const TakenSnapshot>&, double) {
+  if (ticks_to_go_ > 0) --ticks_to_go_;
+}
+
+std::optional<std::string> OperatorLines::fulfil(const OperatorRequest& request) {
+  if (!drive_.live || !log_) return "a session that is shown again cannot be operated";
+  if (!host_.rights_of(request.name).may_operate) return "the right to operate was taken from this key";
+  const std::string_view line = request.line;
+  if (const auto text = behind(line, "mark")) {
+    note(request.name, "mark", fmt::format("note={}", *text));
+  } else if (line == "pause") {
+    return pause(request, 0);
+  } else if (const auto count = behind(line, "step")) {
+    std::uint64_t ticks = 1;
+    const auto [end, error] = std::from_chars(count->data(), count->data() + count->size(), ticks);
+    if (!count->empty() && (error != std::errc() || end != count->data() + count->size() || ticks == 0))
+      return "step is followed by a number of ticks";
+    return pause(request, ticks);
+  } else if (line == "go_on") {
+    if (!pauser_) return "no line has paused the drive";
+    go_on(request.name);
+  } else {
+    const auto command = simulation::parse_operator_command(line);
+    if (!command) return command.error().what;
+    if (auto done = drive_.live->command(*command); !done) return done.error().what;
+    note(request.name, "operator", fmt::format("wish={}", simulation::text_of(*command)));
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> OperatorLines::pause(const OperatorRequest& request, std::uint64_t ticks) {
+  if (pauser_ && pauser_->client != request.client) return fmt::format("{} has paused the drive", pauser_->name);
+  if (!pauser_) note(request.name, "operator", "wish=pause");
+  pauser_ = request;
+  ticks_to_go_ = ticks;
+  return std::nullopt;
+}
+
+void OperatorLines::go_on(const std::string& name) {
+  pauser_.reset();
+  ticks_to_go_ = 0;
+  note(name, "operator", "wish=go_on");
+}
+
+void OperatorLines::note(const std::string& name, const char* kind, const std::string& what) {
+  log_->session().record_message(kind, fmt::format("by={} {}", name, what));
+}
+
+}  // namespace septet::server
