@@ -115,7 +115,7 @@ void draw_ends(const TrimPen& pen) {
                         {0.38f * nose, s.hood_front_m - z + 0.006f}),
               {0.018f, 0.0f});
   pen.one(Finish::plate, Face::front, rectangle(Face::front, {-0.26f, ground + 0.265f}, {0.26f, ground + 0.375f}),
-          {0.022f, 0.0f});
+          {0.019f, 0.0f});
   const float plate = van ? 0.72f : s.tail_m - 0.42f;
   pen.one(Finish::plate, Face::rear, rectangle(Face::rear, {-0.26f, plate}, {0.26f, plate + 0.11f}), {0.014f, 0.0f});
   if (pen.fine)
