@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ namespace septet::instant {
 enum class Shown : std::uint8_t { whole, shadow_and_light };
 
 /// Meshes that replace those of a prototype's parts, one a part, such as a body with dents. Null: the part keeps its
-/// own. Their parts have the materials of the replaced mesh.
+/// own; one without triangles: the part is not there, and its lamp does not shine.
 using ReshapedParts = std::vector<std::shared_ptr<const scene::SurfaceMesh>>;
 
 /// Participant as the frame shows it: interpolated pose, appearance, lit lamps, wheels.
@@ -56,10 +57,12 @@ struct DrawnParticipant {
 struct DynamicMesh {
   /// The material is that of its first part; not drawn if there is no such prototype.
   std::uint32_t prototype = 0;
-  Vec3 origin_m{0.0};     ///< World.
-  float radius_m = 0.0f;  ///< Around the origin.
-  glm::vec3 paint{1.0f};  ///< Linear Rec. 709, for materials that take it.
-  bool seen = true;       ///< False: casts a shadow only, because something else draws it (FrameInput::ice).
+  Vec3 origin_m{0.0};                     ///< World.
+  float radius_m = 0.0f;                  ///< Around the origin.
+  glm::vec3 paint{1.0f};                  ///< Linear Rec. 709, for materials that take it.
+  std::optional<std::uint32_t> material;  ///< In the stead of the prototype's: indexes ResolvedScene::materials.
+  std::uint32_t number = 0;               ///< Of the participant whose number plate it shows.
+  bool seen = true;  ///< False: casts a shadow only, because something else draws it (FrameInput::ice).
   std::vector<scene::SurfaceVertex>
       vertices;  ///< Relative to the origin along the world's axes; three a triangle, ccw in front.
 };

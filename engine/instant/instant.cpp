@@ -106,7 +106,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.beacons = seen_beacons(std::move(placed.beacons), scene, *instant.light);
   instant.contacts = contacts_of(input.participants, scene);
   for (DynamicMesh& mesh : input.meshes) {
-    const std::uint32_t material = material_of(scene, mesh.prototype);
+    const std::uint32_t material = mesh.material ? *mesh.material : material_of(scene, mesh.prototype);
     if (material == no_material || mesh.vertices.empty()) continue;
     const float share = share_of_sky(scene, mesh.origin_m);
     instant.loose.push_back({std::move(mesh), material, share});

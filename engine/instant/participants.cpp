@@ -114,7 +114,10 @@ glm::vec2 level_ahead(const RigidTransform& world_from_vehicle) {
 /// Adds the beams of a vehicle's left and right lamps. They merge between these distances from the eye: from further
 /// away the two are not told apart, and a picture has few beams to spend.
 void add_headlights(std::vector<Headlight>& headlights, const RigidTransform& world_from_vehicle,
-                    std::span<const Vec3> lamps_m, double distance_m, float main_beam) {
+                    std::span<const Vec3> lamps_m, std::size_t lamps_gone, double distance_m, float main_beam) {
+  if (lamps_m.empty() && lamps_gone > 0) return;
+  float intensity = beam::pair_intensity;
+  if (lamps_gone > 0) intensity *= static_cast<float>(lamps_m.size()) / static_cast<float>(lamps_m.size() + lamps_gone);
   constexpr double two_until_m = 19.0, one_from_m = 28.0, before_glass_m = 0.15, least_apart_m = 0.2;
   Vec3 middle_m(3.6, 0.0, 0.65);
   double aside_m = 0.0;
@@ -126,12 +129,12 @@ void add_headlights(std::vector<Headlight>& headlights, const RigidTransform& wo
   aside_m *= std::clamp((one_from_m - distance_m) / (one_from_m - two_until_m), 0.0, 1.0);
   const glm::vec3 ahead(world_from_vehicle.orientation * Vec3(1, 0, 0));
   if (aside_m < least_apart_m) {
-    headlights.push_back({world_from_vehicle * middle_m, ahead, beam::pair_intensity, main_beam});
+    headlights.push_back({world_from_vehicle * middle_m, ahead, intensity, main_beam});
     return;
   }
   for (const double side : {1.0, -1.0})
-    headlights.push_back({world_from_vehicle * (middle_m + Vec3(0.0, side * aside_m, 0.0)), ahead,
-                          0.5f * beam::pair_intensity, main_beam});
+    headlights.push_back(
+        {world_from_vehicle * (middle_m + Vec3(0.0, side * aside_m, 0.0)), ahead, 0.5f * intensity, main_beam});
 }
 
 }  // namespace
@@ -170,6 +173,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     const double distance_m = glm::length(participant.world_from_vehicle.position_m - eye_m);
     const float sky = share_of_sky(participant.world_from_vehicle);
     std::vector<Vec3> head_lamps_m;
+    std::size_t head_lamps_gone = 0;
     const float main_beam = participant.lamps.has(Lamp::high_beam) ? 1.0f : 0.0f;
     const std::vector<scene::Instance>& parts = prototypes[participant.prototype].parts;
     for (const scene::Instance& part : parts) {
@@ -186,6 +190,10 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       if (const auto index = static_cast<std::size_t>(&part - parts.data());
           participant.reshaped && index < participant.reshaped->size())
         placed.reshaped = (*participant.reshaped)[index].get();
+      if (placed.reshaped && placed.reshaped->indices.empty()) {
+        head_lamps_gone += part.role == PartRole::lamp_head ? 1 : 0;
+        continue;
+      }
       const auto& lift = participant.wheel_lift_m;
       placed.over_road_m = static_cast<float>(in_vehicle.position_m.z - 0.25 * (lift[0] + lift[1] + lift[2] + lift[3]));
       placed.tint = glm::vec4(participant.paint, lit);
@@ -205,7 +213,8 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
                                   level_ahead(participant.world_from_vehicle)});
     }
     if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
-      add_headlights(result.headlights, participant.world_from_vehicle, head_lamps_m, distance_m, main_beam);
+      add_headlights(result.headlights, participant.world_from_vehicle, head_lamps_m, head_lamps_gone, distance_m,
+                     main_beam);
     }
   }
   std::stable_sort(result.meshes.begin(), result.meshes.end(),

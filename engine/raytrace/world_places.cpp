@@ -141,6 +141,7 @@ void World::add_soups(std::vector<Place>& places, const instant::Instant* later,
     soup.parts = loose_parts_.back();
     soup.materials = {&loose_parts_.back().front().material, 1};
     soup.tint = glm::vec4(loose.mesh.paint, 1.0f);
+    soup.number = loose.mesh.number;
     soup.share_of_sky = loose.share_of_sky;
     soup.object = static_cast<std::uint32_t>(scene_.instances.size() + scene_.meshes.size() + loose.material + 1);
   }

@@ -30,7 +30,7 @@ SEPTET_MEMBERS(GroundPoint, height_m, normal, friction_factor)
 
 namespace septet::debris {
 SEPTET_MEMBERS(Dent, place_m, heading_rad, depth_m, half_width_m, top_m)
-SEPTET_MEMBERS(DentedVehicle, vehicle, dents)
+SEPTET_MEMBERS(DentedVehicle, vehicle, dents, torn)
 }  // namespace septet::debris
 
 namespace septet::ice {
@@ -213,7 +213,9 @@ void restore_effects(const Model& model, StateReader& reader, EffectsState& stat
   if (state.surface_hint) road::require_on_roads(reader, model.roads, *state.surface_hint);
   for (const auto& [vehicle, parts] : state.crashes.parts)
     for (const debris::MountedPart& part : parts)
-      reader.require(static_cast<int>(part.part) < debris::part_count, wrong);
+      reader.require(
+          static_cast<int>(part.part) < debris::part_count && static_cast<int>(part.mount) < debris::mount_count,
+          wrong);
   for (const vehicle::HullTouch& touch : state.crashes.struck_standing) reader.require(is_sound(touch), wrong);
 }
 

@@ -245,6 +245,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         drawn.shown = instant::Shown::whole;
         drawn.steering_wheel_rad = steering_ratio * drawn.front_steer_rad;
         add_vehicle_mirrors(frame, participant);
+        add_dials(frame, readings_of(shown, participant), participant, scene);
       } else if (inside && views.show_interior) {
         auto interior = drawn;
         interior.prototype = *inside;

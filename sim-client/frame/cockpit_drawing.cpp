@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/scenery/vehicles/fittings.hpp"
 #include "engine/world/instrument_panel.hpp"
 #include "sim-client/frame/prototype_of.hpp"
 
@@ -138,6 +139,20 @@ void add_instruments(instant::FrameInput& frame, const Readings& readings, const
     vertex.normal = glm::vec3(turn * Vec3(vertex.normal));
   }
   frame.meshes.push_back(std::move(mesh));
+}
+
+void add_dials(instant::FrameInput& frame, const Readings& readings, const Participant& vehicle,
+               const scene::ResolvedScene& scene) {
+  const auto faces = prototype_of(scene, "cockpit/dials");
+  const auto vehicle_from_panel = scenery::dials_in(vehicle_models()[vehicle.model]);
+  if (!faces || !vehicle_from_panel) return;
+  Participant panel = vehicle;
+  panel.world_from_vehicle = vehicle.world_from_vehicle * *vehicle_from_panel;
+  instant::DrawnParticipant drawn = instant::drawn_participant(panel, *faces);
+  drawn.lamps = {};
+  drawn.raises_spray = false;
+  frame.participants.push_back(drawn);
+  add_instruments(frame, readings, panel, scene);
 }
 
 double hands_rad(double steering_wheel_rad) {

@@ -36,6 +36,11 @@ std::vector<scene::SurfaceVertex> lit_on_panel(const Readings& readings);
 void add_instruments(instant::FrameInput& frame, const Readings& readings, const Participant& car,
                      const scene::ResolvedScene& scene);
 
+/// Adds the instruments of a vehicle without a cockpit of its own to a frame that is seen from its driver's eyes; none for
+/// one that has none.
+void add_dials(instant::FrameInput& frame, const Readings& readings, const Participant& vehicle,
+               const scene::ResolvedScene& scene);
+
 /// Angle of the hands for an angle of the steering wheel. They follow it as far as they reach and, as it goes on,
 /// return to their starting place, so that no sleeve covers dials and road. A continuous function of the angle; 0 for
 /// NaN.

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/effects/ice/cracks.hpp"
 #include "engine/effects/ice/still_ice.hpp"
+#include "engine/world/paint.hpp"
 #include "sim-client/frame/ice_looks.hpp"
+#include "sim-client/frame/torn_vehicle.hpp"
 
 namespace septet::frame {
 namespace {
@@ -207,41 +210,102 @@ std::string_view debris_look(debris::Part part, debris::Material material) {
   return looks[static_cast<std::size_t>(material)];
 }
 
-TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect) {
+namespace {
+
+/// A mesh of a panel as one of each material.
+void add_clothed(const instant::DynamicMesh& whole, const Clothing& clothing, const debris::PieceOrigin& origin,
+                 std::vector<instant::DynamicMesh>& meshes) {
+  for (const ClothRun& run : clothing.runs()) {
+    instant::DynamicMesh& mesh = meshes.emplace_back();
+    mesh.origin_m = whole.origin_m;
+    mesh.radius_m = whole.radius_m;
+    mesh.paint = body_color(origin.paint);
+    mesh.material = run.material;
+    mesh.number = origin.vehicle;
+    const std::size_t first = std::size_t{3} * run.first, end = first + std::size_t{3} * run.count;
+    mesh.vertices.assign(whole.vertices.begin() + static_cast<std::ptrdiff_t>(first),
+                         whole.vertices.begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::size_t i = first; i < end; ++i) mesh.vertices[i - first].uv = clothing.uvs()[i];
+  }
+}
+
+}  // namespace
+
+const Sheet& DebrisDrawing::panel(const debris::PieceOrigin& origin, const scene::ResolvedScene& scene) {
+  const auto [found, fresh] = panels_.try_emplace({origin.model, origin.mount});
+  if (fresh) found->second = panel_of(scene, vehicle_models()[origin.model], origin.mount);
+  return found->second;
+}
+
+std::shared_ptr<const Clothing> DebrisDrawing::clothing_of(std::uint32_t id, const debris::Keyframe& piece,
+                                                           const scene::ResolvedScene& scene) {
+  if (!piece.origin) return nullptr;
+  Worn& worn = worn_[id];
+  worn.used = true;
+  if (!worn.clothing || !worn.clothing->fits(piece))
+    worn.clothing = std::make_shared<const Clothing>(panel(*piece.origin, scene), piece);
+  return worn.clothing->is_worn() ? worn.clothing : nullptr;
+}
+
+TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect, const scene::ResolvedScene& scene) {
   if (!effect) return {};
   const auto [found, fresh] = decoded_.try_emplace({effect->id, effect->tick});
   Decoded& entry = found->second;
   if (fresh) {
     if (auto keyframe = debris::decode(effect->data)) entry.keyframe = std::move(*keyframe);
+    if (entry.keyframe) entry.clothing = clothing_of(effect->id, *entry.keyframe, scene);
+    if (entry.clothing) entry.keyframe = entry.clothing->worn(*entry.keyframe);
   }
   entry.used = true;
-  return {entry.keyframe ? &*entry.keyframe : nullptr, effect->tick};
+  return {entry.keyframe ? &*entry.keyframe : nullptr, effect->tick, entry.clothing};
 }
 
 DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene,
                                 double temperature_k) {
   DrawnDebris drawn;
   std::vector<instant::DynamicMesh>& meshes = drawn.meshes;
+  if (std::exchange(scene_revision_, scene::shape_revision(scene)) != scene::shape_revision(scene)) {
+    decoded_.clear();
+    ways_.clear();
+    worn_.clear();
+    panels_.clear();
+  }
   for (auto& [key, entry] : decoded_) entry.used = false;
   for (auto& [key, entry] : ways_) entry.used = false;
+  for (auto& [key, entry] : worn_) entry.used = false;
   for (const EffectMoment& moment : moments) {
     const EffectKeyframe* any = moment.before ? moment.before : moment.after;
     if (!any || any->kind != debris::keyframe_kind) continue;
-    const auto instant = debris_instant(decoded(moment.earlier), decoded(moment.before), decoded(moment.after), tick);
+    const auto instant = debris_instant(decoded(moment.earlier, scene), decoded(moment.before, scene),
+                                        decoded(moment.after, scene), tick);
     if (!instant) continue;
     const WayKey key{any->id, instant->from.tick, instant->to.tick};
     auto found = ways_.find(key);
     if (found == ways_.end()) {
-      found = ways_.emplace(key, Prepared{DebrisWay(*instant->from.keyframe, *instant->to.keyframe)}).first;
+      found = ways_
+                  .emplace(key, Prepared{DebrisWay(*instant->from.keyframe, *instant->to.keyframe),
+                                         instant->to.keyframe->origin, instant->to.clothing})
+                  .first;
       ++prepared_;
     }
     found->second.used = true;
+    if (const auto worn = worn_.find(any->id); worn != worn_.end()) worn->second.used = true;
     const DebrisWay& way = found->second.way;
+    if (const Prepared& prepared = found->second; prepared.clothing && prepared.origin) {
+      add_clothed(way.at(instant->share), *prepared.clothing, *prepared.origin, meshes);
+      continue;
+    }
     const auto look =
         std::ranges::find(scene.prototypes, debris_look(way.part(), way.material()), &scene::Prototype::name);
     if (look == scene.prototypes.end()) continue;
     meshes.push_back(way.at(instant->share));
     meshes.back().prototype = static_cast<std::uint32_t>(look - scene.prototypes.begin());
+    // Too small a splinter for the panel has the colour of its skin.
+    if (const auto& origin = found->second.origin)
+      if (const Sheet& sheet = panel(*origin, scene); !sheet.empty()) {
+        meshes.back().material = sheet.front().material;
+        meshes.back().paint = body_color(origin->paint);
+      }
     if (auto body = way.ice_of(meshes.back(), static_cast<float>(ice::film(temperature_k)))) {
       meshes.back().seen = false;
       drawn.ice.push_back(std::move(*body));
@@ -249,6 +313,7 @@ DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double ti
   }
   std::erase_if(decoded_, [](const auto& entry) { return !entry.second.used; });
   std::erase_if(ways_, [](const auto& entry) { return !entry.second.used; });
+  std::erase_if(worn_, [](const auto& entry) { return !entry.second.used; });
   return drawn;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Debris between two keyframes: vertices interpolated, faces with the exact normals that their triangles have there, and
+/// Debris between two keyframes, a vehicle's part in the form and colour that it had there (clothing.hpp): vertices interpolated, faces with the exact normals that their triangles have there, and
 /// where a part is bent or round corners with the normals of the faces around them (bent_normals.hpp).
 ///
 /// Two keyframes with the same triangles: every vertex moves straight from one to the other, and each face's normal is
@@ -8,8 +8,10 @@
 /// earlier one is extrapolated. One thread.
 
 #include <map>
+#include <memory>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
@@ -17,6 +19,7 @@
 #include "engine/instant/frame_input.hpp"
 #include "engine/instant/ice_body.hpp"
 #include "sim-client/frame/bent_normals.hpp"
+#include "sim-client/frame/clothing.hpp"
 #include "sim-client/frame/effect_playout.hpp"
 
 namespace septet::frame {
@@ -25,6 +28,7 @@ namespace septet::frame {
 struct TimedDebris {
   const debris::Keyframe* keyframe = nullptr;  ///< Null: no keyframe.
   Tick tick = 0;
+  std::shared_ptr<const Clothing> clothing = nullptr;  ///< Of the vertices of a keyframe that wears a panel.
 };
 
 /// Keyframes around an instant, and the fraction between them: 0 at `from`, 1 at `to`, more if it is extrapolated.
@@ -84,17 +88,31 @@ class DebrisDrawing {
   using Key = std::pair<std::uint32_t, Tick>;
   struct Decoded {
     std::optional<debris::Keyframe> keyframe;
+    std::shared_ptr<const Clothing> clothing;
     bool used = false;
   };
   using WayKey = std::tuple<std::uint32_t, Tick, Tick>;
   struct Prepared {
     DebrisWay way;
+    std::optional<debris::PieceOrigin> origin;
+    std::shared_ptr<const Clothing> clothing;
     bool used = false;
   };
-  TimedDebris decoded(const EffectKeyframe* effect);
+  struct Worn {
+    std::shared_ptr<const Clothing> clothing;
+    bool used = false;
+  };
+  TimedDebris decoded(const EffectKeyframe* effect, const scene::ResolvedScene& scene);
+  /// The clothing of a piece of a vehicle; null where it wears nothing.
+  std::shared_ptr<const Clothing> clothing_of(std::uint32_t id, const debris::Keyframe& piece,
+                                              const scene::ResolvedScene& scene);
+  const Sheet& panel(const debris::PieceOrigin& origin, const scene::ResolvedScene& scene);
 
-  std::map<Key, Decoded> decoded_;   ///< Cache: each keyframe is read once.
-  std::map<WayKey, Prepared> ways_;  ///< Cache: each pair is prepared once.
+  std::map<Key, Decoded> decoded_;      ///< Cache: each keyframe is read once.
+  std::map<WayKey, Prepared> ways_;     ///< Cache: each pair is prepared once.
+  std::map<std::uint32_t, Worn> worn_;  ///< Cache, by effect: until the piece breaks.
+  std::map<std::pair<ModelIndex, debris::Mount>, Sheet> panels_;
+  std::uint64_t scene_revision_ = 0;
   std::uint32_t prepared_ = 0;
 };
 

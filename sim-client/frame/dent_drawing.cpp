@@ -2,31 +2,26 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/world/vehicle_model.hpp"
 #include "sim-client/frame/dented_mesh.hpp"
+#include "sim-client/frame/torn_vehicle.hpp"
 
 namespace septet::frame {
 namespace {
 
-/// Wheels, limbs and carried things keep their shape.
-bool is_sheet_metal(scene::PartRole role) {
-  return role == scene::PartRole::fixed ||
-         (role >= scene::PartRole::lamp_brake && role <= scene::PartRole::lamp_tail) || role == scene::PartRole::beacon;
-}
-
 std::shared_ptr<const instant::ReshapedParts> reshaped(const scene::ResolvedScene& scene,
-                                                       const scene::Prototype& prototype,
-                                                       std::span<const debris::Dent> dents) {
-  auto parts = std::make_shared<instant::ReshapedParts>(prototype.parts.size());
+                                                       const scene::Prototype& prototype, const VehicleModel& model,
+                                                       const debris::DentedVehicle& told) {
+  auto parts = std::make_shared<instant::ReshapedParts>(without_torn(scene, prototype, model, told.torn));
   for (std::size_t i = 0; i < prototype.parts.size(); ++i) {
     const scene::Instance& part = prototype.parts[i];
     if (!is_sheet_metal(part.role) || part.mesh >= scene.meshes.size()) continue;
-    if (auto bent = dented_mesh(scene.meshes[part.mesh], part.world_from_object, part.scale, dents))
+    const scene::SurfaceMesh& mesh = (*parts)[i] ? *(*parts)[i] : scene.meshes[part.mesh];
+    if (auto bent = dented_mesh(mesh, part.world_from_object, part.scale, told.dents))
       (*parts)[i] = std::make_shared<const scene::SurfaceMesh>(std::move(*bent));
   }
   return parts;
@@ -62,10 +57,11 @@ void DentDrawing::show(const Snapshot& instant, const scene::ResolvedScene& scen
     }
     Made& fresh = made[told.vehicle];
     fresh.told = std::move(bytes);
-    const std::string outside(vehicle_models()[vehicle->model].name), inside = "interior/" + outside;
+    const VehicleModel& model = vehicle_models()[vehicle->model];
+    const std::string outside(model.name), inside = "interior/" + outside, shell = "shell/" + outside;
     for (std::size_t i = 0; i < scene.prototypes.size(); ++i)
-      if (scene.prototypes[i].name == outside || scene.prototypes[i].name == inside)
-        fresh.by_prototype[static_cast<std::uint32_t>(i)] = reshaped(scene, scene.prototypes[i], told.dents);
+      if (const std::string& name = scene.prototypes[i].name; name == outside || name == inside || name == shell)
+        fresh.by_prototype[static_cast<std::uint32_t>(i)] = reshaped(scene, scene.prototypes[i], model, told);
   }
   made_ = std::move(made);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Dents of crashed vehicles: meshes that replace theirs, outside and, for the driver's car, inside. Built once per
+/// Dents of crashed vehicles, and the lack of what was torn off them: meshes that replace theirs, outside and inside. Built once per
 /// change of the dents, by each screen and film for itself from the one keyframe. One thread.
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class DentDrawing {
 
  private:
   struct Made {
-    Bytes told;  ///< Its dents as encoded on the wire.
+    Bytes told;  ///< Its dents and losses as encoded on the wire.
     std::map<std::uint32_t, std::shared_ptr<const instant::ReshapedParts>> by_prototype;
   };
   std::map<ParticipantId, Made> made_;  ///< Cache: rebuilt when they change.

@@ -12,6 +12,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "sim-client/frame/surface_vertices.hpp"
+
 namespace septet::frame {
 namespace {
 
@@ -40,12 +42,6 @@ bool is_divided(const Frame& frame, std::span<const debris::Dent> dents, const S
   for (int k = 0; k <= places; ++k)
     if (debris::reaches(dents, glm::mix(from, to, static_cast<double>(k) / places))) return true;
   return false;
-}
-
-SurfaceVertex between(const SurfaceVertex& a, const SurfaceVertex& b) {
-  const glm::vec3 normal = a.normal + b.normal;
-  const float length = glm::length(normal);
-  return {0.5f * (a.position_m + b.position_m), length > 1e-6f ? normal / length : a.normal, 0.5f * (a.uv + b.uv)};
 }
 
 /// True if a dent may lie within a triangle: a large one is divided even if a dent reaches its middle alone.
@@ -136,13 +132,6 @@ class Division {
   scene::SurfaceMesh& mesh_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
-
-bool makes_sense(const scene::SurfaceMesh& mesh) {
-  return std::ranges::all_of(mesh.indices, [&](std::uint32_t index) { return index < mesh.vertices.size(); }) &&
-         std::ranges::all_of(mesh.parts, [&](const scene::MeshPart& part) {
-           return part.first_index <= mesh.indices.size() && part.index_count <= mesh.indices.size() - part.first_index;
-         });
-}
 
 }  // namespace
 

@@ -151,7 +151,10 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
     pieces.push_back(make_part(mounted.part, place, velocity, spin, context.random));
     if (struck) pieces = crushed(std::move(pieces.front()), push, crush_m, closing);
     context.report.fragments += static_cast<int>(pieces.size());
-    for (const Piece& piece : pieces) {
+    body.torn |= bit_of(mounted.mount);
+    for (Piece& piece : pieces) {
+      piece.origin = body.origin;
+      if (piece.origin) piece.origin->mount = mounted.mount;
       body.impulse_ns -= from_eigen(elastic::momentum_ns(piece.body));
       context.report.kinetic_j += elastic::kinetic_energy_j(piece.body);
     }

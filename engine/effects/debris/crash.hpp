@@ -14,6 +14,7 @@
 /// returned in CrashBody::impulse_ns. No part gains energy.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/core/random.hpp"
@@ -23,10 +24,12 @@
 namespace septet::debris {
 
 struct CrashBody {
-  Box box;                         ///< With its motion before the impact.
-  double mass_kg = INFINITY;       ///< Infinite: immovable, as a barrier.
-  std::vector<MountedPart> parts;  ///< In: its mounted parts. Out: those that have not broken off.
-  Vec3 impulse_ns{0.0};            ///< Out: impulse on it of the parts that broke off.
+  Box box;                            ///< With its motion before the impact.
+  double mass_kg = INFINITY;          ///< Infinite: immovable, as a barrier.
+  std::vector<MountedPart> parts;     ///< In: its mounted parts. Out: those that have not broken off.
+  std::optional<PieceOrigin> origin;  ///< Vehicle, model and paint of its parts; empty: of no vehicle.
+  Vec3 impulse_ns{0.0};               ///< Out: impulse on it of the parts that broke off.
+  Mounts torn = 0;                    ///< Out: whose parts broke off.
 };
 
 struct Crash {

@@ -12,8 +12,8 @@
 namespace septet::debris {
 namespace {
 
-/// Flags: places at rest follow, and cracks.
-constexpr std::uint8_t without_rest = 1, with_rest = 2, with_cracks = 3;
+/// Flags: places at rest follow, and cracks; or an origin.
+constexpr std::uint8_t without_rest = 1, with_rest = 2, with_cracks = 3, with_origin = 4;
 /// A coordinate of the first vertex, and a difference between vertices, in quanta.
 constexpr std::int64_t furthest = 1'000'000'000, widest = 1'000'000;
 
@@ -61,7 +61,49 @@ bool read_places(ByteReader& reader, std::size_t count, std::vector<Vec3>& place
   return true;
 }
 
+/// Node of the part's lattice at a place of rest.
+std::uint8_t lattice_node(const PartRecipe& recipe, const Vec3& rest_m) {
+  const Vec3 cells(recipe.cells), at = (rest_m / recipe.size_m + 0.5) * cells;
+  const auto index = [&](int c) { return std::lround(std::clamp(at[c], 0.0, cells[c])); };
+  return static_cast<std::uint8_t>((index(2) * (recipe.cells.y + 1) + index(1)) * (recipe.cells.x + 1) + index(0));
+}
+
+void put_origin(ByteWriter& writer, const Keyframe& keyframe) {
+  SEPTET_CHECK(keyframe.lattice_nodes.size() == keyframe.vertices_m.size(), "{} nodes of {} vertices",
+               keyframe.lattice_nodes.size(), keyframe.vertices_m.size());
+  writer.put_varint(keyframe.origin->vehicle);
+  writer.put_varint(keyframe.origin->model);
+  writer.put(keyframe.origin->paint);
+  writer.put(static_cast<std::uint8_t>(keyframe.origin->mount));
+  for (const std::uint8_t node : keyframe.lattice_nodes) writer.put(node);
+}
+
+/// False where one is unknown or out of bounds.
+bool read_origin(ByteReader& reader, Keyframe& keyframe) {
+  const std::uint64_t vehicle = reader.get_varint(), model = reader.get_varint();
+  const auto paint = reader.get<std::uint8_t>(), mount = reader.get<std::uint8_t>();
+  if (!reader.ok() || vehicle > UINT32_MAX || model >= vehicle_models().size() || mount >= mount_count) return false;
+  keyframe.origin = {static_cast<ParticipantId>(vehicle), static_cast<ModelIndex>(model), paint,
+                     static_cast<Mount>(mount)};
+  for (std::size_t i = 0; i < keyframe.vertices_m.size(); ++i)
+    keyframe.lattice_nodes.push_back(reader.get<std::uint8_t>());
+  return std::ranges::all_of(keyframe.lattice_nodes,
+                             [&](std::uint8_t node) { return node < lattice_node_count(keyframe.part); });
+}
+
 }  // namespace
+
+int lattice_node_count(Part part) {
+  const glm::ivec3 nodes = part_recipe(part).cells + 1;
+  return nodes.x * nodes.y * nodes.z;
+}
+
+Vec3 lattice_place_m(Part part, int node) {
+  const PartRecipe& recipe = part_recipe(part);
+  const glm::ivec3 nodes = recipe.cells + 1;
+  const Vec3 at(node % nodes.x, node / nodes.x % nodes.y, node / (nodes.x * nodes.y));
+  return recipe.size_m * (at / Vec3(recipe.cells) - 0.5);
+}
 
 Keyframe keyframe_of(const std::vector<Shard>& shards) {
   Keyframe keyframe;
@@ -83,8 +125,10 @@ Keyframe keyframe_of(const std::vector<Shard>& shards) {
 Keyframe keyframe_of(const Piece& piece) {
   Keyframe keyframe;
   keyframe.part = piece.part;
-  keyframe.material = part_recipe(piece.part).material;
   keyframe.asleep = piece.asleep;
+  keyframe.origin = piece.origin;
+  const PartRecipe& recipe = part_recipe(piece.part);
+  keyframe.material = recipe.material;
   std::map<int, std::uint16_t> place;
   for (const auto& triangle : piece.surface) {
     std::array<std::uint16_t, 3> corners{};
@@ -93,8 +137,9 @@ Keyframe keyframe_of(const Piece& piece) {
           place.try_emplace(triangle.nodes[c], static_cast<std::uint16_t>(keyframe.vertices_m.size()));
       if (fresh) {
         keyframe.vertices_m.push_back(from_eigen(piece.body.position_m[triangle.nodes[c]]));
-        if (keyframe.material == Material::ice)
-          keyframe.rest_m.push_back(from_eigen(piece.body.rest_position_m[triangle.nodes[c]]));
+        const Vec3 rest_m = from_eigen(piece.body.rest_position_m[triangle.nodes[c]]);
+        if (keyframe.material == Material::ice) keyframe.rest_m.push_back(rest_m);
+        if (keyframe.origin) keyframe.lattice_nodes.push_back(lattice_node(recipe, rest_m));
       }
       corners[c] = found->second;
     }
@@ -129,7 +174,13 @@ Bytes encode(const Keyframe& keyframe) {
   Bytes bytes;
   ByteWriter writer(bytes);
   SEPTET_CHECK(keyframe.cracks.empty() || !keyframe.rest_m.empty(), "{} cracks of nothing", keyframe.cracks.size());
-  writer.put(!keyframe.cracks.empty() ? with_cracks : keyframe.rest_m.empty() ? without_rest : with_rest);
+  SEPTET_CHECK(!keyframe.origin || keyframe.rest_m.empty(), "{} places at rest of a part of a vehicle",
+               keyframe.rest_m.size());
+  const auto version = keyframe.origin            ? with_origin
+                       : !keyframe.cracks.empty() ? with_cracks
+                       : keyframe.rest_m.empty()  ? without_rest
+                                                  : with_rest;
+  writer.put(version);
   writer.put(static_cast<std::uint8_t>(keyframe.part));
   writer.put(static_cast<std::uint8_t>(keyframe.material));
   writer.put(static_cast<std::uint8_t>((keyframe.shards ? 1 : 0) | (keyframe.asleep ? 2 : 0)));
@@ -138,6 +189,7 @@ Bytes encode(const Keyframe& keyframe) {
                keyframe.rest_m.size());
   put_places(writer, keyframe.vertices_m);
   if (!keyframe.rest_m.empty()) put_places(writer, keyframe.rest_m);
+  if (keyframe.origin) put_origin(writer, keyframe);
   writer.put_varint(keyframe.triangles.size());
   std::int64_t last_index = 0;
   const auto put_corners = [&](const std::array<std::uint16_t, 3>& corners) {
@@ -163,7 +215,7 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
     return failure(what, "debris keyframe", "send what the same version of Septet wrote");
   };
   const auto version = reader.get<std::uint8_t>();
-  if (version < without_rest || version > with_cracks) return refuse("unknown version");
+  if (version < without_rest || version > with_origin) return refuse("unknown version");
   const auto part = reader.get<std::uint8_t>(), material = reader.get<std::uint8_t>(),
              flags = reader.get<std::uint8_t>();
   if (!reader.ok() || part >= part_count || material >= material_count || flags > 3)
@@ -174,8 +226,10 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   keyframe.asleep = (flags & 2) != 0;
   const std::size_t vertices = reader.get_count(std::min(max_vertices, reader.remaining() / 3));
   if (!read_places(reader, vertices, keyframe.vertices_m)) return refuse("coordinate out of bounds");
-  if (version >= with_rest && (vertices == 0 || !read_places(reader, vertices, keyframe.rest_m)))
+  const bool rests = version == with_rest || version == with_cracks;
+  if (rests && (vertices == 0 || !read_places(reader, vertices, keyframe.rest_m)))
     return refuse("place at rest out of bounds");
+  if (version == with_origin && !read_origin(reader, keyframe)) return refuse("unknown origin");
   const std::size_t triangles = reader.get_count(std::min(max_triangles, reader.remaining() / 3));
   keyframe.triangles.reserve(triangles);
   std::int64_t index = 0;

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/core/expected.hpp"
 #include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/mounted_part.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::debris {
@@ -36,7 +38,15 @@ struct Keyframe {
     std::uint8_t reach = 0;  ///< Share of its edges, in 1/255.
   };
   std::vector<Crack> cracks;
+  /// What a crash tore it off.
+  std::optional<PieceOrigin> origin;
+  /// With an origin: where each vertex lies in the part's whole lattice (lattice_place_m).
+  std::vector<std::uint8_t> lattice_nodes;
 };
+
+int lattice_node_count(Part part);
+/// Place of a node of the part's lattice in the whole part, before it bent or broke.
+Vec3 lattice_place_m(Part part, int node);
 
 /// The outer surface of a piece.
 Keyframe keyframe_of(const Piece& piece);

@@ -82,6 +82,15 @@ Vec3 moved(const Dent& dent, const Vec3& p) {
   return way;
 }
 
+/// Null at the limit of dented vehicles.
+DentedVehicle* entry_of(ParticipantId vehicle, std::vector<DentedVehicle>& vehicles) {
+  const auto found = std::ranges::find(vehicles, vehicle, &DentedVehicle::vehicle);
+  if (found != vehicles.end()) return &*found;
+  if (vehicles.size() >= most_dented_vehicles) return nullptr;
+  vehicles.push_back({vehicle, {}, 0});
+  return &vehicles.back();
+}
+
 }  // namespace
 
 double residual_crush_m(double lost_mps) {
@@ -92,13 +101,15 @@ double residual_crush_m(double lost_mps) {
   return std::min(even_m - beyond_m + beyond_m / std::sqrt(crush.harder_times), most_depth_m);
 }
 
+void note_torn(ParticipantId vehicle, Mounts torn, std::vector<DentedVehicle>& vehicles) {
+  if (torn == 0) return;
+  if (DentedVehicle* found = entry_of(vehicle, vehicles)) found->torn |= torn;
+}
+
 void note_dent(ParticipantId vehicle, const Dent& dent, std::vector<DentedVehicle>& vehicles) {
   if (!(dent.depth_m > 0.0)) return;
-  auto found = std::ranges::find(vehicles, vehicle, &DentedVehicle::vehicle);
-  if (found == vehicles.end()) {
-    if (vehicles.size() >= most_dented_vehicles) return;
-    found = vehicles.insert(found, DentedVehicle{vehicle, {}});
-  }
+  DentedVehicle* found = entry_of(vehicle, vehicles);
+  if (!found) return;
   std::vector<Dent>& dents = found->dents;
   const auto beside = std::ranges::find_if(dents, [&](const Dent& other) {
     return glm::length(other.place_m - dent.place_m) < 0.3 && std::cos(other.heading_rad - dent.heading_rad) > 0.9;

@@ -1,5 +1,5 @@
 #pragma once
-/// Dents: a vehicle's shape after a crash, and their encoding.
+/// Dents: a vehicle's shape after a crash, what it has lost, and their encoding.
 ///
 /// The residual crush C grows with the speed V of a test against a rigid wall, V = b0 + b1 C (Campbell 1974, Energy
 /// Basis for Collision Severity, SAE 740565). b1 is the frequency of the crush (engine/world/crush.toml: a spring that
@@ -17,6 +17,7 @@
 
 #include "engine/core/bytes.hpp"
 #include "engine/core/expected.hpp"
+#include "engine/effects/debris/mounted_part.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -34,6 +35,7 @@ struct Dent {
 struct DentedVehicle {
   ParticipantId vehicle = 0;
   std::vector<Dent> dents;  ///< In the order of the crashes: later ones dent the dented shape.
+  Mounts torn = 0;          ///< Whose parts have been torn off.
 };
 
 inline constexpr double most_depth_m = 0.95;
@@ -48,6 +50,9 @@ double residual_crush_m(double lost_mps);
 /// dented vehicles.
 void note_dent(ParticipantId vehicle, const Dent& dent, std::vector<DentedVehicle>& vehicles);
 
+/// Adds what a vehicle has lost; likewise.
+void note_torn(ParticipantId vehicle, Mounts torn, std::vector<DentedVehicle>& vehicles);
+
 /// Present place of a point of the undented vehicle.
 Vec3 dented(std::span<const Dent> dents, const Vec3& place_m);
 /// Present direction of a normal there, as unit vector.
@@ -58,8 +63,8 @@ bool reaches(std::span<const Dent> dents, const Vec3& place_m);
 inline constexpr std::uint16_t dent_keyframe_kind = 7;
 inline constexpr std::uint32_t dent_effect_id = 0x03000002;
 
-/// All dents of a drive as one EffectKeyframe (engine/world/SNAPSHOT.md): lengths to the centimetre, depths to half of
-/// one, headings to a 256th of a turn; about eight bytes a dent.
+/// All dents of a drive, and torn parts, as one EffectKeyframe (engine/world/SNAPSHOT.md): lengths to the centimetre,
+/// depths to half of one, headings to a 256th of a turn; about eight bytes a dent.
 Bytes encode_dents(std::span<const DentedVehicle> vehicles);
 /// Error: bytes that `encode_dents` would not write; safe on hostile bytes.
 Expected<std::vector<DentedVehicle>> decode_dents(std::span<const std::byte> bytes);

@@ -9,7 +9,7 @@
 namespace septet::debris {
 namespace {
 
-constexpr std::uint8_t dent_version = 1;
+constexpr std::uint8_t only_dents = 1, dents_and_torn = 2;
 constexpr double per_m = 100.0, depths_per_m = 200.0, per_turn = 256.0;
 constexpr std::int64_t furthest_cm = 5'000, widest_cm = 1'000;  ///< No vehicle is longer, or wider.
 constexpr std::int64_t deepest_half_cm = static_cast<std::int64_t>(most_depth_m * depths_per_m);
@@ -31,11 +31,13 @@ Bytes encode_dents(std::span<const DentedVehicle> vehicles) {
   vehicles = vehicles.first(std::min(vehicles.size(), most_dented_vehicles));
   Bytes bytes;
   ByteWriter out(bytes);
-  out.put(dent_version);
+  const bool any_torn = std::ranges::any_of(vehicles, [](const DentedVehicle& vehicle) { return vehicle.torn != 0; });
+  out.put(any_torn ? dents_and_torn : only_dents);
   out.put_varint(vehicles.size());
   for (const DentedVehicle& vehicle : vehicles) {
     const std::size_t count = std::min(vehicle.dents.size(), most_dents);
     out.put_varint(vehicle.vehicle);
+    if (any_torn) out.put_varint(vehicle.torn);
     out.put_varint(count);
     for (const Dent& dent : std::span(vehicle.dents).first(count)) {
       for (int c = 0; c < 2; ++c) out.put_signed_varint(quanta_of(dent.place_m[c], per_m, -furthest_cm, furthest_cm));
@@ -55,7 +57,8 @@ Expected<std::vector<DentedVehicle>> decode_dents(std::span<const std::byte> byt
     if (value > most) in.fail();
     return in.ok() ? static_cast<double>(value) / per_m : 0.0;
   };
-  if (in.get<std::uint8_t>() != dent_version) in.fail();
+  const auto version = in.get<std::uint8_t>();
+  if (version < only_dents || version > dents_and_torn) in.fail();
   // Number of items of at least `bytes_each` bytes.
   const auto count_of = [&](std::size_t most, std::size_t bytes_each) {
     return in.get_count(std::min(most, in.remaining() / bytes_each));
@@ -65,6 +68,11 @@ Expected<std::vector<DentedVehicle>> decode_dents(std::span<const std::byte> byt
     const std::uint64_t id = in.get_varint();
     if (id > UINT32_MAX) in.fail();
     vehicle.vehicle = static_cast<ParticipantId>(id);
+    if (version == dents_and_torn) {
+      const std::uint64_t torn = in.get_varint();
+      if (torn >= 1u << mount_count) in.fail();
+      vehicle.torn = static_cast<Mounts>(torn);
+    }
     vehicle.dents.resize(count_of(most_dents, 6));
     for (Dent& dent : vehicle.dents) {
       for (int c = 0; c < 2; ++c) {

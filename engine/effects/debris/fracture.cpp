@@ -226,6 +226,7 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements, const std::ve
   SEPTET_CHECK(made.has_value(), "a broken piece is no body: {}", made.error().what);
   Piece piece;
   piece.part = from.part;
+  piece.origin = from.origin;
   piece.material = from.material;
   piece.body = std::move(*made);
   for (std::size_t i = 0; i < source.size(); ++i) {

@@ -4,12 +4,14 @@
 /// Apart from debris_state.hpp, because only the debris itself computes with Eigen.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "engine/effects/debris/breakable_part.hpp"
 #include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/mounted_part.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
 
@@ -24,7 +26,8 @@ struct FaceCrack {
 struct Piece {
   std::uint32_t id = 0;
   Part part = Part::bumper;
-  MaterialData material;  ///< Spread over the lattice (breakable_part.hpp).
+  std::optional<PieceOrigin> origin;  ///< Of what a crash tore off.
+  MaterialData material;              ///< Spread over the lattice (breakable_part.hpp).
   elastic::ElasticBody body;
   std::vector<int> splinter;           ///< Splinter of each element; faces between two may open.
   std::vector<double> plastic_strain;  ///< Accumulated, of each element.

@@ -11,9 +11,9 @@ namespace septet::debris {
 SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg)
 
 SEPTET_MEMBERS(FaceCrack, first, second, reach)
-// Left out are data of its part, of its picture, and its body, which has a reader of its own.
-SEPTET_MEMBER_GROUPS(Piece, hashed(id, part), left_out(material, body), kept(splinter), hashed(plastic_strain, cracks),
-                     left_out(surface), hashed(calm_s, asleep))
+// Left out are data of its part, of its picture, and its body, which has a reader of its own; kept is its look.
+SEPTET_MEMBER_GROUPS(Piece, hashed(id, part), kept(origin), left_out(material, body), kept(splinter),
+                     hashed(plastic_strain, cracks), left_out(surface), hashed(calm_s, asleep))
 // Pieces and, in the hash, shards are taken one by one.
 SEPTET_MEMBER_GROUPS(State, left_out(pieces), kept(shards), hashed(next_id, bad_numbers))
 
@@ -25,6 +25,9 @@ void restore_piece(StateReader& reader, Piece& piece) {
   constexpr auto wrong = "debris in it does not fit together";
   transfer(reader, piece);
   if (!reader.require(static_cast<int>(piece.part) < part_count, "debris in it is of no known part")) return;
+  if (piece.origin)
+    reader.require(static_cast<int>(piece.origin->mount) < mount_count && piece.origin->model < vehicle_models().size(),
+                   "debris in it is of no known vehicle");
   const PartRecipe& recipe = part_recipe(piece.part);
   piece.material = spread_material(recipe);
   piece.body.material = piece.material.elastic;

@@ -8,7 +8,9 @@
 
 namespace septet::debris {
 
-SEPTET_MEMBERS(MountedPart, part, box_from_part, mount_strength_n)
+SEPTET_MEMBERS(PieceOrigin, vehicle, model, paint, mount)
+// Its mount follows from its place.
+SEPTET_MEMBER_GROUPS(MountedPart, hashed(part, box_from_part, mount_strength_n), kept(mount))
 
 void save_debris(const State& state, StateWriter& writer);
 /// Adds the moving part of the state: to be chained from step to step.

@@ -37,6 +37,7 @@ DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, c
     surface.placed.origin_m = mesh.origin_m;
     surface.placed.radius_m = mesh.radius_m;
     surface.placed.tint = glm::vec4(mesh.paint, 1.0f);
+    surface.placed.number = mesh.number;
     surface.placed.share_of_sky = share_of_sky;
     surface.placed.seen = mesh.seen;
     const FrameData vertices = store(context, std::span<const scene::SurfaceVertex>(mesh.vertices));

@@ -32,6 +32,8 @@ void add_frame(MeshBuilder& b, float wheelbase, float radius, std::uint32_t side
     add_limb(b, head_low, {wheelbase, side * 0.05f, radius}, 0.014f, 0.012f, sides);
   }
   b.material = index_of(Finish::trim);
+  add_mudguard(b, {wheelbase, 0, radius}, {0.365f, 0.012f, 1.9f, 0.05f}, sides);
+  add_mudguard(b, {0, 0, radius}, {0.355f, 0.012f, 1.3f, 3.1f}, sides);
   add_limb(b, head_high, bars, 0.016f, 0.016f, sides);
   add_limb(b, bars + glm::vec3(0, 0.28f, 0), bars - glm::vec3(0, 0.28f, 0), 0.014f, 0.014f, sides);
   add_limb(b, seat, saddle, 0.014f, 0.014f, sides);

@@ -39,6 +39,10 @@ PolygonMesh open_body(const CarSurface& car) {
     open = cut_out(open, window.face, window.outline, options);
     if (window.face == Face::left) open = cut_out(open, Face::right, mirrored(window.outline), options);
   }
+  return open;
+}
+
+PolygonMesh cabin_lining(const CarSurface& car, const PolygonMesh& open) {
   const Cabin cabin = cabin_of(car);
   // Lining of roof, pillars and doors: the cabin's enclosure, from behind and a little further in.
   MeshBuilder lining;
@@ -57,10 +61,7 @@ PolygonMesh open_body(const CarSurface& car) {
   lining.patch(at(true, -1, low), at(false, -1, low), at(false, -1, top), at(true, -1, top));
   lining.patch(at(true, 1, low), at(true, -1, low), at(true, -1, top), at(true, 1, top));
   lining.patch(at(false, -1, low), at(false, 1, low), {x, wall_y, wall}, {x, -wall_y, wall});
-  MeshBuilder all;
-  all.append(open);
-  all.append(lining.take());
-  return all.take();
+  return lining.take();
 }
 
 VehicleParts occupants(const CarSurface& car) {

@@ -40,8 +40,11 @@ struct Window {
 std::vector<Window> car_windows(const CarSurface& car);
 PatchOptions window_options(const CarSurface& car, Face face, float lift_m);
 
-/// Body with its windows cut out, lined with the dark of the cabin, which is visible through the glass.
+/// Body with its windows cut out.
 geometry::PolygonMesh open_body(const CarSurface& car);
+
+/// Lining of the cabin of an open body, which is visible through the glass: roof, pillars, doors, tub.
+geometry::PolygonMesh cabin_lining(const CarSurface& car, const geometry::PolygonMesh& open);
 
 /// Seats and occupants.
 VehicleParts occupants(const CarSurface& car);

@@ -6,6 +6,7 @@
 
 #include "engine/geometry/shapes.hpp"
 #include "engine/scenery/vehicles/car_details.hpp"
+#include "engine/scenery/vehicles/car_lines.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/lens.hpp"
 #include "engine/scenery/vehicles/surface_patch.hpp"
@@ -68,24 +69,23 @@ class LampPen {
 VehicleParts car_lamps(const CarSurface& car) {
   VehicleParts parts;
   const CarShape& s = car.shape;
-  const float nose = car.half_width_m() * s.nose_half_width, tail = car.half_width_m() * s.tail_half_width;
+  const float nose = car.half_width_m() * s.nose_half_width;
   const bool van = car.model.kind != ParticipantKind::car, far = car.level == DetailLevel::far;
-  const float lamp_top = s.hood_front_m - 0.115f, lamp_low = lamp_top - (van ? 0.19f : 0.135f);
+  const LampPlace ahead = head_lamp(car.model, s), behind = tail_lamp(car.model, s);
   LampPen head(car, parts, "lamp head", PartRole::lamp_head, Finish::lens_head);
-  head.both(Face::front, {0.50f * nose, lamp_low}, {0.93f * nose, lamp_top});
+  head.both(Face::front, {ahead.inner, ahead.low}, {ahead.outer, ahead.top});
 
   // Order from the outside in and from below: tail and brake, indicator, reverse.
-  const float outer = 0.95f * tail, inner = (van ? 0.80f : 0.56f) * tail;
-  const float top = van ? 1.30f : s.tail_m - 0.055f, low = van ? 0.80f : s.tail_m - 0.235f;
+  const float outer = behind.outer, inner = behind.inner, top = behind.top, low = behind.low;
   const float middle = (top * 0.45f + low * 0.55f), between = van ? inner : (inner * 0.62f + outer * 0.38f);
-  LampPen tail_lamp(car, parts, "lamp tail", PartRole::lamp_tail, Finish::lens_tail);
+  LampPen tail(car, parts, "lamp tail", PartRole::lamp_tail, Finish::lens_tail);
   LampPen brake(car, parts, "lamp brake", PartRole::lamp_brake, Finish::lens_brake);
   if (van) {
     const float third = (top - low) / 3;
-    tail_lamp.both(Face::rear, {inner, top - third * 0.5f}, {outer, top});
+    tail.both(Face::rear, {inner, top - third * 0.5f}, {outer, top});
     brake.both(Face::rear, {inner, low + third * 1.1f}, {outer, top - third * 0.55f});
   } else {
-    tail_lamp.both(Face::rear, {between, low}, {outer, middle});
+    tail.both(Face::rear, {between, low}, {outer, middle});
     brake.both(Face::rear, {between, middle + 0.004f}, {outer, top});
   }
   if (!far) brake.draw(Face::rear, {-0.14f, car.height_m() - 0.18f}, {0.14f, car.height_m() - 0.15f});
@@ -100,7 +100,7 @@ VehicleParts car_lamps(const CarSurface& car) {
     const auto draw = [&](Face face, glm::vec2 a, glm::vec2 b) {
       on_left ? indicator.left(face, a, b) : indicator.right(face, a, b);
     };
-    draw(Face::front, {0.80f * nose, lamp_low - 0.055f}, {0.95f * nose, lamp_low - 0.008f});
+    draw(Face::front, {0.80f * nose, ahead.low - 0.055f}, {0.95f * nose, ahead.low - 0.008f});
     if (van)
       draw(Face::rear, {inner, low + 0.09f}, {outer, low + 0.17f});
     else

@@ -54,6 +54,7 @@ VehicleParts car_parts(const VehicleModel& model) {
       // Windows are open near by: the surface is cut here, not on the screen.
       if (level == DetailLevel::near) {
         of_level.push_back(part("body" + suffix, open_body(surface)));
+        of_level.push_back(part("lining" + suffix, cabin_lining(surface, of_level.back().mesh)));
         for (VehiclePart& inside : occupants(surface)) {
           inside.name += suffix;
           of_level.push_back(std::move(inside));

@@ -3,6 +3,7 @@
 
 #include "engine/geometry/shapes.hpp"
 #include "engine/scenery/vehicles/car_details.hpp"
+#include "engine/scenery/vehicles/car_lines.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/surface_patch.hpp"
 
@@ -59,18 +60,18 @@ struct TrimPen {
 
 void draw_seams(const TrimPen& pen, const Glasshouse& g) {
   const CarSurface& car = pen.car;
-  const auto axle = static_cast<float>(car.model.wheelbase_m), radius = static_cast<float>(car.model.wheel_radius_m);
-  const float low = car.shape.ground_m + 0.14f, belt = g.low_front - 0.03f;
+  const auto radius = static_cast<float>(car.model.wheel_radius_m);
+  const DoorSeams doors = door_seams(car.model, car.shape);
+  const float low = doors.low, belt = doors.belt;
   const bool van = car.model.kind != ParticipantKind::car;
   const auto seam = [&](float x_low, float x_high) {
     pen.both_sides(Finish::trim,
                    {{{{x_low + 0.005f, low}, {x_low - 0.005f, low}, {x_high - 0.005f, belt}, {x_high + 0.005f, belt}}}},
                    {0.005f, 0.0f});
   };
-  const float front = axle - radius * 1.2f - 0.14f;
-  seam(front, front - 0.02f);
-  seam(van ? g.roof_front - 0.80f : g.pillar, van ? g.roof_front - 0.80f : g.pillar);
-  if (!van) seam(radius * 1.2f + 0.10f, radius * 0.9f + 0.04f);
+  seam(doors.front, doors.front - 0.02f);
+  seam(doors.middle, doors.middle);
+  if (!van) seam(doors.rear_low, doors.rear_high);
   const auto handle = [&](float x) {
     pen.both_sides(van ? Finish::trim : Finish::paint,
                    rectangle(Face::left, {x - 0.09f, belt - 0.13f}, {x + 0.09f, belt - 0.095f}), {0.025f, 0.0f});
@@ -114,7 +115,7 @@ void draw_ends(const TrimPen& pen) {
                         {0.38f * nose, s.hood_front_m - z + 0.006f}),
               {0.018f, 0.0f});
   pen.one(Finish::plate, Face::front, rectangle(Face::front, {-0.26f, ground + 0.265f}, {0.26f, ground + 0.375f}),
-          {0.022f, 0.0f});
+          {0.019f, 0.0f});
   const float plate = van ? 0.72f : s.tail_m - 0.42f;
   pen.one(Finish::plate, Face::rear, rectangle(Face::rear, {-0.26f, plate}, {0.26f, plate + 0.11f}), {0.014f, 0.0f});
   if (pen.fine)

@@ -21,13 +21,14 @@ struct Look {
   glm::vec3 emission{0.0f};
   float opacity = 1.0f;
   float clear_coat = 0.0f;
+  float ambient_share = 1.0f;  ///< As of CockpitFinish: of the sky's light, what comes in through the windows.
 };
 
 /// Share of clear coat on car paint, whose base is rough.
 constexpr float lacquer = 1.0f;
 
 /// Looks in the order of Finish.
-constexpr std::array<Look, 34> looks{{
+constexpr std::array<Look, 36> looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.7f, 0.0f, {}, 1.0f, lacquer},
     {"glass", {0.012f, 0.016f, 0.018f}, 0.06f},
     {"trim", {0.022f, 0.022f, 0.024f}, 0.55f},
@@ -62,6 +63,8 @@ constexpr std::array<Look, 34> looks{{
     {"mirror", {0.9f, 0.9f, 0.9f}, 0.02f, 1.0f},
     {"cloth", {0.75f, 0.75f, 0.75f}, 0.9f},
     {"hair", {0.035f, 0.02f, 0.012f}, 0.7f},
+    {"lining", {0.30f, 0.28f, 0.25f}, 0.95f, 0.0f, {}, 1.0f, 0.0f, 0.55f},
+    {"dashboard", {0.075f, 0.075f, 0.078f}, 0.95f, 0.0f, {}, 1.0f, 0.0f, 0.55f},
 }};
 
 constexpr std::uint32_t plate_columns = 4, plate_rows = 8, plate_width_px = 128, plate_height_px = 28;
@@ -133,6 +136,7 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     material.emission = look.emission;
     material.opacity = look.opacity;
     material.clear_coat = look.clear_coat;
+    material.ambient_share = look.ambient_share;
     material.takes_paint = i == index_of(Finish::paint) || i == index_of(Finish::cloth);
     const std::string name = std::string("vehicle/") + look.name;
     const auto with_image = [&](const Image& picture) {

@@ -42,6 +42,8 @@ enum class Finish : std::uint32_t {
   mirror,       ///< Silvered glass.
   cloth,        ///< Of the participant's own colour.
   hair,
+  lining,     ///< Of a cabin, seen from within.
+  dashboard,  ///< Likewise.
 };
 
 constexpr std::uint32_t index_of(Finish finish) { return static_cast<std::uint32_t>(finish); }

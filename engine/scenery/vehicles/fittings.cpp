@@ -10,10 +10,12 @@
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/scenery/vehicles/car_body.hpp"
+#include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
 #include "engine/scenery/vehicles/vehicle_mirrors.hpp"
+#include "engine/world/instrument_panel.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -73,7 +75,8 @@ geometry::PolygonMesh plain_wheel(float radius) {
 /// Adds the box of the dashboard with the hood over its instruments.
 void add_dashboard(MeshBuilder& builder, const Dashboard& dash, float driver_y) {
   constexpr float deep_m = 0.34f, hood_m = 0.045f, half_hood_m = 0.19f;
-  add_box(builder, Finish::cabin, {dash.rear, dash.right, dash.top - deep_m}, {dash.front, dash.left, dash.top}, 0.03f);
+  add_box(builder, Finish::dashboard, {dash.rear, dash.right, dash.top - deep_m}, {dash.front, dash.left, dash.top},
+          0.03f);
   add_box(builder, Finish::trim, {dash.rear + 0.02f, driver_y - half_hood_m, dash.top - 0.05f},
           {std::min(dash.front, dash.rear + 0.26f), driver_y + half_hood_m, dash.top + hood_m}, 0.02f);
 }
@@ -134,6 +137,23 @@ void add_holder(MeshBuilder& builder, const VehicleModel& model, const VehicleMi
 }
 
 }  // namespace
+
+std::optional<RigidTransform> dials_in(const VehicleModel& model) {
+  const Vec3 eye(eye_in(model));
+  Vec3 edge(0.0);  // Upper edge of the panel.
+  if (const auto dash = dashboard_of(model))
+    edge = {dash->rear + 0.018, eye.y, dash->top + 0.04};
+  else if (model.kind == ParticipantKind::motorcycle && is_driven(model))
+    edge = {1.15, 0.0, 1.15};
+  else
+    return std::nullopt;
+  namespace panel = instrument_panel;
+  const double own_rad = std::asin(panel::normal.z), steepest_rad = 0.9,
+               tilt_rad = std::clamp(std::atan2(eye.z - edge.z, edge.x - eye.x), own_rad, steepest_rad);
+  const Vec3 up(std::sin(tilt_rad), 0.0, std::cos(tilt_rad));
+  const Quat turn = glm::angleAxis(tilt_rad - own_rad, Vec3(0.0, 1.0, 0.0));
+  return RigidTransform{edge - 0.5 * panel::height_m * up - turn * panel::middle_m, turn};
+}
 
 VehicleParts fittings(const VehicleModel& model) {
   const glm::vec3 eye(eye_in(model));

@@ -101,6 +101,8 @@ VehicleParts inside_parts(const VehicleModel& model) {
     if (part.places.empty() || part.places.front().visible_from_m > 0.0f) continue;
     std::erase_if(part.places, [&](const Placement& place) { return is_own_seat(part.name, place, eye_m); });
     part.mesh = without(part.mesh, hides_the_view(model, part.name));
+    // Seen from outside, through the glass, a cabin is dark.
+    std::ranges::replace(part.mesh.polygon_materials, index_of(Finish::cabin), index_of(Finish::lining));
     if (part.places.empty() || part.mesh.polygons.empty()) continue;
     parts.push_back(std::move(part));
   }

@@ -113,6 +113,12 @@ VehicleParts instrument_parts() {
   return parts;
 }
 
+VehicleParts dial_parts() {
+  VehicleParts parts{{"instruments", instrument_faces(), 0, {Placement{}}}};
+  seen_from_within(parts);
+  return parts;
+}
+
 VehicleParts sign_parts() { return sample_of(CockpitFinish::signs); }
 
 VehicleParts water_parts() { return sample_of(CockpitFinish::water); }

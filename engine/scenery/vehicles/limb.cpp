@@ -26,6 +26,15 @@ void add_blob(geometry::MeshBuilder& builder, const glm::vec3& centre, const glm
   builder.append(geometry::icosphere(splits), glm::scale(glm::translate(glm::mat4(1.0f), centre), radii), true);
 }
 
+void add_mudguard(geometry::MeshBuilder& builder, const glm::vec3& hub, const Arc& arc, std::uint32_t sides) {
+  const int bars = sides > 4 ? 5 : 2;
+  const auto at = [&](int i) {
+    const float angle = std::lerp(arc.from_rad, arc.to_rad, static_cast<float>(i) / static_cast<float>(bars));
+    return hub + arc.radius_m * glm::vec3(std::cos(angle), 0.0f, std::sin(angle));
+  };
+  for (int i = 0; i < bars; ++i) add_limb(builder, at(i), at(i + 1), arc.tube_m, arc.tube_m, sides);
+}
+
 void add_box(geometry::MeshBuilder& builder, Finish finish, const glm::vec3& low, const glm::vec3& high,
              float bevel_m) {
   builder.material = index_of(finish);

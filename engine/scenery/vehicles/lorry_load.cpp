@@ -104,8 +104,8 @@ void add_tipper(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   for (int k = 0; k <= 6; ++k) {
     const float x = std::lerp(b.rear + 0.1f, b.front - 0.2f, static_cast<float>(k) / 6.0f);
     for (const float side : {1.0f, -1.0f})
-      add_box(builder, Finish::livery_yellow, {x, side > 0 ? b.half - 0.02f : -b.half - 0.05f, b.floor},
-              {x + 0.1f, side > 0 ? b.half + 0.05f : -b.half + 0.02f, top});
+      add_box(builder, Finish::livery_yellow, {x, side > 0 ? b.half - 0.02f : -b.half - 0.018f, b.floor},
+              {x + 0.1f, side > 0 ? b.half + 0.018f : -b.half + 0.02f, top});
   }
   // Shield over the cab.
   add_box(builder, Finish::livery_yellow, {b.front, -b.half + 0.3f, top + 0.2f},
@@ -162,7 +162,7 @@ void add_lockers(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   builder.patch({x, 0.6f, 1.1f}, {x, -0.6f, 1.1f}, {x, -0.6f, top - 0.2f}, {x, 0.6f, top - 0.2f});
   if (level == DetailLevel::far) return;
   for (const float y : {0.25f, 0.65f})
-    add_box(builder, Finish::rim, {b.rear - 0.05f, y, top + 0.12f}, {b.front + 0.9f, y + 0.06f, top + 0.22f});
+    add_box(builder, Finish::rim, {b.rear, y, top + 0.12f}, {b.front + 0.9f, y + 0.06f, top + 0.22f});
   for (int k = 0; k < 8; ++k) {
     const float at = std::lerp(b.rear + 0.2f, b.front + 0.7f, static_cast<float>(k) / 7.0f);
     add_box(builder, Finish::rim, {at, 0.25f, top + 0.14f}, {at + 0.05f, 0.71f, top + 0.19f});

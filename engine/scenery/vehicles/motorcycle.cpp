@@ -14,7 +14,7 @@ void add_machine(MeshBuilder& b, float wheelbase, std::uint32_t sides, std::uint
   b.material = index_of(Finish::paint);
   add_blob(b, {0.82f, 0, 0.86f}, {0.30f, 0.15f, 0.14f}, splits);   // Tank.
   add_blob(b, {1.32f, 0, 0.86f}, {0.25f, 0.15f, 0.21f}, splits);   // Fairing.
-  add_blob(b, {-0.12f, 0, 0.84f}, {0.30f, 0.11f, 0.08f}, splits);  // Tail.
+  add_blob(b, {-0.06f, 0, 0.84f}, {0.29f, 0.11f, 0.08f}, splits);  // Tail.
   b.material = index_of(Finish::trim);
   add_blob(b, {0.28f, 0, 0.80f}, {0.36f, 0.14f, 0.07f}, splits);  // Seat.
   add_blob(b, {0.72f, 0, 0.46f}, {0.32f, 0.17f, 0.20f}, splits);  // Engine.
@@ -25,7 +25,8 @@ void add_machine(MeshBuilder& b, float wheelbase, std::uint32_t sides, std::uint
   }
   add_limb(b, {0.62f, -0.17f, 0.26f}, {-0.18f, -0.20f, 0.40f}, 0.035f, 0.055f, sides);
   b.material = index_of(Finish::trim);
-  add_limb(b, {1.12f, 0.34f, 1.02f}, {1.12f, -0.34f, 1.02f}, 0.018f, 0.018f, sides);
+  add_mudguard(b, {wheelbase, 0, 0.31f}, {0.33f, 0.02f, 1.9f, 0.1f}, sides);
+  add_limb(b, {1.12f, 0.39f, 1.02f}, {1.12f, -0.39f, 1.02f}, 0.018f, 0.018f, sides);
 }
 
 void add_rider(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
@@ -86,7 +87,7 @@ VehicleParts motorcycle_parts(const VehicleModel& model) {
     of_level.push_back(
         lamp("lamp head", PartRole::lamp_head, Finish::lens_head, {1.52f, 0, 0.88f}, {0.05f, 0.09f, 0.07f}));
     of_level.push_back(
-        lamp("lamp tail", PartRole::lamp_tail, Finish::lens_tail, {-0.34f, 0, 0.84f}, {0.03f, 0.06f, 0.03f}));
+        lamp("lamp tail", PartRole::lamp_tail, Finish::lens_tail, {-0.33f, 0, 0.84f}, {0.03f, 0.06f, 0.03f}));
     if (level != DetailLevel::far) {
       of_level.push_back(
           lamp("lamp brake", PartRole::lamp_brake, Finish::lens_brake, {-0.33f, 0, 0.78f}, {0.03f, 0.07f, 0.03f}));

@@ -102,12 +102,13 @@ VehicleParts caravan_parts(const VehicleModel& model) {
     if (!far) patch(Finish::plate, Face::rear, {-0.26f, 0.75f}, {0.26f, 0.86f});
     b.material = index_of(Finish::trim);
     for (const float side : {1.0f, -1.0f})
-      add_limb(b, {hull_front - 0.1f, side * 0.7f, 0.48f}, {front - 0.05f, 0, 0.46f}, 0.05f, 0.04f, far ? 3 : 6);
+      add_limb(b, {hull_front - 0.1f, side * 0.7f, 0.48f}, {front - 0.025f, 0, 0.46f}, 0.05f, 0.04f, far ? 3 : 6);
     if (far) add_flat_wheel(b, 0.0f, half + 0.01f, 0.32f);
     VehicleParts of_level{{"body", b.take(), 0, {Placement{}}}};
     LampPlaces lamps;
     lamps.tail_x = rear - 0.02f;
     lamps.has_nose = false;
+    lamps.indicator.x = half - 0.07f;
     add_lamp_plates(of_level, lamps, level);
     add_level(parts, std::move(of_level), level);
   }

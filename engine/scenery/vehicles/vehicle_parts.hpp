@@ -60,6 +60,7 @@ VehicleParts interior_parts();
 VehicleParts shell_parts();
 VehicleParts hands_parts();       ///< Driver's hands; they turn as the wheel does.
 VehicleParts instrument_parts();  ///< Faces of the instruments alone, for a screen with no other content.
+VehicleParts dial_parts();        ///< The same without anything around them, for other vehicles' dashboards.
 VehicleParts water_parts();       ///< Sample of the material of drops on the windscreen.
 VehicleParts sign_parts();  ///< Sample of the material of needles and lit signs, which each frame puts in their places.
 

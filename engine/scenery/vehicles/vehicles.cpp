@@ -78,6 +78,7 @@ void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models,
   add_prototype(builder, inside, known_inside, "interior/volvo-s80", interior_parts());
   add_prototype(builder, inside, known_inside, "cockpit/hands", hands_parts());
   add_prototype(builder, inside, known_inside, "cockpit/instruments", instrument_parts());
+  add_prototype(builder, inside, known_inside, "cockpit/dials", dial_parts());
   add_prototype(builder, inside, known_inside, "cockpit/signs", sign_parts());
   add_prototype(builder, inside, known_inside, "cockpit/water", water_parts());
 }

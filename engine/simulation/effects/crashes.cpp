@@ -26,6 +26,7 @@ debris::CrashBody body_of(const Participant& participant, double mass_kg, const 
   body.box = body_box(participant);
   body.mass_kg = mass_kg;
   const auto known = parts.find(participant.id);
+  body.origin = {participant.id, participant.model, participant.paint, {}};
   body.parts = known != parts.end() ? known->second : parts_of(participant, body.box);
   return body;
 }
@@ -46,6 +47,7 @@ double throw_parts(const Participant& car, debris::Crash& blow, const debris::Co
   ++outcome.crashes;
   note_glass(car.id, blow.first, blow.point_m, report.closing_speed_mps, outcome);
   outcome.pieces += static_cast<int>(report.pieces.size());
+  outcome.torn.push_back({car.id, blow.first.torn});
   memory.parts[car.id] = std::move(blow.first.parts);
   return report.kinetic_j;
 }
@@ -72,6 +74,7 @@ void crash_of_vehicles(const Participant& first, const Participant& second, cons
   if (first.id == driver) outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   note_glass(second.id, blow.second, blow.point_m, struck.closing_speed_mps, outcome);
   for (const MadeDent& dent : dents_of_crash(first, second, struck)) outcome.dents.push_back(dent);
+  outcome.torn.push_back({second.id, blow.second.torn});
   memory.parts[second.id] = std::move(blow.second.parts);
 }
 

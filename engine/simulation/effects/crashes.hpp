@@ -67,6 +67,7 @@ struct CrashOutcome {
   std::vector<BrokenOff> broken_off;  ///< One a crash, in their order.
   std::vector<ShakenGlass> glass;
   std::vector<MadeDent> dents;
+  std::vector<TornOff> torn;
 };
 
 /// Contact of two boxes as outlines on the ground (impact::contact_of): overlap, place, and normal (from b to a).

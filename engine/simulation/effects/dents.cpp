@@ -146,10 +146,11 @@ std::vector<MadeDent> dents_of_touch(const Participant& vehicle, const vehicle::
   return made;
 }
 
-void advance_dents(const std::vector<MadeDent>& made, const std::vector<Participant>& participants, Tick shows,
-                   DentState& state) {
-  if (made.empty() && state.vehicles.empty()) return;
+void advance_dents(const std::vector<MadeDent>& made, const std::vector<TornOff>& torn,
+                   const std::vector<Participant>& participants, Tick shows, DentState& state) {
+  if (made.empty() && torn.empty() && state.vehicles.empty()) return;
   for (const MadeDent& dent : made) debris::note_dent(dent.vehicle, dent.dent, state.vehicles);
+  for (const TornOff& off : torn) debris::note_torn(off.vehicle, off.mounts, state.vehicles);
   std::erase_if(state.vehicles, [&](const debris::DentedVehicle& dented) {
     return !std::ranges::binary_search(participants, dented.vehicle, {}, &Participant::id);
   });

@@ -21,6 +21,12 @@ struct MadeDent {
   debris::Dent dent;
 };
 
+/// What a crash tore off.
+struct TornOff {
+  ParticipantId vehicle = 0;
+  debris::Mounts mounts = 0;
+};
+
 struct VehicleCrash;
 
 /// Dents of two vehicles in a crash: none in people and two-wheelers, nor at speeds
@@ -29,8 +35,9 @@ std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant
 /// Dents of a vehicle that meets an obstacle beside the road; none from a yielding one.
 std::vector<MadeDent> dents_of_touch(const Participant& vehicle, const vehicle::HullTouch& touch);
 
-/// Adds the dents of this step's crashes, and drops those of participants that have left; the keyframe shows `shows`.
-void advance_dents(const std::vector<MadeDent>& made, const std::vector<Participant>& participants, Tick shows,
-                   DentState& state);
+/// Adds the dents of this step's crashes and what they tore off, and drops those of participants that have left; the
+/// keyframe shows `shows`.
+void advance_dents(const std::vector<MadeDent>& made, const std::vector<TornOff>& torn,
+                   const std::vector<Participant>& participants, Tick shows, DentState& state);
 
 }  // namespace septet::simulation

@@ -136,7 +136,8 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
                 step_s, state.fires);
 
   for (const ShakenGlass& glass : report.crashes.glass) shake_glass(glass, state.ice);
-  advance_dents(report.crashes.dents, world.participants, world.tick + effects_step_ticks, state.dents);
+  advance_dents(report.crashes.dents, report.crashes.torn, world.participants, world.tick + effects_step_ticks,
+                state.dents);
   const auto driver = std::ranges::find(world.participants, world.driver, &Participant::id);
   const double driver_speed_mps = driver != world.participants.end() ? glm::length(driver->velocity_mps) : 0.0;
   advance_ice({world.environment.temperature_k, driver_speed_mps}, step_s, world.tick + effects_step_ticks, state.ice);

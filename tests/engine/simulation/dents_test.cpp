@@ -197,6 +197,13 @@ TEST_CASE("a crash's dents are in every snapshot from then on, for who joins lat
   const auto dents = debris::decode_dents(dents_in(from_wire(*told).effects).data);
   REQUIRE(dents);
   REQUIRE(dents->size() == 2);
+  for (const debris::DentedVehicle& told_of : *dents) {
+    debris::Mounts mounted = 0;
+    for (const debris::MountedPart& part : state.crashes.parts.at(told_of.vehicle))
+      mounted |= debris::bit_of(part.mount);
+    CHECK(told_of.torn != 0);
+    CHECK((told_of.torn ^ mounted) == (1u << debris::mount_count) - 1u);  // Either on the vehicle, or not.
+  }
   CHECK(dents->at(0).dents.at(0).depth_m == relative((10.0 - undented_mps) / b1_per_s, 0.02));
   participants.pop_back();
   advance(140);

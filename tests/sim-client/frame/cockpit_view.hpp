@@ -15,6 +15,7 @@
 #include "engine/render/renderer.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scenery/vehicles/debris_looks.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/world/vehicle_model.hpp"
 #include "sim-client/frame/client_frame.hpp"
@@ -27,6 +28,7 @@ inline const scene::ResolvedScene& vehicles_scene() {
     scene::Store store;
     scene::SceneBuilder builder(store);
     scenery::build_vehicles(builder);
+    scenery::build_debris_looks(builder);
     return scene::resolve(store);
   }();
   return scene;

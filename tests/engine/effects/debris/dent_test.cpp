@@ -120,6 +120,27 @@ TEST_CASE("all screens are told the same dent in a few bytes") {
   CHECK(encode_dents(*told) == bytes);  // A decoded dent is encoded again without loss.
 }
 
+TEST_CASE("what a vehicle has lost is told beside its dents, and adds up over its crashes") {
+  std::vector<DentedVehicle> vehicles;
+  note_torn(5, 0, vehicles);
+  CHECK(vehicles.empty());
+  note_dent(2, front_dent(0.3), vehicles);
+  const std::size_t before = encode_dents(vehicles).size();
+  note_torn(5, bit_of(Mount::windscreen), vehicles);
+  note_torn(5, bit_of(Mount::front_left_door), vehicles);
+  const auto told = decode_dents(encode_dents(vehicles));
+  REQUIRE(told);
+  REQUIRE(told->size() == 2);
+  CHECK(told->at(0).torn == 0);
+  CHECK(told->at(0).dents.size() == 1);
+  CHECK(told->at(1).vehicle == 5);
+  CHECK(told->at(1).torn == (bit_of(Mount::windscreen) | bit_of(Mount::front_left_door)));
+  CHECK(told->at(1).dents.empty());
+  CHECK(encode_dents(vehicles).size() <= before + 6);
+  vehicles[1].torn = static_cast<Mounts>(1u << mount_count);
+  CHECK_FALSE(decode_dents(encode_dents(vehicles)));
+}
+
 TEST_CASE("bytes that tell no dents are refused, and dents that make no sense are told as some that do") {
   const Bytes bytes = encode_dents(std::vector<DentedVehicle>{{2, {front_dent(0.3), front_dent(0.2)}}});
   for (std::size_t length = 0; length < bytes.size(); ++length)

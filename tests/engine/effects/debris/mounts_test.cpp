@@ -59,6 +59,23 @@ TEST_CASE("a mount holds up to the mass times the greatest deceleration of the c
   CHECK(Run(lamp_at(-2.0, 0.47 * peak_n), 1500.0).report.torn_off == 1);
 }
 
+TEST_CASE("what breaks off is told, and its pieces know whose they are") {
+  MountedPart lamp = lamp_at(2.1, INFINITY);
+  lamp.mount = Mount::front_right_lamp;
+  Run run(lamp);
+  CHECK(run.crash.first.torn == bit_of(Mount::front_right_lamp));
+  CHECK(run.crash.second.torn == 0);
+  REQUIRE_FALSE(run.state.pieces.empty());
+  CHECK_FALSE(run.state.pieces.front().origin);  // Of a body that is no vehicle.
+  run.crash.first.parts = {lamp};
+  run.crash.first.origin = PieceOrigin{12, 4, 7, Mount::front_bumper};
+  Random random(1);
+  State state;
+  debris::crash(state, run.crash, {}, random);
+  REQUIRE(state.pieces.size() > 1);
+  for (const Piece& piece : state.pieces) CHECK(piece.origin == PieceOrigin{12, 4, 7, Mount::front_right_lamp});
+}
+
 TEST_CASE("a part is struck where the crush and its own thickness reach it and no further in") {
   const double reach_m = crush_m + 0.5 * part_recipe(Part::lamp).size_m.x;
   CHECK(Run(lamp_at(2.2 - 0.95 * reach_m, INFINITY)).report.struck == 1);
@@ -113,6 +130,12 @@ TEST_CASE("a car's parts lie in its hull and hold as the rules ask") {
     if (mounted.part == Part::lamp || mounted.part == Part::bumper)
       CHECK(mounted.mount_strength_n == doctest::Approx(30.0 * 9.81 * recipe.mass_kg));
   }
+  Mounts all = 0;
+  for (const MountedPart& mounted : passenger_car_parts(half)) {
+    CHECK((all & bit_of(mounted.mount)) == 0);
+    all |= bit_of(mounted.mount);
+  }
+  CHECK(all == (1u << mount_count) - 1u);
   CHECK(doors == 4);
   CHECK(lamps == 4);
   CHECK(bumpers == 2);

@@ -15,8 +15,10 @@
 #include "engine/scenery/vehicles/cockpit_finish.hpp"
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
+#include "engine/scenery/vehicles/fittings.hpp"
 #include "engine/scenery/vehicles/vehicle_mirrors.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
+#include "engine/world/instrument_panel.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -144,6 +146,36 @@ TEST_CASE("each mirror is seen from the eyes and shows the road behind by the la
       CHECK(glm::reflect(along, mirror.normal).x < -0.98);
       CHECK(glm::length(glm::cross(mirror.right, mirror.up()) - mirror.normal) < 1e-9);
     }
+  }
+}
+
+TEST_CASE(
+    "whoever sits in a vehicle has its dials before them, turned to their eyes, with the steering wheel alone "
+    "between") {
+  for (const VehicleModel& model : vehicle_models()) {
+    if (!is_driven(model) || has_cockpit(model)) continue;
+    CAPTURE(model.name);
+    const auto dials = dials_in(model);
+    CHECK(dials.has_value() == (is_enclosed(model) || model.kind == ParticipantKind::motorcycle));
+    if (!dials) continue;
+    namespace panel = instrument_panel;
+    const Vec3 eye_m = eye_in(model);
+    VehicleParts parts = inside_parts(model);
+    std::erase_if(parts, [](const VehiclePart& part) { return part.name.starts_with("steering wheel"); });
+    const auto triangles = triangles_of(parts);
+    const Vec3 away_m = *dials * panel::middle_m - eye_m;
+    CHECK(glm::length(away_m) < 1.3);
+    CHECK(std::abs(away_m.y) < 1e-9);
+    CHECK(glm::dot(dials->orientation * panel::normal, -glm::normalize(away_m)) > 0.9);
+    for (const double across : {-0.45, 0.0, 0.45})
+      for (const double upward : {-0.4, 0.0, 0.4}) {
+        CAPTURE(across);
+        CAPTURE(upward);
+        const Vec3 at =
+            *dials * (panel::middle_m + across * panel::width_m * panel::right + upward * panel::height_m * panel::up);
+        const auto met = met_by(triangles, eye_m, glm::normalize(at - eye_m));
+        CHECK((!met || met->distance_m > glm::distance(at, eye_m)));
+      }
   }
 }
 

@@ -13,6 +13,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/cage.hpp"
 #include "engine/scenery/vehicles/car_body.hpp"
+#include "engine/scenery/vehicles/car_lines.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
 #include "engine/scenery/vehicles/surface_patch.hpp"
@@ -30,13 +31,6 @@ bool has_role(const VehicleParts& parts, scene::PartRole role, float distance_m)
       return place.role == role && distance_m >= place.visible_from_m && distance_m < place.visible_to_m;
     });
   });
-}
-
-/// True for a body with a car's lines.
-bool has_car_lines(const VehicleModel& model) {
-  return (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
-          model.kind == ParticipantKind::ambulance) &&
-         model.name != "caravan";
 }
 
 /// Opaque polygons of the part.
