@@ -6,6 +6,7 @@
 
 #include "engine/road/body_lanes.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::driver {
 namespace {
@@ -131,7 +132,7 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
                                       own.x_m + glm::dot(there - here, ahead_along_s * forward));
     const int side = traffic::piece_at(corridor, own.x_m).side;
     if (!location || location->lanes.lane * side <= 0) continue;
-    const VehicleModel& model = vehicle_models()[other.model];
+    const VehicleModel model = shape_of(other);
     const double sideways = sideways_mps(network, location->position, other);
     const road::LaneRange lanes = lanes_taken(network, location->position, other, model, sideways);
     if (lanes.empty()) continue;

@@ -41,6 +41,7 @@ struct DrawnParticipant {
   double wheel_spin_rad = 0.0;
   std::array<double, 4> wheel_lift_m{};  ///< Front left, front right, rear left, rear right.
   std::array<double, 4> thrown_rad{};    ///< Joints of a person who was thrown (ThrownJoints, limbs.hpp).
+  glm::vec3 stretch{1.0f};               ///< Of its prototype, along its axes: a box (participant_shape.hpp).
   double speed_mps = 0.0;                ///< Pedestrians swing their limbs by it.
   double steering_wheel_rad = 0.0;       ///< Turns the part about its object's x axis, positive to the left.
   Shown shown = Shown::whole;

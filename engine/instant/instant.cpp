@@ -56,15 +56,16 @@ std::vector<GroundContact> contacts_of(const std::vector<DrawnParticipant>& part
   for (const DrawnParticipant& participant : participants) {
     if (participant.prototype >= scene.bodies.size()) continue;
     const BodyBounds& body = scene.bodies[participant.prototype];
-    const glm::vec3 half = 0.5f * (body.max_m - body.min_m), middle = 0.5f * (body.max_m + body.min_m);
-    if (!(half.x > 0.05f && half.y > 0.05f && body.max_m.z > 0.3f && body.min_m.z < 1.5f)) continue;
+    const glm::vec3 low = participant.stretch * body.min_m, high = participant.stretch * body.max_m;
+    const glm::vec3 half = 0.5f * (high - low), middle = 0.5f * (high + low);
+    if (!(half.x > 0.05f && half.y > 0.05f && high.z > 0.3f && low.z < 1.5f)) continue;
     GroundContact contact;
     contact.world_from_body = participant.world_from_vehicle;
     contact.world_from_body.position_m = participant.world_from_vehicle * Vec3(middle.x, middle.y, 0.0);
     contact.half_length_m = half.x;
     contact.half_width_m = half.y;
-    contact.height_m = body.max_m.z;
-    contact.clearance_m = std::clamp(body.min_m.z, 0.1f, 0.8f);
+    contact.height_m = high.z;
+    contact.clearance_m = std::clamp(low.z, 0.1f, 0.8f);
     contact.share_of_sky = share_of_sky(scene, participant.world_from_vehicle);
     contacts.push_back(contact);
   }

@@ -13,6 +13,7 @@
 #include "engine/instant/limb_pose.hpp"
 #include "engine/world/limbs.hpp"
 #include "engine/world/paint.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::instant {
 namespace {
@@ -180,7 +181,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       if (part.mesh >= meshes.size() || distance_m - margin_m >= gone_from_m(part.visible_to_m)) continue;
       const MeshSummary& mesh = meshes[part.mesh];
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);
-      PlacedMesh placed = place(part, mesh.bounds, participant.world_from_vehicle * in_vehicle);
+      PlacedMesh placed = place(part, mesh.bounds, participant.world_from_vehicle * in_vehicle, participant.stretch);
       const Vec3 middle_m = in_vehicle * Vec3(0.5f * (mesh.bounds.min_m + mesh.bounds.max_m) * part.scale);
       const float lit = shining(part.role, participant.lamps, simulated_time_s, middle_m.y);
       placed.seen = whole;
@@ -232,8 +233,10 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   drawn.wheel_spin_rad = participant.wheel_spin_rad;
   drawn.speed_mps = glm::length(participant.velocity_mps);
   drawn.number = participant.id;
-  const VehicleModel& model = vehicle_models()[participant.model];
-  if (model.kind == ParticipantKind::pedestrian) {
+  const VehicleModel model = shape_of(participant);
+  if (is_box(participant)) {
+    drawn.stretch = glm::vec3(box_size_m(participant));
+  } else if (model.kind == ParticipantKind::pedestrian) {
     drawn.thrown_rad = participant.wheel_lift_m;
     // One who flies or slides does not walk, however fast.
     drawn.speed_mps = participant.wheel_spin_radps * stride_m / (2.0 * std::numbers::pi);

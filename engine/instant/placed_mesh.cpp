@@ -18,8 +18,9 @@ PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransf
   return placed;
 }
 
-PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object) {
-  PlacedMesh placed = place(instance.mesh, bounds, world_from_object, instance.scale);
+PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object,
+                 const glm::vec3& stretch) {
+  PlacedMesh placed = place(instance.mesh, bounds, world_from_object, instance.scale * stretch);
   placed.visible_from_m = instance.visible_from_m;
   placed.visible_to_m = instance.visible_to_m;
   placed.casts_shadow = instance.casts_shadow;

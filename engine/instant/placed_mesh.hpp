@@ -44,7 +44,8 @@ struct MeshBounds {
 PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object,
                  const glm::vec3& scale);
 
-/// Placement likewise, with the instance's scale, visibility and shadow.
-PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object);
+/// Placement likewise, with the instance's scale (times `stretch`), visibility and shadow.
+PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object,
+                 const glm::vec3& stretch = glm::vec3(1.0f));
 
 }  // namespace septet::instant

@@ -88,9 +88,11 @@ class Contacts {
 
   impact::Due due_to(const Participant& one, const impact::Body& body, const BodyContact* besides) const {
     impact::Due due = due_of_contacts(state_, one.id, body, besides);
-    if (!is_driver(one)) return due;
-    for (const CarImpact& running : state_.impacts) impact::add_due(running.pulse, body, due);
-    const impact::Due hull = vehicle::due_to_hull(state_.hull, body);
+    const LooseBody* loose = find_loose(state_, one.id);
+    if (!is_driver(one) && !loose) return due;
+    if (!loose)
+      for (const CarImpact& running : state_.impacts) impact::add_due(running.pulse, body, due);
+    const impact::Due hull = vehicle::due_to_hull(loose ? loose->hull : state_.hull, body);
     due.velocity_mps += hull.velocity_mps;
     due.yaw_rate_radps += hull.yaw_rate_radps;
     due.runs = due.runs || hull.runs;
@@ -119,7 +121,7 @@ class Contacts {
 
   void look_at(std::size_t a, std::size_t b) {
     if (is_for_another_stage(participants_[a], participants_[b])) return;
-    const bool overlap = contact_of(body_box(participants_[a]), body_box(participants_[b])).has_value();
+    const bool overlap = simulation::overlap(participants_[a], participants_[b]);
     const Pair ids(participants_[a].id, participants_[b].id);
     const auto known = std::ranges::lower_bound(state_.bodies.contacts, ids, {}, pair_of);
     const bool is_known = known != state_.bodies.contacts.end() && pair_of(*known) == ids;
@@ -208,9 +210,7 @@ class Contacts {
     state_.effects.crashes.struck_vehicles.push_back(crash_of(first, second, *impact));
   }
 
-  bool may_loosen(const Participant& one) const {
-    return is_driver(one) || has_four_wheels(vehicle_models()[one.model].kind);
-  }
+  bool may_loosen(const Participant& one) const { return is_driver(one) || may_leave_rails(model_, one); }
   /// True where it is, or becomes, a body that contacts push.
   bool loosen(const Participant& one) {
     return is_pushed(one) || leave_rails(model_, one, car_.participant, state_, events_);

@@ -23,8 +23,10 @@ double kinetic_j(const impact::Body& body) {
 }
 
 void note_body(const impact::Body& body, double ahead_m, CrashedBody& told) {
-  told.mass_kg = body.mass_kg;
-  told.yaw_inertia_kgm2 = body.yaw_inertia_kgm2;
+  if (std::isfinite(body.mass_kg)) {
+    told.mass_kg = body.mass_kg;
+    told.yaw_inertia_kgm2 = body.yaw_inertia_kgm2;
+  }
   told.mass_centre_ahead_m = ahead_m;
   told.before_mps = body.velocity_mps;
   told.yaw_rate_before_radps = body.yaw_rate_radps;
@@ -88,9 +90,10 @@ OpenCrash* find_open_crash(State& state, ParticipantId first, ParticipantId seco
   return found == state.open_crashes.end() ? nullptr : &*found;
 }
 
-OpenCrash* find_open_crash_with_run(State& state, std::uint32_t run) {
-  const auto found = std::ranges::find_if(
-      state.open_crashes, [&](const OpenCrash& crash) { return !crash.record.second && crash.run == run; });
+OpenCrash* find_open_crash_with_run(State& state, ParticipantId first, std::uint32_t run) {
+  const auto found = std::ranges::find_if(state.open_crashes, [&](const OpenCrash& crash) {
+    return crash.record.first == first && !crash.record.second && crash.run == run;
+  });
   return found == state.open_crashes.end() ? nullptr : &*found;
 }
 
@@ -132,7 +135,7 @@ void note_push(Tick now, const CrashPush& push, OpenCrash& crash) {
 
 void note_broken_off(const BrokenOff& broken, const impact::Body& before, const impact::Body& after, State& state) {
   OpenCrash* crash = broken.second ? find_open_crash(state, broken.first, *broken.second)
-                                   : find_open_crash_with_run(state, broken.run);
+                                   : find_open_crash_with_run(state, broken.first, broken.run);
   if (!crash) return;
   crash->record.pieces_kinetic_j = crash->record.pieces_kinetic_j.value_or(0.0) + broken.kinetic_j;
   if (broken.first != driver_participant || !crash->first_moves) return;

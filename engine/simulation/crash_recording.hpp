@@ -28,8 +28,8 @@ OpenCrash& open_crash(const CrashTouch& touch, State& state);
 
 /// The record that runs between these two; null where there is none.
 OpenCrash* find_open_crash(State& state, ParticipantId first, ParticipantId second);
-/// Likewise of the driver's car and what stands.
-OpenCrash* find_open_crash_with_run(State& state, std::uint32_t run);
+/// Likewise of one and what stands.
+OpenCrash* find_open_crash_with_run(State& state, ParticipantId first, std::uint32_t run);
 
 /// Notes a side at the touch. `ahead_m`: of its mass centre from the vehicle's origin; `is_pushed`: its pushes will be
 /// noted, and so its motion is known from now on.

@@ -13,10 +13,10 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/ground_beside.hpp"
 #include "engine/simulation/car_impacts.hpp"
-#include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/ground_faces.hpp"
+#include "engine/simulation/hull_crashes.hpp"
 #include "engine/simulation/step_edges.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "engine/world/indicator.hpp"
@@ -151,60 +151,14 @@ void note_off_road(const std::optional<road::Location>& place, State& state, std
                    glm::length(state.car.velocity_mps))});
 }
 
-/// Reports the hull's contacts to the log and the debris.
-void note_hull(const vehicle::HullReport& report, State& state, std::vector<Event>& events) {
-  constexpr double least_mps = 0.5;  // Slower contacts are leaning.
-  state.effects.crashes.struck_standing.insert(state.effects.crashes.struck_standing.end(), report.begun.begin(),
-                                               report.begun.end());
-  for (const vehicle::HullTouch& touch : report.over) {
-    const double delta_v_mps = glm::length(touch.delta_v_mps);
-    if (touch.closing_speed_mps < least_mps && delta_v_mps < least_mps) continue;
-    ++state.diagnostics.collisions;
-    events.push_back({"collision", std::nullopt,
-                      fmt::format("{} closing_speed_mps={:.2f} delta_v_mps={:.2f}", name_of(touch.kind),
-                                  touch.closing_speed_mps, delta_v_mps)});
-  }
-}
-
-/// Begins the record of what stands that the hull has touched in this tick.
-void open_hull_crash(const Model& model, const vehicle::HullTouch& touch, State& state) {
-  OpenCrash& crash = open_crash({driver_participant,
-                                 std::nullopt,
-                                 {Vec2(touch.point_m), -Vec2(touch.normal)},
-                                 touch.point_m.z,
-                                 touch.closing_speed_mps},
-                                state);
-  crash.run = touch.run;
-  crash.record.stands = name_of(touch.kind);
-  impact::Body car = vehicle::planar_body(model.car.body, state.car);
-  car.velocity_mps = Vec2(touch.velocity_mps);
-  car.yaw_rate_radps = touch.angular_velocity_radps.z;
-  car.heading_rad = heading_rad(state.car.world_from_body.orientation);
-  note_first(car, model.car.body.mass_centre_x_m, true, crash);
-  crash.has_ledger = true;
-}
-
-/// Records what the hull's touches have done to the car in this tick. `before`: the touches as they were.
-void record_hull(const Model& model, const std::vector<vehicle::HullTouch>& before, const vehicle::HullReport& met,
-                 State& state) {
-  for (const vehicle::HullTouch& touch : met.begun) open_hull_crash(model, touch, state);
-  for (const vehicle::HullTouch& touch : state.hull.touches) {
-    OpenCrash* crash = find_open_crash_with_run(state, touch.run);
-    if (!crash) continue;
-    const auto known = std::ranges::find(before, touch.run, &vehicle::HullTouch::run);
-    const vehicle::HullTouch was = known == before.end() ? vehicle::HullTouch{} : *known;
-    const impact::Engagement &now = touch.engagement, &then = was.engagement;
-    // What yields is knocked over at once, and its work is not reckoned.
-    const bool yields = now.given_ns == Vec2(0.0);
-    const Vec2 given_ns = yields ? touch.car_kg * (was.delta_v_mps - touch.delta_v_mps) : now.given_ns - then.given_ns;
-    if (given_ns == Vec2(0.0)) continue;
-    impact::Side own{vehicle::planar_body(model.car.body, state.car),
-                     vehicle::hull_outline(model.car.body, state.car).outline};
-    own.body.heading_rad = heading_rad(state.car.world_from_body.orientation);
-    crash->has_ledger = !yields;
-    note_push(state.tick, {own.body, {}, given_ns, impact::difference(now.ledger, then.ledger)}, *crash);
-    if (!yields) note_crush(now, own, {}, *crash);
-  }
+/// The driver's car as the owner of its hull.
+HullOwner hull_owner(const Model& model, const State& state) {
+  HullOwner owner{
+      driver_participant,
+      {vehicle::planar_body(model.car.body, state.car), vehicle::hull_outline(model.car.body, state.car).outline},
+      model.car.body.mass_centre_x_m};
+  owner.side.body.heading_rad = heading_rad(state.car.world_from_body.orientation);
+  return owner;
 }
 
 /// `out`: lamps with failed bulbs.
@@ -270,8 +224,8 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel)
     note_damage(wheel, wheels_before[wheel].damage, squeeze_m[wheel], state, events);
   follow_motion(model, !met.begun.empty(), before_mps, state);
-  note_hull(met, state, events);
-  record_hull(model, touches_before, met, state);
+  if (!met.over.empty() || !state.hull.touches.empty())
+    note_hull(hull_owner(model, state), touches_before, state.hull, met, state, events);
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const DrivenCar car = driven_car(model, state);
   const Vec3 origin = car.outputs.world_from_vehicle.position_m;

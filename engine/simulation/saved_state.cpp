@@ -18,6 +18,7 @@
 #include "engine/road/position_members.hpp"
 #include "engine/scenario/run/save_scenario.hpp"
 #include "engine/simulation/save_thrown.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "engine/world/world_members.hpp"
 
 namespace septet {
@@ -67,9 +68,10 @@ SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
 SEPTET_MEMBERS(DentState, vehicles, keyframe)
 SEPTET_MEMBERS(CrashedVehicle, id, mass_kg, velocity_mps, angular_velocity_radps)
 SEPTET_MEMBERS(VehicleCrash, first, second, point_m, normal, closing_speed_mps)
+SEPTET_MEMBERS(StandingCrash, vehicle, touch)
 SEPTET_MEMBERS(CarImpact, vehicle, pulse, struck, due_s)
-SEPTET_MEMBERS(LooseBody, id, model, paint, lamps, front_steer_rad, wheel_spin_rad, body, height_m, up, climb_mps,
-               acceleration_mps2, road)
+SEPTET_MEMBERS(LooseBody, id, model, box_size_m, paint, lamps, front_steer_rad, wheel_spin_rad, body, height_m, up,
+               climb_mps, acceleration_mps2, road, hull)
 SEPTET_MEMBERS(BodyContact, first, second, engagement)
 SEPTET_MEMBERS(BodiesState, bodies, contacts)
 SEPTET_MEMBERS(OpenCrash, record, run, last_push, first_at, second_at, first, second, of_contact, debris_j, wheels_j,
@@ -153,19 +155,33 @@ void require_keyframes(const std::vector<EffectKeyframe>& keyframes, StateReader
 }
 
 bool is_sound(const CarImpact& running) {
+  const auto is_mass = [](double mass) { return mass > 0.0; };  // Infinite of what stands fast.
   return impact::is_sound(running.pulse) && impact::is_within(running.due_s, 0.0, impact::longest_pulse_s) &&
-         impact::is_positive(running.struck.mass_kg) && impact::is_positive(running.struck.yaw_inertia_kgm2);
+         is_mass(running.struck.mass_kg) && is_mass(running.struck.yaw_inertia_kgm2);
+}
+
+bool is_sound(const vehicle::HullTouch& touch) {
+  return impact::is_sound(touch.engagement) && impact::is_positive(touch.mass_kg) && std::abs(touch.side) == 1.0 &&
+         impact::is_within(touch.crushed_m, 0.0, longest_crush_m);
 }
 
 bool is_sound(const LooseBody& loose) {
   constexpr double farthest = 1e7;  // In any unit.
+  const impact::Body& body = loose.body;
+  const bool stands_fast = loose.model == box_model() && body.mass_kg == INFINITY &&
+                           body.yaw_inertia_kgm2 == INFINITY && body.velocity_mps == Vec2(0.0) &&
+                           body.yaw_rate_radps == 0.0;
+  const Vec3& size_m = loose.box_size_m;
   return loose.model < vehicle_models().size() && loose.id != driver_participant &&
-         impact::is_positive(loose.body.mass_kg) && impact::is_positive(loose.body.yaw_inertia_kgm2) &&
+         impact::is_within(std::min({size_m.x, size_m.y, size_m.z}), 1e-3, farthest) &&
+         impact::is_within(std::max({size_m.x, size_m.y, size_m.z}), 1e-3, farthest) &&
+         (stands_fast || (impact::is_positive(body.mass_kg) && impact::is_positive(body.yaw_inertia_kgm2))) &&
          impact::is_within(glm::length(loose.up), 0.99, 1.01) && loose.up.z > 0.05 &&
          impact::is_within(loose.body.heading_rad, -farthest, farthest) &&
          impact::is_within(loose.body.yaw_rate_radps, -farthest, farthest) &&
          impact::is_within(loose.height_m, -farthest, farthest) && std::isfinite(loose.climb_mps) &&
-         glm::length(loose.body.mass_centre_m) < farthest && glm::length(loose.body.velocity_mps) < farthest;
+         glm::length(loose.body.mass_centre_m) < farthest && glm::length(loose.body.velocity_mps) < farthest &&
+         std::ranges::all_of(loose.hull.touches, [](const vehicle::HullTouch& touch) { return is_sound(touch); });
 }
 
 /// As no contact is told of two that are one, and none twice.
@@ -179,11 +195,6 @@ void require_sound(const Model& model, const BodiesState& bodies, StateReader& r
   reader.require(std::ranges::is_sorted(bodies.contacts, std::ranges::less_equal{}, pair), wrong);
   for (const BodyContact& contact : bodies.contacts)
     reader.require(contact.first < contact.second && impact::is_sound(contact.engagement), wrong);
-}
-
-bool is_sound(const vehicle::HullTouch& touch) {
-  return impact::is_sound(touch.engagement) && impact::is_positive(touch.car_kg) && std::abs(touch.side) == 1.0 &&
-         impact::is_within(touch.crushed_m, 0.0, longest_crush_m);
 }
 
 /// The record is within what its ticks allow; its numbers are told and reckoned with, and index nothing.
@@ -216,7 +227,7 @@ void restore_effects(const Model& model, StateReader& reader, EffectsState& stat
       reader.require(
           static_cast<int>(part.part) < debris::part_count && static_cast<int>(part.mount) < debris::mount_count,
           wrong);
-  for (const vehicle::HullTouch& touch : state.crashes.struck_standing) reader.require(is_sound(touch), wrong);
+  for (const StandingCrash& struck : state.crashes.struck_standing) reader.require(is_sound(struck.touch), wrong);
 }
 
 void restore_car(const Model& model, StateReader& reader, State& state) {

@@ -132,7 +132,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});
-  advance_bodies(model, state);
+  advance_bodies(model, state, events);
   auto participants = participants_now(model, state, car.participant, std::move(old.participants));
   advance_thrown(model, car, participants, state, events);
   participants.front() = car.participant;

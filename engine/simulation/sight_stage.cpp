@@ -12,6 +12,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/sight/air.hpp"
 #include "engine/sight/line_of_sight.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -91,7 +92,7 @@ Ahead nearest_ahead(const std::vector<Participant>& participants, const Particip
   Ahead nearest;
   for (const Participant& other : participants) {
     if (other.id == driver.id) continue;
-    const VehicleModel& body = vehicle_models()[other.model];
+    const VehicleModel body = shape_of(other);
     const Vec3 away = other.world_from_vehicle * Vec3(body.centre_x_m(), 0.0, 0.0) - view.line.from_m;
     const double ahead_m = glm::dot(away, view.line.direction);
     const double rear_m = ahead_m - 0.5 * body.length_m;

@@ -1,6 +1,7 @@
 #include "engine/simulation/storyboard_stage.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -8,6 +9,7 @@
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -37,7 +39,8 @@ std::vector<traffic::ForeignVehicle> foreign_vehicles(const Model& model, const 
   foreign.reserve(others.size());
   for (const Participant& p : others)
     foreign.push_back({p.id, p.model, p.world_from_vehicle, p.velocity_mps, p.lamps,
-                       find_loose(state, p.id) != nullptr || is_thrown(state, p.id)});
+                       find_loose(state, p.id) != nullptr || is_thrown(state, p.id) || is_box(p),
+                       is_box(p) ? std::optional(box_size_m(p)) : std::nullopt});
   return foreign;
 }
 

@@ -18,6 +18,7 @@
 #include "engine/simulation/bodies/loose_body.hpp"
 #include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/wheel_ground.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -40,7 +41,7 @@ ModelIndex model_named(const char* name) {
 
 person::MovingSolid solid_of(const Participant& vehicle, double mass_kg) {
   person::MovingSolid solid;
-  solid.pieces = person::vehicle_pieces(vehicle_models()[vehicle.model]);
+  solid.pieces = person::vehicle_pieces(shape_of(vehicle));
   solid.world_from_vehicle = vehicle.world_from_vehicle;
   solid.velocity_mps = vehicle.velocity_mps;
   solid.angular_velocity_radps = vehicle.angular_velocity_radps;
@@ -49,7 +50,7 @@ person::MovingSolid solid_of(const Participant& vehicle, double mass_kg) {
 }
 
 bool is_near(const Participant& vehicle, const Vec3& at_m) {
-  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const VehicleModel model = shape_of(vehicle);
   constexpr double beyond_m = 3.0;  // A body's length and the way of a tick.
   return glm::length(vehicle.world_from_vehicle.position_m - at_m) < model.length_m + beyond_m;
 }

@@ -6,6 +6,7 @@
 #include "engine/effects/debris/piece.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/run/resolve_position.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -62,7 +63,7 @@ struct Seen {
 };
 
 Seen seen_on(const Way& way, const Participant& other, double ahead_m) {
-  const VehicleModel& body = vehicle_models()[other.model];
+  const VehicleModel body = shape_of(other);
   const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
   const Vec3 seen = glm::conjugate(way.world_from_way.orientation) * heads;
   // The lane bends: its direction there is not the one here.

@@ -30,7 +30,7 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
                        const CorridorTraffic& traffic, ForeignTraffic& found) {
   const auto x = x_of(network, traffic.corridor, place.position, place.lanes.lane);
   if (!x) return;
-  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const VehicleModel model = vehicle.shape();
   const CorridorPiece& piece = piece_at(traffic.corridor, *x);
   const int lane = std::abs(place.lanes.lane);
   const double offset_left = piece.along_s ? place.lanes.offset_m : -place.lanes.offset_m;
@@ -74,7 +74,7 @@ void place_adrift(const road::RoadNetwork& network, const ForeignVehicle& vehicl
                   const road::RoadPosition* hint, const std::vector<CorridorTraffic>& corridors,
                   std::vector<ForeignTraffic>& found) {
   constexpr int along = 5;  // Less than a lane's width apart on the longest vehicle.
-  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const VehicleModel model = vehicle.shape();
   std::vector<road::Location> points;
   for (int k = 0; k < along; ++k)
     for (const double side : {-0.5, 0.5}) {
@@ -126,7 +126,7 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std:
   for (std::size_t i = 0; i < foreign.size(); ++i) {
     const double now_mps = glm::length(foreign[i].velocity_mps);
     const double before_mps = std::exchange(state.foreign_speeds_mps[i], now_mps);
-    const VehicleModel& model = vehicle_models()[foreign[i].model];
+    const VehicleModel model = foreign[i].shape();
     const Vec3 middle = foreign[i].world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.0);
     auto& hint = state.foreign_places[i];
     const auto place = road::locate(network, {middle.x, middle.y}, hint ? &*hint : nullptr);

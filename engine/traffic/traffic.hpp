@@ -27,6 +27,7 @@
 #include "engine/traffic/lane_way.hpp"
 #include "engine/traffic/line_table.hpp"
 #include "engine/world/limited_sight.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::traffic {
@@ -68,8 +69,11 @@ struct ForeignVehicle {
   RigidTransform world_from_vehicle;
   Vec3 velocity_mps{0.0};
   Lamps lamps;
-  /// It has left the lanes after a crash: it lies as it lies, across several of them or beside.
+  /// It has left the lanes after a crash, or never was on them: it lies as it lies, across several of them or beside.
   bool adrift = false;
+  std::optional<Vec3> box_size_m = {};  ///< Of a box (engine/world/participant_shape.hpp).
+
+  VehicleModel shape() const { return box_size_m ? box_shape(*box_size_m) : vehicle_models()[model]; }
 };
 
 /// An emergency vehicle's demand on a driver.

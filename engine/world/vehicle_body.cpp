@@ -3,6 +3,14 @@
 #include "engine/core/check.hpp"
 
 namespace septet {
+namespace crush_entries {
+namespace {
+
+#define SEPTET_ENTRY(name, ...) constexpr Crush name __VA_ARGS__;
+#include "engine/world/crush.toml.inc"
+
+}  // namespace
+}  // namespace crush_entries
 
 const VehicleBody& vehicle_body(ParticipantKind kind) {
   switch (kind) {
@@ -27,10 +35,7 @@ std::optional<FrontSlope> front_slope(ParticipantKind kind) {
   }
 }
 
-const Crush& passenger_car_crush() {
-#define SEPTET_ENTRY(name, ...) static constexpr Crush name __VA_ARGS__;
-#include "engine/world/crush.toml.inc"
-  return passenger_car;
-}
+const Crush& passenger_car_crush() { return crush_entries::passenger_car; }
+const Crush& box_crush() { return crush_entries::box; }
 
 }  // namespace septet

@@ -29,5 +29,7 @@ struct Crush {
   double harder_times;
 };
 const Crush& passenger_car_crush();
+/// A box (participant_shape.hpp) hardly gives.
+const Crush& box_crush();
 
 }  // namespace septet

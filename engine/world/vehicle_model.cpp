@@ -8,7 +8,7 @@ using enum ParticipantKind;
 // Length, width, height, wheelbase, rear overhang, track, wheel radius. The S80's outer dimensions and tyre are those
 // of the 1999 model (4.822 × 1.831 × 1.435 m, wheelbase 2.791 m, 215/55 R16); the others are plain examples of their
 // class, no longer, wider or higher than 96/53/EC lets them be. Logs and sessions hold indices: new ones come last.
-constexpr std::array<VehicleModel, 35> models{{
+constexpr std::array<VehicleModel, 36> models{{
     {"volvo-s80", car, 4.822, 1.831, 1.435, 2.791, 1.10, 1.57, 0.321},
     {"hatchback", car, 4.05, 1.74, 1.46, 2.55, 0.68, 1.48, 0.305},
     {"saloon", car, 4.62, 1.80, 1.44, 2.77, 0.98, 1.54, 0.316},
@@ -50,6 +50,8 @@ constexpr std::array<VehicleModel, 35> models{{
     // Whose riders were thrown off.
     {"bicycle-alone", bicycle, 1.80, 0.60, 1.05, 1.05, 0.37, 0.0, 0.340},
     {"motorcycle-alone", motorcycle, 2.20, 0.80, 1.10, 1.50, 0.35, 0.0, 0.310},
+    // A scenario's object; each has a size of its own (participant_shape.hpp).
+    {"box", object, 1.0, 1.0, 1.0, 0.0, 0.5, 0.0, 0.0},
 }};
 }  // namespace
 

@@ -154,6 +154,8 @@ class _GroundTruths:
         self._models = session.vehicle_models()
         boxes = [(0.5 * m["length_m"] - m["rear_overhang_m"], 0.0, 0.5 * m["height_m"]) for m in self._models]
         self._middles = np.array(boxes)
+        self._sizes = np.array([(m["length_m"], m["width_m"], m["height_m"]) for m in self._models])
+        self._is_box = np.array([m["name"] == "box" for m in self._models])
         moving = self._objects.MovingObject
         self._kinds = []
         for model in self._models:
@@ -178,21 +180,26 @@ class _GroundTruths:
         columns = {name: np.column_stack([frame[f"{name}{axis}{unit}"] for axis in "xyz"])
                    for name, unit in (("", "_m"), ("velocity_", "_mps"), ("acceleration_", "_mps2"), ("angular_velocity_", "_radps"))}
         spin = columns["angular_velocity_"]
-        to_middle = _turned(quaternions, self._middles[place])
+        sizes, middles, boxes = self._sizes[place], self._middles[place], self._is_box[place]
+        if boxes.any():  # Each has a size of its own, as binary logarithms (engine/world/SNAPSHOT.md).
+            told = np.column_stack([frame[f"lift_{of}_m"] for of in ("front_left", "front_right", "rear_left")])
+            sizes[boxes] = np.exp2(told[boxes])
+            middles[boxes] = 0.5 * sizes[boxes] * (0.0, 0.0, 1.0)
+        to_middle = _turned(quaternions, middles)
         round_it = np.cross(spin, to_middle)
         positions = columns[""] + to_middle
         velocities = columns["velocity_"] + round_it
         accelerations = columns["acceleration_"] + np.cross(spin, round_it)  # The angular acceleration is not logged.
         for row, number in enumerate(snapshot.ids.tolist()):
-            self._add(message.moving_object.add(), number, place[row], positions[row], velocities[row], accelerations[row], spin[row],
+            self._add(message.moving_object.add(), number, place[row], sizes[row], positions[row], velocities[row], accelerations[row], spin[row],
                       quaternions[row], int(frame["lamps"][row]))
         return message
 
-    def _add(self, moving, number, model_index, position, velocity, acceleration, spin, quaternion, lamps):
+    def _add(self, moving, number, model_index, size, position, velocity, acceleration, spin, quaternion, lamps):
         model = self._models[model_index]
         moving.id.value = number
         base = moving.base
-        base.dimension.length, base.dimension.width, base.dimension.height = model["length_m"], model["width_m"], model["height_m"]
+        base.dimension.length, base.dimension.width, base.dimension.height = size
         _set(base.position, *position)
         _set(base.velocity, *velocity)
         _set(base.acceleration, *acceleration)

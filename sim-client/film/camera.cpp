@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/scenery/vehicles/eye_point.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::film {
 namespace {
@@ -14,7 +15,7 @@ constexpr double least_height_m = 0.3;  ///< Least height of a camera above the 
 
 bool is_outside(const Shot& shot) { return shot.distance_m > 0.0; }
 
-const VehicleModel& model_of(const Participant& participant) { return vehicle_models()[participant.model]; }
+VehicleModel model_of(const Participant& participant) { return shape_of(participant); }
 
 /// Participant with `is_meant` that is nearest to the driver's car, the car itself excepted.
 template <class Meant>

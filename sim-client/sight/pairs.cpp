@@ -47,10 +47,7 @@ Expected<std::map<ParticipantId, double>> contacts_of(const logging::SessionRead
 
 }  // namespace
 
-bool has_eyes(const logging::Stay& stay) {
-  const VehicleModel& model = vehicle_models()[stay.model];
-  return model.kind != ParticipantKind::object && scenery::is_driven(model);
-}
+bool has_eyes(const logging::Stay& stay) { return scenery::is_driven(vehicle_models()[stay.model]); }
 
 Expected<std::vector<ChosenPair>> choose_pairs(const logging::SessionReader& session, const PairChoice& choice) {
   const auto stays = logging::stays_of(session);

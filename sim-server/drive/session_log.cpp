@@ -13,6 +13,7 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/scene/command_codec.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "logging/session/input_hash.hpp"
 #include "logging/session/session_reader.hpp"
 #include "logging/session/subject.hpp"
@@ -224,7 +225,7 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
     const auto& position = other.world_from_vehicle.position_m;
     const auto place = road::locate(roads, {position.x, position.y}, &hint);
     if (!place || place->position.road != car.road) continue;
-    const VehicleModel& model = vehicle_models()[other.model];
+    const VehicleModel model = shape_of(other);
     const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
     const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m, model.front_m(), model.width_m};
     if (!road::drivable_lanes_under(roads, place->position, body).contains(car.lane)) continue;

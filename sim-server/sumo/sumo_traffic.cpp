@@ -176,7 +176,7 @@ void SumoTraffic::recycle(Member& member, const road::RoadPosition& middle, doub
 void SumoTraffic::place_foreign(std::span<const ForeignVehicle> foreign, double ahead_s) {
   for (const ForeignVehicle& vehicle : foreign) {
     if (std::ranges::find(given_up_, vehicle.id) != given_up_.end()) continue;
-    const VehicleModel& model = vehicle_models()[vehicle.model];
+    const VehicleModel model = vehicle.shape();
     const Vec3 front = vehicle.world_from_vehicle * Vec3(model.front_m(), 0.0, 0.0) + ahead_s * vehicle.velocity_mps;
     if (std::ranges::find(told_, vehicle.id) == told_.end()) {
       if (network_.edges.empty()) return;

@@ -26,23 +26,42 @@ void add_due(const HullState& hull, const HullTouch* besides, const impact::Body
 }
 
 /// Of the members that a wall meets, a trunk or post presses half.
-Crush crush_at(const Obstacle& obstacle) {
-  Crush crush = passenger_car_crush();
-  if (obstacle.from_m == obstacle.to_m) crush.frequency_radps *= std::sqrt(impact::post_stiffness_share());
-  return crush;
+Crush crush_at(const Obstacle& obstacle, Crush at_wall) {
+  if (obstacle.from_m == obstacle.to_m) at_wall.frequency_radps *= std::sqrt(impact::post_stiffness_share());
+  return at_wall;
 }
+
+class CarHull : public HullBearer {
+ public:
+  CarHull(const BodyParameters& body, VehicleState& state) : body_(body), state_(state) {}
+  Hull hull() const override {
+    const HullOutline whole = hull_outline(body_, state_);
+    return {{planar_body(body_, state_), whole.outline, passenger_car_crush()},
+            whole.low_m,
+            whole.high_m,
+            state_.world_from_body.position_m.z,
+            state_.velocity_mps,
+            state_.world_from_body.orientation * state_.angular_velocity_radps};
+  }
+  void take(const impact::Body& before, const impact::Body& after, double dt_s) override {
+    take_over(before, after, dt_s, state_);
+  }
+
+ private:
+  const BodyParameters& body_;
+  VehicleState& state_;
+};
 
 class Step {
  public:
-  Step(const VehicleParameters& parameters, double dt_s, const impact::Due& due, VehicleState& state, HullState& hull,
-       HullReport& report)
-      : body_(parameters.body), dt_s_(dt_s), due_(due), state_(state), hull_(hull), report_(report) {}
+  Step(double dt_s, const impact::Due& due, HullBearer& bearer, HullState& hull, HullReport& report)
+      : dt_s_(dt_s), due_(due), bearer_(bearer), hull_(hull), report_(report) {}
 
   void meet(std::span<const Obstacle> obstacles) {
-    const HullOutline whole = hull_outline(body_, state_);
+    const Hull whole = bearer_.hull();
     for (HullTouch& touch : hull_.touches) touch.free_s += dt_s_;
-    const Vec2 mass_centre_m(state_.world_from_body.position_m);
-    const auto entered = entered_obstacles(whole, mass_centre_m, obstacles, hull_.touches);
+    const auto entered = entered_obstacles({whole.side.outline, whole.low_m, whole.high_m},
+                                           whole.side.body.mass_centre_m, obstacles, hull_.touches);
     for (HullTouch& touch : hull_.touches) {
       const auto same = [&](const Entered& each) { return each.obstacle->run == touch.run; };
       if (std::ranges::none_of(entered, same)) let_run(touch);
@@ -63,9 +82,7 @@ class Step {
   }
 
  private:
-  impact::Side own_side() const { return {planar_body(body_, state_), hull_outline(body_, state_).outline}; }
-
-  /// What the car's other impacts will still change.
+  /// What the bearer's other impacts will still change.
   impact::Due due_besides(const HullTouch* touch, const impact::Body& body) const {
     impact::Due due = due_;
     add_due(hull_, touch, body, due);
@@ -73,38 +90,39 @@ class Step {
   }
 
   void take(const impact::Body& before, const impact::Side& own, HullTouch& touch) {
-    take_over(before, own.body, dt_s_, state_);
+    bearer_.take(before, own.body, dt_s_);
     if (!touch.over) touch.delta_v_mps += own.body.velocity_mps - before.velocity_mps;
   }
 
   /// Gives what is left of an impact whose obstacle the hull has left.
   void let_run(HullTouch& touch) {
     if (touch.engagement.pulses.empty()) return;
-    impact::Side own = own_side(), other;
+    impact::Side own = bearer_.hull().side, other;
     const impact::Body before = own.body;
     impact::advance_pulses(dt_s_, touch.engagement, own, other);
     take(before, own, touch);
   }
 
-  HullTouch& touch_of(const Entered& entered, const impact::Side& own, bool& fresh) {
+  HullTouch& touch_of(const Entered& entered, const Hull& now, bool& fresh) {
     const Obstacle& obstacle = *entered.obstacle;
     const auto known = std::ranges::find(hull_.touches, obstacle.run, &HullTouch::run);
     fresh = known == hull_.touches.end();
     if (!fresh) return *known;
+    const impact::Side& own = now.side;
     HullTouch touch;
     touch.run = obstacle.run;
     touch.kind = obstacle.kind;
-    touch.velocity_mps = state_.velocity_mps;
-    touch.angular_velocity_radps = state_.world_from_body.orientation * state_.angular_velocity_radps;
+    touch.velocity_mps = now.velocity_mps;
+    touch.angular_velocity_radps = now.angular_velocity_radps;
     touch.side = entered.side;
-    touch.car_kg = body_.mass_kg;
+    touch.mass_kg = own.body.mass_kg;
     impact::Side other;
     other.outline = entered.outline;
     if (const auto at = impact::touch_of(own, other, dt_s_)) {
       const impact::Side then = impact::moved_back(own, at->age_s);
       const Vec2& normal = at->place.normal;
       const Vec2 point_m = impact::engaged_point_m(then.outline, other.outline, at->place, bumper_m);
-      touch.point_m = Vec3(point_m, state_.world_from_body.position_m.z);
+      touch.point_m = Vec3(point_m, now.middle_z_m);
       touch.normal = Vec3(-normal, 0.0);
       touch.closing_speed_mps = glm::dot(impact::velocity_at(own.body, point_m - then.body.mass_centre_m), normal);
     }
@@ -114,12 +132,13 @@ class Step {
 
   void press(const Entered& entered) {
     const Obstacle& obstacle = *entered.obstacle;
-    impact::Side own = own_side(), other;
+    const Hull now = bearer_.hull();
+    impact::Side own = now.side, other;
     other.outline = entered.outline;
     bool fresh = false;
-    HullTouch& touch = touch_of(entered, own, fresh);
+    HullTouch& touch = touch_of(entered, now, fresh);
     touch.free_s = 0.0;
-    own.crush = crush_at(obstacle);
+    own.crush = crush_at(obstacle, own.crush);
     own.crushed_m = touch.crushed_m;
     const impact::Body before = own.body;
     if (obstacle.yielding_kg > 0.0) {
@@ -150,10 +169,9 @@ class Step {
     deepest_m = std::max(deepest_m, touch.crushed_m + along_m);
   }
 
-  const BodyParameters& body_;
   double dt_s_;
   const impact::Due& due_;
-  VehicleState& state_;
+  HullBearer& bearer_;
   HullState& hull_;
   HullReport& report_;
 };
@@ -172,12 +190,18 @@ impact::Due due_to_hull(const HullState& hull, const impact::Body& body) {
   return due;
 }
 
-void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s,
-                  const impact::Due& due, VehicleState& state, HullState& hull, HullReport& report) {
+void advance_hull(std::span<const Obstacle> obstacles, double dt_s, const impact::Due& due, HullBearer& bearer,
+                  HullState& hull, HullReport& report) {
   if (obstacles.empty() && hull.touches.empty()) return;
-  Step step(parameters, dt_s, due, state, hull, report);
+  Step step(dt_s, due, bearer, hull, report);
   step.meet(obstacles);
   step.finish();
+}
+
+void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s,
+                  const impact::Due& due, VehicleState& state, HullState& hull, HullReport& report) {
+  CarHull car(parameters.body, state);
+  advance_hull(obstacles, dt_s, due, car, hull, report);
 }
 
 }  // namespace septet::vehicle

@@ -10,11 +10,12 @@
 namespace septet::vehicle {
 namespace {
 
-constexpr int steps = 8;
 constexpr double creep_mps = 0.05;  ///< Slower wheels are held by less than the whole friction.
 constexpr double still_mps = 0.002, still_radps = 0.002;
 
-void step(const LockedWheels& wheels, double dt_s, impact::Body& body) {
+}  // namespace
+
+void slide(const LockedWheels& wheels, double dt_s, impact::Body& body) {
   const impact::Body before = body;
   for (const LockedWheel& wheel : wheels) {
     const Vec2 arm_m = turned(wheel.arm_m, before.heading_rad);
@@ -26,10 +27,12 @@ void step(const LockedWheels& wheels, double dt_s, impact::Body& body) {
   body.heading_rad += 0.5 * dt_s * (before.yaw_rate_radps + body.yaw_rate_radps);
 }
 
-}  // namespace
-
 void advance_sliding(const LockedWheels& wheels, double dt_s, impact::Body& body) {
-  for (int i = 0; i < steps; ++i) step(wheels, dt_s / steps, body);
+  for (int i = 0; i < sliding_steps; ++i) slide(wheels, dt_s / sliding_steps, body);
+  come_to_rest(body);
+}
+
+void come_to_rest(impact::Body& body) {
   if (glm::length(body.velocity_mps) < still_mps && std::abs(body.yaw_rate_radps) < still_radps) {
     body.velocity_mps = Vec2(0.0);
     body.yaw_rate_radps = 0.0;

@@ -22,7 +22,14 @@ struct LockedWheel {
 };
 using LockedWheels = std::array<LockedWheel, wheel_count>;
 
+/// Steps to a tick: friction is stiff where a body turns slowly.
+inline constexpr int sliding_steps = 8;
+
 /// Moves the body through `dt_s`, about a tick: it slides, turns and comes to rest, velocities exactly 0.
 void advance_sliding(const LockedWheels& wheels, double dt_s, impact::Body& body);
+
+/// One step of these, of the same `dt_s` by sliding_steps; and what ends them.
+void slide(const LockedWheels& wheels, double dt_s, impact::Body& body);
+void come_to_rest(impact::Body& body);
 
 }  // namespace septet::vehicle

@@ -19,7 +19,7 @@ SEPTET_MEMBERS(PowertrainState, engine_radps, engine_torque_nm, engine_running, 
 SEPTET_MEMBERS(BrakeState, pedal, release, stabilising, front_difference, torque_cut)
 SEPTET_MEMBERS(VehicleState, world_from_body, velocity_mps, angular_velocity_radps, wheels, steering, powertrain,
                brakes, acceleration_mps2, whole_acceleration_mps2, angular_acceleration_radps2, bad_numbers)
-SEPTET_MEMBERS(HullTouch, run, kind, point_m, normal, velocity_mps, angular_velocity_radps, closing_speed_mps, car_kg,
+SEPTET_MEMBERS(HullTouch, run, kind, point_m, normal, velocity_mps, angular_velocity_radps, closing_speed_mps, mass_kg,
                engagement, crushed_m, delta_v_mps, age_s, free_s, side, over)
 SEPTET_MEMBERS(HullState, crush_m, touches)
 

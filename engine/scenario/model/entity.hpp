@@ -59,7 +59,7 @@ struct Entity {
 /// Kind of a vehicle of this category (OpenSCENARIO's word); a car for the rest.
 ParticipantKind kind_of_category(std::string_view category);
 
-/// The model of the same name as the entity's type; else the one that its role, category and name suggest
+/// Of an object the box (participant_shape.hpp). Else the model of the same name as the entity's type; else the one that its role, category and name suggest
 /// ("car_police"); else, among those of its kind (category and role), the one nearest in length, width and height; else
 /// the nearest of any kind.
 ModelIndex match_vehicle_model(const Entity& entity);

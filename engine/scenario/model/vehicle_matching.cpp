@@ -6,13 +6,13 @@
 #include <string_view>
 
 #include "engine/scenario/model/entity.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::scenario {
 namespace {
 
 ParticipantKind kind_of(const Entity& entity) {
   if (entity.kind == EntityKind::pedestrian) return ParticipantKind::pedestrian;
-  if (entity.kind == EntityKind::misc_object) return ParticipantKind::object;
   if (entity.role == "ambulance") return ParticipantKind::ambulance;
   if (entity.role == "fire") return ParticipantKind::lorry;
   return kind_of_category(entity.category);
@@ -51,7 +51,7 @@ std::string_view told_model(const Entity& entity) {
 /// True for models that are never chosen by their measures alone.
 bool is_told_by_name_alone(std::string_view model) {
   for (const std::string_view name : {"taxi", "police-car", "police-van", "fire-engine", "farm-tractor", "caravan",
-                                      "semitrailer", "tractor-unit", "bicycle-alone", "motorcycle-alone"})
+                                      "semitrailer", "tractor-unit", "bicycle-alone", "motorcycle-alone", "box"})
     if (model == name) return true;
   return false;
 }
@@ -73,6 +73,7 @@ ParticipantKind kind_of_category(std::string_view category) {
 }
 
 ModelIndex match_vehicle_model(const Entity& entity) {
+  if (entity.kind == EntityKind::misc_object) return box_model();
   if (const auto same_name = find_vehicle_model(entity.type_name)) return *same_name;
   if (entity.kind == EntityKind::vehicle)
     if (const auto told = find_vehicle_model(told_model(entity))) return *told;

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/scenario/model/misc_object.hpp"
 #include "engine/scenario/read/scenario_reading.hpp"
-#include "engine/world/breakable_names.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -59,11 +59,12 @@ void read_object(const Element& object, Entity& entity) {
   } else {
     entity.kind = EntityKind::misc_object;
     entity.category = object.text("miscObjectCategory");
-    if (std::ranges::find(breakable_names, entity.type_name) == breakable_names.end())
-      object.warning(fmt::format("an object called \"{}\" is not drawn, and nobody can hit it", entity.type_name),
-                     fmt::format("call it one of {}", fmt::join(breakable_names, ", ")));
   }
   entity.box = read_bounding_box(object);
+  if (object_form(entity) == ObjectForm::flat)
+    object.warning(
+        fmt::format("what lies flat on the road (\"{}\") is not drawn, and nobody can hit it", entity.category),
+        "paint it in the road file, or give it another category");
   for (const Element& property : object.child("Properties").children("Property")) {
     entity.properties[property.label("name")] = property.label("value");
   }

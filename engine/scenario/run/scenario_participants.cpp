@@ -2,10 +2,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scenario/model/misc_object.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/world/indicator.hpp"
 #include "engine/world/limbs.hpp"
 #include "engine/world/paint.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -25,6 +27,20 @@ Lamps lamps_now(const EntityState& entity, ParticipantId id, double time_s) {
   return lamps;
 }
 
+Participant box_participant(ParticipantId id, const Entity& entity, const EntityState& from) {
+  Participant box;
+  box.id = id;
+  box.model = entity.model;
+  box.paint = static_cast<std::uint8_t>(id % body_colors.size());
+  set_box_size({entity.box.length_m, entity.box.width_m, entity.box.height_m}, box);
+  box.world_from_vehicle = from.world_from_entity;
+  box.world_from_vehicle.position_m = from.world_from_entity * foot_of_box_m(entity);
+  box.velocity_mps = from.velocity_mps;
+  box.acceleration_mps2 = from.acceleration_vector_mps2;
+  box.angular_velocity_radps = from.angular_velocity_radps;
+  return box;
+}
+
 }  // namespace
 
 void append_participants(const Scenario& scenario, const ScenarioState& state, ParticipantId first_id,
@@ -32,9 +48,12 @@ void append_participants(const Scenario& scenario, const ScenarioState& state, P
   for (EntityIndex i = 0; i < state.entities.size(); ++i) {
     const EntityState& from = state.entities[i];
     const Entity& entity = scenario.entities[i];
-    // Objects are no participants: the effects stage makes breakable things of them.
-    if (!from.active || from.external || entity.kind == EntityKind::misc_object) continue;
-    if (from.at_road_end_s > 0.0) continue;
+    if (!from.active || from.external || from.at_road_end_s > 0.0) continue;
+    if (entity.kind == EntityKind::misc_object) {
+      // The effects stage makes things of those that break.
+      if (object_form(entity) == ObjectForm::box) participants.push_back(box_participant(first_id + i, entity, from));
+      continue;
+    }
     Participant participant;
     participant.id = first_id + i;
     participant.model = entity.model;

@@ -41,6 +41,8 @@ VehicleParts vehicle_parts(const VehicleModel& model) {
       return motorcycle_parts(model);
     case ParticipantKind::pedestrian:
       return pedestrian_parts(model);
+    case ParticipantKind::object:
+      return box_parts();
     default:
       if (model.name == "caravan") return caravan_parts(model);
       return car_parts(model);

@@ -47,6 +47,7 @@ VehicleParts caravan_parts(const VehicleModel& model);
 VehicleParts bicycle_parts(const VehicleModel& model);
 VehicleParts motorcycle_parts(const VehicleModel& model);
 VehicleParts pedestrian_parts(const VehicleModel& model);
+VehicleParts box_parts();  ///< Of a metre each way; frames stretch it (instant::DrawnParticipant).
 /// Parts of a vehicle as its driver, rider or walker sees them who looks out of it: all near ones without its panes and
 /// without that person's head (of those who sit, body), with dashboard, steering wheel and mirrors. Empty for what is
 /// towed, and for the model with a cockpit (interior_parts).

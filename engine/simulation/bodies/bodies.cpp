@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "engine/roadside/ground_beside.hpp"
+#include "engine/scenario/model/misc_object.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
+#include "engine/simulation/bodies/loose_hull.hpp"
+#include "engine/simulation/hull_crashes.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/wheel_ground.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -34,26 +39,47 @@ vehicle::WheelGround ground_below(const Model& model, const State& state, const 
   return ground;
 }
 
-/// Sets the body onto the ground below its wheels; returns their frictions.
+/// Sets the body onto the ground below its feet; returns their frictions.
 std::array<double, vehicle::wheel_count> stand_on_ground(const Model& model, const State& state, LooseBody& loose) {
-  const VehicleModel& shape = vehicle_models()[loose.model];
-  const RigidTransform world_from_vehicle = participant_of(loose).world_from_vehicle;
+  const Participant now = participant_of(loose);
+  const auto feet = feet_m(loose);
   std::array<double, vehicle::wheel_count> friction{};
   Vec3 up(0.0);
   std::array<double, 2> axle_m{};  // Height of the ground below the front axle and the rear one.
   for (std::size_t i = 0; i < friction.size(); ++i) {
-    const Vec3 wheel_m(i < 2 ? shape.wheelbase_m : 0.0, (i % 2 == 0 ? 0.5 : -0.5) * shape.track_m,
-                       shape.wheel_radius_m);
-    const vehicle::WheelGround ground = ground_below(model, state, world_from_vehicle * wheel_m, loose);
+    const vehicle::WheelGround ground = ground_below(model, state, now.world_from_vehicle * feet[i], loose);
     friction[i] = ground.friction;
     up += ground.normal;
     axle_m[i / 2] += 0.5 * ground.point_m.z;
   }
   const double before_m = loose.height_m;
-  loose.height_m = axle_m[1];
+  // The origin of a vehicle is below its rear axle, of a box in its middle.
+  loose.height_m = is_box(now) ? 0.5 * (axle_m[0] + axle_m[1]) : axle_m[1];
   loose.up = glm::normalize(up);
   loose.climb_mps = (loose.height_m - before_m) / tick_s;
   return friction;
+}
+
+/// Slides through a tick, step by step against what stands in the way.
+void slide_on(const Model& model, LooseBody& loose, State& state, std::vector<Event>& events) {
+  const Vec2 before_mps = loose.body.velocity_mps;
+  const auto wheels = locked_wheels(loose, stand_on_ground(model, state, loose));
+  const std::vector<Obstacle> obstacles = obstacles_near(model, loose);
+  if (obstacles.empty() && loose.hull.touches.empty()) {
+    vehicle::advance_sliding(wheels, tick_s, loose.body);
+  } else {
+    constexpr double step_s = tick_s / vehicle::sliding_steps;
+    const std::vector<vehicle::HullTouch> touches_before = loose.hull.touches;
+    vehicle::HullReport met;
+    for (int i = 0; i < vehicle::sliding_steps; ++i) {
+      vehicle::slide(wheels, step_s, loose.body);
+      meet_obstacles(obstacles, step_s, due_of_contacts(state, loose.id, loose.body), loose, met);
+    }
+    vehicle::come_to_rest(loose.body);
+    note_hull({loose.id, side_of(loose), mass_centre_ahead_m(model, participant_of(loose))}, touches_before, loose.hull,
+              met, state, events);
+  }
+  loose.acceleration_mps2 = (loose.body.velocity_mps - before_mps) / tick_s;
 }
 
 }  // namespace
@@ -77,23 +103,24 @@ bool give_up_rails(const Model& model, ParticipantId id, const Participant& car,
   return true;
 }
 
+bool may_leave_rails(const Model& model, const Participant& participant) {
+  if (is_box(participant)) return std::isfinite(mass_kg(model, participant)) || participant.velocity_mps == Vec3(0.0);
+  return has_four_wheels(vehicle_models()[participant.model].kind);
+}
+
 bool leave_rails(const Model& model, const Participant& participant, const Participant& car, State& state,
                  std::vector<Event>& events) {
-  if (!has_four_wheels(vehicle_models()[participant.model].kind)) return false;
+  if (!may_leave_rails(model, participant)) return false;
   if (!give_up_rails(model, participant.id, car, state, events)) return false;
   state.bodies.bodies.push_back(loose_body(participant, mass_kg(model, participant)));
   return true;
 }
 
-void advance_bodies(const Model& model, State& state) {
+void advance_bodies(const Model& model, State& state, std::vector<Event>& events) {
   for (LooseBody& loose : state.bodies.bodies) {
     loose.acceleration_mps2 = Vec2(0.0);
     loose.climb_mps = 0.0;
-    if (!moves(loose.body)) continue;
-    const Vec2 before_mps = loose.body.velocity_mps;
-    const auto friction = stand_on_ground(model, state, loose);
-    vehicle::advance_sliding(locked_wheels(vehicle_models()[loose.model], friction), tick_s, loose.body);
-    loose.acceleration_mps2 = (loose.body.velocity_mps - before_mps) / tick_s;
+    if (moves(loose.body) || is_engaged(loose)) slide_on(model, loose, state, events);
   }
 }
 
@@ -101,8 +128,12 @@ void place_in_storyboard(const Model& model, State& state) {
   for (const LooseBody& loose : state.bodies.bodies) {
     if (!is_scripted(loose.id)) continue;
     const Participant now = participant_of(loose);
-    scenario::place_external(model.roads, loose.id - first_scripted_participant, now.world_from_vehicle,
-                             now.velocity_mps, now.acceleration_mps2, state.scenario);
+    const scenario::EntityIndex entity = loose.id - first_scripted_participant;
+    RigidTransform world_from_entity = now.world_from_vehicle;
+    if (is_box(now))
+      world_from_entity.position_m = now.world_from_vehicle * -scenario::foot_of_box_m(model.scenario.entities[entity]);
+    scenario::place_external(model.roads, entity, world_from_entity, now.velocity_mps, now.acceleration_mps2,
+                             state.scenario);
   }
 }
 

@@ -22,13 +22,18 @@ LooseBody* find_loose(State& state, ParticipantId id);
 bool give_up_rails(const Model& model, ParticipantId id, const Participant& car, State& state,
                    std::vector<Event>& events);
 
-/// Takes a vehicle off its rails as it moves now. False, and nothing has changed: its kind is never loose
-/// (has_four_wheels), or its traffic engine keeps it. Events are appended.
+/// True for vehicles on four wheels and for boxes; false for a box that is moved by its script and has no mass by which
+/// it could be pushed.
+bool may_leave_rails(const Model& model, const Participant& participant);
+
+/// Takes it off its rails as it moves now. False, and nothing has changed: it may not leave them, or its traffic engine
+/// keeps it. Events are appended.
 bool leave_rails(const Model& model, const Participant& participant, const Participant& car, State& state,
                  std::vector<Event>& events);
 
-/// Moves all by their wheels for a tick. Contacts push them afterwards (collisions.hpp).
-void advance_bodies(const Model& model, State& state);
+/// Moves all by their wheels for a tick, against what stands beside the road (loose_hull.hpp). Contacts push them
+/// afterwards (collisions.hpp). Events are appended.
+void advance_bodies(const Model& model, State& state, std::vector<Event>& events);
 
 /// Tells the storyboard where those are that were its own.
 void place_in_storyboard(const Model& model, State& state);

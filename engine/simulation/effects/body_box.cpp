@@ -2,12 +2,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/physics/impact/restitution.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::simulation {
 debris::Box body_box(const Participant& participant) {
-  const VehicleModel& model = vehicle_models()[participant.model];
+  const VehicleModel model = shape_of(participant);
   const double low = vehicle_body(model.kind).clearance_m, high = model.height_m;
   const Vec3 centre(model.centre_x_m(), 0.0, 0.5 * (low + high));
   const Vec3 arm = participant.world_from_vehicle.orientation * centre;
@@ -25,10 +25,15 @@ debris::Box body_box(const Participant& participant) {
   return box;
 }
 
-impact::Outline outline_of(const debris::Box& box) {
+double corner_m(const Participant& participant) {
+  constexpr double box_corner_m = 0.02;  // Of a carton or a crate.
+  return is_box(participant) ? box_corner_m : impact::vehicle_corner_m();
+}
+
+impact::Outline outline_of(const debris::Box& box, double corner_m) {
   const Vec2 forward(box.world_from_box.orientation * Vec3(1.0, 0.0, 0.0));
   return impact::box_outline(Vec2(box.world_from_box.position_m), glm::normalize(forward), Vec2(box.half_size_m),
-                             impact::vehicle_corner_m());
+                             corner_m);
 }
 
 }  // namespace septet::simulation

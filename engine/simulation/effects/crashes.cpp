@@ -78,12 +78,13 @@ void crash_of_vehicles(const Participant& first, const Participant& second, cons
   memory.parts[second.id] = std::move(blow.second.parts);
 }
 
-/// Uses the car's motion at the first touch; its hull has taken the impact itself.
-void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch, const debris::ContactWorld& world,
-                         CrashMemory& memory, debris::State& debris, Random& random, CrashOutcome& outcome) {
+/// Uses the vehicle's motion at the first touch; its hull has taken the impact itself.
+void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch, ParticipantId driver,
+                         const debris::ContactWorld& world, CrashMemory& memory, debris::State& debris, Random& random,
+                         CrashOutcome& outcome) {
   if (touch.closing_speed_mps < debris::least_crash_speed_mps) return;
   debris::Crash blow;
-  blow.first = body_of(car, touch.car_kg, memory.parts);
+  blow.first = body_of(car, touch.mass_kg, memory.parts);
   blow.first.box.angular_velocity_radps = touch.angular_velocity_radps;
   blow.first.box.velocity_mps = touch.velocity_mps;
   blow.point_m = touch.point_m;
@@ -94,11 +95,22 @@ void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch
   blow.second.box.half_size_m = Vec3(half_m);
   const double kinetic_j = throw_parts(car, blow, world, memory, debris, random, outcome);
   outcome.broken_off.push_back({car.id, std::nullopt, touch.run, blow.first.impulse_ns, Vec3(0.0), kinetic_j});
-  outcome.impulse_on_driver_ns += blow.first.impulse_ns;
+  if (car.id == driver) outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   for (const MadeDent& dent : dents_of_touch(car, touch)) outcome.dents.push_back(dent);
 }
 
+bool are_level(const debris::Box& a, const debris::Box& b) {
+  const double apart_m = std::abs(a.world_from_box.position_m.z - b.world_from_box.position_m.z);
+  return apart_m <= a.half_size_m.z + b.half_size_m.z;
+}
+
 }  // namespace
+
+bool overlap(const Participant& a, const Participant& b) {
+  const debris::Box first = body_box(a), second = body_box(b);
+  return are_level(first, second) &&
+         impact::contact_of(outline_of(first, corner_m(a)), outline_of(second, corner_m(b))).has_value();
+}
 
 double contact_height_m(const debris::Box& a, const debris::Box& b) {
   const auto low = [](const debris::Box& box) { return box.world_from_box.position_m.z - box.half_size_m.z; };
@@ -107,8 +119,7 @@ double contact_height_m(const debris::Box& a, const debris::Box& b) {
 }
 
 std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b) {
-  const double apart_m = std::abs(a.world_from_box.position_m.z - b.world_from_box.position_m.z);
-  if (apart_m > a.half_size_m.z + b.half_size_m.z) return std::nullopt;
+  if (!are_level(a, b)) return std::nullopt;
   const auto contact = impact::contact_of(outline_of(a), outline_of(b));
   if (!contact) return std::nullopt;
   return BoxContact{Vec3(contact->place.point_m, contact_height_m(a, b)), Vec3(-contact->place.normal, 0.0),
@@ -125,9 +136,9 @@ CrashOutcome advance_crashes(const std::vector<Participant>& participants, Parti
     if (first != participants.end() && second != participants.end())
       crash_of_vehicles(*first, *second, struck, driver, world, memory, debris, random, outcome);
   }
-  if (const auto car = find(driver); car != participants.end())
-    for (const vehicle::HullTouch& touch : memory.struck_standing)
-      crash_with_standing(*car, touch, world, memory, debris, random, outcome);
+  for (const StandingCrash& struck : memory.struck_standing)
+    if (const auto vehicle = find(struck.vehicle); vehicle != participants.end())
+      crash_with_standing(*vehicle, struck.touch, driver, world, memory, debris, random, outcome);
   memory.struck_vehicles.clear();
   memory.struck_standing.clear();
   return outcome;

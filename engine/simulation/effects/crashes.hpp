@@ -2,8 +2,8 @@
 /// Crashes for the effects: the pair in contact, the normal, and the parts broken off.
 ///
 /// Vehicles are boxes. The first tick of a contact is the crash; broken-off parts are remembered, so that no car loses
-/// the same bumper twice. Vehicles take their impacts in simulation/collisions, the driver's car that of obstacles
-/// beside the road in vehicle::advance_hull.
+/// the same bumper twice. Vehicles take their impacts in simulation/collisions, those with obstacles beside the road in
+/// vehicle::advance_hull.
 
 #include <cstdint>
 #include <map>
@@ -36,10 +36,16 @@ struct VehicleCrash {
   double closing_speed_mps = 0.0;  ///< Along the normal, of the surfaces.
 };
 
+/// A vehicle's touch of an obstacle beside the road, as it began.
+struct StandingCrash {
+  ParticipantId vehicle = 0;
+  vehicle::HullTouch touch;
+};
+
 struct CrashMemory {
   /// Crashes of two vehicles since the effects' last step, in order of contact: for the next step.
   std::vector<VehicleCrash> struck_vehicles;
-  std::vector<vehicle::HullTouch> struck_standing;  ///< Obstacles beside the road, likewise.
+  std::vector<StandingCrash> struck_standing;  ///< With obstacles beside the road, likewise.
   MountedParts parts;
 };
 
@@ -79,8 +85,9 @@ struct BoxContact {
 /// Middle of the heights that both boxes have.
 double contact_height_m(const debris::Box& a, const debris::Box& b);
 std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b);
+bool overlap(const Participant& a, const Participant& b);
 
-/// Computes the crashes that `memory` names; standing things are met by the driver's car.
+/// Computes the crashes that `memory` names.
 CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,
                              const debris::ContactWorld& world, CrashMemory& memory, debris::State& debris,
                              Random& random);

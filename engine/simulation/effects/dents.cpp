@@ -11,6 +11,7 @@
 #include "engine/roadside/obstacle_profile.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/effects/crashes.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::simulation {
@@ -86,7 +87,7 @@ void add_dent(const Participant& vehicle, const Vec2& inwards, double depth_m, c
 
 /// Height of a vehicle at its side that faces `outwards`: of its bonnet before its slope, else of the whole body.
 double struck_height_m(const Participant& vehicle, const Vec2& outwards) {
-  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const VehicleModel model = shape_of(vehicle);
   const Vec3 local = inverse(vehicle.world_from_vehicle).orientation * Vec3(outwards, 0.0);
   const auto slope = front_slope(model.kind);
   return slope && local.x > std::abs(local.y) ? slope->edge_height * model.height_m : model.height_m;
@@ -120,9 +121,14 @@ std::optional<DentingShape> denting_shape(ObstacleKind kind) {
 
 std::vector<MadeDent> dents_of_crash(const Participant& first, const Participant& second, const VehicleCrash& struck) {
   std::vector<MadeDent> made;
-  const double closing_mps = struck.closing_speed_mps, both_kg = struck.first.mass_kg + struck.second.mass_kg;
-  const double first_m = debris::residual_crush_m(closing_mps * struck.second.mass_kg / both_kg),
-               second_m = debris::residual_crush_m(closing_mps * struck.first.mass_kg / both_kg);
+  // Each takes the other's share of the mass; of what stands fast, all.
+  const auto share = [](double own_kg, double other_kg) {
+    return std::isfinite(own_kg) ? 1.0 / (1.0 + own_kg / other_kg) : 0.0;
+  };
+  const double closing_mps = struck.closing_speed_mps, first_kg = struck.first.mass_kg,
+               second_kg = struck.second.mass_kg;
+  const double first_m = debris::residual_crush_m(closing_mps * share(first_kg, second_kg)),
+               second_m = debris::residual_crush_m(closing_mps * share(second_kg, first_kg));
   const Vec2 away(struck.normal);
   if (!(glm::length(away) > 0.5)) return made;
   const Vec2 inwards = glm::normalize(away);

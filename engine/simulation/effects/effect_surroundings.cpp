@@ -10,6 +10,7 @@
 #include "engine/effects/debris/piece.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/simulation/effects/body_box.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -67,7 +68,7 @@ std::vector<debris::Box> vehicle_boxes(const EffectsWorld& world, const debris::
     if (shard.velocity_mps != Vec3(0.0)) places.push_back(shard.position_m);
   std::vector<debris::Box> boxes;
   for (const Participant& participant : world.participants) {
-    const VehicleModel& model = vehicle_models()[participant.model];
+    const VehicleModel model = shape_of(participant);
     const double reach =
         0.5 * model.length_m + 3.5 + glm::length(participant.velocity_mps) * 2.0 * world.tick_s * effects_step_ticks;
     const Vec3 centre = participant.world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.5 * model.height_m);

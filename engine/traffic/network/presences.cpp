@@ -49,7 +49,7 @@ double along_way_m(const road::RoadNetwork& network, const Way& way, double s_m)
 
 std::vector<Touch> touched_ways(const road::RoadNetwork& network, const LaneGraph& graph,
                                 const ForeignVehicle& vehicle) {
-  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const VehicleModel model = vehicle.shape();
   std::vector<Touch> touched;
   const int along = 2 + static_cast<int>(model.length_m / 2.0);
   const double half_m = std::max(0.1, 0.5 * model.width_m - over_line_m);
@@ -98,7 +98,7 @@ void add_foreign(const road::RoadNetwork& network, const LaneGraph& graph, const
                  std::int32_t who, double stands_s, std::vector<Presence>& all) {
   const double mps = glm::length(vehicle.velocity_mps);
   const Vec3 heading = vehicle.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
-  const double length_m = vehicle_models()[vehicle.model].length_m;
+  const double length_m = vehicle.shape().length_m;
   const bool is_emergency = vehicle.lamps.has(Lamp::siren);
   for (const Touch& touch : touched_ways(network, graph, vehicle)) {
     const Way& way = graph.ways[touch.way];

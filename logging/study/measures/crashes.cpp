@@ -19,12 +19,20 @@ namespace {
 /// A touch of what stands is told when its impact is over, at most so long after it began.
 constexpr double told_after_ticks = 40.0;
 
+/// The detail begins with what stands; two participants have each other's numbers.
+bool is_with_standing(const Event& touch) {
+  return touch.kind == "crash_of_others" ? !number_in_detail(touch.detail, "with") : !touch.participant;
+}
+
 bool are_those_of(const Event& touch, const CrashRecord& crash) {
-  if (touch.kind == "crash_of_others")
+  const bool of_others = touch.kind == "crash_of_others";
+  if (is_with_standing(touch))
+    return !crash.stands.empty() && touch.detail.starts_with(crash.stands) &&
+           (!of_others || touch.participant == crash.first);
+  if (of_others)
     return crash.second && touch.participant == crash.first &&
            number_in_detail(touch.detail, "with") == static_cast<double>(*crash.second);
-  if (touch.participant) return crash.second == touch.participant;
-  return !crash.stands.empty() && touch.detail.starts_with(crash.stands);
+  return crash.second == touch.participant;
 }
 
 std::string body_text(std::string_view who, const CrashedBody& body) {
@@ -52,7 +60,7 @@ std::optional<CrashRecord> crash_of(const Event& touch, std::span<const CrashRec
   const CrashRecord* found = nullptr;
   for (const CrashRecord& crash : crashes) {
     const double after = static_cast<double>(touch.tick) - static_cast<double>(crash.tick);
-    const double latest = touch.participant ? 0.0 : told_after_ticks;
+    const double latest = is_with_standing(touch) ? told_after_ticks : 0.0;
     if (!(after >= 0.0 && after <= latest) || !are_those_of(touch, crash)) continue;
     // The driver's car has the least number of all.
     if (!found || crash.first < found->first) found = &crash;

@@ -124,6 +124,10 @@ std::string collision_text(const Event& event) {
 std::string crash_of_others_text(const Event& event) {
   const auto with = value_of(event.detail, "with"), by = value_of(event.detail, "by"),
              closing = value_of(event.detail, "closing_speed_mps");
+  if (event.participant && closing && !with)
+    return fmt::format("participant {} ran into {} at a closing speed of {}", *event.participant,
+                       std::string_view(event.detail).substr(0, event.detail.find(" closing_speed_mps=")),
+                       kmh_of(*closing));
   if (!event.participant || !with || !by || !closing) return event.detail;
   const std::string first = fmt::format("{}", *event.participant);
   return fmt::format("participant {} ran into {} at a closing speed of {}", *by, *by == first ? *with : first,

@@ -85,7 +85,9 @@ Contact contact_of(const logging::Event& event, ParticipantId driver) {
   const auto with = logging::number_in_detail(event.detail, "with");
   if (event.participant && with && *with >= 0.0 && *with <= std::numeric_limits<ParticipantId>::max())
     contact.first = *event.participant, contact.second = static_cast<ParticipantId>(*with);
-  if (!event.participant) {
+  const bool is_wreck = event.kind == "crash_of_others" && event.participant && !with;
+  if (is_wreck) contact.first = *event.participant, contact.second = std::nullopt;
+  if (!event.participant || is_wreck) {
     // "guard rail closing_speed_mps=…": what stands is told before the first key.
     std::string words = event.detail.substr(0, event.detail.find('='));
     words.erase(std::min(words.size(), words.find_last_of(' ') == std::string::npos ? 0 : words.find_last_of(' ')));

@@ -1,5 +1,6 @@
 #include "sim-client/film/overlay/overlay_content.hpp"
 #include "engine/math/speed_units.hpp"
+#include "engine/world/participant_shape.hpp"
 
 #include <algorithm>
 #include <array>
@@ -96,7 +97,7 @@ void add_way(const OverlayMoment& moment, const instant::FrameView& view, std::s
     add(past_m, thick_px, 235);
   }
   if (const Participant* now = find_participant(moment.world, moment.people[n].number)) {
-    const VehicleModel& model = vehicle_models()[now->model];
+    const VehicleModel model = shape_of(*now);
     const double front = model.front_m(), rear = -model.rear_overhang_m, side = model.width_m / 2.0;
     std::vector<Vec3> outline_m;
     for (const Vec3& corner : {Vec3(front, side, 0.0), Vec3(rear, side, 0.0), Vec3(rear, -side, 0.0),
@@ -110,7 +111,7 @@ void add_label(const OverlayMoment& moment, const instant::FrameView& view, std:
                const OverlaySizes& sizes, OverlayContent& content) {
   const Participant* now = find_participant(moment.world, moment.people[n].number);
   if (!now) return;
-  const VehicleModel& model = vehicle_models()[now->model];
+  const VehicleModel model = shape_of(*now);
   const auto pixel = pixel_of(view, now->world_from_vehicle * Vec3(model.centre_x_m(), 0.0, model.height_m + 0.3));
   if (!pixel) return;
   const auto width =

@@ -75,23 +75,24 @@ TEST_CASE("what is not supported is named with its line") {
   CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <OffroadCondition>"));
 }
 
-TEST_CASE("an object that nobody will see is named with its line, and one that can break is not") {
-  const auto warnings_of = [](const std::string& name) {
+TEST_CASE("an object that nobody will see is named with its line, and one that stands or breaks is not") {
+  const auto warnings_of = [](const std::string& name, const std::string& category) {
     std::string text = scenario_text("", "");
     text.insert(
         text.find("</Entities>"),
-        "\n<ScenarioObject name=\"thing\"><MiscObject name=\"" + name +
-            "\" miscObjectCategory=\"obstacle\" mass=\"5\"><BoundingBox><Center x=\"0\" y=\"0\" z=\"0.4\"/>"
+        "\n<ScenarioObject name=\"thing\"><MiscObject name=\"" + name + "\" miscObjectCategory=\"" + category +
+            "\" mass=\"5\"><BoundingBox><Center x=\"0\" y=\"0\" z=\"0.4\"/>"
             "<Dimensions width=\"0.8\" length=\"0.8\" height=\"0.8\"/></BoundingBox></MiscObject></ScenarioObject>");
     std::vector<Finding> warnings;
     const auto scenario = read_scenario(text, "test.xosc", files_in("."), &warnings);
     REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
     return warnings;
   };
-  const auto carton = warnings_of("carton");
-  REQUIRE(carton.size() == 1);
-  CHECK(describe(carton[0].error).find("<MiscObject>: an object called \"carton\" is not drawn") != std::string::npos);
-  CHECK(warnings_of("traffic-cone").empty());
+  const auto paint = warnings_of("arrow", "roadMark");
+  REQUIRE(paint.size() == 1);
+  CHECK(describe(paint[0].error).find("<MiscObject>: what lies flat on the road (\"roadMark\")") != std::string::npos);
+  CHECK(warnings_of("carton", "obstacle").empty());
+  CHECK(warnings_of("traffic-cone", "obstacle").empty());
 }
 
 TEST_CASE("a wrong file names line element and remedy") {

@@ -58,7 +58,7 @@ struct CrashSite {
     state.car.world_from_body.orientation =
         glm::angleAxis(turn_rad, Vec3(0.0, 0.0, 1.0)) * state.car.world_from_body.orientation;
     if (with_wheels) {
-      advance_bodies(model, state);
+      advance_bodies(model, state, events);
     } else {
       for (LooseBody& loose : state.bodies.bodies) {
         loose.body.mass_centre_m += tick_s * loose.body.velocity_mps;

@@ -122,9 +122,9 @@ TEST_CASE(
   touch.normal = {-1.0, 0.0, 0.0};
   touch.velocity_mps = {15.0, 0.0, 0.0};
   touch.closing_speed_mps = 15.0;
-  touch.car_kg = 1545.0;
+  touch.mass_kg = 1545.0;
   CrashMemory memory;
-  memory.struck_standing = {touch};
+  memory.struck_standing = {{1, touch}};
   debris::State debris;
   Random random(1);
   const CrashOutcome outcome = advance_crashes(stopped, 1, {}, memory, debris, random);

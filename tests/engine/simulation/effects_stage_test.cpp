@@ -202,8 +202,8 @@ TEST_CASE("a car that runs into what stands beside the road throws parts in the 
     touch.normal = -forward;
     touch.velocity_mps = closing_mps * forward;
     touch.closing_speed_mps = closing_mps;
-    touch.car_kg = 1545.0;
-    state.crashes.struck_standing = {touch};
+    touch.mass_kg = 1545.0;
+    state.crashes.struck_standing = {{1, touch}};
     const EffectsReport report = run(participants, state, 2, 2);
     CHECK(report.crashes.crashes == (closing_mps > 3.0 ? 1 : 0));
     CHECK((report.crashes.pieces > 0) == (closing_mps > 3.0));

@@ -262,7 +262,7 @@ TEST_CASE("a state that was changed with care is refused or is one that can be d
   for (std::uint32_t run = 0; run < 20; ++run) {
     vehicle::HullTouch& touch = drive.state.hull.touches.emplace_back();
     touch.run = run;
-    touch.car_kg = car.mass_kg;
+    touch.mass_kg = car.mass_kg;
     touch.engagement.pulses.push_back(impact::pulse_of(*impulse, {1.0, 0.0}, curve, 0.1));
     touch.engagement.first.each[0] = {{1.0, 0.0}, 1.9};
     touch.engagement.first.count = 1;
