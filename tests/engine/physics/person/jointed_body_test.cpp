@@ -62,8 +62,9 @@ Throw thrown(const char* name, double speed_mps, JointedBody body = walker()) {
     vehicle.velocity_mps.y = vehicle.velocity_mps.z = 0.0;  // Its tyres hold it.
     vehicle.world_from_vehicle.position_m.x += vehicle.velocity_mps.x * tick_s;
     // Nobody falls before he is touched.
-    const Touches touches = advance_body(touched ? std::optional<Ground>(Ground{}) : std::nullopt,
-                                         touched ? gravity_mps2 : 0.0, tick_s, {&vehicle, 1}, body);
+    advance_body(touched ? std::optional<Ground>(Ground{}) : std::nullopt, touched ? gravity_mps2 : 0.0, tick_s,
+                 {&vehicle, 1}, body);
+    const Touches& touches = vehicle.touches;
     if (touches.body && !touched) touched_s = time_s, from = mass_centre_m(body);
     if (touched_s < 0.0) continue;
     const double front_x = vehicle.world_from_vehicle.position_m.x + front_m;
