@@ -10,7 +10,7 @@ namespace {
 
 constexpr int steps = 8;             // Of about a millisecond.
 constexpr int iterations = 12;       // Of impulses within a step.
-constexpr double twice_at_m = 0.13;  // The deeper a vehicle is pressed in, the harder it is.
+constexpr double twice_at_m = 0.08;  // The deeper a vehicle is pressed in, the harder it is, by the square.
 constexpr double still_mps = 0.08;
 constexpr std::uint32_t still_ticks = 60;
 
@@ -60,7 +60,8 @@ class Step {
         const double closing = -glm::dot(velocity_mps(ball) - vehicle.velocity_mps - turning, normal);
         note(ball, depth.part, closing, at - ball.radius_m * normal, normal, vehicle.touches);
         Contact contact{ball, normal, &vehicle, turning, plan_.vehicle_friction, depth.depth_m};
-        contact.most_ns = plan_.most_force_n * (1.0 + depth.depth_m / twice_at_m) * step_s;
+        const double deep = depth.depth_m / twice_at_m;
+        contact.most_ns = plan_.most_force_n * (1.0 + deep * deep) * step_s;
         add(contact);
       }
     }
