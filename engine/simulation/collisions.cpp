@@ -113,14 +113,8 @@ class Contacts {
     }
   }
 
-  /// Thrown bodies are pushed by a stage of their own.
-  bool is_for_another_stage(const Participant& first, const Participant& second) const {
-    return is_thrown(state_, first.id) || is_thrown(state_, second.id) ||
-           (is_driver(first) && is_for_thrown_stage(state_, first, second));
-  }
-
   void look_at(std::size_t a, std::size_t b) {
-    if (is_for_another_stage(participants_[a], participants_[b])) return;
+    if (is_for_thrown_stage(state_, participants_[a], participants_[b])) return;
     const bool overlap = simulation::overlap(participants_[a], participants_[b]);
     const Pair ids(participants_[a].id, participants_[b].id);
     const auto known = std::ranges::lower_bound(state_.bodies.contacts, ids, {}, pair_of);

@@ -16,7 +16,7 @@ SEPTET_MEMBERS(JointedBody, kind, mass_kg, masses, still_ticks)
 
 namespace septet::simulation {
 
-SEPTET_MEMBERS(ThrownBody, id, model, paint, body, road)
+SEPTET_MEMBERS(ThrownBody, id, model, paint, body, road, met)
 
 inline void require_sound(StateReader& reader, const road::RoadNetwork& roads, const std::vector<ThrownBody>& thrown) {
   constexpr auto wrong = "thrown bodies do not fit together";
@@ -25,6 +25,7 @@ inline void require_sound(StateReader& reader, const road::RoadNetwork& roads, c
     reader.require(each.model < vehicle_models().size() && each.body.kind <= person::BodyKind::motorcycle &&
                        impact::is_positive(each.body.mass_kg),
                    wrong);
+    reader.require(std::ranges::is_sorted(each.met, std::ranges::less_equal{}), wrong);
     if (each.road) road::require_on_roads(reader, roads, *each.road);
   }
 }

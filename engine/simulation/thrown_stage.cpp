@@ -6,17 +6,15 @@
 #include <cstdint>
 #include <utility>
 
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.hpp"
 #include "engine/math/gravity.hpp"
 #include "engine/physics/person/jointed_plans.hpp"
 #include "engine/physics/vehicle/ground.hpp"
-#include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
-#include "engine/simulation/crash_recording.hpp"
+#include "engine/simulation/thrown_crash.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "engine/world/participant_shape.hpp"
 
@@ -25,6 +23,7 @@ namespace {
 
 /// Slower touches throw nobody: one steps aside.
 constexpr double least_closing_mps = 1.0;
+constexpr double fastest_walk_mps = 3.0;
 constexpr double rider_kg = 75.0, lightest_machine_kg = 12.0;  // bodies.toml: a bicycle's mass is its rider's.
 
 ParticipantKind kind_of(const Participant& participant) { return vehicle_models()[participant.model].kind; }
@@ -39,20 +38,52 @@ ModelIndex model_named(const char* name) {
   return *index;
 }
 
-person::MovingSolid solid_of(const Participant& vehicle, double mass_kg) {
+bool is_traffic(ParticipantId id) { return id >= first_traffic_participant && id < first_rider_participant; }
+
+/// Whose body it is: a rider's is told of as that of the machine.
+ParticipantId whose(const ThrownBody& thrown) {
+  return thrown.id >= first_rider_participant ? thrown.id - first_rider_participant : thrown.id;
+}
+
+/// A vehicle as the solid that bodies meet; on its rails it takes impulses unmoved.
+person::MovingSolid solid_of(const Model& model, const State& state, const Participant& vehicle) {
   person::MovingSolid solid;
   solid.pieces = person::vehicle_pieces(shape_of(vehicle));
   solid.world_from_vehicle = vehicle.world_from_vehicle;
   solid.velocity_mps = vehicle.velocity_mps;
   solid.angular_velocity_radps = vehicle.angular_velocity_radps;
-  solid.mass_kg = mass_kg;
+  if (vehicle.id == driver_participant) solid.mass_kg = model.car.body.mass_kg;
+  if (const LooseBody* loose = find_loose(state, vehicle.id)) solid.mass_kg = loose->body.mass_kg;
   return solid;
 }
 
 bool is_near(const Participant& vehicle, const Vec3& at_m) {
   const VehicleModel model = shape_of(vehicle);
   constexpr double beyond_m = 3.0;  // A body's length and the way of a tick.
-  return glm::length(vehicle.world_from_vehicle.position_m - at_m) < model.length_m + beyond_m;
+  const Vec3 apart_m = vehicle.world_from_vehicle.position_m - at_m;
+  const double within_m = model.length_m + beyond_m;
+  return glm::dot(apart_m, apart_m) < within_m * within_m;
+}
+
+/// True where the vehicle's box, with all that a body reaches beside it, holds the place.
+bool is_beside(const Participant& vehicle, const Vec3& at_m) {
+  if (!is_near(vehicle, at_m)) return false;
+  const VehicleModel& model = vehicle_models()[vehicle.model];
+  constexpr double reach_m = 2.5;  // From the origin of a machine to its front, or to its rider, and the way of a tick.
+  const Vec3 there = inverse(vehicle.world_from_vehicle) * at_m;
+  return there.x < model.front_m() + reach_m && there.x > -model.rear_overhang_m - reach_m &&
+         std::abs(there.y) < 0.5 * model.width_m + reach_m;
+}
+
+/// Whether this vehicle throws this other one where they meet. A walker who comes against what stands stops.
+bool throws(const State& state, const Participant& vehicle, const Participant& other) {
+  if (can_be_thrown(kind_of(vehicle)) || !can_be_thrown(kind_of(other))) return false;
+  // Two of one engine are kept apart by it.
+  if (is_traffic(vehicle.id) && is_traffic(other.id) && !find_loose(state, vehicle.id)) return false;
+  const double closing_mps = glm::length(vehicle.velocity_mps - other.velocity_mps);
+  if (kind_of(other) == ParticipantKind::pedestrian && glm::length(vehicle.velocity_mps) <= least_closing_mps)
+    return closing_mps > fastest_walk_mps;
+  return closing_mps > least_closing_mps;
 }
 
 /// The bodies that a participant would be, as they were a tick ago: a person, or a machine and its rider.
@@ -61,7 +92,8 @@ std::vector<ThrownBody> bodies_of(const Model& model, const Participant& other) 
   before.position_m -= tick_s * other.velocity_mps;
   const double mass = mass_kg(model, other);
   const ParticipantKind kind = kind_of(other);
-  ThrownBody own{other.id, other.model, other.paint, {}, {}};
+  ThrownBody own;
+  own.id = other.id, own.model = other.model, own.paint = other.paint;
   if (kind == ParticipantKind::pedestrian) {
     own.body = person::standing_body(person::BodyKind::person, mass, before, other.velocity_mps);
     return {own};
@@ -70,8 +102,9 @@ std::vector<ThrownBody> bodies_of(const Model& model, const Participant& other) 
   const auto machine = pedals ? person::BodyKind::bicycle : person::BodyKind::motorcycle;
   own.model = model_named(pedals ? "bicycle-alone" : "motorcycle-alone");
   own.body = person::standing_body(machine, std::max(lightest_machine_kg, mass - rider_kg), before, other.velocity_mps);
-  ThrownBody rider{
-      first_rider_participant + other.id, model_named("pedestrian"), static_cast<std::uint8_t>(other.id % 12), {}, {}};
+  ThrownBody rider;
+  rider.id = first_rider_participant + other.id, rider.model = model_named("pedestrian");
+  rider.paint = static_cast<std::uint8_t>(other.id % 12);
   rider.body = person::riding_body(machine, rider_kg, before, other.velocity_mps);
   return {own, rider};
 }
@@ -80,61 +113,47 @@ void keep_ordered(const ThrownBody& body, std::vector<ThrownBody>& thrown) {
   thrown.insert(std::ranges::lower_bound(thrown, body.id, {}, &ThrownBody::id), body);
 }
 
-void note_crash(const Model& model, const Participant& car, const Participant& other, const person::Touches& touch,
-                State& state, std::vector<Event>& events) {
-  const auto crashed = [&](const Participant& one) {
-    return CrashedVehicle{one.id, mass_kg(model, one), one.velocity_mps, one.angular_velocity_radps};
-  };
-  const Vec2 level(touch.normal);
-  const double length = glm::length(level);
-  const Vec3 car_to_other = length > 0.1 ? Vec3(level / length, 0.0) : Vec3(1.0, 0.0, 0.0);
-  VehicleCrash crash;
-  crash.first = crashed(car), crash.second = crashed(other);
-  crash.point_m = touch.point_m;
-  crash.normal = -car_to_other;
-  crash.closing_speed_mps = touch.closing_mps;
-  state.effects.crashes.struck_vehicles.push_back(crash);
-  ++state.diagnostics.collisions;
-  // A person is taken along at once: the car's change of speed is that of a plastic impact of the two masses.
-  const double delta_v_mps = touch.closing_mps * crash.second.mass_kg / (crash.second.mass_kg + crash.first.mass_kg);
-  const bool by_driver = glm::dot(car.velocity_mps, car_to_other) >= -glm::dot(other.velocity_mps, car_to_other);
-  events.push_back({"collision", other.id,
-                    fmt::format("closing_speed_mps={:.2f} delta_v_mps={:.2f} by={}", touch.closing_mps, delta_v_mps,
-                                by_driver ? "driver" : "other")});
-  OpenCrash& record = open_crash(
-      {car.id, other.id, {Vec2(touch.point_m), Vec2(car_to_other)}, touch.point_m.z, touch.closing_mps}, state);
-  impact::Body own = vehicle::planar_body(model.car.body, state.car);
-  own.heading_rad = heading_rad(car.world_from_vehicle.orientation);
-  note_first(own, mass_centre_ahead_m(model, car), true, record);
-  note_second(impact_side(other, crash.second.mass_kg).body, mass_centre_ahead_m(model, other), false, record);
+/// A vehicle meets bodies of one whom it has not met before: it is told, and the vehicle leaves its rails as after any
+/// crash.
+void meet(const Model& model, const Participant& car, const ThrownTouch& touch, State& state,
+          std::vector<Event>& events) {
+  for (ThrownBody& thrown : state.thrown)
+    if (whose(thrown) == touch.other.id)
+      thrown.met.insert(std::ranges::lower_bound(thrown.met, touch.vehicle.id), touch.vehicle.id);
+  if (touch.vehicle.id != car.id && !find_loose(state, touch.vehicle.id))
+    leave_rails(model, touch.vehicle, car, state, events);
+  tell_touch(model, touch, state, events);
 }
 
-/// Records what a thrown body has given the car in this tick.
-void record_push(const Model& model, ParticipantId thrown, const Vec3& on_car_ns, State& state) {
-  if (on_car_ns == Vec3(0.0)) return;
-  const ParticipantId whose = thrown >= first_rider_participant ? thrown - first_rider_participant : thrown;
-  OpenCrash* crash = find_open_crash(state, driver_participant, whose);
-  if (crash)
-    note_push(state.tick, {vehicle::planar_body(model.car.body, state.car), crash->second, -Vec2(on_car_ns)}, *crash);
+/// The hardest touch of these bodies by a vehicle in this tick; empty where they are not touched.
+person::Touches trial(const person::MovingSolid& vehicle, const std::vector<ThrownBody>& bodies) {
+  person::Touches hardest;
+  for (const ThrownBody& each : bodies) {
+    person::JointedBody body = each.body;
+    person::MovingSolid moving = vehicle;
+    person::advance_body({}, 0.0, tick_s, {&moving, 1}, body);
+    if (moving.touches.closing_mps > hardest.closing_mps) hardest = moving.touches;
+  }
+  return hardest;
 }
 
 void begin_throws(const Model& model, const Participant& car, const std::vector<Participant>& participants,
                   State& state, std::vector<Event>& events) {
   for (const Participant& other : participants) {
-    if (other.id == car.id || !can_be_thrown(kind_of(other)) || is_thrown(state, other.id)) continue;
-    if (!is_near(car, other.world_from_vehicle.position_m)) continue;
-    const std::vector<ThrownBody> bodies = bodies_of(model, other);
-    person::Touches first;
-    for (const ThrownBody& each : bodies) {
-      person::JointedBody trial = each.body;
-      person::MovingSolid vehicle = solid_of(car, model.car.body.mass_kg);
-      const auto touch = person::advance_body({}, 0.0, tick_s, {&vehicle, 1}, trial);
-      if (touch.closing_mps > first.closing_mps) first = touch;
+    if (!can_be_thrown(kind_of(other)) || is_thrown(state, other.id)) continue;
+    std::vector<ThrownBody> bodies;
+    const Participant* by = nullptr;
+    person::Touches hardest;
+    for (const Participant& vehicle : participants) {
+      if (!is_beside(vehicle, other.world_from_vehicle.position_m) || !throws(state, vehicle, other)) continue;
+      if (bodies.empty()) bodies = bodies_of(model, other);
+      const person::Touches touches = trial(solid_of(model, state, vehicle), bodies);
+      if (touches.closing_mps > hardest.closing_mps) hardest = touches, by = &vehicle;
     }
-    if (first.closing_mps < least_closing_mps) continue;
+    if (hardest.closing_mps < least_closing_mps) continue;
     for (const ThrownBody& each : bodies) keep_ordered(each, state.thrown);
     give_up_rails(model, other.id, car, state, events);
-    note_crash(model, car, other, first, state, events);
+    meet(model, car, {*by, other, hardest}, state, events);
   }
 }
 
@@ -155,15 +174,102 @@ person::Ground ground_below_body(const Model& model, const State& state, const V
   return {found.point_m, found.normal, friction};
 }
 
+/// One tick of all bodies among the vehicles near them.
+class Meetings {
+ public:
+  Meetings(const Model& model, std::vector<Participant>& participants, State& state)
+      : model_(model), participants_(participants), state_(state) {
+    for (std::size_t i = 0; i < participants.size(); ++i) {
+      const Participant& one = participants[i];
+      const bool near = std::ranges::any_of(
+          state.thrown, [&](const ThrownBody& thrown) { return is_near(one, person::mass_centre_m(thrown.body)); });
+      if (near && !can_be_thrown(kind_of(one))) vehicles_.push_back({i, solid_of(model, state, one)});
+    }
+  }
+
+  void advance(ThrownBody& thrown) {
+    const Vec3 at_m = person::mass_centre_m(thrown.body);
+    std::vector<std::size_t> who;
+    bool stirred = false;
+    for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+      if (!is_near(at(i), at_m)) continue;
+      who.push_back(i);
+      stirred = stirred || glm::length(at(i).velocity_mps) > 0.1;
+    }
+    if (person::lies_still(thrown.body) && !stirred) return;
+    std::vector<person::MovingSolid> near;
+    for (const std::size_t i : who) near.push_back(std::move(vehicles_[i].solid));
+    std::vector<Vec3> before_ns;
+    for (const person::MovingSolid& each : near) before_ns.push_back(each.taken_ns);
+    person::advance_body(ground_below_body(model_, state_, at_m, thrown), gravity_mps2, tick_s, near, thrown.body);
+    for (std::size_t k = 0; k < who.size(); ++k) {
+      note(at(who[k]), near[k].touches, thrown);
+      losses_.push_back({at(who[k]).id, whose(thrown), near[k].taken_ns - before_ns[k]});
+      vehicles_[who[k]].solid = std::move(near[k]);
+    }
+  }
+
+  /// Of vehicles with bodies that they had not met, once a pair.
+  const std::vector<ThrownTouch>& new_touches() const { return new_touches_; }
+
+  /// Gives vehicles what bodies have given them.
+  void push_vehicles(DrivenCar& car) {
+    for (const Vehicle& vehicle : vehicles_) {
+      Participant& one = participants_[vehicle.index];
+      LooseBody* loose = find_loose(state_, one.id);
+      if (one.id == driver_participant) push_car(model_, vehicle.solid.taken_ns, state_, car);
+      if (!loose) continue;
+      // One that has left its rails in this tick has taken the impulses unmoved.
+      if (std::isfinite(vehicle.solid.mass_kg)) push_loose(vehicle.solid.taken_ns, *loose);
+      one = participant_of(*loose);
+    }
+    for (const Loss& loss : losses_) record_loss(model_, loss.vehicle, loss.other, loss.on_vehicle_ns, state_);
+  }
+
+ private:
+  struct Vehicle {
+    std::size_t index;  ///< Of the participant.
+    person::MovingSolid solid;
+  };
+  struct Loss {
+    ParticipantId vehicle, other;
+    Vec3 on_vehicle_ns;
+  };
+
+  const Participant& at(std::size_t vehicle) const { return participants_[vehicles_[vehicle].index]; }
+
+  static void push_loose(const Vec3& impulse_ns, LooseBody& loose) {
+    const Vec2 change_mps = Vec2(impulse_ns) / loose.body.mass_kg;
+    loose.body.velocity_mps += change_mps;
+    loose.acceleration_mps2 += change_mps / tick_s;
+  }
+
+  void note(const Participant& vehicle, const person::Touches& touches, const ThrownBody& thrown) {
+    if (touches.closing_mps < least_closing_mps || std::ranges::binary_search(thrown.met, vehicle.id)) return;
+    const auto other = std::ranges::lower_bound(participants_, whose(thrown), {}, &Participant::id);
+    const bool is_told = std::ranges::any_of(new_touches_, [&](const ThrownTouch& touch) {
+      return touch.vehicle.id == vehicle.id && touch.other.id == other->id;
+    });
+    if (!is_told) new_touches_.push_back({vehicle, *other, touches});
+  }
+
+  const Model& model_;
+  std::vector<Participant>& participants_;
+  State& state_;
+  std::vector<Vehicle> vehicles_;
+  std::vector<Loss> losses_;
+  std::vector<ThrownTouch> new_touches_;
+};
+
 }  // namespace
 
 bool is_thrown(const State& state, ParticipantId id) {
   return std::ranges::binary_search(state.thrown, id, {}, &ThrownBody::id);
 }
 
-bool is_for_thrown_stage(const State& state, const Participant& car, const Participant& other) {
-  if (is_thrown(state, other.id)) return true;
-  return can_be_thrown(kind_of(other)) && glm::length(car.velocity_mps - other.velocity_mps) > least_closing_mps;
+bool is_for_thrown_stage(const State& state, const Participant& first, const Participant& second) {
+  return is_thrown(state, first.id) || is_thrown(state, second.id) || throws(state, first, second) ||
+         throws(state, second, first);
 }
 
 void show_thrown(const State& state, std::vector<Participant>& participants) {
@@ -188,31 +294,10 @@ void advance_thrown(const Model& model, DrivenCar& car, std::vector<Participant>
                     std::vector<Event>& events) {
   begin_throws(model, car.participant, participants, state, events);
   if (state.thrown.empty()) return;
-  person::MovingSolid own = solid_of(car.participant, model.car.body.mass_kg);
-  std::vector<std::pair<ParticipantId, Vec3>> given_ns;
-  for (ThrownBody& thrown : state.thrown) {
-    const Vec3 at_m = person::mass_centre_m(thrown.body);
-    std::vector<person::MovingSolid> near;
-    bool stirred = false, by_own = false;
-    for (const Participant& vehicle : participants) {
-      if (can_be_thrown(kind_of(vehicle)) || !is_near(vehicle, at_m)) continue;
-      const bool is_own = vehicle.id == car.participant.id;
-      if (is_own)
-        near.insert(near.begin(), own);
-      else
-        near.push_back(solid_of(vehicle, INFINITY));
-      by_own = by_own || is_own;
-      stirred = stirred || glm::length(vehicle.velocity_mps) > 0.1;
-    }
-    if (person::lies_still(thrown.body) && !stirred) continue;
-    const auto ground = ground_below_body(model, state, at_m, thrown);
-    person::advance_body(ground, gravity_mps2, tick_s, near, thrown.body);
-    if (!by_own) continue;
-    given_ns.emplace_back(thrown.id, near.front().taken_ns - own.taken_ns);
-    own = near.front();
-  }
-  push_car(model, own.taken_ns, state, car);
-  for (const auto& [id, on_car_ns] : given_ns) record_push(model, id, on_car_ns, state);
+  Meetings meetings(model, participants, state);
+  for (ThrownBody& thrown : state.thrown) meetings.advance(thrown);
+  for (const ThrownTouch& touch : meetings.new_touches()) meet(model, car.participant, touch, state, events);
+  meetings.push_vehicles(car);
   show_thrown(state, participants);
   for (const ThrownBody& thrown : state.thrown) {
     const std::size_t entity = thrown.id - first_scripted_participant;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "engine/physics/person/jointed_body.hpp"
 #include "engine/road/road_position.hpp"
@@ -16,6 +17,7 @@ struct ThrownBody {
   std::uint8_t paint = 0;
   person::JointedBody body;
   std::optional<road::RoadPosition> road;  ///< Last place, where the next search for the ground begins.
+  std::vector<ParticipantId> met;          ///< Vehicles that have met whose body it is, ascending: each is told once.
 };
 
 }  // namespace septet::simulation

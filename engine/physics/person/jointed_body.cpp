@@ -10,7 +10,7 @@ namespace {
 
 constexpr int steps = 8;             // Of about a millisecond.
 constexpr int iterations = 12;       // Of impulses within a step.
-constexpr double twice_at_m = 0.13;  // The deeper a vehicle is pressed in, the harder it is.
+constexpr double twice_at_m = 0.08;  // The deeper a vehicle is pressed in, the harder it is, by the square.
 constexpr double still_mps = 0.08;
 constexpr std::uint32_t still_ticks = 60;
 
@@ -46,7 +46,7 @@ class Step {
   }
 
   /// `back_s`: time until the tick's end.
-  void touch_vehicle(MovingSolid& vehicle, double back_s, double step_s, Touches& touches) {
+  void touch_vehicle(MovingSolid& vehicle, double back_s, double step_s) {
     const RigidTransform now{vehicle.world_from_vehicle.position_m - back_s * vehicle.velocity_mps,
                              vehicle.world_from_vehicle.orientation};
     const RigidTransform vehicle_from_world = inverse(now);
@@ -58,9 +58,10 @@ class Step {
         const Vec3 normal = now.orientation * depth.normal;
         const Vec3 turning = glm::cross(vehicle.angular_velocity_radps, at - now.position_m);
         const double closing = -glm::dot(velocity_mps(ball) - vehicle.velocity_mps - turning, normal);
-        note(ball, depth.part, closing, at - ball.radius_m * normal, normal, touches);
+        note(ball, depth.part, closing, at - ball.radius_m * normal, normal, vehicle.touches);
         Contact contact{ball, normal, &vehicle, turning, plan_.vehicle_friction, depth.depth_m};
-        contact.most_ns = plan_.most_force_n * (1.0 + depth.depth_m / twice_at_m) * step_s;
+        const double deep = depth.depth_m / twice_at_m;
+        contact.most_ns = plan_.most_force_n * (1.0 + deep * deep) * step_s;
         add(contact);
       }
     }
@@ -202,16 +203,16 @@ class Step {
 
 bool lies_still(const JointedBody& body) { return body.still_ticks >= still_ticks; }
 
-Touches advance_body(const std::optional<Ground>& ground, double gravity_mps2, double dt_s,
-                     std::span<MovingSolid> vehicles, JointedBody& body) {
+void advance_body(const std::optional<Ground>& ground, double gravity_mps2, double dt_s,
+                  std::span<MovingSolid> vehicles, JointedBody& body) {
   const Plan& plan = plan_of(body.kind);
-  Touches touches;
+  for (MovingSolid& vehicle : vehicles) vehicle.touches = {};
   const double step_s = dt_s / steps;
   for (int i = 0; i < steps; ++i) {
     Step step(plan, body);
     step.fall(gravity_mps2 * step_s);
     if (ground) step.touch_ground(*ground);
-    for (MovingSolid& vehicle : vehicles) step.touch_vehicle(vehicle, (steps - 1 - i) * step_s, step_s, touches);
+    for (MovingSolid& vehicle : vehicles) step.touch_vehicle(vehicle, (steps - 1 - i) * step_s, step_s);
     step.settle(step_s);
     step.move(step_s);
   }
@@ -221,7 +222,6 @@ Touches advance_body(const std::optional<Ground>& ground, double gravity_mps2, d
   body.still_ticks = fastest < still_mps * still_mps ? body.still_ticks + 1 : 0;
   if (lies_still(body))
     for (PointMass& mass : body.masses) mass.velocity_mps = Vec3(0.0);
-  return touches;
 }
 
 Vec3 mass_centre_m(const JointedBody& body) {

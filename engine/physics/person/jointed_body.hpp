@@ -67,20 +67,13 @@ struct Ground {
   double friction_factor = 1.0;  ///< 1 on dry asphalt.
 };
 
-/// First touches of a tick.
-struct Touches {
-  std::optional<Part> body, head;  ///< Of a vehicle.
-  double closing_mps = 0.0;        ///< Greatest speed along a normal at which a ball met a vehicle.
-  Vec3 point_m{0.0}, normal{0.0};  ///< There; the normal is the vehicle's.
-};
-
 /// True for a body that lies: it is not advanced until a vehicle is near.
 bool lies_still(const JointedBody& body);
 
 /// Advances by one tick of `dt_s`. `vehicles` are those near it, as they stand at the tick's end; empty `ground`: none
 /// within reach (in the air, or a test of momentum). `gravity_mps2`: downwards.
-Touches advance_body(const std::optional<Ground>& ground, double gravity_mps2, double dt_s,
-                     std::span<MovingSolid> vehicles, JointedBody& body);
+void advance_body(const std::optional<Ground>& ground, double gravity_mps2, double dt_s,
+                  std::span<MovingSolid> vehicles, JointedBody& body);
 
 /// Sums over the masses, kg, m, m/s.
 Vec3 mass_centre_m(const JointedBody& body);

@@ -63,6 +63,9 @@ Plan person_plan() {
   }
   // Searle's figure for clothed bodies on asphalt, which flight and tumbling were fitted with.
   plan.ground_friction = 0.66;
+  // Hip and thigh have four balls: 2.4 kN at the touch, 5 kN (what EEVC's upper legform may find) at 8 cm. Harder edges
+  // hold the hips before the bonnet, and the head comes down too near.
+  plan.most_force_n = 600.0;
   return plan;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/math/rigid_transform.hpp"
@@ -40,6 +41,13 @@ struct Depth {
 /// The least way out of the piece for a ball; depth ≤ 0: it is not in it.
 Depth depth_in(const Piece& piece, const Vec3& centre_m, double radius_m);
 
+/// How a body first touches a vehicle in a tick.
+struct Touches {
+  std::optional<Part> body, head;
+  double closing_mps = 0.0;        ///< Greatest speed along a normal at which a ball met it.
+  Vec3 point_m{0.0}, normal{0.0};  ///< There; the normal is the vehicle's.
+};
+
 /// A vehicle that moves through a tick. What bodies give it is in `velocity_mps` and `taken_ns` afterwards.
 struct MovingSolid {
   std::vector<Piece> pieces;
@@ -48,6 +56,7 @@ struct MovingSolid {
   Vec3 angular_velocity_radps{0.0};
   double mass_kg = INFINITY;  ///< Infinite: it takes impulses unmoved.
   Vec3 taken_ns{0.0};         ///< Sum of the impulses that it was given.
+  Touches touches;            ///< Of the last body that was advanced.
 };
 
 }  // namespace septet::person
