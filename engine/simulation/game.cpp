@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -106,10 +107,14 @@ void count(const Model& model, const scenario::GameSettings& settings, const Par
     standing.end = GameEnd::time;
 }
 
-/// Who ran into whom in the last collision: "other" where it was another participant, else "driver".
-const char* whose_crash(const std::vector<Event>& events) {
+/// Who ran into whom in the last collision, as that tells it ("driver", "other", "nobody"); of what stands beside the
+/// road nobody is told: then it was the driver.
+std::string_view whose_crash(const std::vector<Event>& events) {
   const auto last = std::ranges::find(events.rbegin(), events.rend(), "collision", &Event::kind);
-  return last != events.rend() && last->detail.ends_with("by=other") ? "other" : "driver";
+  if (last != events.rend())
+    for (const std::string_view whose : {"other", "nobody"})
+      if (last->detail.ends_with(fmt::format("by={}", whose))) return whose;
+  return "driver";
 }
 
 }  // namespace

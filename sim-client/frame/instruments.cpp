@@ -131,7 +131,7 @@ std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig
       add("game over: the ambulance is gone", second_px, amber);
       break;
     case GameEnd::crash:
-      add("game over: you have hit somebody", second_px, amber);
+      add("game over: a crash", second_px, amber);  // Whose it was is told beside it.
       break;
     case GameEnd::time:
       add("you have come through", second_px, green);

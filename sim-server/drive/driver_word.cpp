@@ -1,6 +1,7 @@
 #include "sim-server/drive/driver_word.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -62,6 +63,7 @@ void DriverWord::take(const Snapshot& now, std::span<const simulation::Event> ev
     const bool is_told = !blow_.empty() && now_s_ - blow_at_s_ < blow_shown_s;
     if (mps < least_blow_mps || (is_told && mps < blow_mps_)) continue;
     blow_ = struck(now, event);
+    blow_is_others_ = event.detail.ends_with("by=other");
     blow_mps_ = mps;
     blow_at_s_ = now_s_;
   }
@@ -84,11 +86,18 @@ std::string DriverWord::outcome() const {
                      logging::whence(*car.principal_direction_rad), kmh_per_mps * glm::length(*car.delta_v_mps));
 }
 
+std::string DriverWord::whose_blow() const {
+  if (!blow_is_others_) return "You have hit " + blow_;
+  std::string text = blow_ + " has run into you";
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
 std::string DriverWord::text() const {
   std::string text;
   const auto add = [&](const std::string& line) { text += (text.empty() ? "" : "\n") + line; };
   if (!blow_.empty() && now_s_ - blow_at_s_ < blow_shown_s)
-    add(fmt::format("You have hit {} at {:.0f} km/h.", blow_, kmh_per_mps * blow_mps_) + outcome());
+    add(fmt::format("{} at {:.0f} km/h.", whose_blow(), kmh_per_mps * blow_mps_) + outcome());
   if (now_s_ - on_lane_s_ >= off_road_after_s) add("You are off the road.");
   if (now_s_ - runs_s_ >= stalled_after_s)
     add(by_keyboard_ ? "The engine has stalled: V held starts it." : "The engine has stalled: the clutch starts it.");

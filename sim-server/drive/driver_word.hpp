@@ -31,9 +31,12 @@ class DriverWord {
   void take_crash(const simulation::Event& event);
   /// What the blow that is shown came to; empty: not known.
   std::string outcome() const;
+  /// Who ran into whom in it.
+  std::string whose_blow() const;
 
   bool by_keyboard_, has_begun_ = false;
   std::string blow_;
+  bool blow_is_others_ = false;  ///< Somebody ran into the driver's car.
   double blow_mps_ = 0.0, blow_at_s_ = 0.0;
   std::optional<CrashRecord> crash_;  ///< The hardest of late; of what stands it comes before the collision.
   double crash_at_s_ = 0.0;

@@ -44,6 +44,18 @@ TEST_CASE("a driver who has hit something reads what and how fast, and what to p
   CHECK(told.after(1.5).empty());
 }
 
+TEST_CASE("a driver who was run into reads who it was, and not that he has hit somebody") {
+  Told told;
+  told.now.participants = {{.id = 7, .model = *find_vehicle_model("saloon")}};
+  const std::string text =
+      told.after(0.0, {{"collision", ParticipantId{7}, "closing_speed_mps=10.00 delta_v_mps=5.00 by=other"}});
+  CHECK(has(text, "A saloon has run into you at 36 km/h."));
+  CHECK_FALSE(has(text, "You have hit"));
+  CHECK(told.after(9.0).empty());
+  CHECK(has(told.after(0.0, {{"collision", ParticipantId{7}, "closing_speed_mps=10.00 delta_v_mps=5.00 by=driver"}}),
+            "You have hit a saloon"));
+}
+
 TEST_CASE("of the blows of one crash the worst is told, a touch is not, and words that are none do no harm") {
   Told told;
   told.now.participants = {{.id = 7, .model = *find_vehicle_model("ambulance")}};

@@ -13,7 +13,7 @@ constexpr double behind_s = 0.4;     ///< Between one who leaves a conflict and 
 constexpr double ahead_s = 1.5;      ///< Between one who has left a conflict and him who has right of way.
 constexpr double patience_s = 3.0;   ///< Then somebody who stands before his own right of way is passed.
 constexpr double courtesy_s = 25.0;  ///< Then those who can stop let him in.
-constexpr double tired_s = 15.0;     ///< Then another way is chosen, if what lies beyond this one is full.
+constexpr double tired_s = 5.0;      ///< Each time another way is chosen, if what lies beyond this one is full.
 constexpr double at_line_m = 8.0, stands_mps = 0.5;
 constexpr double turning_rad = 0.5;
 
@@ -37,17 +37,43 @@ Passage passage_from(const LaneGraph& graph, const TownVehicle& vehicle, std::si
   return passage;
 }
 
+WayIndex way_of_front(const LaneGraph& graph, const TownVehicle& vehicle) {
+  double end_m = 0.0;
+  for (const WayIndex way : vehicle.route)
+    if ((end_m += graph.ways[way].length_m) >= vehicle.front_m) return way;
+  return vehicle.route.back();
+}
+
+/// True for one that comes behind it, on the way where its front is.
+bool is_behind(std::span<const Presence> on_way, std::int32_t self, std::int32_t other) {
+  const auto own = std::ranges::find(on_way, self, &Presence::who),
+             his = std::ranges::find(on_way, other, &Presence::who);
+  return own != on_way.end() && his != on_way.end() && his->front_m < own->front_m;
+}
+
+/// True where the rear of one who stands is within a junction of the passage: he would have it stand there as well.
+bool stands_within(const LaneGraph& graph, const TownVehicle& vehicle, const Passage& passage, double rear_m) {
+  double begin_m = passage.begin_m;
+  for (std::size_t k = passage.first; k <= passage.last; ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    if (way.in_junction() && rear_m > begin_m && rear_m <= begin_m + way.length_m) return true;
+    begin_m += way.length_m;
+  }
+  return false;
+}
+
 /// True where the vehicle can leave the junction: room beyond it for those who are in it on the way there, and for it.
 bool has_room_beyond(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
                      const Passage& passage) {
   const double needed_m = vehicle.length_m() + standing_gap_m;
+  const auto here = presences.on(way_of_front(graph, vehicle));
   double room_m = 0.0, taken_m = 0.0;
   for (std::size_t k = passage.last + 1; k < vehicle.route.size() && room_m < 60.0; ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
     double end_m = way.length_m;
     bool is_ended = way.in_junction();
     for (const Presence& presence : presences.on(vehicle.route[k])) {
-      if (presence.who == self) continue;
+      if (presence.who == self || is_behind(here, self, presence.who)) continue;
       const bool is_first = k == passage.last + 1;
       if (is_first && presence.rear_m < 0.0) {
         taken_m += presence.front_m - presence.rear_m + standing_gap_m;
@@ -91,9 +117,9 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
              const Presence& other, bool has_green) {
   const TownVehicle& vehicle = approach.vehicle;
   const Way& his = graph.ways[conflict.with];
-  if (other.rear_m > conflict.with_to_m) return true;
+  if (other.rear_m > conflict.with_whole_to_m) return true;
   const double a = vehicle.driver.following.acceleration_mps2;
-  const double to_begin_m = std::max(0.0, conflict.from_m - approach.front_m);
+  const double to_begin_m = std::max(0.0, conflict.whole_from_m - approach.front_m);
   const double his_most = most_mps_on(his);
   if (other.claims) {
     if (other.who < 0 && other.speed_mps < stands_mps) return false;  // Nobody knows when it goes on.
@@ -104,7 +130,7 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
       if (behind_m > 3.0 && other.speed_mps > 1.0) return true;
     }
     const double arrives_s = travel_s(to_begin_m, vehicle.speed_mps, a, approach.most_mps);
-    const double clears_s = travel_s(conflict.with_to_m - other.rear_m, other.speed_mps, 1.0, his_most);
+    const double clears_s = travel_s(conflict.with_whole_to_m - other.rear_m, other.speed_mps, 1.0, his_most);
     return arrives_s > clears_s + behind_s;
   }
   if (!yields_to(mine, his)) return true;
@@ -113,9 +139,9 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
   const bool can_stop = other.speed_mps * other.speed_mps < 2.0 * stop_mps2 * to_line_m || other.speed_mps < stands_mps;
   if (vehicle.waits_s > courtesy_s * vehicle.urge && can_stop && !has_green) return true;
   if (has_green && vehicle.waits_s > 2.0 * courtesy_s * vehicle.urge && can_stop) return true;
-  const double clears_s =
-      travel_s(conflict.to_m - approach.front_m + vehicle.length_m(), vehicle.speed_mps, 0.8 * a, approach.most_mps);
-  const double his_arrives_s = travel_s(conflict.with_from_m - other.front_m, other.speed_mps, 1.5, his_most);
+  const double clears_s = travel_s(conflict.whole_to_m - approach.front_m + vehicle.length_m(), vehicle.speed_mps,
+                                   0.8 * a, approach.most_mps);
+  const double his_arrives_s = travel_s(conflict.with_whole_from_m - other.front_m, other.speed_mps, 1.5, his_most);
   double needed_s = clears_s + ahead_s * vehicle.urge;
   if (vehicle.speed_mps < 3.0) needed_s = std::max(needed_s, critical_gap_s(mine) * vehicle.urge);
   return his_arrives_s > needed_s;
@@ -141,6 +167,24 @@ bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehic
   return true;
 }
 
+/// True where somebody who comes to the same exit by another way has long waited for room on it: it is his turn.
+bool is_anothers_turn(const LaneGraph& graph, const Presences& presences, const TownState& town,
+                      const TownVehicle& vehicle, const Passage& passage) {
+  for (std::size_t k = passage.first; k <= passage.last; ++k)
+    for (const WayConflict& conflict : graph.conflicts_of(graph.ways[vehicle.route[k]])) {
+      if (conflict.kind != WayConflict::Kind::merging) continue;
+      for (const Presence& other : presences.on(conflict.with)) {
+        if (other.who < 0 || other.claims) continue;
+        const TownVehicle& rival = town.vehicles[static_cast<std::size_t>(other.who)];
+        // Who waits for this vehicle to go on is no rival.
+        const bool waits_for_it = std::ranges::find(rival.route, way_of_front(graph, vehicle)) != rival.route.end();
+        if (!waits_for_it && rival.is_held && rival.waits_s > std::max(courtesy_s * rival.urge, vehicle.waits_s))
+          return true;
+      }
+    }
+  return false;
+}
+
 bool light_allows(LightState light, const TownVehicle& vehicle, double to_line_m) {
   if (light == LightState::red) return false;
   if (light != LightState::amber) return true;
@@ -159,16 +203,23 @@ std::size_t next_entry(const LaneGraph& graph, const TownVehicle& vehicle) {
   return vehicle.route.size();
 }
 
+/// True where somebody else has a claim on the way on which a vehicle's front is: he counts on its going on.
+bool is_counted_on(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self) {
+  return std::ranges::any_of(presences.on(way_of_front(graph, vehicle)),
+                             [&](const Presence& other) { return other.who != self && other.claims; });
+}
+
 /// Gives a claim back that is of no use: before its junction, all of it outside of any, it stands behind somebody.
-void give_back_if_unused(const LaneGraph& graph, double dt_s, TownVehicle& vehicle) {
+void give_back_if_unused(const LaneGraph& graph, const Presences& presences, std::int32_t self, double dt_s,
+                         TownVehicle& vehicle) {
   constexpr double unused_s = 4.0;
   vehicle.unused_s = vehicle.speed_mps < stands_mps ? vehicle.unused_s + dt_s : 0.0;
-  if (vehicle.claimed == 0 || vehicle.unused_s < unused_s) return;
+  if (vehicle.claims.empty() || vehicle.unused_s < unused_s) return;
   const std::size_t entry = next_entry(graph, vehicle);
-  if (entry >= vehicle.claimed) return;
+  if (entry >= vehicle.claims.size()) return;
   for (std::size_t k = 0; k < entry; ++k)
     if (graph.ways[vehicle.route[k]].in_junction()) return;
-  vehicle.claimed = 0;
+  if (!is_counted_on(graph, presences, vehicle, self)) vehicle.claims.clear();
 }
 
 /// Others see the claim in the same tick.
@@ -176,16 +227,24 @@ void show_claim(const TownVehicle& vehicle, std::int32_t self, const Passage& pa
   for (std::size_t k = passage.first; k <= passage.last; ++k) {
     const WayIndex way = vehicle.route[k];
     for (std::uint32_t p = presences.first[way]; p < presences.first[way + 1]; ++p)
-      if (presences.all[p].who == self) presences.all[p].claims = true, presences.all[p].claim = vehicle.claim;
+      if (presences.all[p].who == self) presences.all[p].claims = true;
   }
+}
+
+/// Number of a vehicle's claim on a way; 0, before all others: it is there without one.
+std::uint64_t claim_on(const TownVehicle& vehicle, WayIndex way) {
+  for (std::size_t k = 0; k < vehicle.claims.size(); ++k)
+    if (vehicle.route[k] == way) return vehicle.claims[k];
+  return 0;
 }
 
 /// Who has stood within a junction for long and longer than one with an earlier claim, who stands as well, takes that
 /// claim's number: the other one waits for somebody else.
-void go_first_if_stuck(TownVehicle& vehicle, TownVehicle& other) {
+void go_first_if_stuck(TownVehicle& vehicle, std::uint64_t own, TownVehicle& other, std::uint64_t his) {
   constexpr double stuck_s = 5.0;
-  if (vehicle.stands_s > stuck_s && vehicle.stands_s > other.stands_s && other.stands_s > 1.0)
-    std::swap(vehicle.claim, other.claim);
+  if (vehicle.stands_s <= stuck_s || vehicle.stands_s <= other.stands_s || other.stands_s <= 1.0 || his == 0) return;
+  std::ranges::replace(vehicle.claims, own, his);
+  std::ranges::replace(other.claims, his, own);
 }
 
 }  // namespace
@@ -219,13 +278,13 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
                  Random& random, Presences& presences, TownState& town, std::size_t index) {
   TownVehicle& vehicle = town.vehicles[index];
   const auto self = static_cast<std::int32_t>(index);
-  give_back_if_unused(graph, dt_s, vehicle);
+  give_back_if_unused(graph, presences, self, dt_s, vehicle);
   // The first junction ahead that it has no claim on.
   std::size_t first = 0;
   double begin_m = 0.0;
   for (; first < vehicle.route.size(); ++first) {
     const Way& way = graph.ways[vehicle.route[first]];
-    if (begin_m >= vehicle.front_m && first >= vehicle.claimed && way.in_junction()) break;
+    if (begin_m >= vehicle.front_m && first >= vehicle.claims.size() && way.in_junction()) break;
     begin_m += way.length_m;
   }
   vehicle.is_held = false;
@@ -240,7 +299,7 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
   // Behind somebody who waits himself it is not its turn.
   if (leader.who >= 0) {
     const TownVehicle& ahead = town.vehicles[static_cast<std::size_t>(leader.who)];
-    if (leader.gap_m + ahead.length_m() < line_m && next_entry(graph, ahead) >= ahead.claimed) return stop_m;
+    if (leader.gap_m + ahead.length_m() < line_m && next_entry(graph, ahead) >= ahead.claims.size()) return stop_m;
   }
   if (leader.who < 0 && leader.gap_m < line_m) return stop_m;
 
@@ -248,18 +307,21 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
       lights.empty() || !before.has_light ? LightState::dark : lights[2 * before.road + (before.along_s ? 0 : 1)];
   if (!light_allows(light, vehicle, line_m)) return stop_m;
   const Passage passage = passage_from(graph, vehicle, first, begin_m);
+  if (leader.speed_mps < stands_mps && stands_within(graph, vehicle, passage, vehicle.front_m + leader.gap_m))
+    return stop_m;
   if (!has_room_beyond(graph, presences, vehicle, self, passage)) {
     vehicle.is_held = true;
-    if (vehicle.waits_s > tired_s) {
+    const double waited_s = std::max(0.0, vehicle.waits_s - dt_s);
+    if (std::floor(vehicle.waits_s / tired_s) > std::floor(waited_s / tired_s)) {
       vehicle.route.resize(first);
-      vehicle.waits_s = 0.0;
       prolong_route(graph, random, vehicle);
     }
     return stop_m;
   }
-  if (!is_free(graph, presences, vehicle, self, passage, light == LightState::green)) return stop_m;
-  vehicle.claimed = static_cast<std::uint32_t>(passage.last + 1);
-  vehicle.claim = ++town.claims;
+  if (is_anothers_turn(graph, presences, town, vehicle, passage) ||
+      !is_free(graph, presences, vehicle, self, passage, light == LightState::green))
+    return stop_m;
+  vehicle.claims.resize(passage.last + 1, ++town.claims);
   vehicle.waits_s = vehicle.unused_s = 0.0;
   show_claim(vehicle, self, passage, presences);
   return no_leader;
@@ -269,30 +331,27 @@ double wait_within_m(const LaneGraph& graph, const Presences& presences, TownSta
   TownVehicle& vehicle = town.vehicles[index];
   const auto self = static_cast<std::int32_t>(index);
   double begin_m = 0.0, nearest_m = no_leader;
-  // Other lanes that it is over already: several sections of one are met one after the other.
-  std::vector<WayIndex> met;
-  for (std::size_t k = 0; k < vehicle.claimed; ++k) {
+  for (std::size_t k = 0; k < vehicle.claims.size(); ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
     const double front_m = vehicle.front_m - begin_m;
     begin_m += way.length_m;
-    for (const WayConflict& conflict : graph.conflicts_of(way))
-      if (conflict.from_m < front_m) met.push_back(graph.ways[conflict.with].entry);
     if (front_m > way.length_m) continue;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
-      const double to_begin_m = conflict.from_m - front_m;
-      if (std::ranges::find(met, graph.ways[conflict.with].entry) != met.end()) continue;
+      const double to_begin_m = conflict.whole_from_m - front_m;
       if (conflict.kind == WayConflict::Kind::diverging || to_begin_m < 0.0 || to_begin_m > nearest_m) continue;
       for (const Presence& other : presences.on(conflict.with)) {
-        if (other.who == self || !other.claims || other.rear_m > conflict.with_to_m) continue;
-        const bool is_in_it = other.is_there() && other.front_m > conflict.with_from_m;
+        if (other.who == self || !other.claims || other.rear_m > conflict.with_whole_to_m) continue;
+        const bool is_in_it = other.front_m > conflict.with_whole_from_m;
         TownVehicle* rival = other.who < 0 ? nullptr : &town.vehicles[static_cast<std::size_t>(other.who)];
-        if (!is_in_it && rival != nullptr && rival->claim < vehicle.claim) go_first_if_stuck(vehicle, *rival);
-        const bool is_earlier = is_in_it || rival == nullptr || rival->claim < vehicle.claim;
+        const auto is_before = [&] { return claim_on(*rival, conflict.with) < vehicle.claims[k]; };
+        if (!is_in_it && rival != nullptr && is_before())
+          go_first_if_stuck(vehicle, vehicle.claims[k], *rival, claim_on(*rival, conflict.with));
+        const bool is_earlier = is_in_it || rival == nullptr || is_before();
         if (!is_earlier) continue;
         // He may go on braking, and does not hurry.
         const double braking = rival == nullptr ? 0.0 : std::min(rival->acceleration_mps2, 0.0);
         const double his_mps = std::max(0.1, other.speed_mps + braking);
-        const double clears_s = (conflict.with_to_m - other.rear_m) / his_mps;
+        const double clears_s = (conflict.with_whole_to_m - other.rear_m) / his_mps;
         const double arrives_s =
             travel_s(to_begin_m, vehicle.speed_mps, vehicle.driver.following.acceleration_mps2, most_mps_on(way));
         if (arrives_s < clears_s + behind_s) nearest_m = to_begin_m;

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -74,6 +76,44 @@ bool are_one_lane(const LaneGraph& graph, WayIndex a, WayIndex b) {
   return follows(a, b) || follows(b, a) || graph.ways[a].entry == graph.ways[b].entry;
 }
 
+WayConflict turned_round(const WayConflict& conflict, WayIndex with) {
+  WayConflict turned = conflict;
+  turned.with = with;
+  std::swap(turned.from_m, turned.with_from_m);
+  std::swap(turned.to_m, turned.with_to_m);
+  return turned;
+}
+
+/// What two connecting roads of a junction have in common, from the begin of each.
+struct Whole {
+  double from_m = 1e300, to_m = -1e300, with_from_m = 1e300, with_to_m = -1e300;
+};
+
+/// Fills in the whole stretch of each conflict: sections of one connecting road are one after the other.
+void join_sections(const LaneGraph& graph, const std::vector<WayIndex>& ways,
+                   std::vector<std::vector<WayConflict>>& found) {
+  std::map<std::pair<WayIndex, WayIndex>, Whole> wholes;
+  const auto whole_of = [&](const Way& mine, const Way& his) -> Whole& { return wholes[{mine.entry, his.entry}]; };
+  for (const WayIndex index : ways)
+    for (const WayConflict& conflict : found[index]) {
+      const Way &mine = graph.ways[index], &his = graph.ways[conflict.with];
+      Whole& whole = whole_of(mine, his);
+      whole.from_m = std::min(whole.from_m, mine.from_entry_m + conflict.from_m);
+      whole.to_m = std::max(whole.to_m, mine.from_entry_m + conflict.to_m);
+      whole.with_from_m = std::min(whole.with_from_m, his.from_entry_m + conflict.with_from_m);
+      whole.with_to_m = std::max(whole.with_to_m, his.from_entry_m + conflict.with_to_m);
+    }
+  for (const WayIndex index : ways)
+    for (WayConflict& conflict : found[index]) {
+      const Way &mine = graph.ways[index], &his = graph.ways[conflict.with];
+      const Whole& whole = whole_of(mine, his);
+      conflict.whole_from_m = whole.from_m - mine.from_entry_m;
+      conflict.whole_to_m = whole.to_m - mine.from_entry_m;
+      conflict.with_whole_from_m = whole.with_from_m - his.from_entry_m;
+      conflict.with_whole_to_m = whole.with_to_m - his.from_entry_m;
+    }
+}
+
 }  // namespace
 
 void find_conflicts(LaneGraph& graph) {
@@ -96,9 +136,9 @@ void find_conflicts(LaneGraph& graph) {
         conflict->kind = kind_of(graph, a, b);
         conflict->with = ways[j];
         found[ways[i]].push_back(*conflict);
-        found[ways[j]].push_back(
-            {conflict->kind, ways[i], conflict->with_from_m, conflict->with_to_m, conflict->from_m, conflict->to_m});
+        found[ways[j]].push_back(turned_round(*conflict, ways[i]));
       }
+    join_sections(graph, ways, found);
   }
   for (WayIndex index = 0; index < graph.ways.size(); ++index) {
     graph.ways[index].conflicts = {static_cast<std::uint32_t>(graph.conflicts.size()),

@@ -18,6 +18,20 @@ double keeping_to(double square_m2ps2, double leads_mps2, double speed_mps) {
   return leads_mps2 + (std::sqrt(std::max(square_m2ps2, 0.0)) - speed_mps) / settles_s;
 }
 
+/// True for what lies where the vehicle turns out round it.
+bool is_passed(const TownVehicle& vehicle, double to_way_m, const Presence& other) {
+  if (!vehicle.swerve || other.speed_mps > 0.1) return false;
+  return to_way_m + other.front_m > vehicle.swerve->from_m &&
+         to_way_m + other.front_m < vehicle.swerve->to_m - vehicle.length_m();
+}
+
+/// Acceleration up to the speed at which a vehicle turns out, from before its swerve until its rear is back.
+double bound_by_swerve(const TownVehicle& vehicle, double mps) {
+  const double to_begin_m = vehicle.swerve->from_m - swerve_m - (vehicle.front_m - vehicle.length_m());
+  const double square = swerve_mps * swerve_mps + 2.0 * coasting_mps2 * std::max(0.0, to_begin_m - vehicle.length_m());
+  return keeping_to(square, 0.0, mps);
+}
+
 }  // namespace
 
 Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownState& town, std::size_t index) {
@@ -34,8 +48,10 @@ Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownS
     if (-front_m > horizon_m || -front_m > leader.gap_m) break;
     begin_m += way.length_m;
     if (front_m > way.length_m) continue;
+    const double to_way_m = begin_m - way.length_m;
     for (const Presence& other : presences.on(vehicle.route[k]))
-      if (other.who != self && other.is_there() && other.front_m > front_m && other.rear_m < way.length_m)
+      if (other.who != self && other.is_there() && other.front_m > front_m && other.rear_m < way.length_m &&
+          !is_passed(vehicle, to_way_m, other))
         consider(other.rear_m - front_m, other);
     if (!way.in_junction() && way.conflicts.count == 0) continue;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
@@ -88,6 +104,7 @@ double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const
         bound = std::min(bound, keeping_to(town_bend_mps2 / std::max(curvature, 1e-6), 0.0, v));
       }
   }
+  if (vehicle.swerve) bound = std::min(bound, bound_by_swerve(vehicle, v));
   FollowingLaw law = vehicle.law;
   law.inverse_desired_speed = 1.0 / std::max(wanted_mps, 1.0);
   double a = law.acceleration(v, leader.speed_mps, leader.gap_m);

@@ -78,6 +78,10 @@ struct WayConflict {
   WayIndex with = no_way;
   double from_m = 0.0, to_m = 0.0;
   double with_from_m = 0.0, with_to_m = 0.0;
+  /// The stretch of their connecting roads in which this one lies, over all of their sections: before a way's begin or
+  /// beyond its end it lies on other sections. It is held by one at a time.
+  double whole_from_m = 0.0, whole_to_m = 0.0;
+  double with_whole_from_m = 0.0, with_whole_to_m = 0.0;
 };
 
 struct LaneGraph {

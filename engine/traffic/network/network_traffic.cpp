@@ -10,10 +10,11 @@
 
 namespace septet::traffic {
 
+SEPTET_MEMBERS(Swerve, own, over, from_m, to_m, left_m)
 // Kept are a vehicle's constants, drawn when it came in.
 SEPTET_MEMBER_GROUPS(TownVehicle, hashed(id), kept(model, paint, driver, law, urge),
                      hashed(outside, route, front_m, speed_mps, acceleration_mps2), kept(rolled_m),
-                     hashed(claimed, claim, unused_s, waits_s), kept(stands_s), hashed(is_held))
+                     hashed(claims, unused_s, waits_s), kept(stands_s), hashed(swerve, is_held))
 // Sights are given anew each tick.
 SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights), hashed(claims, foreign_stands_s),
                      kept(bad_numbers, next_id))
@@ -24,9 +25,13 @@ constexpr auto wrong = "traffic in it does not fit together";
 
 void require_drivable(const LaneGraph& graph, const TownVehicle& vehicle, StateReader& reader) {
   reader.require(vehicle.model < vehicle_models().size() && vehicle.outside == vehicle.route.empty() &&
-                     vehicle.claimed <= vehicle.route.size(),
+                     vehicle.claims.size() <= vehicle.route.size(),
                  wrong);
   for (const WayIndex way : vehicle.route) reader.require(way < graph.ways.size(), wrong);
+  if (vehicle.swerve)
+    reader.require(vehicle.swerve->own < graph.ways.size() && vehicle.swerve->over < graph.ways.size() &&
+                       vehicle.swerve->from_m <= vehicle.swerve->to_m && std::abs(vehicle.swerve->left_m) < 10.0,
+                   wrong);
   if (!reader.ok()) return;
   double length_m = 0.0;
   for (std::size_t k = 0; k < vehicle.route.size(); ++k) {

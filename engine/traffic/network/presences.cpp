@@ -20,15 +20,14 @@ void add_own(const LaneGraph& graph, const TownVehicle& vehicle, std::int32_t wh
   for (std::size_t k = 0; k < vehicle.route.size(); ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
     const double front_m = vehicle.front_m - begin_m;
-    const bool claims = k < vehicle.claimed;
+    const bool claims = k < vehicle.claims.size();
     if (front_m <= 0.0 && !claims && -front_m > comes_within_s * vehicle.speed_mps + comes_within_m) break;
     // Also on the way beyond its claim, where room is kept for it.
-    const bool leaves_there = vehicle.claimed > 0 && k == vehicle.claimed;
+    const bool leaves_there = !vehicle.claims.empty() && k == vehicle.claims.size();
     if (front_m > 0.0 || way.in_junction() || claims || leaves_there) {
       Presence presence{vehicle.route[k], who, front_m, front_m - length_m, vehicle.speed_mps};
       presence.claims = claims || (front_m > 0.0 && way.in_junction());
       presence.gives_way = !claims && (vehicle.is_held || vehicle.waits_s > 2.0);
-      presence.claim = vehicle.claim;
       all.push_back(presence);
     }
     begin_m += way.length_m;
@@ -130,7 +129,10 @@ Presences find_presences(const road::RoadNetwork& network, const LaneGraph& grap
   Presences found;
   std::vector<Presence> all;
   for (std::size_t i = 0; i < town.vehicles.size(); ++i)
-    if (!town.vehicles[i].outside) add_own(graph, town.vehicles[i], static_cast<std::int32_t>(i), all);
+    if (!town.vehicles[i].outside) {
+      add_own(graph, town.vehicles[i], static_cast<std::int32_t>(i), all);
+      if (town.vehicles[i].swerve) add_swerve(graph, town.vehicles[i], static_cast<std::int32_t>(i), all);
+    }
   town.foreign_stands_s.resize(foreign.size(), 0.0);
   for (std::size_t k = 0; k < foreign.size(); ++k) {
     double& stands_s = town.foreign_stands_s[k];

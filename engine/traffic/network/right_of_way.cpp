@@ -74,6 +74,18 @@ void rank_roundabouts(LaneGraph& graph) {
   for (WayIndex index = 0; index < graph.ways.size(); ++index)
     if (on_ring[index] == 0)
       for (const WayIndex way : ring_through(graph, index)) on_ring[way] = 1;
+  // The lanes beside them, too, where the outer ones are no ring of their own: they end at exits.
+  const std::vector<std::uint8_t> is_found = on_ring;
+  for (WayIndex index = 0; index < graph.ways.size(); ++index)
+    if (is_found[index] != 0) {
+      const auto is_beside = [&](const Way& way) {
+        const Way& own = graph.ways[index];
+        return way.road == own.road && way.section == own.section && way.along_s == own.along_s;
+      };
+      // Ways are in the order of roads and sections.
+      for (WayIndex k = index; k > 0 && is_beside(graph.ways[k - 1]);) on_ring[--k] = 1;
+      for (WayIndex k = index + 1; k < graph.ways.size() && is_beside(graph.ways[k]); ++k) on_ring[k] = 1;
+    }
   for (WayIndex index = 0; index < graph.ways.size(); ++index)
     if (on_ring[index] != 0) {
       graph.ways[index].rank = Rank::priority;

@@ -31,12 +31,23 @@ void move(const LaneGraph& graph, double dt_s, TownVehicle& vehicle) {
     const double length_m = graph.ways[vehicle.route.front()].length_m;
     if (vehicle.front_m - vehicle.length_m() < length_m) break;
     vehicle.front_m -= length_m;
+    if (vehicle.swerve) vehicle.swerve->from_m -= length_m, vehicle.swerve->to_m -= length_m;
     vehicle.route.erase(vehicle.route.begin());
-    vehicle.claimed -= std::min(vehicle.claimed, 1u);
+    if (!vehicle.claims.empty()) vehicle.claims.erase(vehicle.claims.begin());
   }
 }
 
-PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double at_m) {
+void put_aside(const Swerve& swerve, double at_m, PlaceOnWay& place) {
+  double slope = 0.0, curvature_per_m = 0.0;
+  const double left_m = aside_of(swerve, at_m, slope, curvature_per_m);
+  const Vec3 left = glm::normalize(Vec3(-place.tangent.y, place.tangent.x, 0.0));
+  place.position_m += left_m * left;
+  place.tangent = glm::normalize(place.tangent + slope * left);
+  place.curvature_per_m += curvature_per_m;
+}
+
+PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double route_m) {
+  double at_m = route_m;
   for (std::size_t k = 0;; ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
     if (at_m <= way.length_m || k + 1 == vehicle.route.size()) {
@@ -44,14 +55,16 @@ PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, do
       // Before its begin and beyond its end a way goes straight on.
       const double beyond_m = at_m < 0.0 ? at_m : std::max(0.0, at_m - way.length_m);
       place.position_m += beyond_m * place.tangent;
+      if (vehicle.swerve) put_aside(*vehicle.swerve, route_m, place);
       return place;
     }
     at_m -= way.length_m;
   }
 }
 
-/// 1: it turns left at the junction that it is in or comes to; −1: right.
+/// 1: it turns left at the junction that it is in or comes to, or turns out to the left; −1: right.
 int indicated_turn(const LaneGraph& graph, const TownVehicle& vehicle) {
+  if (vehicle.swerve && vehicle.front_m < vehicle.swerve->from_m) return vehicle.swerve->left_m > 0.0 ? 1 : -1;
   constexpr double before_m = 40.0, turning_rad = 0.5;
   double begin_m = 0.0;
   for (const WayIndex index : vehicle.route) {
@@ -107,13 +120,15 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
     if (!vehicle.outside) prolong_route(graph, random, vehicle);
   Presences presences = find_presences(network, graph, foreign, dt_s, town);
   const std::vector<LightState> shown = light_states(network, lights);
+  const bool any_adrift = std::ranges::any_of(foreign, &ForeignVehicle::adrift);
   for (std::size_t i = 0; i < town.vehicles.size(); ++i) {
     TownVehicle& vehicle = town.vehicles[i];
     if (vehicle.outside) continue;
+    const double turn_out_at_m = any_adrift ? round_wrecks(network, graph, foreign, presences, town, i) : no_leader;
     const Leader leader = leader_of(graph, presences, town, i);
     const double line_m = negotiate(graph, shown, leader, dt_s, random, presences, town, i);
     const double within_m = wait_within_m(graph, presences, town, i);
-    double a = acceleration_of(graph, vehicle, leader, std::min(line_m, within_m));
+    double a = acceleration_of(graph, vehicle, leader, std::min({line_m, within_m, turn_out_at_m}));
     if (const auto sight = std::ranges::find(town.sights, vehicle.id, &LimitedSight::driver);
         sight != town.sights.end())
       a = std::min(a, acceleration_within_sight(vehicle.driver.following, vehicle.speed_mps, sight->seen_m));

@@ -18,11 +18,15 @@
 /// Foreign vehicles are bodies on whatever ways their outline touches, and come to junctions like others; where they
 /// are going is told by their indicator at most.
 ///
+/// Where a vehicle adrift lies on a lane outside of a junction, others pass it over the lane beside it, of their own
+/// direction or the other, once nobody is on it or comes; who has come to rest too near to turn out stays.
+///
 /// Sources: car following driver.hpp; gaps: Highway Capacity Manual (Transportation Research Board, 2010), table 19-10,
 /// base critical headways of two-lane streets. Same arguments: same traffic. One thread a state.
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +39,13 @@
 #include "engine/world/traffic_light.hpp"
 
 namespace septet::traffic {
+
+/// A way round what lies on a lane, over the lane beside it. Positions are from the route's begin.
+struct Swerve {
+  WayIndex own = no_way, over = no_way;
+  double from_m = 0.0, to_m = 0.0;  ///< In between it is all aside.
+  double left_m = 0.0;              ///< By how much, to the left.
+};
 
 struct TownVehicle {
   ParticipantId id = 0;
@@ -49,12 +60,14 @@ struct TownVehicle {
   double front_m = 0.0;         ///< Of the front bumper, from the route's begin.
   double speed_mps = 0.0, acceleration_mps2 = 0.0;
   double rolled_m = 0.0;
-  std::uint32_t claimed = 0;  ///< Ways of the route, from its begin, that it may drive; 0: no claim.
-  std::uint64_t claim = 0;    ///< The claim's number.
-  double unused_s = 0.0;      ///< For which it has stood with its claim.
-  double waits_s = 0.0;       ///< At a stop line without a claim.
-  double stands_s = 0.0;      ///< Below walking speed, for whatever cause.
-  bool is_held = false;       ///< It could go, but what lies beyond its junction has no room for it.
+  /// Numbers of the claims on the ways of the route that it may drive, from its begin. Who claims the next junction keeps
+  /// the number that he has in this one.
+  std::vector<std::uint64_t> claims;
+  double unused_s = 0.0;  ///< For which it has stood with its claim.
+  double waits_s = 0.0;   ///< At a stop line without a claim.
+  double stands_s = 0.0;  ///< Below walking speed, for whatever cause.
+  std::optional<Swerve> swerve;
+  bool is_held = false;  ///< It could go, but what lies beyond its junction has no room for it.
 
   double length_m() const { return vehicle_models()[model].length_m; }
 };

@@ -13,9 +13,8 @@ struct Presence {
   std::int32_t who = 0;  ///< Index of a vehicle; −1 − k: foreign vehicle k.
   double front_m = 0.0, rear_m = 0.0;
   double speed_mps = 0.0;
-  bool claims = false;      ///< It is within the junction, may enter it, or cannot stop before it.
-  bool gives_way = false;   ///< It stands and does not use its right of way for now.
-  std::uint64_t claim = 0;  ///< Its number; 0: before all others.
+  bool claims = false;     ///< It is within the junction, may enter it, or cannot stop before it.
+  bool gives_way = false;  ///< It stands and does not use its right of way for now.
 
   bool is_there() const { return front_m > 0.0; }
 };
@@ -38,7 +37,21 @@ inline constexpr double horizon_m = 130.0;
 /// Gap at which vehicles stand, as room beyond a junction is reckoned.
 inline constexpr double standing_gap_m = 2.5;
 
-/// Prolongs the route to the horizon. Draws a random number at each fork.
+/// Length and speed of turning out round a body, and with that the room which it takes before one.
+inline constexpr double swerve_m = 16.0, swerve_mps = 4.5, turn_out_m = swerve_m;
+
+/// Distance to the left of its way that a swerve has at a place of the route, with its derivatives by the metre.
+double aside_of(const Swerve& swerve, double at_m, double& slope, double& curvature_per_m);
+
+/// Stage 2: begins and ends a vehicle's swerve. Returns the distance to where it waits for room beside what lies ahead;
+/// infinite if there is nothing, or no way round it.
+double round_wrecks(const road::RoadNetwork& network, const LaneGraph& graph, std::span<const ForeignVehicle> foreign,
+                    const Presences& presences, TownState& town, std::size_t vehicle);
+
+/// Adds the presence of a vehicle that swerves on the lane over which it does: as a body that stands.
+void add_swerve(const LaneGraph& graph, const TownVehicle& vehicle, std::int32_t who, std::vector<Presence>& all);
+
+/// Prolongs the route to the horizon, and to room beyond the last junction. Draws a random number at each fork.
 void prolong_route(const LaneGraph& graph, Random& random, TownVehicle& vehicle);
 
 /// Stage 1: everybody's presences. Keeps up standing times of foreign vehicles.

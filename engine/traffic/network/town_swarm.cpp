@@ -92,6 +92,14 @@ bool is_clear(std::span<const Presence> presences, const TownState& town, WayInd
   return true;
 }
 
+/// Speed that the bends allow to a vehicle of which all from its rear to its front is in them.
+double bend_mps(const LaneGraph& graph, const Way& way, double rear_m, double front_m) {
+  double square_m2ps2 = bend_square_at(graph, way, front_m).m2ps2;
+  for (double at = rear_m; at < front_m; at += 1.0)
+    square_m2ps2 = std::min(square_m2ps2, bend_square_at(graph, way, at).m2ps2);
+  return std::sqrt(square_m2ps2);
+}
+
 bool try_to_enter(const TrafficParameters& parameters, const LaneGraph& graph, const Presences& presences,
                   const Places& places, const Vec3& middle_m, double least_m, Random& random, TownState& town,
                   TownVehicle& vehicle) {
@@ -112,11 +120,11 @@ bool try_to_enter(const TrafficParameters& parameters, const LaneGraph& graph, c
   vehicle.route = {index};
   vehicle.front_m = front_m;
   const double v = std::sqrt(2.0 * 1.2 * std::max(0.0, std::min(to_end_m - way.line_before_m, ahead_m) - 4.0));
-  const double bend = std::sqrt(bend_square_at(graph, way, front_m).m2ps2);
-  vehicle.speed_mps = std::min({v, 0.9 * way.limit_mps, 0.9 * vehicle.driver.following.desired_speed_mps, 0.9 * bend});
+  vehicle.speed_mps = std::min({v, 0.9 * way.limit_mps, 0.9 * vehicle.driver.following.desired_speed_mps,
+                                0.9 * bend_mps(graph, way, front_m - length_m, front_m)});
   vehicle.acceleration_mps2 = 0.0;
   vehicle.rolled_m = front_m;
-  vehicle.claimed = 0;
+  vehicle.claims.clear();
   vehicle.waits_s = vehicle.stands_s = vehicle.unused_s = 0.0;
   vehicle.is_held = false;
   prolong_route(graph, random, vehicle);
@@ -127,18 +135,25 @@ void take_away(TownVehicle& vehicle) {
   vehicle.outside = true;
   vehicle.route.clear();
   vehicle.front_m = vehicle.speed_mps = vehicle.acceleration_mps2 = 0.0;
-  vehicle.claimed = 0;
+  vehicle.claims.clear();
   vehicle.waits_s = vehicle.stands_s = vehicle.unused_s = 0.0;
   vehicle.is_held = false;
+  vehicle.swerve.reset();
 }
 
 }  // namespace
 
 void prolong_route(const LaneGraph& graph, Random& random, TownVehicle& vehicle) {
-  double end_m = -vehicle.front_m;
-  for (const WayIndex index : vehicle.route) end_m += graph.ways[index].length_m;
+  // A claim covers all of a junction and ends where there is room beyond: so must the route.
+  const double room_m = vehicle.length_m() + standing_gap_m;
+  double end_m = -vehicle.front_m, free_m = 0.0;
+  const auto add_to_end = [&](const Way& way) {
+    end_m += way.length_m;
+    free_m = way.in_junction() ? 0.0 : free_m + way.length_m;
+  };
+  for (const WayIndex index : vehicle.route) add_to_end(graph.ways[index]);
   constexpr std::size_t most_ways = 400;
-  while (end_m < horizon_m && vehicle.route.size() < most_ways) {
+  while ((end_m < horizon_m || free_m < room_m) && vehicle.route.size() < most_ways) {
     const auto next = graph.next_of(graph.ways[vehicle.route.back()]);
     if (next.empty()) return;
     // Those that suit it, else those that go on, else any.
@@ -159,7 +174,7 @@ void prolong_route(const LaneGraph& graph, Random& random, TownVehicle& vehicle)
         }
       break;
     }
-    end_m += graph.ways[vehicle.route.back()].length_m;
+    add_to_end(graph.ways[vehicle.route.back()]);
   }
 }
 

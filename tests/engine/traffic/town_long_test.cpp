@@ -7,7 +7,8 @@
 namespace septet::traffic {
 
 TEST_CASE("in an hour of a public town no outlines overlap and nobody stands for three minutes") {
-  for (const std::uint32_t count : {40u, 100u}) checked_town("Town01", count, 3600.0, 21);
+  for (const char* town : {"Town01", "Town03"})
+    for (const std::uint32_t count : {40u, 100u}) checked_town(town, count, 3600.0, 21);
 }
 
 }  // namespace septet::traffic

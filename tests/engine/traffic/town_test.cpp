@@ -145,7 +145,7 @@ TEST_CASE("nobody enters a junction whose exit is full") {
   const TrafficParameters parameters = motorway_traffic(0, 1000.0);
   Random random(1);
   // Later on it would choose another exit.
-  for (double t = 0.0; t < 18.0; t += dt_s)
+  for (double t = 0.0; t < 11.0; t += dt_s)
     advance_town(parameters, network, graph, {}, std::span(&standing, 1), dt_s, random, town);
   REQUIRE(town.vehicles.size() == 1);
   CHECK(town.vehicles.front().speed_mps == 0.0);

@@ -8,8 +8,10 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/effects/debris/dent.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/driver_car.hpp"
+#include "engine/world/wire_snapshot.hpp"
 #include "tests/engine/simulation/shipped_drives/staged_crash.hpp"
 #include "tests/relative.hpp"
 
@@ -65,6 +67,33 @@ TEST_CASE(
            event.detail.ends_with("state=complete");
   });
   CHECK(ends == 1);
+}
+
+TEST_CASE("a screen that comes in long after a crash sees the wreck where it lies, bent as it is") {
+  StagedCrash crash("side");
+  const ParticipantId crosser = crash.named("crosser");
+  while (crash.state.tick < 2400) crash.step();
+  REQUIRE(find_loose(crash.state, crosser));
+  REQUIRE(glm::length(velocity_of(crash.now, crosser)) == 0.0);
+  // A whole snapshot, as one is sent that holds none of the earlier ones.
+  Bytes bytes;
+  encode_snapshot(to_wire(crash.now), nullptr, bytes);
+  const auto wire = decode_snapshot(bytes, nullptr);
+  REQUIRE(wire.has_value());
+  const Snapshot late = from_wire(*wire);
+  const Participant *there = find_participant(crash.now, crosser), *seen = find_participant(late, crosser);
+  REQUIRE(there);
+  REQUIRE(seen);
+  CHECK(glm::distance(there->world_from_vehicle.position_m, seen->world_from_vehicle.position_m) < 0.01);
+  const auto dents_of = [](const Snapshot& snapshot) {
+    const auto found = std::ranges::find(snapshot.effects, debris::dent_keyframe_kind, &EffectKeyframe::kind);
+    REQUIRE(found != snapshot.effects.end());
+    const auto vehicles = debris::decode_dents(found->data);
+    REQUIRE(vehicles.has_value());
+    return *vehicles;
+  };
+  const auto is_bent = [&](const debris::DentedVehicle& dented) { return dented.vehicle == crosser; };
+  CHECK(std::ranges::any_of(dents_of(late), is_bent));
 }
 
 TEST_CASE("the change of velocity that is told is the driven one within 2 %, the tyres' share subtracted") {
