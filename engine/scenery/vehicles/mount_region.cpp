@@ -52,10 +52,13 @@ MountRegion lamp(const Body& body, bool ahead, float side) {
   return region;
 }
 
-MountRegion door(const Body& body, bool ahead, float side) {
+/// Empty for a rear door that there is no room for: the vehicle has two.
+std::optional<MountRegion> door(const Body& body, bool ahead, float side) {
   const DoorSeams seams = door_seams(body.model, body.shape);
   const float from = ahead ? seams.middle : 0.5f * (seams.rear_low + seams.rear_high),
               to = ahead ? seams.front : seams.middle;
+  constexpr float narrowest_m = 0.1f;
+  if (to - from < narrowest_m) return std::nullopt;
   const auto across = [&](float inner, float outer, float x_from, float x_to, float low, float high) {
     return RegionBox{{x_from, std::min(side * inner, side * outer), low},
                      {x_to, std::max(side * inner, side * outer), high}};

@@ -26,7 +26,7 @@ struct MountRegion {
   float recess_m = 0.1f;  ///< Depth of what is then seen behind the skin.
 };
 
-/// Empty for a vehicle without a car's lines.
+/// Empty for a vehicle without a car's lines, and for doors that it does not have.
 std::optional<MountRegion> mount_region(const VehicleModel& model, debris::Mount mount);
 
 }  // namespace septet::scenery

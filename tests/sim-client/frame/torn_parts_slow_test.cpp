@@ -98,7 +98,7 @@ TEST_CASE("a car that lost a door or a bumper has less of its red, and a red doo
        {Mount::front_bumper, Mount::front_left_lamp, Mount::front_left_door, Mount::rear_left_door, Mount::windscreen})
     most |= debris::bit_of(mount);
   const Lying lamp{debris::Part::lamp, Mount::front_left_lamp, {{4.3, 2.2, 0.2}, straight}};
-  CHECK(red_pixels(picture_of(most, {door, bumper, lamp}, "torn-most")) < whole);
+  CHECK(red_pixels(picture_of(most, {door, bumper, lamp}, "torn-most")) > without_door);
 }
 
 }  // namespace septet::frame
