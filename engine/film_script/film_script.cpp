@@ -43,8 +43,8 @@ Turn read_turn(const toml::table& table, const Turn& before, double to_s, std::s
   return turn;
 }
 
-Vec3 read_place(const toml::table& table, std::string_view file, Error& error) {
-  TableReader reader(table, file, "shot.place", error);
+Vec3 read_place(const toml::table& table, std::string_view file, std::string_view name, Error& error) {
+  TableReader reader(table, file, std::string(name), error);
   Vec3 place_m;
   place_m.x = get_required(reader, table, "x_m", -5e5, 5e5);
   place_m.y = get_required(reader, table, "y_m", -5e5, 5e5);
@@ -58,7 +58,7 @@ template <class Camera>
 void read_camera(Camera& camera, TableReader& reader, const toml::table& table, std::string_view file, Error& error) {
   camera.participant = reader.get_string("participant", camera.participant);
   if (const toml::table* place = reader.get_table("place"))
-    camera.place_m = read_place(*place, file, error);
+    camera.place_m = read_place(*place, file, "shot.place", error);
   else if (table.contains("place"))
     reader.report("place", "shot.place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
   if (camera.place_m && table.contains("participant"))
@@ -138,6 +138,10 @@ Overlay read_overlay(const toml::table& table, std::string_view file, Error& err
   Overlay overlay;
   if (table.contains("contact_s")) overlay.contact_s = reader.get_double("contact_s", 0.0, 0.0, longest_s);
   overlay.contact = reader.get_string("contact", overlay.contact);
+  if (const toml::table* place = reader.get_table("contact_place"))
+    overlay.contact_m = read_place(*place, file, "overlay.contact_place", error);
+  else if (table.contains("contact_place"))
+    reader.report("contact_place", "overlay.contact_place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
   overlay.participants = read_texts(reader, "participants");
   overlay.notes = read_texts(reader, "notes");
   reader.finish(documented_in);

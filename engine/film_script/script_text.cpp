@@ -34,14 +34,18 @@ std::string degrees_text(double angle_rad) {
   return text == "-0.0" ? "0.0" : text;
 }
 
+std::string place_text(std::string_view key, const Vec3& place_m) {
+  return fmt::format("{} = {{ x_m = {}, y_m = {}, z_m = {} }}\n", key, number_text(place_m.x), number_text(place_m.y),
+                     number_text(place_m.z));
+}
+
 template <class Camera>
 std::string camera_text(const Camera& camera) {
   const Camera usual;
   std::string text;
   if (!camera.title.empty()) text += fmt::format("title = {}\n", quoted_text(camera.title));
   if (camera.place_m)
-    text += fmt::format("place = {{ x_m = {}, y_m = {}, z_m = {} }}\n", number_text(camera.place_m->x),
-                        number_text(camera.place_m->y), number_text(camera.place_m->z));
+    text += place_text("place", *camera.place_m);
   else
     text += fmt::format("participant = {}\n", quoted_text(camera.participant));
   if (camera.distance_m != usual.distance_m) text += fmt::format("distance_m = {}\n", number_text(camera.distance_m));
@@ -89,9 +93,11 @@ std::string list_text(const std::vector<std::string>& texts) {
 std::string text_of(const Script& script) {
   std::string text;
   const Overlay& overlay = script.overlay;
-  if (overlay.contact_s || !overlay.participants.empty() || !overlay.notes.empty()) text += "[overlay]\n";
+  if (overlay.contact_s || overlay.contact_m || !overlay.participants.empty() || !overlay.notes.empty())
+    text += "[overlay]\n";
   if (overlay.contact_s) text += fmt::format("contact_s = {}\n", number_text(*overlay.contact_s));
   if (overlay.contact != Overlay{}.contact) text += fmt::format("contact = {}\n", quoted_text(overlay.contact));
+  if (overlay.contact_m) text += place_text("contact_place", *overlay.contact_m);
   if (!overlay.participants.empty()) text += fmt::format("participants = [{}]\n", list_text(overlay.participants));
   if (!overlay.notes.empty()) text += fmt::format("notes = [{}]\n", list_text(overlay.notes));
   for (const Shot& shot : script.shots) text += shot_text(shot);

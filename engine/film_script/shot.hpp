@@ -79,6 +79,7 @@ double lens_radius_m(const Shot& shot);
 struct Overlay {
   std::optional<double> contact_s;        ///< The clock also counts to this instant,
   std::string contact = "the contact";    ///< which is called so.
+  std::optional<Vec3> contact_m;          ///< Its place in the world, marked in views from outside.
   std::vector<std::string> participants;  ///< Those with speed, label and way: as Shot::participant, no models.
   std::vector<std::string> notes;         ///< Lines at the bottom: what is measured, assumed, computed.
 };

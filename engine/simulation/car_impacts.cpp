@@ -32,11 +32,11 @@ void advance_impacts(const Model& model, double dt_s, State& state) {
     const impact::Body before = vehicle::planar_body(model.car.body, state.car);
     impact::Body after = before;
     const double time_s = dt_s + running.due_s;
-    impact::advance_pulse(time_s, running.pulse, after, running.struck);
+    const Vec2 given_ns = impact::advance_pulse(time_s, running.pulse, after, running.struck);
     running.due_s = 0.0;
     vehicle::take_over(before, after, time_s, state.car);
     if (OpenCrash* crash = find_open_crash(state, driver_participant, running.vehicle))
-      note_push(state.tick, {.first = after, .second = crash->second}, *crash);
+      note_push(state.tick, {.first = after, .second = crash->second, .on_second_ns = given_ns}, *crash);
   }
   std::erase_if(state.impacts, [](const CarImpact& running) { return impact::is_over(running.pulse); });
 }

@@ -14,6 +14,7 @@
 #include "engine/simulation/bodies/loose_body.hpp"
 #include "engine/simulation/bodies/near_pairs.hpp"
 #include "engine/simulation/car_impacts.hpp"
+#include "engine/simulation/crash_poses.hpp"
 #include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/thrown_stage.hpp"
@@ -56,6 +57,7 @@ class Contacts {
     }
     for (const auto& pair : pairs) look_at(pair.first, pair.second);
     state_.touching = std::move(touching_);
+    note_poses(model_, participants_, state_);
     close_crashes(state_, events_);
   }
 

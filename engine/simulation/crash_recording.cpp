@@ -40,9 +40,15 @@ void tell_change(const impact::Body& before, const impact::Body& after, CrashedB
   told.principal_direction_rad = std::atan2(whence.y, whence.x);
 }
 
+/// Without a push no change was measured.
+bool was_pushed(const OpenCrash& crash) {
+  return crash.last_push > crash.record.tick || !crash.record.pulse_ns.empty();
+}
+
 CrashRecord finished(const OpenCrash& crash) {
   CrashRecord record = crash.record;
   record.ticks = static_cast<std::uint32_t>(crash.last_push - record.tick);
+  if (!was_pushed(crash)) return record;
   if (crash.first_moves) tell_change(crash.first_at, crash.first, record.of_first);
   if (crash.second_moves) tell_change(crash.second_at, crash.second, record.of_second);
   if (!crash.has_ledger) return record;
@@ -63,6 +69,10 @@ bool is_over(const OpenCrash& crash, Tick now) {
 bool is_worth_telling(const CrashRecord& record) {
   const auto speed = [](const CrashedBody& body) { return glm::length(body.delta_v_mps.value_or(Vec2(0.0))); };
   return std::max({record.closing_speed_mps, speed(record.of_first), speed(record.of_second)}) >= least_mps;
+}
+
+void tell(const CrashRecord& record, std::vector<Event>& events) {
+  if (is_worth_telling(record)) events.push_back({std::string(crash_event), record.first, text_of(record)});
 }
 
 /// By how much cuts have taken an outline back along a way that turns with it.
@@ -133,15 +143,24 @@ void note_push(Tick now, const CrashPush& push, OpenCrash& crash) {
   pulse_ns[now - crash.record.tick] += *push.on_second_ns;
 }
 
-void note_broken_off(const BrokenOff& broken, const impact::Body& before, const impact::Body& after, State& state) {
+void note_broken_off(const BrokenOff& broken, const std::optional<PushedByPieces>& first,
+                     const std::optional<PushedByPieces>& second, State& state) {
   OpenCrash* crash = broken.second ? find_open_crash(state, broken.first, *broken.second)
                                    : find_open_crash_with_run(state, broken.first, broken.run);
   if (!crash) return;
   crash->record.pieces_kinetic_j = crash->record.pieces_kinetic_j.value_or(0.0) + broken.kinetic_j;
-  if (broken.first != driver_participant || !crash->first_moves) return;
-  CrashPush push{.first = after, .second = crash->second};
-  push.debris_j = -0.5 * glm::dot(Vec2(broken.on_first_ns), before.velocity_mps + after.velocity_mps);
-  note_push(state.tick, push, *crash);
+  CrashPush push{.first = crash->first, .second = crash->second};
+  bool is_pushed = false;
+  const auto add = [&](const std::optional<PushedByPieces>& side, bool moves, const Vec3& given_ns,
+                       impact::Body& left) {
+    if (!side || !moves) return;
+    is_pushed = true;
+    left = side->after;
+    push.debris_j -= 0.5 * glm::dot(Vec2(given_ns), side->before.velocity_mps + side->after.velocity_mps);
+  };
+  add(first, crash->first_moves, broken.on_first_ns, push.first);
+  add(second, crash->second_moves, broken.on_second_ns, push.second);
+  if (is_pushed) note_push(state.tick, push, *crash);
 }
 
 void note_crush(const impact::Engagement& engagement, const impact::Side& first, const impact::Side& second,
@@ -152,12 +171,19 @@ void note_crush(const impact::Engagement& engagement, const impact::Side& first,
 }
 
 void close_crashes(State& state, std::vector<Event>& events) {
-  for (const OpenCrash& crash : state.open_crashes) {
-    if (!is_over(crash, state.tick)) continue;
-    const CrashRecord record = finished(crash);
-    if (is_worth_telling(record)) events.push_back({std::string(crash_event), record.first, text_of(record)});
-  }
+  for (const OpenCrash& crash : state.open_crashes)
+    if (is_over(crash, state.tick)) tell(finished(crash), events);
   std::erase_if(state.open_crashes, [&](const OpenCrash& crash) { return is_over(crash, state.tick); });
+}
+
+std::vector<Event> unfinished_crashes(const State& state) {
+  std::vector<Event> events;
+  for (const OpenCrash& crash : state.open_crashes) {
+    CrashRecord record = finished(crash);
+    record.is_unfinished = true;
+    tell(record, events);
+  }
+  return events;
 }
 
 }  // namespace septet::simulation

@@ -51,11 +51,17 @@ void note_push(Tick now, const CrashPush& push, OpenCrash& crash);
 void note_crush(const impact::Engagement& engagement, const impact::Side& first, const impact::Side& second,
                 OpenCrash& crash);
 
-/// Notes what broke off of a running crash. The driver's car is pushed by it, from `before` to `after`; others keep
-/// their motion.
-void note_broken_off(const BrokenOff& broken, const impact::Body& before, const impact::Body& after, State& state);
+/// A side whom broken-off pieces have pushed.
+struct PushedByPieces {
+  impact::Body before, after;
+};
+/// Notes what broke off of a running crash. Empty: who is no body that can be pushed.
+void note_broken_off(const BrokenOff& broken, const std::optional<PushedByPieces>& first,
+                     const std::optional<PushedByPieces>& second, State& state);
 
 /// Tells of the records that are over, and drops them.
 void close_crashes(State& state, std::vector<Event>& events);
+/// The records of a drive that ends now, as far as they are; the state keeps them.
+std::vector<Event> unfinished_crashes(const State& state);
 
 }  // namespace septet::simulation

@@ -17,6 +17,7 @@ struct OpenCrash {
   impact::Body first, second;                      ///< As the last push has left them.
   impact::Ledger of_contact;                       ///< Sum of all pushes of this contact.
   double debris_j = 0.0, wheels_j = 0.0;           ///< Of the record's ledger so far.
+  double deepest_m = 0.0;                          ///< Of the outlines so far, pushed or not.
   bool first_moves = false, second_moves = false;  ///< Its motion is known, and changes by pushes.
   bool has_ledger = false;                         ///< Every push has told its work.
 };

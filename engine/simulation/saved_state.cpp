@@ -46,11 +46,12 @@ SEPTET_MEMBER_GROUPS(StillIce, hashed(slabs), kept(rows, sheets), hashed(thawed_
 }  // namespace septet::ice
 
 namespace septet {
-SEPTET_MEMBERS(CrashedBody, mass_kg, yaw_inertia_kgm2, mass_centre_ahead_m, before_mps, yaw_rate_before_radps,
-               delta_v_mps, delta_yaw_rate_radps, principal_direction_rad, crush_m)
+SEPTET_MEMBERS(CrashedBody, mass_kg, yaw_inertia_kgm2, mass_centre_ahead_m, mass_centre_above_m, before_mps,
+               yaw_rate_before_radps, delta_v_mps, delta_yaw_rate_radps, principal_direction_rad, crush_m)
 SEPTET_MEMBERS(CrashLedger, kinetic_before_j, kinetic_after_j, crush_j, friction_j, debris_j, wheels_j)
 SEPTET_MEMBERS(CrashRecord, tick, ticks, first, second, stands, point_m, normal_rad, closing_speed_mps, sliding_mps,
-               overlap_m, overlap_share, of_first, of_second, ledger, pieces_kinetic_j, pulse_ns)
+               overlap_m, overlap_share, depth_m, of_first, of_second, ledger, pieces_kinetic_j, pulse_ns,
+               is_unfinished)
 }  // namespace septet
 
 namespace septet::vehicle {
@@ -75,7 +76,7 @@ SEPTET_MEMBERS(LooseBody, id, model, box_size_m, paint, lamps, front_steer_rad, 
 SEPTET_MEMBERS(BodyContact, first, second, engagement)
 SEPTET_MEMBERS(BodiesState, bodies, contacts)
 SEPTET_MEMBERS(OpenCrash, record, run, last_push, first_at, second_at, first, second, of_contact, debris_j, wheels_j,
-               first_moves, second_moves, has_ledger)
+               deepest_m, first_moves, second_moves, has_ledger)
 SEPTET_MEMBERS(CrashMemory, struck_vehicles, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(MotionState, start_x_m, start_y_m, start_heading_rad, is_over)

@@ -10,6 +10,7 @@
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/broken_off.hpp"
 #include "engine/simulation/collisions.hpp"
 #include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/driver_car.hpp"
@@ -56,7 +57,7 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   return participants;
 }
 
-void run_effects(const Model& model, const std::vector<Participant>& participants, State& state, DrivenCar& car,
+void run_effects(const Model& model, std::vector<Participant>& participants, State& state, DrivenCar& car,
                  std::vector<Event>& events) {
   if (state.tick % effects_step_ticks != 0) return;
   if (effects_are_still(state.effects)) return;
@@ -66,10 +67,10 @@ void run_effects(const Model& model, const std::vector<Participant>& participant
       advance_effects({model.roads, model.obstacles.get(), participants, weather, driver_participant,
                        friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s},
                       state.effects);
-  const impact::Body before = vehicle::planar_body(model.car.body, state.car);
+  PushedByPieces own{.before = vehicle::planar_body(model.car.body, state.car), .after = {}};
   push_car(model, report.impulse_on_driver_ns, state, car);
-  for (const BrokenOff& broken : report.crashes.broken_off)
-    note_broken_off(broken, before, vehicle::planar_body(model.car.body, state.car), state);
+  own.after = vehicle::planar_body(model.car.body, state.car);
+  for (const BrokenOff& broken : report.crashes.broken_off) give_back(broken, own, participants, state);
   if (report.crashes.pieces > 0)
     events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
   if (report.fractures > 0) events.push_back({"fracture", std::nullopt, fmt::format("faces={}", report.fractures)});

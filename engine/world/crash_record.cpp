@@ -19,6 +19,7 @@ void visit_body(const std::string& of, Body& body, const Visit& visit) {
   visit(of + "mass_kg", body.mass_kg);
   visit(of + "yaw_inertia_kgm2", body.yaw_inertia_kgm2);
   visit(of + "mass_centre_ahead_m", body.mass_centre_ahead_m);
+  visit(of + "mass_centre_above_m", body.mass_centre_above_m);
   visit(of + "before_", "_mps", body.before_mps);
   visit(of + "yaw_rate_before_radps", body.yaw_rate_before_radps);
   visit(of + "delta_v_", "_mps", body.delta_v_mps);
@@ -31,6 +32,7 @@ void visit_numbers(Crash& crash, const Visit& visit) {
   visit("sliding_mps", crash.sliding_mps);
   visit("overlap_m", crash.overlap_m);
   visit("overlap_share", crash.overlap_share);
+  visit("depth_m", crash.depth_m);
   visit_body("", crash.of_first, visit);
   visit_body("its_", crash.of_second, visit);
   visit("pieces_kinetic_j", crash.pieces_kinetic_j);
@@ -151,6 +153,7 @@ std::string text_of(const CrashRecord& crash) {
     visit_ledger(*crash.ledger, [&](std::string_view key, const double& value) { write.add(key, value); });
   for (std::size_t i = 0; i < crash.pulse_ns.size(); ++i)
     text += fmt::format("{}{:.6g}:{:.6g}", i == 0 ? " pulse_ns=" : ",", crash.pulse_ns[i].x, crash.pulse_ns[i].y);
+  if (crash.is_unfinished) text += " unfinished=1";
   return text;
 }
 
@@ -182,6 +185,7 @@ std::optional<CrashRecord> read_crash(ParticipantId first, std::string_view deta
   });
   if (whole) crash.ledger = ledger;
   if (const auto pulse = read.word("pulse_ns")) crash.pulse_ns = pulse_in(*pulse);
+  crash.is_unfinished = read.word("unfinished") == "1";
   return crash;
 }
 

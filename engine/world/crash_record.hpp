@@ -19,6 +19,7 @@ namespace septet {
 struct CrashedBody {
   std::optional<double> mass_kg, yaw_inertia_kgm2;
   std::optional<double> mass_centre_ahead_m;  ///< Of the vehicle's origin, along its heading.
+  std::optional<double> mass_centre_above_m;  ///< Its height over the origin.
   // At the touch: velocity of the mass centre.
   std::optional<Vec2> before_mps;
   std::optional<double> yaw_rate_before_radps;
@@ -53,10 +54,14 @@ struct CrashRecord {
   std::optional<double> sliding_mps;  ///< Of the first's along the second's, to the normal's left.
   /// Width on which both meet, seen along their approach, and its share of the narrower one.
   std::optional<double> overlap_m, overlap_share;
+  /// How far their whole outlines came into each other, by their poses: the least way that parts them, its greatest at
+  /// the end of a tick, until that of the last push.
+  std::optional<double> depth_m;
   CrashedBody of_first, of_second;
   std::optional<CrashLedger> ledger;
   std::optional<double> pieces_kinetic_j;  ///< Kinetic energy with which pieces flew off.
   std::vector<Vec2> pulse_ns;              ///< Impulse on the second in each tick, from the touch on.
+  bool is_unfinished = false;              ///< The drive ended before its impact was over.
   bool operator==(const CrashRecord&) const = default;
 };
 

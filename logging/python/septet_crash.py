@@ -3,11 +3,14 @@
     import septet_crash, septet_session
     with septet_session.open("out/session.sqlite") as session:
         septet_crash.crashes(session)      # one row a crash, the keys of FORMAT.md; NaN: not measured
-        septet_crash.recomputed(session)   # one row a crash: the log's figure, the snapshots' figure, their difference
+        septet_crash.recomputed(session)   # one row a figure of a crash: the log's, the snapshots', their difference
 
-From the record `recomputed` takes what no snapshot tells: who met whom and when, the contact's place and normal, masses,
-inertias and mass centres, and the pulse. All else is of the snapshots: the motion of both at the tick before the touch
-and at the last push.
+From the record `recomputed` takes what no snapshot tells: who met whom and when, the point at which the surfaces' speeds
+are compared, masses, inertias and mass centres. All else is of the snapshots: outlines and motion of both at the tick
+before the touch, and until that of the last push. Left out is what no snapshot holds: crush, which the law shares out by
+stiffness and keeps where the outlines spring back; the work of crush and friction, debris and wheels, which tell apart
+pushes within a tick; what stands beside the road. Where another crash still pushes one of the two at their touch, its
+motion then is in no snapshot either, and of figures the depth alone is reckoned.
 """
 
 import math
@@ -20,10 +23,8 @@ from septet_session import SessionError
 RECORD_VERSION = 1
 _WORDS = ("stands",)
 _NEEDED = {"tick", "ticks", "point_x_m", "point_y_m", "point_z_m", "normal_rad", "closing_speed_mps"}
-_OF_BODY = ("mass_kg", "yaw_inertia_kgm2", "mass_centre_ahead_m", "delta_v_x_mps", "delta_v_y_mps", "delta_yaw_rate_radps",
-            "principal_direction_rad", "crush_m")
-# What recomputed() holds against the snapshots.
-_MEASURED = {"with", "kinetic_before_j", "kinetic_after_j", "crush_j", "friction_j"} | {f"{of}{key}" for of in ("", "its_") for key in _OF_BODY}
+# Of one whose motion was measured.
+_OF_BODY = ("mass_kg", "yaw_inertia_kgm2", "mass_centre_ahead_m", "mass_centre_above_m", "delta_v_x_mps", "delta_v_y_mps", "delta_yaw_rate_radps")
 _LEAST_TURN_RADPS = 0.1  # Of less the snapshots' steps are too large a share.
 _MOST_TICKS = 240  # engine/world/crash_record.hpp
 _CORNER_M = 0.3  # engine/physics/impact/impact.toml: vehicles' corners in plan.
@@ -83,120 +84,228 @@ def crashes(session):
 
 
 class _Body:
-    """One of a record's two, as the snapshots of a span have it: a row a tick."""
+    """One of a record's two, as the snapshots have it: a row a tick, the first the tick before the touch.
+
+    Its motion at the touch is that of this tick, carried on as it has changed since the tick before."""
 
     def __init__(self, record, of, rows, models):
         rows = rows.sort_values("tick")
-        self.mass_kg, self.inertia_kgm2 = record[f"{of}mass_kg"], record[f"{of}yaw_inertia_kgm2"]
-        ahead_m = record[f"{of}mass_centre_ahead_m"]
-        heading = rows.heading_rad.to_numpy()
-        self.forward = np.column_stack([np.cos(heading), np.sin(heading)])
-        self.left = np.column_stack([-np.sin(heading), np.cos(heading)])
-        self.yaw_rate = rows.angular_velocity_z_radps.to_numpy()
-        origin_m = rows[["x_m", "y_m"]].to_numpy()
-        self.velocity = rows[["velocity_x_mps", "velocity_y_mps"]].to_numpy() + self.yaw_rate[:, None] * ahead_m * self.left
-        self.acceleration = rows[["acceleration_x_mps2", "acceleration_y_mps2"]].to_numpy()
-        self.centre_m = origin_m + ahead_m * self.forward
+        first = int((rows.tick < record["tick"]).sum()) - 1
         model = models[int(rows.model.iloc[0])]
-        self.half_m = np.array([model["length_m"], model["width_m"]]) / 2.0
-        middle_m = self.half_m[0] - model["rear_overhang_m"]
-        self.middle_m = origin_m + middle_m * self.forward
+        self.of, self.mass_kg, self.inertia_kgm2 = of, record.get(f"{of}mass_kg", math.nan), record.get(f"{of}yaw_inertia_kgm2", math.nan)
+        origin_m = rows[["x_m", "y_m", "z_m"]].to_numpy()
+        axes = _axes(rows[["qw", "qx", "qy", "qz"]].to_numpy())
+        spin = rows[["angular_velocity_x_radps", "angular_velocity_y_radps", "angular_velocity_z_radps"]].to_numpy()
+        arm_m = axes @ np.array([record[f"{of}mass_centre_ahead_m"], 0.0, record[f"{of}mass_centre_above_m"]])
+        velocity = rows[["velocity_x_mps", "velocity_y_mps", "velocity_z_mps"]].to_numpy() + np.cross(spin, arm_m)
+        motion = np.column_stack([velocity[:, :2], spin[:, 2]])
+        before = 2.0 * motion[first] - motion[max(0, first - 1)]
+        self.centre_m, self.velocity, self.yaw_rate = (origin_m + arm_m)[first:, :2], motion[first:, :2], motion[first:, 2]
+        self.before, self.yaw_rate_before = before[:2], float(before[2])
+        half_m = np.array([model["length_m"], model["width_m"]]) / 2.0
+        low_m = model.get("clearance_m", 0.2)
+        to_middle_m = axes @ np.array([half_m[0] - model["rear_overhang_m"], 0.0, 0.5 * (low_m + model["height_m"])])
+        forward = axes[:, :2, 0] / np.linalg.norm(axes[:, :2, 0], axis=1, keepdims=True)
+        self.outlines = [_Outline(middle_m, ahead, half_m) for middle_m, ahead in zip((origin_m + to_middle_m)[first:, :2], forward[first:])]
+
+    def moved(self, time_s):
+        """Its outline so long after the first row."""
+        turn_rad = time_s * self.yaw_rate_before
+        cosine, sine = math.cos(turn_rad), math.sin(turn_rad)
+        first, turn = self.outlines[0], np.array([[cosine, -sine], [sine, cosine]])
+        centre_m = self.centre_m[0] + time_s * self.before
+        return _Outline(centre_m + turn @ (first.middle_m - self.centre_m[0]), turn @ first.forward, first.half_m)
+
+    def surface(self, point_m, tick_s):
+        """Velocity of its surface there, at the touch."""
+        arm_m = point_m - self.centre_m[0] - tick_s * self.before
+        return self.before + self.yaw_rate_before * np.array([-arm_m[1], arm_m[0]])
 
     def kinetic_j(self, velocity, yaw_rate):
         return 0.5 * self.mass_kg * float(velocity @ velocity) + 0.5 * self.inertia_kgm2 * yaw_rate ** 2
 
-    def reach_m(self, row, way):
-        """How far the rounded outline reaches along `way` from its middle."""
-        core = self.half_m - _CORNER_M
-        return abs(self.forward[row] @ way) * core[0] + abs(self.left[row] @ way) * core[1] + _CORNER_M
+    def kinetic_lost_j(self):
+        return self.kinetic_j(self.before, self.yaw_rate_before) - self.kinetic_j(self.velocity[-1], self.yaw_rate[-1])
 
 
-def _surface(body, velocity, yaw_rate, arm_m):
-    return velocity + yaw_rate * np.array([-arm_m[1], arm_m[0]])
+def _axes(quaternions):
+    """A rotation matrix a row: forward, left and up in the world."""
+    w, x, y, z = quaternions.T
+    return np.stack([np.column_stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)]),
+                     np.column_stack([2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)]),
+                     np.column_stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])], axis=1)
+
+
+class _Outline:
+    """A vehicle in plan: a rectangle with rounded corners."""
+
+    def __init__(self, middle_m, forward, half_m):
+        self.middle_m, self.forward, self.half_m = middle_m, forward, half_m
+        self.left = np.array([-forward[1], forward[0]])
+        self.round_m = min(_CORNER_M, *half_m)
+        self.core_m = half_m - self.round_m
+
+    def core_reach_m(self, way):
+        """How far the middles of the corners reach along `way` from the outline's middle."""
+        return abs(self.forward @ way) * self.core_m[0] + abs(self.left @ way) * self.core_m[1]
+
+    def corners_m(self):
+        return [self.middle_m + x * self.core_m[0] * self.forward + y * self.core_m[1] * self.left for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+
+    def stretch_m(self, way):
+        """Where the outline begins and ends along `way`."""
+        reach_m = self.core_reach_m(way) + self.round_m
+        return self.middle_m @ way - reach_m, self.middle_m @ way + reach_m
+
+
+def _nearest(first, second):
+    """The gap between two outlines, negative where they overlap, and its direction from the first to the second."""
+    apart_m = second.middle_m - first.middle_m
+    axes = [sign * axis for axis in (first.forward, first.left, second.forward, second.left) for sign in (1.0, -1.0)]
+    gaps = [apart_m @ axis - first.core_reach_m(axis) - second.core_reach_m(axis) for axis in axes]
+    widest = int(np.argmax(gaps))
+    gap_m, normal = gaps[widest], axes[widest]
+    if gap_m > 0.0:
+        between = _between(first.corners_m(), second.corners_m())
+        gap_m = float(np.linalg.norm(between))
+        normal = between / gap_m
+    return gap_m - first.round_m - second.round_m, normal
+
+
+def _between(first, second):
+    """Of two polygons apart, the way from the first's nearest point to the second's."""
+    ways = [_to_edge(corner, second[i - 1], second[i]) for corner in first for i in range(len(second))]
+    ways += [-_to_edge(corner, first[i - 1], first[i]) for corner in second for i in range(len(first))]
+    return min(ways, key=lambda way: way @ way)
+
+
+def _to_edge(point, begin, end):
+    along = end - begin
+    square = along @ along
+    share = np.clip((point - begin) @ along / square, 0.0, 1.0) if square > 0.0 else 0.0
+    return begin + share * along - point
+
+
+def _touch_normal(first, second, tick_s):
+    """Direction from the first to the second at the instant in the tick at which their outlines closed."""
+    early_s, late_s = 0.0, tick_s
+    if _nearest(first.moved(0.0), second.moved(0.0))[0] <= 0.0:
+        early_s = tick_s
+    for _ in range(40):
+        middle_s = 0.5 * (early_s + late_s)
+        if _nearest(first.moved(middle_s), second.moved(middle_s))[0] > 0.0:
+            early_s = middle_s
+        else:
+            late_s = middle_s
+    return _nearest(first.moved(late_s), second.moved(late_s))[1]
+
+
+def _overlap_m(first, second, approach):
+    """Width on which two outlines meet, seen along their approach, and that of the narrower one."""
+    across = np.array([-approach[1], approach[0]]) / np.linalg.norm(approach)
+    (own_from, own_to), (its_from, its_to) = first.stretch_m(across), second.stretch_m(across)
+    narrower_m = min(own_to - own_from, its_to - its_from)
+    return min(max(0.0, min(own_to - its_from, its_to - own_from)), narrower_m), narrower_m
+
+
+def _of_motion(body, tick_s):
+    """What a crash changed of one's motion."""
+    change = body.velocity[-1] - body.before
+    touching = body.moved(tick_s)
+    figures = {"delta_v_x_mps": change[0], "delta_v_y_mps": change[1], "delta_v_mps": float(np.hypot(*change)),
+               "delta_yaw_rate_radps": float(body.yaw_rate[-1] - body.yaw_rate_before),
+               "principal_direction_rad": math.atan2(-change @ touching.left, -change @ touching.forward)}
+    return {f"{body.of}{key}": value for key, value in figures.items()}
+
+
+def _of_meeting(record, first, second, tick_s):
+    """How two outlines met."""
+    point_m = np.array([record["point_x_m"], record["point_y_m"]])
+    normal = _touch_normal(first, second, tick_s)
+    approach = first.surface(point_m, tick_s) - second.surface(point_m, tick_s)
+    overlap_m, narrower_m = _overlap_m(first.moved(tick_s), second.moved(tick_s), approach)
+    gaps = [_nearest(own, its)[0] for own, its in zip(first.outlines[1:], second.outlines[1:])]
+    return {"normal_rad": math.atan2(normal[1], normal[0]), "closing_speed_mps": float(approach @ normal), "overlap_m": overlap_m,
+            "overlap_share": overlap_m / narrower_m, "depth_m": max(0.0, *(-gap for gap in gaps))}
+
+
+def _is_pushed_by_another(record, everyone):
+    """True where another crash still pushes one of the two at their touch."""
+    two = {record["first"], record.get("with", record["first"])}
+    return any(other is not record and other["tick"] <= record["tick"] <= other["tick"] + other["ticks"] and
+               two & {other["first"], other.get("with", other["first"])} for other in everyone)
 
 
 def _of_snapshots(record, bodies, tick_s):
-    """The figures of a record, reckoned from two bodies' motion: key to value. Row 0 is the tick before the touch."""
-    normal = np.array([math.cos(record["normal_rad"]), math.sin(record["normal_rad"])])
-    point_m = np.array([record["point_x_m"], record["point_y_m"]])
-    # Until the touch they moved on as they did before it.
-    before = [body.velocity[0] + tick_s * body.acceleration[0] for body in bodies]
-    arms_m = [point_m - body.centre_m[0] - tick_s * body.velocity[0] for body in bodies]
-    surfaces = [_surface(body, velocity, body.yaw_rate[0], arm_m) for body, velocity, arm_m in zip(bodies, before, arms_m)]
-    figures = {"closing_speed_mps": float((surfaces[0] - surfaces[1]) @ normal)}
-    for of, body, velocity in zip(("", "its_"), bodies, before):
-        change = body.velocity[-1] - velocity
-        figures[f"{of}delta_v_x_mps"], figures[f"{of}delta_v_y_mps"] = change
-        figures[f"{of}delta_v_mps"] = float(np.hypot(*change))
-        figures[f"{of}delta_yaw_rate_radps"] = float(body.yaw_rate[-1] - body.yaw_rate[0])
-        figures[f"{of}principal_direction_rad"] = math.atan2(-change @ body.left[0], -change @ body.forward[0])
-    figures["kinetic_before_j"] = sum(body.kinetic_j(velocity, body.yaw_rate[0]) for body, velocity in zip(bodies, before))
-    figures["kinetic_after_j"] = sum(body.kinetic_j(body.velocity[-1], body.yaw_rate[-1]) for body in bodies)
-    figures |= _of_surfaces(record, bodies, before, arms_m, normal, tick_s)
+    """The figures of a record that its bodies' snapshots tell."""
+    figures = {}
+    for body in bodies:
+        figures |= _of_motion(body, tick_s)
+    if len(bodies) == 2:
+        figures |= _of_meeting(record, *bodies, tick_s)
+    elif "stands" in record:
+        normal = np.array([math.cos(record["normal_rad"]), math.sin(record["normal_rad"])])
+        figures["closing_speed_mps"] = float(bodies[0].surface(np.array([record["point_x_m"], record["point_y_m"]]), tick_s) @ normal)
+    figures["kinetic_lost_j"] = sum(body.kinetic_lost_j() for body in bodies)
     return figures
-
-
-def _of_surfaces(record, bodies, before, arms_m, normal, tick_s):
-    """What follows from the surfaces' speed towards each other, tick by tick, the arms held as at the touch: the depth to which they came along
-    the normal, and the work of the pulse along it and across it."""
-    pulse = record.get("pulse_ns")
-    if pulse is None or len(pulse) > len(bodies[0].velocity) - 1:
-        return {}
-    # Of convex outlines at their touch, the gap along the normal is the gap.
-    depth_m = bodies[0].reach_m(0, normal) + bodies[1].reach_m(0, -normal) - (bodies[1].middle_m[0] - bodies[0].middle_m[0]) @ normal
-    deepest_m, along_j, across_j = depth_m, 0.0, 0.0
-    last = [(velocity, body.yaw_rate[0]) for velocity, body in zip(before, bodies)]
-    tangent = np.array([-normal[1], normal[0]])
-    for row, impulse in enumerate(pulse, start=1):
-        now = [(body.velocity[row], body.yaw_rate[row]) for body in bodies]
-        speeds = [[_surface(body, *motion, arm_m) for body, motion, arm_m in zip(bodies, motions, arms_m)] for motions in (last, now)]
-        mean = 0.5 * (speeds[0][0] - speeds[0][1] + speeds[1][0] - speeds[1][1])
-        along_j += float(impulse @ normal) * float(mean @ normal)
-        across_j += float(impulse @ tangent) * float(mean @ tangent)
-        depth_m += tick_s * float(mean @ normal)
-        deepest_m = max(deepest_m, depth_m)
-        last = now
-    return {"depth_m": deepest_m, "crush_j": along_j, "friction_j": across_j}
 
 
 def _told(record, key):
     if key in ("delta_v_mps", "its_delta_v_mps"):
         of = key.removesuffix("delta_v_mps")
         return math.hypot(record[f"{of}delta_v_x_mps"], record[f"{of}delta_v_y_mps"])
-    if key == "depth_m":  # What both are crushed by, as far as it carries.
-        return record["crush_m"] + record["its_crush_m"]
-    return record[key]
+    if key == "kinetic_lost_j":
+        return record.get("kinetic_before_j", math.nan) - record.get("kinetic_after_j", math.nan)
+    return record.get(key, math.nan)
+
+
+def _scale(record, key, logged):
+    """What a difference is to be held against: of a component its vector, of a direction one radian, of turns 0.1 rad/s at least."""
+    if key.endswith("_rad"):
+        return 1.0
+    if "delta_v_" in key:
+        return _told(record, ("its_" if key.startswith("its_") else "") + "delta_v_mps")
+    if key.endswith("delta_yaw_rate_radps"):
+        turns = (record.get("delta_yaw_rate_radps", 0.0), record.get("its_delta_yaw_rate_radps", 0.0))
+        return max(*map(abs, turns), _LEAST_TURN_RADPS)
+    return abs(logged)
+
+
+def _measured_sides(record):
+    """Of the two those whose motion was measured, with the beginning of their keys."""
+    sides = ((record["first"], ""), (record.get("with", math.nan), "its_"))
+    return [(int(number), of) for number, of in sides if _has({**record, "number": number}, {"number", *(f"{of}{key}" for key in _OF_BODY)})]
 
 
 def recomputed(session):
-    """One row a crash of two whose motion was measured, and figure: `logged`, `recomputed`, `difference`, and `scale`, the size
-    that a difference is to be held against (a component of a vector: the vector's)."""
+    """One row a crash and figure, of those whose motion was measured: `logged`, `recomputed`, `difference`, and `scale`, the size
+    that a difference is to be held against."""
     columns = ["tick", "first", "with", "figure", "logged", "recomputed", "difference", "scale"]
-    known = [record for record in records(session) if _has(record, _MEASURED)]
+    everyone = records(session)
+    known = [(record, sides) for record in everyone if (sides := _measured_sides(record))]
     if not known:
         return pandas.DataFrame(columns=columns)
-    spans = [range(int(record["tick"]) - 1, int(record["tick"] + record["ticks"]) + 1) for record in known]
-    ticks = set().union(*spans)
+    spans = [range(max(0, int(record["tick"]) - 2), int(record["tick"] + record["ticks"]) + 1) for record, _ in known]
     everybody = session.participants()
-    taken = everybody[everybody.tick.isin(ticks)]
+    taken = everybody[everybody.tick.isin(set().union(*spans))]
     models, rows = session.vehicle_models(), []
     tick_s = 1.0 / float(session.meta["ticks_per_second"])
-    for record, span in zip(known, spans):
+    for (record, sides), span in zip(known, spans):
         here = taken[taken.tick.isin(span)]
-        of_each = [here[here.participant == number] for number in (record["first"], record["with"])]
-        if any(len(of_one) != len(span) for of_one in of_each):
+        of_each = [here[here.participant == number] for number, _ in sides]
+        if any(set(range(int(record["tick"]) - 1, span.stop)) - set(of_one.tick) for of_one in of_each):
             raise SessionError(f"{session.path}: the snapshots around the crash of tick {record['tick']:.0f} lack one of its two")
-        bodies = [_Body(record, of, of_one, models) for of, of_one in zip(("", "its_"), of_each)]
+        try:
+            bodies = [_Body(record, of, of_one, models) for (_, of), of_one in zip(sides, of_each)]
+        except (IndexError, KeyError, TypeError):
+            raise SessionError(f"{session.path}: its vehicle_models are not what Septet writes: use an unaltered session") from None
+        depends_on_others = _is_pushed_by_another(record, everyone)
         for key, value in _of_snapshots(record, bodies, tick_s).items():
             logged = _told(record, key)
-            scale = abs(logged)
-            if "delta_v_" in key:
-                scale = _told(record, ("its_" if key.startswith("its_") else "") + "delta_v_mps")
-            elif key.endswith("principal_direction_rad"):
-                value, scale = logged + math.remainder(value - logged, 2.0 * math.pi), math.pi
-            elif key.endswith("_j"):
-                scale = record["kinetic_before_j"] - record["kinetic_after_j"]
-            elif key.endswith("delta_yaw_rate_radps"):
-                scale = max(abs(record["delta_yaw_rate_radps"]), abs(record["its_delta_yaw_rate_radps"]), _LEAST_TURN_RADPS)
-            rows.append((int(record["tick"]), record["first"], int(record["with"]), key, logged, value, value - logged, scale))
+            if not math.isfinite(logged) or (depends_on_others and key != "depth_m"):
+                continue
+            if key.endswith("_rad"):
+                value = logged + math.remainder(value - logged, 2.0 * math.pi)
+            rows.append((int(record["tick"]), record["first"], record.get("with", math.nan), key, logged, value, value - logged,
+                         _scale(record, key, logged)))
     return pandas.DataFrame(rows, columns=columns)

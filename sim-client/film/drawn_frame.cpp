@@ -5,14 +5,10 @@
 namespace septet::film {
 namespace {
 
-constexpr std::uint32_t border_px = 4;  ///< Between two pictures beside each other.
-
-/// The right half of `second`, behind a black border.
+/// Takes over the right half.
 void put_beside(const image::Image& second, image::Image& picture) {
-  const std::uint32_t left_px = picture.width / 2;
   for (std::uint32_t y = 0; y < picture.height; ++y)
-    for (std::uint32_t x = left_px - border_px / 2; x < picture.width; ++x)
-      picture.set(x, y, x < left_px + border_px / 2 ? image::Color{0, 0, 0, 255} : second.at(x, y));
+    for (std::uint32_t x = picture.width / 2; x < picture.width; ++x) picture.set(x, y, second.at(x, y));
 }
 
 }  // namespace
@@ -45,7 +41,7 @@ Expected<image::Image> draw_frame(FilmFrames& frames, const FilmFrame& frame, re
     if (!second) return second;
     put_beside(*second, *picture);
   }
-  frames.draw_overlay(frame, *picture);
+  frames.draw_over(frame, *picture);
   return picture;
 }
 

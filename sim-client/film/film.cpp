@@ -93,10 +93,6 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
     return tl::unexpected(is_free.error());
   auto frames = FilmFrames::open(options);
   if (!frames) return tl::unexpected(frames.error());
-  for (const Shot& shot : frames->plan().script.shots)
-    if (traced && (shot.overlay || shot.beside))
-      return failure("overlays and second cameras are drawn by the rasteriser alone", shot.where,
-                     "leave out --renderer traced, or overlay and beside");
   const auto record = film_record(options, frames->session());
   if (!record) return tl::unexpected(record.error());
   std::optional<render::Renderer> rasteriser;

@@ -21,6 +21,10 @@ constexpr std::uint32_t most_photons = 20'000'000;
 
 }  // namespace
 
+FilmRenderer renderer_named(const std::string& name) {
+  return name == "traced" ? FilmRenderer::traced : FilmRenderer::raster;
+}
+
 void add_film_options(CLI::App& app, FilmArguments& arguments) {
   FilmOptions& options = arguments.film;
   app.add_option("session", options.session, "Session file of a drive");
@@ -137,7 +141,7 @@ Expected<void> settle(const CLI::App& app, FilmArguments& arguments) {
   if (options.ghosts.size() > most_ghost_sessions)
     return failure(fmt::format("more than {} sessions are shown as ghosts", most_ghost_sessions), "--ghost",
                    "leave some out");
-  options.renderer = arguments.renderer == "traced" ? FilmRenderer::traced : FilmRenderer::raster;
+  options.renderer = renderer_named(arguments.renderer);
   options.filter = arguments.filter == "box"         ? raytrace::Filter::box
                    : arguments.filter == "tent"      ? raytrace::Filter::tent
                    : arguments.filter == "quadratic" ? raytrace::Filter::quadratic

@@ -23,6 +23,9 @@ struct FilmArguments {
   std::string renderer = "raster", exr = "none", filter = "quadratic", schedule = "ours";
 };
 
+/// "traced" or "raster".
+FilmRenderer renderer_named(const std::string& name);
+
 /// Declares all options of a film to the parser.
 void add_film_options(CLI::App& app, FilmArguments& arguments);
 

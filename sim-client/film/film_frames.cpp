@@ -11,6 +11,7 @@
 #include "engine/core/check.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/film_script/film_script.hpp"
+#include "engine/image/draw.hpp"
 #include "engine/scene/resolve.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "sim-client/film/ghosts.hpp"
@@ -27,6 +28,7 @@ namespace {
 constexpr double time_slack_s = 1e-6;
 constexpr std::size_t longest_script_bytes = 1 << 22;
 constexpr std::size_t most_frames = 1'000'000;
+constexpr std::int64_t border_px = 4;  ///< Between two cameras' pictures.
 
 /// Anchors of a shot's cameras.
 struct Pivots {
@@ -269,9 +271,10 @@ Expected<std::optional<instant::FrameInput>> FilmFrames::input_beside(const Film
   return input;
 }
 
-void FilmFrames::draw_overlay(const FilmFrame& film_frame, image::Image& picture) const {
+void FilmFrames::draw_over(const FilmFrame& film_frame, image::Image& picture) const {
   const State& state = *state_;
   const Shot& shot = state.plan.script.shots[film_frame.shot];
+  if (shot.beside) image::fill(picture, (picture.width - border_px) / 2, 0, border_px, picture.height, {0, 0, 0, 255});
   if (!shot.overlay || !state.cast.font) return;
   const OverlayMoment moment{.script = state.plan.script,
                              .shot = shot,

@@ -32,8 +32,9 @@ class FilmFrames {
   /// Input of a frame's second camera, of which the right half of the picture is drawn; empty: its shot has none. To be
   /// called right after `input_of` of the same frame, of which the left half is drawn then.
   Expected<std::optional<instant::FrameInput>> input_beside(const FilmFrame& frame);
-  /// Draws the overlay of a frame onto its picture, if its shot has one. To be called after `input_of` of that frame.
-  void draw_overlay(const FilmFrame& frame, image::Image& picture) const;
+  /// Draws what lies over a frame's picture: a border between two cameras, and its shot's overlay. To be called after
+  /// `input_of`, and of two cameras `input_beside`, of that frame.
+  void draw_over(const FilmFrame& frame, image::Image& picture) const;
   /// Input at the instant at which the shot's shutter closes; empty if the shutter is open for no time.
   Expected<std::optional<instant::FrameInput>> input_as_shutter_closes(const FilmFrame& frame);
   /// Input at the next frame's instant, or at the end of its shot if that comes first.

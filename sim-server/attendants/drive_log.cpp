@@ -41,6 +41,7 @@ void DriveLog::close(ServeResult& result) {
     result.end = logging::DriveEnd::log_failed;
     result.error = error;
   };
+  live_.log_unfinished();
   if (const auto finished = session_->finish(session_->outcome(result, screens)); !finished) failed(finished.error());
   if (const auto remark = session_->remark()) line_.message(*remark);
   if (const auto written = write_results(loaded_, options_, session_->outcome(result, screens)); !written)

@@ -9,6 +9,7 @@
 #include "car-io/can/instruments.hpp"
 #include "engine/audio/heard.hpp"
 #include "engine/core/printable.hpp"
+#include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/examiner.hpp"
 #include "engine/simulation/saved_state.hpp"
 #include "sim-server/drive/car_motion.hpp"
@@ -270,6 +271,10 @@ void LiveDrive::stand_still() {
     cut_why_.reset();
   }
   actuate({});
+}
+
+void LiveDrive::log_unfinished() {
+  if (log_) log_->record_events(simulation::unfinished_crashes(state_));
 }
 
 Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {

@@ -55,6 +55,8 @@ class LiveDrive final : public TickSource {
                                           DriverSeat seat);
   /// Logs everything from here on, the present tick first. `log` outlives the drive.
   void log_to(SessionLog& log);
+  /// Logs the crashes whose impact is not over, as far as they are known. Call it once, before the log is closed.
+  void log_unfinished();
 
   /// Executes a command between two ticks and logs it, so that a repeated drive has it too. Error: this drive cannot
   /// execute it, or not now.

@@ -101,8 +101,7 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   simulated_time_s_ = snapshot.simulated_time_s;
   bad_numbers_ = snapshot.diagnostics.bad_numbers;
   game_ = snapshot.game;
-  for (const auto& event : events)
-    record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
+  record_events(events);
   // The search for the leader runs only for samples, ten times a second.
   const auto leader =
       logging::is_sample_due(tick_, simulation::tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
@@ -116,6 +115,11 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   if (samples_only_) return;
   digest_.add_tick(tick_, simulated_time_s_, snapshot.state_hash);
   writer_.record(std::move(taken));
+}
+
+void SessionLog::record_events(const std::vector<simulation::Event>& events) {
+  for (const auto& event : events)
+    record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
 }
 
 std::optional<std::string> SessionLog::take_warning() {

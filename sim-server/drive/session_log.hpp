@@ -54,6 +54,8 @@ class SessionLog {
   /// Records the tick's snapshot and events, and at 10 Hz a sample with the events that it completes (lane changes,
   /// glances).
   void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events);
+  /// Records events as of the newest tick; record_tick has recorded its own.
+  void record_events(const std::vector<simulation::Event>& events);
   /// Records an operator's command, applied before this tick.
   void record_command(Tick before, const simulation::OperatorCommand& command);
   void record_state(logging::StateRecord state) {

@@ -7,6 +7,7 @@
 
 #include "engine/document/json.hpp"
 #include "engine/world/kind_name.hpp"
+#include "engine/world/vehicle_body.hpp"
 #include "engine/world/vehicle_model.hpp"
 
 namespace septet::server {
@@ -33,6 +34,7 @@ std::map<std::string, std::string> who_is_who(const simulation::Model& model) {
     row["length_m"] = vehicle.length_m;
     row["width_m"] = vehicle.width_m;
     row["height_m"] = vehicle.height_m;
+    row["clearance_m"] = vehicle_body(vehicle.kind).clearance_m;
     row["wheelbase_m"] = vehicle.wheelbase_m;
     row["rear_overhang_m"] = vehicle.rear_overhang_m;
     row["track_m"] = vehicle.track_m;

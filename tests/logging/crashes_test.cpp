@@ -110,17 +110,17 @@ TEST_CASE("a crash's sentence has what was measured, and nothing of what was not
 
 TEST_CASE("the report shows each crash with its energies and its pulse, and a dash for what was not measured") {
   const std::vector<CrashRecord> crashes{crash_at(240, 1, 3)};
-  const std::string html = crash_section(crashes, 120.0);
-  for (const char* part : {"2.00 s: participant 1 and participant 3", "48.6 km/h", "0.91 m, 50 %", "23.4", "0.38", "–",
-                           "crush 70.0, friction 6.0", "Pulse"})
+  const std::string html = crash_section(crashes, 120.0, {{3, "crosser"}});
+  for (const char* part :
+       {"2.00 s: 1 and 3 crosser", "48.6 km/h", "0.91 m, 50 %", "23.4", "0.38", "–", ">70.00<", ">6.00<", "Pulse"})
     CHECK_MESSAGE(has(html, part), part);
-  CHECK(crash_section({}, 120.0).empty());
+  CHECK(crash_section({}, 120.0, {}).empty());
   CrashRecord strange = crashes[0];
   strange.second.reset();
   strange.stands = "<script>";
-  CHECK_FALSE(has(crash_section({&strange, 1}, 120.0), "<script>"));
+  CHECK_FALSE(has(crash_section({&strange, 1}, 120.0, {{1, "<script>"}}), "<script>"));
   const std::vector<CrashRecord> many(30, crashes[0]);
-  CHECK(has(crash_section(many, 120.0), "And 10 more."));
+  CHECK(has(crash_section(many, 120.0, {}), "And 10 more."));
 }
 
 TEST_CASE("summary and measures of a session have its crashes, and of a session of an earlier build none") {

@@ -80,9 +80,10 @@ std::string_view whence(double principal_direction_rad) {
 
 std::string crash_text(const CrashRecord& crash) {
   const std::string other = crash.second ? fmt::format("{}", *crash.second) : crash.stands;
-  return fmt::format("{} {} and {} met at {:.0f} km/h{}{}", crash.second ? "participants" : "participant", crash.first,
-                     other, kmh_per_mps * crash.closing_speed_mps,
-                     body_text(fmt::format("{}", crash.first), crash.of_first), body_text(other, crash.of_second));
+  return fmt::format("{} {} and {} met at {:.0f} km/h{}{}{}", crash.second ? "participants" : "participant",
+                     crash.first, other, kmh_per_mps * crash.closing_speed_mps,
+                     body_text(fmt::format("{}", crash.first), crash.of_first), body_text(other, crash.of_second),
+                     crash.is_unfinished ? "; the drive ended before its impact was over" : "");
 }
 
 }  // namespace septet::logging

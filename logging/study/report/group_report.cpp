@@ -300,10 +300,9 @@ std::string to_html(const GroupReport& report) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">\n"
-      "<title>{}</title>\n<style>{}svg circle {{ fill: var(--line); fill-opacity: 0.75; }} svg .s1 {{ stroke: "
-      "var(--mark); }} svg circle.s1 {{ fill: var(--mark); stroke: none; }} svg .s2 {{ stroke: var(--ink); }} svg "
-      "circle.s2 {{ fill: var(--ink); stroke: none; }} svg .s3, svg .s4, svg .s5 {{ stroke: var(--ink); }} svg .dashed "
-      "{{ stroke-dasharray: 7 4; }} h3 {{ font-size: 15px; margin: 28px 0 8px; }} "
+      "<title>{}</title>\n<style>{}svg circle {{ fill: var(--line); fill-opacity: 0.75; }} "
+      "svg circle.s1 {{ fill: var(--mark); stroke: none; }} svg .s2 {{ stroke: var(--ink); }} svg "
+      "circle.s2 {{ fill: var(--ink); stroke: none; }} svg .s3, svg .s4, svg .s5 {{ stroke: var(--ink); }} "
       "table.wide {{ font-size: 13px; }} table.wide td {{ "
       "padding: 4px 10px 4px 0; }}</style></head>\n<body><main>\n{}</main></body></html>\n",
       escaped(report.title), report_style, body);

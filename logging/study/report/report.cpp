@@ -240,6 +240,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
   ReportData data;
   static_cast<DriveRecords&>(data) = std::move(*records);
   data.info = reader.info();
+  data.names = participant_names(reader).value_or(ParticipantNames{});
   data.ended_cleanly = reader.ended_cleanly();
   data.missing_ticks = *missing;
   data.answers = std::move(*answers);
@@ -263,7 +264,7 @@ std::string to_html(const ReportData& data) {
   else
     body += route_chart(data, events) + speed_chart(data, measures, events) + lateral_position_chart(data, measures) +
             histogram_chart(measures) + measure_table(measures, data.settings);
-  body += crash_section(find_crashes(data.events), data.info.ticks_per_second);
+  body += crash_section(find_crashes(data.events), data.info.ticks_per_second, data.names);
   body += picture_section(data.pictures) + answer_table(data.answers) + event_table(events) + screen_table(data);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "

@@ -9,6 +9,7 @@
 
 #include "engine/core/expected.hpp"
 #include "logging/session/outcome.hpp"
+#include "logging/session/participants.hpp"
 #include "logging/session/session_reader.hpp"
 #include "logging/study/report/drive_measures.hpp"
 #include "logging/study/report/drive_pictures.hpp"
@@ -17,6 +18,7 @@ namespace septet::logging {
 
 struct ReportData : DriveRecords {
   SessionInfo info;
+  ParticipantNames names;
   bool ended_cleanly = true;
   std::optional<DriveOutcome> outcome;  ///< Empty if the file has none.
   std::uint64_t missing_ticks = 0;

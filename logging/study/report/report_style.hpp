@@ -17,6 +17,7 @@ body { margin: 0; background: var(--paper); color: var(--ink); font: 15px/1.5 sy
 main { max-width: 1020px; margin: 0 auto; padding: 36px 28px 60px; }
 h1 { font-size: 27px; line-height: 1.2; margin: 0 0 4px; letter-spacing: -0.01em; }
 h2 { font-size: 17px; margin: 38px 0 10px; }
+h3 { font-size: 15px; margin: 28px 0 8px; }
 p { max-width: 74ch; margin: 8px 0; }
 .soft { color: var(--soft); }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(140px, 1fr)); gap: 12px; margin: 24px 0 8px; }
@@ -34,6 +35,8 @@ svg .x-tick, svg .x-label { text-anchor: middle; }
 svg .grid { stroke: var(--rule); stroke-width: 1; fill: none; }
 svg .axis { stroke: var(--soft); stroke-width: 1; fill: none; }
 svg .line { stroke: var(--line); stroke-width: 1.6; fill: none; stroke-linejoin: round; }
+svg .s1 { stroke: var(--mark); }
+svg .dashed { stroke-dasharray: 7 4; }
 svg .band { fill: var(--band); }
 svg .bar { fill: var(--bar); }
 svg .bar.strong { fill: var(--strong); }

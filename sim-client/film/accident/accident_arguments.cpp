@@ -3,6 +3,7 @@
 #include <string>
 
 #include "program/command_line.hpp"
+#include "sim-client/film/film_arguments.hpp"
 #include "sim-client/film/film_program.hpp"
 
 namespace septet::film {
@@ -28,6 +29,16 @@ void add_accident_options(CLI::App& app, AccidentOptions& options) {
       });
   app.add_flag_callback(
       "--no-sound", [&film] { film.sound = false; }, "Leave out what the driver heard");
+  app.add_option_function<std::string>(
+         "--renderer", [&film](const std::string& name) { film.renderer = renderer_named(name); },
+         "raster, or traced: light follows paths, on all cores; slow")
+      ->check(CLI::IsMember({"raster", "traced"}))
+      ->default_str("raster");
+  app.add_option("--samples", film.samples, "Of a pixel that is traced: four times as many halve the noise")
+      ->check(CLI::Range(1u, 1u << 20))
+      ->capture_default_str();
+  app.add_flag("--denoise", film.denoise, "Take the noise out of what is traced");
+  app.add_flag("--resume", film.resume, "Go on with a film that was stopped: what is drawn is not drawn again");
   app.add_flag("--software", film.software, "Draw without a graphics card, pixel for pixel as off-screen screens do");
   app.add_option("--voice", options.voice,
                  "Command of a narrator, run by the shell for each subtitle: reads $WORDS, writes a WAV file, $WAV")

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/core/version.hpp"
 #include "engine/document/text_file.hpp"
 #include "engine/film_script/script_text.hpp"
@@ -28,15 +29,27 @@ namespace septet::film {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t longest_storyboard_bytes = std::size_t{1} << 20;
+
 std::string storyboard_text(const AccidentPlan& plan) {
   return fmt::format("# {}\n# septet film --shots films it; sim-client/film/FILM.md explains the keys.\n{}", plan.title,
                      text_of(plan.script));
 }
 
-Expected<void> check_folder(const fs::path& folder) {
+/// The folder is free, or with `resume` holds the unfinished film of this storyboard.
+Expected<void> check_folder(const fs::path& folder, const std::string& storyboard, bool resume) {
   std::error_code error;
   if (!fs::exists(folder, error) || (fs::is_directory(folder, error) && fs::is_empty(folder, error))) return {};
-  return failure("it is there already and not an empty folder", folder.string(), "choose a new folder with --out");
+  if (!resume)
+    return failure("it is there already and not an empty folder", folder.string(),
+                   "choose a new folder with --out, or add --resume to go on with a film that was stopped");
+  if (fs::exists(folder / manifest_name, error))
+    return failure("the film there is whole already", folder.string(), "choose a new folder with --out");
+  const auto begun = read_regular_file(folder / script_name, longest_storyboard_bytes);
+  if (!begun) return tl::unexpected(begun.error());
+  if (*begun == storyboard) return {};
+  return failure("another film was begun there", (folder / script_name).string(),
+                 "give the same session and options as then, or choose a new folder with --out");
 }
 
 /// Draws and encodes; false: a person stopped it.
@@ -95,7 +108,7 @@ Expected<void> write_beside(const FilmOptions& film_options, const std::string& 
   for (const FilmFrame& frame : telling_frames(*film)) {
     stills.push_back({fmt::format("still-{}.png", frame.shot + 1), frame.instant_s, frame.shot});
     std::error_code error;
-    fs::copy_file(picture(frame), folder / stills.back().file, error);
+    fs::copy_file(picture(frame), folder / stills.back().file, fs::copy_options::overwrite_existing, error);
     if (error) return failure(error.message(), (folder / stills.back().file).string(), "make room on the disk");
     files.push_back(stills.back().file);
   }
@@ -140,7 +153,7 @@ Expected<int> make_accident_film(const AccidentOptions& options) {
     return 0;
   }
   const fs::path folder = options.film.out.empty() ? options.film.session.parent_path() / "accident" : options.film.out;
-  if (auto free = check_folder(folder); !free) return tl::unexpected(free.error());
+  if (auto free = check_folder(folder, storyboard, options.film.resume); !free) return tl::unexpected(free.error());
   if (const auto ffmpeg = find_ffmpeg(); !ffmpeg) return tl::unexpected(ffmpeg.error());
   std::error_code error;
   fs::create_directories(folder, error);
@@ -151,10 +164,11 @@ Expected<int> make_accident_film(const AccidentOptions& options) {
   film.keep_pictures = true;
   if (auto written = document::write_text_file(film.shots, storyboard); !written)
     return tl::unexpected(written.error());
+  fs::remove(film.out, error);  // Encoded once more of a resumed one's pictures: its narrator may have been added.
   const auto whole = film_plan(film);
   if (!whole) return tl::unexpected(whole.error());
   if (!*whole) {
-    program::say("septet: stopped; begin again with another --out");
+    program::say(fmt::format("septet: stopped; add --resume to go on with {}", folder.string()));
     return program::failed_status;
   }
   if (auto written = write_beside(film, options.voice, folder, *session, *planned); !written)

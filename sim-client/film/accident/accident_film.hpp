@@ -12,7 +12,8 @@
 namespace septet::film {
 
 struct AccidentOptions {
-  FilmOptions film;                  ///< Session, size, rate; `out` is the folder of everything, new or empty.
+  /// Session, size, rate, renderer; `out` is the folder of everything, new or empty, with `resume` that of the same film.
+  FilmOptions film;
   std::optional<std::size_t> event;  ///< Number of the contact, from 1; empty: the first.
   std::filesystem::path plan;        ///< Write the storyboard there and stop; empty: make the film.
   std::filesystem::path check;       ///< Check the film of this folder, or of this file in it; empty: make one.

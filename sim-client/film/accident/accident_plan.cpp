@@ -171,6 +171,7 @@ void add_crash_figures(const AccidentFacts& facts, const CrashRecord& crash, std
     if (value) figures.push_back({name, unit, times * *value, "logged record of the crash, computed"});
   };
   add("overlap, of the narrower one", "%", crash.overlap_share, 100.0);
+  add("depth to which the outlines came into each other", "m", crash.depth_m, 1.0);
   const CrashedBody* bodies[] = {&crash.of_first, &crash.of_second};
   for (std::size_t i = 0; i < std::min(facts.involved.size(), std::size(bodies)); ++i) {
     const CrashedBody& body = *bodies[i];
@@ -256,6 +257,8 @@ AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, dou
   plan.script.overlay.notes = origins(facts);
   if (facts.chosen || facts.nearest_s) plan.script.overlay.contact_s = contact_s;
   if (!facts.chosen && facts.nearest_s) plan.script.overlay.contact = event;
+  if (facts.chosen && facts.contacts[*facts.chosen].crash)
+    plan.script.overlay.contact_m = facts.contacts[*facts.chosen].crash->point_m;
   for (const Involved& one : facts.involved) plan.script.overlay.participants.push_back(reference(one));
 
   const Shot above = planner.from_above(before_contact_s, after_contact_s, 1.0);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -14,10 +15,14 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/core/version.hpp"
 #include "engine/film_script/script_text.hpp"
+#include "engine/image/png.hpp"
+#include "program/stop_signal.hpp"
+#include "program/temporary_folder.hpp"
 #include "sim-client/film/accident/accident_film.hpp"
 #include "sim-client/film/accident/manifest.hpp"
 #include "sim-client/film/accident/read_plan.hpp"
 #include "sim-client/film/drawn_frame.hpp"
+#include "sim-client/film/film_arguments.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -47,6 +52,11 @@ Expected<Record> read_manifest(const fs::path& folder, const fs::path& session) 
     record.film.width_px = options.at("width").get<std::uint32_t>();
     record.film.height_px = options.at("height").get<std::uint32_t>();
     record.film.software = options.at("software").get<bool>();
+    const auto renderer = options.at("renderer").get<std::string>();
+    if (renderer != "raster" && renderer != "traced") throw std::invalid_argument("renderer");
+    record.film.renderer = renderer_named(renderer);
+    record.film.samples = options.at("samples").get<std::uint32_t>();
+    record.film.denoise = options.at("denoise").get<bool>();
     record.event = record.json.at("event").get<std::size_t>();
     for (const char* list : {"files", "frames", "figures", "assumptions", "inputs"})
       if (!record.json.at(list).is_array()) throw std::invalid_argument(list);
@@ -58,9 +68,10 @@ Expected<Record> read_manifest(const fs::path& folder, const fs::path& session) 
     return failure("it is not what Septet writes", file.string(), "use an unaltered copy");
   }
   const auto usual = [](std::uint32_t pixels) { return pixels >= 16 && pixels <= 16384; };
-  if (!usual(record.film.width_px) || !usual(record.film.height_px) ||
+  if (!usual(record.film.width_px) || !usual(record.film.height_px) || record.film.samples < 1 ||
+      record.film.samples > 1u << 20 ||
       !(record.film.frames_per_second >= 1.0 && record.film.frames_per_second <= 1000.0))
-    return failure("its film has no size or rate that Septet makes", file.string(), "use an unaltered copy");
+    return failure("its film has no size, rate or samples that Septet makes", file.string(), "use an unaltered copy");
   return record;
 }
 
@@ -116,6 +127,17 @@ void compare_plan(const Record& record, const fs::path& folder, const logging::S
     differences.push_back(fmt::format("{}: it is not what the session's plan gives", script_name));
 }
 
+/// The picture of one frame, traced from the session; its folder has nothing else.
+Expected<image::Image> traced_again(FilmOptions options, const FilmFrame& frame) {
+  const auto folder = program::TemporaryFolder::make("septet-check");
+  if (!folder) return tl::unexpected(folder.error());
+  options.out = folder->path() / "pictures";
+  options.from_s = options.to_s = frame.instant_s;
+  const auto made = make_film(options, [](const FilmMade&) { return !program::should_stop(); });
+  if (!made) return tl::unexpected(made.error());
+  return image::read_png(options.out / fmt::format("{:06}.png", frame.number));
+}
+
 /// Draws some frames from the session and compares them with the record.
 Expected<void> draw_again(const Record& record, const fs::path& folder, AccidentCheck& check) {
   FilmOptions options = record.film;
@@ -128,14 +150,18 @@ Expected<void> draw_again(const Record& record, const fs::path& folder, Accident
                                             record.json["frames"].size()));
     return {};
   }
-  auto rasteriser = make_rasteriser(options, frames->scene());
-  if (!rasteriser) return tl::unexpected(rasteriser.error());
+  std::optional<render::Renderer> rasteriser;
+  if (options.renderer == FilmRenderer::raster) {
+    auto made = make_rasteriser(options, frames->scene());
+    if (!made) return tl::unexpected(made.error());
+    rasteriser.emplace(std::move(*made));
+  }
   std::random_device dice;
   std::set<std::size_t> chosen;
   while (chosen.size() < std::min(drawn_frames, planned.size()))
     chosen.insert(std::uniform_int_distribution<std::size_t>(0, planned.size() - 1)(dice));
   for (const std::size_t n : chosen) {
-    const auto picture = draw_frame(*frames, planned[n], *rasteriser);
+    const auto picture = rasteriser ? draw_frame(*frames, planned[n], *rasteriser) : traced_again(options, planned[n]);
     if (!picture) return tl::unexpected(picture.error());
     check.drawn_again.push_back(n + 1);
     if (hash_text(*picture) != record.json["frames"][n]["picture"].get<std::string>())

@@ -112,6 +112,9 @@ Expected<Json> manifest(const ManifestSources& sources) {
                      {"width", sources.options.width_px},
                      {"height", sources.options.height_px},
                      {"software", sources.options.software},
+                     {"renderer", sources.options.renderer == FilmRenderer::traced ? "traced" : "raster"},
+                     {"samples", sources.options.samples},
+                     {"denoise", sources.options.denoise},
                      {"sound", sources.options.sound}};
   json["assumptions"] = sources.plan.script.overlay.notes;
   json["left_out"] = sources.plan.left_out;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -107,6 +108,29 @@ void add_way(const OverlayMoment& moment, const instant::FrameView& view, std::s
   }
 }
 
+/// A ring and a cross where the contact is, dark beneath and white above, so that they show on any ground.
+void add_contact(const OverlayMoment& moment, const instant::FrameView& view, OverlayContent& content) {
+  if (!moment.script.overlay.contact_m) return;
+  const auto pixel = pixel_of(view, *moment.script.overlay.contact_m);
+  const instant::PixelRectangle& box = view.viewport;
+  const double radius_px = std::max(5.0, 0.018 * moment.height_px), thick_px = std::max(1.5, 0.004 * moment.height_px);
+  if (!pixel || pixel->x < box.x + radius_px || pixel->x > box.x + box.width - radius_px ||
+      pixel->y < box.y + radius_px || pixel->y > box.y + box.height - radius_px)
+    return;
+  constexpr int ring_corners = 24;
+  const auto at = [&](double x, double y) { return image::Point{pixel->x + radius_px * x, pixel->y + radius_px * y}; };
+  std::vector<image::Point> ring;
+  for (int n = 0; n <= ring_corners; ++n) {
+    const double angle_rad = 2.0 * std::numbers::pi * n / ring_corners;
+    ring.push_back(at(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  const std::array<std::vector<image::Point>, 3> lines{
+      ring, {at(-0.6, -0.6), at(0.6, 0.6)}, {at(-0.6, 0.6), at(0.6, -0.6)}};
+  for (const auto& [width, color] : {std::pair(2.2 * thick_px, image::Color{16, 18, 22, 255}),
+                                     std::pair(thick_px, image::Color{255, 255, 255, 255})})
+    for (const std::vector<image::Point>& line : lines) content.strokes.push_back({line, width, color});
+}
+
 void add_label(const OverlayMoment& moment, const instant::FrameView& view, std::size_t n, const image::Font& font,
                const OverlaySizes& sizes, OverlayContent& content) {
   const Participant* now = find_participant(moment.world, moment.people[n].number);
@@ -190,6 +214,7 @@ OverlayContent overlay_content(const OverlayMoment& moment, const image::Font& f
       if (moment.shot.paths) add_way(moment, moment.views[v], n, content);
       add_label(moment, moment.views[v], n, font, sizes, content);
     }
+    if (outside) add_contact(moment, moment.views[v], content);
     const std::string& title = v == 0 ? moment.shot.title : moment.shot.beside->title;
     Column column(content, font, sizes, moment.views[v].viewport.x, 0);
     if (!title.empty()) column.add(title);

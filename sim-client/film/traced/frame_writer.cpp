@@ -1,10 +1,12 @@
 #include "sim-client/film/traced/frame_writer.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "engine/core/check.hpp"
 #include "engine/core/version.hpp"
 #include "engine/image/png.hpp"
 #include "engine/raytrace/denoise.hpp"
@@ -47,9 +49,8 @@ Assembled assembled(const FilmOptions& options, const KeptTiles& kept, std::span
   return whole;
 }
 
-Expected<void> write_picture(const fs::path& file, const Assembled& whole) {
-  const instant::Exposure exposure{static_cast<float>(whole.facts.ev100)};
-  return image::write_png(file, raytrace::displayed(whole.picture, exposure), image::PngEffort::fast);
+image::Image displayed(const Assembled& whole) {
+  return raytrace::displayed(whole.picture, instant::Exposure{static_cast<float>(whole.facts.ev100)});
 }
 
 ExrFacts exr_facts(const FilmOptions& options, const logging::SessionInfo& session) {
@@ -65,11 +66,13 @@ ExrFacts exr_facts(const FilmOptions& options, const logging::SessionInfo& sessi
 
 }  // namespace
 
-FrameWriter::FrameWriter(const FilmOptions& options, const FilmFolder& folder, const logging::SessionInfo& session,
+FrameWriter::FrameWriter(const FilmOptions& options, const FilmFolder& folder, const FilmFrames& frames,
                          std::span<const instant::PixelRectangle> tiles)
     : options_(options),
       folder_(folder),
-      exr_facts_(exr_facts(options, session)),
+      exr_facts_(exr_facts(options, frames.session())),
+      has_overlays_(std::ranges::any_of(frames.plan().script.shots,
+                                        [](const Shot& shot) { return shot.overlay || shot.beside; })),
       tiles_(tiles),
       preview_(folder.path() / "preview.png"),
       thread_(4, [this](Job& job) { return write(job); }) {}
@@ -99,7 +102,7 @@ Expected<void> FrameWriter::write(Job& job) {
     // gone by now.
     if (!fs::exists(job.kept_in, error)) return {};
     if (const auto kept = KeptTiles::open(job.kept_in, tiles_))
-      (void)write_picture(preview_, assembled(options_, *kept, tiles_));
+      (void)image::write_png(preview_, displayed(assembled(options_, *kept, tiles_)), image::PngEffort::fast);
     return {};
   }
   Assembled whole = assembled(options_, *job.tiles, tiles_);
@@ -112,11 +115,30 @@ Expected<void> FrameWriter::write(Job& job) {
   // The picture comes last: its presence marks the frame as whole.
   if (options_.exr != ExrNumbers::none) {
     exr_facts_.frame = job.frame;
-    const exr::Picture picture = exr_picture(whole.picture, whole.facts, exr_facts_, options_.exr, options_.layers);
-    if (auto written = exr::write(folder_.exr_picture(job.frame), picture); !written) return written;
+    const exr::Picture light = exr_picture(whole.picture, whole.facts, exr_facts_, options_.exr, options_.layers);
+    if (auto written = exr::write(folder_.exr_picture(job.frame), light); !written) return written;
   }
-  if (auto written = write_picture(folder_.picture(job.frame), whole); !written) return written;
+  image::Image picture = displayed(whole);
+  if (auto drawn = draw_over(job.frame, picture); !drawn) return drawn;
+  if (auto written = image::write_png(folder_.picture(job.frame), picture, image::PngEffort::fast); !written)
+    return written;
   fs::remove(job.kept_in, error);
+  return {};
+}
+
+Expected<void> FrameWriter::draw_over(std::uint64_t frame, image::Image& picture) {
+  if (!has_overlays_) return {};
+  if (!world_) {
+    auto opened = FilmFrames::open(options_);
+    if (!opened) return tl::unexpected(opened.error());
+    world_.emplace(std::move(*opened));
+  }
+  const std::vector<FilmFrame>& frames = world_->plan().frames;
+  const auto found = std::ranges::lower_bound(frames, frame, {}, &FilmFrame::number);
+  SEPTET_CHECK(found != frames.end() && found->number == frame, "frame {}", frame);
+  if (auto input = world_->input_of(*found); !input) return tl::unexpected(input.error());
+  if (auto beside = world_->input_beside(*found); !beside) return tl::unexpected(beside.error());
+  world_->draw_over(*found, picture);
   return {};
 }
 

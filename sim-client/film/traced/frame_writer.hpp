@@ -9,6 +9,7 @@
 
 #include "engine/core/job_thread.hpp"
 #include "sim-client/film/film_folder.hpp"
+#include "sim-client/film/film_frames.hpp"
 #include "sim-client/film/traced/kept_tiles.hpp"
 #include "sim-client/film/traced/layers.hpp"
 
@@ -16,8 +17,8 @@ namespace septet::film {
 
 class FrameWriter {
  public:
-  /// All arguments but `session` outlive it. The destructor writes the rest of the queue.
-  FrameWriter(const FilmOptions& options, const FilmFolder& folder, const logging::SessionInfo& session,
+  /// All arguments but `frames` outlive it. The destructor writes the rest of the queue.
+  FrameWriter(const FilmOptions& options, const FilmFolder& folder, const FilmFrames& frames,
               std::span<const instant::PixelRectangle> tiles);
 
   /// Queues the frame whose tiles are all there, and removes their file once the picture is whole; waits while four are
@@ -41,11 +42,15 @@ class FrameWriter {
     std::filesystem::path kept_in;
   };
   Expected<void> write(Job& job);
+  /// Draws what lies over a frame's picture, if anything does.
+  Expected<void> draw_over(std::uint64_t frame, image::Image& picture);
   void note_quality(const raytrace::TracedPicture& picture, const instant::Exposure& exposure);
 
   const FilmOptions& options_;
   const FilmFolder& folder_;
   ExrFacts exr_facts_;
+  const bool has_overlays_;          ///< Something lies over a shot's pictures.
+  std::optional<FilmFrames> world_;  ///< Read for that by the writing thread alone, from its first picture on.
   std::span<const instant::PixelRectangle> tiles_;
   const std::filesystem::path preview_;
   std::mutex mutex_;  ///< Guards the quality.

@@ -69,7 +69,7 @@ class Master {
         made_(made),
         tiles_(tiles_of(options)),
         schedule_(frames.plan().frames.size(), static_cast<std::uint32_t>(tiles_.size()), options.schedule),
-        writer_(options, folder, frames.session(), tiles_) {
+        writer_(options, folder, frames, tiles_) {
     for (const FilmFrame& frame : frames.plan().frames) numbers_.push_back(frame.number);
   }
 

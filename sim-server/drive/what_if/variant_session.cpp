@@ -101,6 +101,7 @@ Expected<fs::path> write_variant_session(const logging::SessionReader& source, c
   result.ticks = live->state().tick - what_if.begin;
   result.simulated_s = live->state().time_s();
   result.state_hash = live->newest().state_hash;
+  live->log_unfinished();
   if (auto finished = log->finish(log->outcome(result, {})); !finished) return tl::unexpected(finished.error());
   return file;
 }

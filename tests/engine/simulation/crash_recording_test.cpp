@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/physics/impact/outline.hpp"
+#include "engine/simulation/broken_off.hpp"
 #include "tests/engine/simulation/crash_site.hpp"
 #include "tests/relative.hpp"
 
@@ -188,6 +189,79 @@ TEST_CASE("two that stay on their rails have a record without what nobody measur
   CHECK_FALSE(record->of_second.delta_v_mps.has_value());
   CHECK_FALSE(record->ledger.has_value());
   CHECK(record->pulse_ns.empty());
+}
+
+TEST_CASE("the depth of a crash is how far the outlines came into each other until the last push, by their poses") {
+  for (const Pair& pair : pairs) {
+    CAPTURE(std::string(pair.name));
+    CrashSite site = site_of(pair);
+    double deepest_m = 0.0, told_until_m = 0.0;
+    for (int i = 0; i < 600 && site.count(crash_event) == 0; ++i) {
+      site.tick();
+      const auto outline = [&](std::size_t of) { return impact_side(site.participants[of], 1.0).outline; };
+      deepest_m = std::max(deepest_m, -impact::nearest(outline(1), outline(2)).gap_m);
+      if (!site.state.open_crashes.empty() && site.state.open_crashes.front().last_push == site.state.tick)
+        told_until_m = deepest_m;
+    }
+    const auto record = record_among(site.events);
+    REQUIRE(record.has_value());
+    CHECK(record->depth_m.value_or(0.0) == relative(told_until_m, 1e-6));
+    CHECK(told_until_m > 0.01);
+  }
+}
+
+TEST_CASE("what breaks off of two others pushes both, and what it took stands in the ledger, which closes") {
+  CrashSite site = site_of(pairs[0]);
+  while (site.state.open_crashes.empty()) site.tick();
+  const auto body = [&](std::size_t of) { return site.body_of(site.participants[of]); };
+  const impact::Body before[] = {body(1), body(2)};
+  const BrokenOff broken{.first = first_struck,
+                         .second = first_struck + 1,
+                         .on_first_ns = Vec3(-60.0, 5.0, -20.0),
+                         .on_second_ns = Vec3(30.0, 0.0, 0.0),
+                         .kinetic_j = 250.0};
+  give_back(broken, {}, site.participants, site.state);
+  CHECK(glm::distance(body(1).velocity_mps - before[0].velocity_mps, Vec2(-60.0, 5.0) / before[0].mass_kg) < 1e-12);
+  CHECK(glm::distance(body(2).velocity_mps - before[1].velocity_mps, Vec2(30.0, 0.0) / before[1].mass_kg) < 1e-12);
+  CHECK(Vec2(site.participants[1].velocity_mps) ==
+        Vec2(participant_of(*find_loose(site.state, first_struck)).velocity_mps));
+  const double lost_j = impact::kinetic_loss_j(before[0], body(1)) + impact::kinetic_loss_j(before[1], body(2));
+  while (site.count(crash_event) == 0) site.tick();
+  const auto record = record_among(site.events);
+  REQUIRE(record.has_value());
+  REQUIRE(record->ledger.has_value());
+  CHECK(record->ledger->debris_j == relative(lost_j, 1e-6));
+  CHECK(record->pieces_kinetic_j.value_or(0.0) == 250.0);
+  CHECK(share_missing(*record->ledger) < 0.001);
+}
+
+TEST_CASE("a touch after which nothing pushes tells no change of motion, and no energies") {
+  CrashSite site(plane_model(1), {{0.0, 0.0, 0.0}, {}}, 0.9,
+                 {placed_participant(first_struck, "pedestrian", 4.2, 0.2, 0.0, 0.0)});
+  for (int i = 0; i < 300 && site.count(crash_event) == 0; ++i) site.tick();
+  const auto record = record_among(site.events);
+  REQUIRE(record.has_value());
+  CHECK(record->of_first.before_mps.has_value());
+  CHECK_FALSE(record->of_first.delta_v_mps.has_value());
+  CHECK_FALSE(record->of_first.delta_yaw_rate_radps.has_value());
+  CHECK_FALSE(record->depth_m.has_value());
+  CHECK_FALSE(record->ledger.has_value());
+}
+
+TEST_CASE("the record of a crash that goes on is told as far as it is, and once more when it is over") {
+  CrashSite site = site_of(pairs[0]);
+  while (site.state.open_crashes.empty()) site.tick();
+  for (int i = 0; i < 3; ++i) site.tick();
+  const auto so_far = record_among(unfinished_crashes(site.state));
+  REQUIRE(so_far.has_value());
+  CHECK(so_far->is_unfinished);
+  CHECK(so_far->pulse_ns.size() == 4);
+  REQUIRE(so_far->of_first.delta_v_mps.has_value());
+  while (site.count(crash_event) == 0) site.tick();
+  const auto whole = record_among(site.events);
+  REQUIRE(whole.has_value());
+  CHECK_FALSE(whole->is_unfinished);
+  CHECK(glm::length(*whole->of_first.delta_v_mps) > glm::length(*so_far->of_first.delta_v_mps));
 }
 
 TEST_CASE("five that pile up are told pair by pair, and every ledger closes") {

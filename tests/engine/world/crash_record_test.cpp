@@ -25,11 +25,13 @@ CrashRecord full_record() {
   crash.sliding_mps = -2.25;
   crash.overlap_m = 1.25;
   crash.overlap_share = 0.625;
-  crash.of_first = {1752.0, 2900.0, 1.25, Vec2(13.5, 0.0), 0.125, Vec2(-6.5, 0.25), -0.5, 0.0625, 0.375};
-  crash.of_second = {1450.0, 2400.0, 1.5, Vec2(0.0, 12.0), 0.0, Vec2(7.5, -0.25), 3.5, -1.5, 0.5};
+  crash.depth_m = 0.875;
+  crash.of_first = {1752.0, 2900.0, 1.25, 0.5, Vec2(13.5, 0.0), 0.125, Vec2(-6.5, 0.25), -0.5, 0.0625, 0.375};
+  crash.of_second = {1450.0, 2400.0, 1.5, 0.75, Vec2(0.0, 12.0), 0.0, Vec2(7.5, -0.25), 3.5, -1.5, 0.5};
   crash.ledger = CrashLedger{159651.0, 81920.0, 70000.0, 5000.0, 512.0, 2219.0};
   crash.pieces_kinetic_j = 640.0;
   crash.pulse_ns = {Vec2(100.0, -5.0), Vec2(2048.0, 64.0), Vec2(0.0, 0.0), Vec2(12.5, 0.25)};
+  crash.is_unfinished = true;
   return crash;
 }
 
@@ -49,7 +51,7 @@ TEST_CASE("what was not measured has no key, and is missing when it is read") {
   crash.stands = "guard rail";
   crash.closing_speed_mps = 4.0;
   const std::string text = text_of(crash);
-  for (const char* key : {"delta_v", "mass", "crush", "ledger", "kinetic", "overlap", "pulse", "with", "principal"})
+  for (const char* key : {"delta_v", "mass", "crush", "ledger", "kinetic", "overlap", "depth", "unfinished", "pulse", "with", "principal"})
     CHECK(text.find(key) == std::string::npos);
   const auto again = read_crash(1, text);
   REQUIRE(again.has_value());

@@ -16,6 +16,7 @@
 #include "sim-client/film/accident/manifest.hpp"
 #include "sim-client/film/overlay/overlay_drawing.hpp"
 #include "tests/logging/session_fixture.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/why_not.hpp"
@@ -180,7 +181,7 @@ TEST_CASE("a narrator is heard when a shot begins and the pictures stay as they 
   CHECK(has(why_not(mute), "status 3"));
 }
 
-TEST_CASE("the figures in a film's pictures are those of the log's ticks") {
+TEST_CASE("the figures in a film's pictures are those of the log's ticks, rasterised or traced") {
   const TemporaryFolder folder;
   const fs::path session = write_session(folder);
   std::ofstream(folder / "shots.toml") << "[overlay]\ncontact_s = 2.0\nparticipants = [\"ego\", \"crosser\"]\n"
@@ -193,9 +194,12 @@ TEST_CASE("the figures in a film's pictures are those of the log's ticks") {
                       .width_px = 320,
                       .height_px = 180,
                       .software = true};
-  const auto made = make_film(options, [](const FilmMade&) { return true; });
-  REQUIRE_MESSAGE(made.has_value(), why_not(made));
-  REQUIRE(made->frames == 30);
+  const auto make = [&](std::size_t frames) {
+    const auto made = make_film(options, [](const FilmMade&) { return true; });
+    REQUIRE_MESSAGE(made.has_value(), why_not(made));
+    REQUIRE(made->frames == frames);
+  };
+  make(30);
   auto font = image::Font::find(image::FontStyle::bold);
   REQUIRE(font.has_value());
   // Where figures stand does not depend on their values.
@@ -205,7 +209,7 @@ TEST_CASE("the figures in a film's pictures are those of the log's ticks") {
   const std::vector<OverlayPerson> people{{1, "ego"}, {2, "crosser"}};
   const std::vector<instant::FrameView> views(1);
   const auto content = overlay_content({*script, script->shots[0], nobody, people, {}, views, 320, 180}, *font);
-  for (std::size_t n = 0; n < 30; ++n) {
+  const auto check = [&](std::size_t n) {
     const auto picture = image::read_png(options.out / fmt::format("{:06}.png", n + 1));
     REQUIRE_MESSAGE(picture.has_value(), why_not(picture));
     std::vector<std::string> read;
@@ -218,7 +222,67 @@ TEST_CASE("the figures in a film's pictures are those of the log's ticks") {
     CHECK(read == std::vector<std::string>{fmt::format("{:7.2f}", tick.simulated_time_s),
                                            fmt::format("{:+7.2f}", tick.simulated_time_s - contact_s), speed(0),
                                            speed(1)});
+  };
+  for (std::size_t n = 0; n < 30; ++n) check(n);
+  options.renderer = FilmRenderer::traced, options.samples = 1, options.every = 10;
+  options.out = folder / "traced";
+  make(3);
+  for (const std::size_t n : {0u, 10u, 20u}) check(n);
+}
+
+TEST_CASE("a film that was stopped goes on from its pictures, and is the same bytes as one that was not") {
+  const TemporaryFolder folder;
+  const fs::path session = write_session(folder);
+  must_make(options_for(session, folder / "whole"));
+  const auto begin = [&](const char* name) {
+    AccidentOptions options = options_for(session, folder / name);
+    fs::create_directory(options.film.out);
+    AccidentOptions planned = options;
+    planned.plan = options.film.out / script_name;
+    must_make(planned);
+    FilmOptions part = options.film;
+    part.out = options.film.out / film_name, part.shots = planned.plan, part.keep_pictures = true;
+    const auto stopped = make_film(part, [](const FilmMade& so_far) { return so_far.frames < 30; });
+    REQUIRE_MESSAGE(stopped.has_value(), why_not(stopped));
+    REQUIRE(stopped->stopped);
+    return options;
+  };
+  AccidentOptions options = begin("part");
+  CHECK(has(why_not(run_accident(options)), "add --resume"));
+  options.film.resume = true;
+  must_make(options);
+  std::size_t files = 0;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder / "whole")) {
+    CAPTURE(file.path().filename());
+    ++files;
+    CHECK(text_of(file.path()) == text_of(folder / "part" / file.path().filename()));
   }
+  CHECK(files >= 9);
+  CHECK(static_cast<std::size_t>(std::distance(fs::directory_iterator(folder / "part"), {})) == files);
+  CHECK(has(why_not(run_accident(options)), "whole already"));
+
+  // What is kept is not drawn again; another film is refused.
+  options = begin("altered");
+  options.film.resume = true;
+  const fs::path pictures = folder / "altered" / (std::string(film_name) + ".pictures");
+  fs::copy_file(pictures / "000001.png", pictures / "000020.png", fs::copy_options::overwrite_existing);
+  AccidentOptions other = options;
+  other.film.width_px = 352;
+  CHECK_FALSE(run_accident(other).has_value());
+  must_make(options);
+  CHECK(text_of(folder / "altered" / film_name) != text_of(folder / "whole" / film_name));
+}
+
+TEST_CASE("a traced accident's film has its overlays and its second camera, and its check traces frames again") {
+  const TemporaryFolder folder;
+  const fs::path session = write_session(folder);
+  AccidentOptions options = options_for(session, folder / "traced");
+  options.film.renderer = FilmRenderer::traced, options.film.samples = 1;
+  options.film.frames_per_second = 2.0;
+  options.film.width_px = 160, options.film.height_px = 90;
+  must_make(options);
+  CHECK(has(text_of(folder / "traced" / script_name), "[shot.beside]"));
+  CHECK(differences_of(folder / "traced").empty());
 }
 
 TEST_CASE("a picture of two cameras is the halves of their own pictures though one of the two has vanished") {
@@ -229,14 +293,17 @@ TEST_CASE("a picture of two cameras is the halves of their own pictures though o
   std::ofstream(folder / "both.toml") << head << left << "[shot.beside]\n" << right;
   std::ofstream(folder / "left.toml") << head << left;
   std::ofstream(folder / "right.toml") << head << right;
-  const auto pictures_of = [&](const std::string& name, std::uint32_t width_px) {
+  const auto pictures_of = [&](const std::string& name, std::uint32_t width_px,
+                               FilmRenderer renderer = FilmRenderer::raster) {
     const FilmOptions options{.session = session,
                               .shots = folder / (name + ".toml"),
-                              .out = folder / name,
+                              .out = folder / (renderer == FilmRenderer::raster ? name : name + "-traced"),
                               .frames_per_second = frames_per_second,
                               .width_px = width_px,
                               .height_px = 90,
-                              .software = true};
+                              .software = true,
+                              .renderer = renderer,
+                              .samples = 16};
     const auto made = make_film(options, [](const FilmMade&) { return true; });
     REQUIRE_MESSAGE(made.has_value(), why_not(made));
     std::vector<image::Image> pictures;
@@ -259,6 +326,26 @@ TEST_CASE("a picture of two cameras is the halves of their own pictures though o
       }
     CAPTURE(n);
     CHECK(differ < 90 * 94 / 50);  // Edges are smoothed with the neighbourhood of the whole target.
+  }
+
+  // Traced, a pixel's noise is that of its place: the first camera's half is its own picture, the second's as bright.
+  const auto traced = pictures_of("both", 200, FilmRenderer::traced),
+             traced_left = pictures_of("left", 100, FilmRenderer::traced),
+             traced_right = pictures_of("right", 100, FilmRenderer::traced);
+  REQUIRE(traced.size() == 5);
+  for (std::size_t n = 0; n < traced.size(); ++n) {
+    std::size_t differ = 0;
+    double green = 0.0, green_alone = 0.0, apart = 0.0;
+    for (std::uint32_t y = 0; y < 90; ++y)
+      for (std::uint32_t x = 3; x < 97; ++x) {
+        differ += traced[n].at(x, y) == traced_left[n].at(x, y) ? 0 : 1;
+        const double own = traced[n].at(100 + x, y).green, alone = traced_right[n].at(x, y).green;
+        green += own, green_alone += alone, apart += std::abs(own - alone);
+      }
+    CAPTURE(n);
+    CHECK(differ == 0);
+    CHECK(green == relative(green_alone, 0.01));
+    CHECK(apart < 0.1 * green);
   }
 }
 

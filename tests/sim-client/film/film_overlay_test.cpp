@@ -139,4 +139,31 @@ TEST_CASE("names and ways lie over pictures from outside and never over what som
   CHECK(through_eyes.second == 0);
 }
 
+TEST_CASE("the contact's place is marked in views from outside, where it is in the picture, and nowhere else") {
+  const image::Font font = bold();
+  Script script;
+  script.overlay.contact_m = Vec3(20.0, 4.0, 0.5);
+  const Snapshot world = world_of_two(1.0, 10.0, 5.0);
+  std::vector<instant::FrameView> views(1);
+  views[0].projection = instant::symmetric_view({16, 2, 60}, std::numbers::pi / 2.0, -std::numbers::pi / 2.0, 0.9, 0.6);
+  views[0].viewport = {0, 0, 640, 360};
+  Shot above{.from_s = 0.0, .to_s = 2.0};
+  above.place_m = Vec3(16, 2, 60);
+  above.overlay = true;
+  const auto marked = [&](const Shot& shot) {
+    return overlay_content({script, shot, world, {}, {}, views, 640, 360}, font).strokes;
+  };
+  const auto strokes = marked(above);
+  REQUIRE(strokes.size() == 6);
+  const auto at = pixel_of(views[0], *script.overlay.contact_m);
+  REQUIRE(at.has_value());
+  for (const OverlayStroke& stroke : strokes)
+    for (const image::Point& point : stroke.points) CHECK(std::hypot(point.x - at->x, point.y - at->y) < 7.0);
+  Shot eyes = above;
+  eyes.place_m.reset();
+  CHECK(marked(eyes).empty());
+  script.overlay.contact_m = Vec3(500.0, 4.0, 0.5);
+  CHECK(marked(above).empty());
+}
+
 }  // namespace septet::film

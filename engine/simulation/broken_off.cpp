@@ -1,0 +1,37 @@
+#include "engine/simulation/broken_off.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/bodies/loose_body.hpp"
+
+namespace septet::simulation {
+namespace {
+
+std::optional<PushedByPieces> pushed(ParticipantId id, const Vec3& impulse_ns, std::vector<Participant>& participants,
+                                     State& state) {
+  LooseBody* loose = find_loose(state, id);
+  if (!loose) return std::nullopt;
+  const impact::Body before = loose->body;
+  const Vec2 change_mps = Vec2(impulse_ns) / before.mass_kg;
+  loose->body.velocity_mps += change_mps;
+  loose->acceleration_mps2 += change_mps / tick_s;
+  const auto shown = std::ranges::lower_bound(participants, id, {}, &Participant::id);
+  if (shown != participants.end() && shown->id == id) *shown = participant_of(*loose);
+  return PushedByPieces{before, loose->body};
+}
+
+}  // namespace
+
+void give_back(const BrokenOff& broken, const PushedByPieces& own, std::vector<Participant>& participants,
+               State& state) {
+  const auto side = [&](ParticipantId id, const Vec3& impulse_ns) {
+    return id == driver_participant ? std::optional(own) : pushed(id, impulse_ns, participants, state);
+  };
+  const auto first = side(broken.first, broken.on_first_ns);
+  const auto second = broken.second ? side(*broken.second, broken.on_second_ns) : std::nullopt;
+  note_broken_off(broken, first, second, state);
+}
+
+}  // namespace septet::simulation
