@@ -51,7 +51,8 @@ TEST_CASE("what was not measured has no key, and is missing when it is read") {
   crash.stands = "guard rail";
   crash.closing_speed_mps = 4.0;
   const std::string text = text_of(crash);
-  for (const char* key : {"delta_v", "mass", "crush", "ledger", "kinetic", "overlap", "depth", "unfinished", "pulse", "with", "principal"})
+  for (const char* key : {"delta_v", "mass", "crush", "ledger", "kinetic", "overlap", "depth", "unfinished", "pulse",
+                          "with", "principal"})
     CHECK(text.find(key) == std::string::npos);
   const auto again = read_crash(1, text);
   REQUIRE(again.has_value());
