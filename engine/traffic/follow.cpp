@@ -32,9 +32,6 @@ const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, int lan
   const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
   const LaneEntry& own = lane[k];
   const bool emergency = traffic.emergency[static_cast<std::size_t>(own.vehicle)] != 0;
-  // Who turns out before a wreck passes those who stay in the lane as soon as there is room.
-  const bool turns_out = traffic.order.has_straddlers[static_cast<std::size_t>(lane_number)] == wreck_in_lane &&
-                         traffic.lane[static_cast<std::size_t>(own.vehicle)] != lane_number;
   const std::size_t count = lane.size();
   for (std::size_t step = 1; step < count && step <= most_passed; ++step) {
     std::size_t at = k + step;
@@ -44,7 +41,7 @@ const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, int lan
     }
     const LaneEntry& other = lane[at];
     if (other.vehicle == own.vehicle) continue;
-    const bool passable = (emergency || turns_out || other.straddles) && has_room_beside(traffic, own, other);
+    const bool passable = (emergency || other.straddles) && has_room_beside(traffic, own, other);
     if (!passable) return &other;
     const double ahead = gap_to(traffic, lane_number, own.x_m, &other);
     if (emergency && ahead < passing_look_ahead_m) {
@@ -143,10 +140,6 @@ void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
     insert_entry(lanes[static_cast<std::size_t>(lane)], entry);
     if (entry.straddles) traffic.order.has_straddlers[static_cast<std::size_t>(lane)] = 1;
   }
-  for (const Wreck& wreck : foreign.wrecks)
-    for (const int lane : wreck.lanes)
-      if (lane < static_cast<int>(lanes.size()))
-        traffic.order.has_straddlers[static_cast<std::size_t>(lane)] = wreck_in_lane;
 }
 
 Neighbours neighbours(const CorridorTraffic& traffic, int lane_number, double x_m, std::int32_t self,

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "engine/traffic/traffic_stages.hpp"
-#include "engine/traffic/wrecks.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -13,8 +11,8 @@ constexpr double smallest_gap_m = 2.0;
 constexpr LaneEntry standing{};  ///< The end of a lane.
 /// Bias of making room for an emergency vehicle.
 constexpr double leave_lane_bias_mps2 = 3.0;
-/// Bias of reaching the exit, and a lane that is open beside a wreck.
-constexpr double exit_bias_mps2 = 3.0, detour_bias_mps2 = 3.0;
+/// Bias of reaching the exit.
+constexpr double exit_bias_mps2 = 3.0;
 constexpr double rest_after_change_s = 2.0;
 
 /// The driving law of an entry in the order; a foreign vehicle has that of the deciding driver.
@@ -73,24 +71,8 @@ struct Decision {
   }
 };
 
-/// False where a wreck is in the way of the change, or closes the lane that would be entered before the present one;
-/// and behind somebody who stands too near to turn out behind him.
-bool may_turn_to(const CorridorTraffic& traffic, std::span<const Wreck> wrecks, std::size_t i, int lane,
-                 const Detour& detour, bool rounds, const LaneEntry* ahead) {
-  if (wrecks.empty()) return true;
-  if (rounds) {
-    constexpr double slow_mps = 2.0;
-    const bool is_behind_slow = ahead != nullptr && ahead->speed_mps < slow_mps && traffic.speed_mps[i] < slow_mps;
-    const Detour behind{is_behind_slow ? gap_to(traffic, traffic.lane[i], traffic.x_m[i], ahead) : no_leader, 1};
-    return can_turn_out(traffic, i, detour) && can_turn_out(traffic, i, behind);
-  }
-  if (detour.lanes != 0) return false;
-  const double closed_m = detour_round(traffic, wrecks, i, lane).gap_m;
-  return closed_m == no_leader || closed_m > detour.gap_m;
-}
-
-void decide(const TrafficParameters& parameters, const road::RoadNetwork& network, std::span<const Wreck> wrecks,
-            CorridorTraffic& traffic, std::size_t i, double time_s) {
+void decide(const TrafficParameters& parameters, const road::RoadNetwork& network, CorridorTraffic& traffic,
+            std::size_t i, double time_s) {
   traffic.next_decision_s[i] = time_s + parameters.decision_interval_s;
   const MakingWay way = traffic.making_way[i];
   if (way == MakingWay::hold_lane) return;
@@ -108,14 +90,11 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
     decision.old_follower_gain =
         decision.bounded(*old.behind, lane, then) - decision.present_acceleration(*old.behind, 0.0);
   }
-  const Detour detour = detour_round(traffic, wrecks, i, lane);
   int best = lane;
   double best_gain = change.threshold_mps2;
   for (const int step : {-1, 1}) {
     const int target = lane + step;
-    const bool rounds = detour.lanes * step > 0;
-    if (!may_turn_to(traffic, wrecks, i, target, detour, rounds, old.ahead)) continue;
-    if (exit != nullptr && step < 0 && !rounds) continue;
+    if (exit != nullptr && step < 0) continue;
     const bool leaves = exit != nullptr && target == exit->lane;
     double end = lane_end_m(traffic.table, target, x);
     if (leaves && end > x) end = no_leader;
@@ -126,7 +105,6 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
     double gain = decision.gain(target, end, hints[static_cast<std::size_t>(1 + step)]);
     gain += step * change.keep_right_mps2;
     if (exit != nullptr) gain += exit_bias_mps2;
-    if (rounds) gain += detour_bias_mps2;
     if (way == MakingWay::leave_lane) gain += leave_lane_bias_mps2;
     if (gain > best_gain) {
       best = target;
@@ -147,12 +125,12 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
 
 }  // namespace
 
-void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, std::span<const Wreck> wrecks,
-                  double time_s, double dt_s, CorridorTraffic& traffic) {
+void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, double time_s, double dt_s,
+                  CorridorTraffic& traffic) {
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     if (traffic.emergency[i] != 0 || traffic.lane[i] == 0) continue;
     if (!changes_lane(traffic, i) && time_s >= traffic.next_decision_s[i])
-      decide(parameters, network, wrecks, traffic, i, time_s);
+      decide(parameters, network, traffic, i, time_s);
     if (!changes_lane(traffic, i)) continue;
     const double v = traffic.speed_mps[i];
     traffic.change_part[i] += v * dt_s / change_length_m(traffic, i, v);

@@ -6,7 +6,6 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/traffic/traffic_stages.hpp"
-#include "engine/traffic/wrecks.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -289,11 +288,9 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     if (c < directions) show_across_rims(parameters, middle, traffic, placed_foreign[c]);
     refresh_order(traffic, placed_foreign[c]);
     follow(traffic);
-    const std::vector<Wreck> wrecks = with_the_stuck(placed_foreign[c].wrecks, traffic);
-    mind_wrecks(wrecks, traffic);
     keep_within_sight(state.sights, traffic);
     make_way(traffic, placed_foreign[c].emergencies, dt_s);
-    change_lanes(parameters, network, wrecks, state.time_s, dt_s, traffic);
+    change_lanes(parameters, network, state.time_s, dt_s, traffic);
     state.bad_numbers += move(network, traffic, dt_s);
     if (c < directions) recycle(parameters, middle, random, traffic);
   }
