@@ -186,7 +186,8 @@ void add_car(ReferenceScene& reference) {
   end_part(body, painted);
   add_box(body, {-0.8f, -0.78f, 0.85f}, {2.1f, 0.78f, 1.36f});
   end_part(body, see_through);
-  scene::Prototype prototype{.name = "model/saloon"};
+  scene::Prototype prototype;
+  prototype.name = "model/saloon";
   const auto add_part = [&](std::uint32_t mesh, const Vec3& at_m, PartRole role) {
     scene::Instance part;
     part.mesh = mesh;

@@ -66,7 +66,7 @@ TEST_CASE("a bin is knocked away by a car that hardly feels it, slides and rests
     site.tick();
     fastest_mps = std::max(fastest_mps, glm::length(site.participants[1].velocity_mps));
   }
-  CHECK(site.state.car.velocity_mps.x > 11.7);
+  CHECK(site.state.car.velocity_mps.x > 11.5);  // It comes up with the sliding bin, and pushes it on.
   CHECK(fastest_mps > 12.0);
   CHECK(fastest_mps < 20.0);
   CHECK(is_box(site.participants[1]));
