@@ -12,11 +12,11 @@ namespace {
 
 constexpr double before_m = 1.5, behind_m = 1.0;  ///< Beside a body all of a vehicle is aside from here to there.
 constexpr double looks_ahead_m = 80.0, farthest_lane_m = 5.0;
-constexpr double stands_mps = 0.1, stays_s = 5.0;
+constexpr double at_rest_mps = 0.1, stays_s = 5.0;
 constexpr double sees_back_m = 250.0, spare_s = 3.0;
 
 /// What lies on a way, one body behind the other with no room to turn out between them.
-struct Lying {
+struct LyingStretch {
   double rear_m = 0.0, front_m = 0.0;  ///< From the way's begin.
 };
 
@@ -25,15 +25,15 @@ bool is_body(const Presence& presence, std::span<const ForeignVehicle> foreign) 
 }
 
 /// True for one that has come to rest too near behind what lies there.
-bool is_stuck(const TownState& town, const Presence& presence, const Lying& lying) {
-  if (presence.who < 0 || presence.speed_mps > stands_mps) return false;
+bool is_stuck(const TownState& town, const Presence& presence, const LyingStretch& lying) {
+  if (presence.who < 0 || presence.speed_mps > at_rest_mps) return false;
   const TownVehicle& vehicle = town.vehicles[static_cast<std::size_t>(presence.who)];
   return vehicle.stands_s > stays_s && !vehicle.swerve && lying.rear_m - presence.front_m < turn_out_m;
 }
 
-std::optional<Lying> lying_ahead(std::span<const Presence> on_way, std::span<const ForeignVehicle> foreign,
-                                 const TownState& town, std::int32_t self, double front_m) {
-  std::optional<Lying> lying;
+std::optional<LyingStretch> lying_ahead(std::span<const Presence> on_way, std::span<const ForeignVehicle> foreign,
+                                        const TownState& town, std::int32_t self, double front_m) {
+  std::optional<LyingStretch> lying;
   for (const Presence& presence : on_way)
     if (is_body(presence, foreign) && presence.front_m > front_m && presence.rear_m < front_m + looks_ahead_m &&
         (!lying || presence.rear_m < lying->rear_m))
@@ -44,7 +44,7 @@ std::optional<Lying> lying_ahead(std::span<const Presence> on_way, std::span<con
       const bool is_near = presence.rear_m < lying->front_m + 2.0 * turn_out_m && presence.front_m > lying->rear_m;
       const bool belongs = is_body(presence, foreign) ? is_near : is_stuck(town, presence, *lying);
       if (presence.who == self || !belongs || presence.front_m <= front_m) continue;
-      const Lying with{std::min(lying->rear_m, presence.rear_m), std::max(lying->front_m, presence.front_m)};
+      const LyingStretch with{std::min(lying->rear_m, presence.rear_m), std::max(lying->front_m, presence.front_m)};
       grows = grows || with.rear_m < lying->rear_m || with.front_m > lying->front_m;
       lying = with;
     }
