@@ -8,7 +8,7 @@
 namespace septet::scenario {
 namespace {
 
-constexpr double standing_mps = 1e-3;
+constexpr double at_rest_mps = 1e-3;
 
 /// Distance ahead to a target along the roads, else in a straight line; negative behind it.
 double way_m(const road::RoadNetwork& network, const EntityState& entity, const Placement& target) {
@@ -73,10 +73,10 @@ std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const Scenar
   left.way_m -= what.tolerance_m;
   master_way -= what.master_tolerance_m;
   if (left.way_m <= 0.5 * actor.speed_mps * dt_s || master_way <= 0.5 * master.speed_mps * dt_s) return std::nullopt;
-  left.time_s = master_way / std::max(master.speed_mps, standing_mps);
+  left.time_s = master_way / std::max(master.speed_mps, at_rest_mps);
   if (!left.final_mps) return left;
   // Distance already driven at the final speed.
-  const double v = std::max(*left.final_mps, standing_mps);
+  const double v = std::max(*left.final_mps, at_rest_mps);
   const double steady_s = std::max(what.steady_s, what.steady_m / v);
   left.way_m -= steady_s * v;
   left.time_s -= steady_s;

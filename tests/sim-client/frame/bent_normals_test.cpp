@@ -15,12 +15,12 @@ namespace {
 using Triangle = std::array<std::uint16_t, 3>;
 
 /// A sheet of columns by 2 vertices, bent by an angle a column about y; `radius` 0: flat.
-struct Sheet {
+struct BentSheet {
   static constexpr std::uint16_t columns = 9;
   std::vector<glm::vec3> places;
   std::vector<Triangle> triangles;
 
-  explicit Sheet(float bend_rad) {
+  explicit BentSheet(float bend_rad) {
     for (std::uint16_t i = 0; i < columns; ++i)
       for (const float y : {0.0f, 1.0f}) {
         const float x = static_cast<float>(i), angle = bend_rad * x;
@@ -37,7 +37,7 @@ struct Sheet {
   }
 };
 
-std::vector<glm::vec3> corners_between(const Sheet& from, const Sheet& to, float share) {
+std::vector<glm::vec3> corners_between(const BentSheet& from, const BentSheet& to, float share) {
   std::vector<MovingFace> faces(from.triangles.size());
   for (std::size_t n = 0; n < faces.size(); ++n)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -66,28 +66,29 @@ TEST_CASE("the vectors of the t-variant product are as long as twice the area of
 }
 
 TEST_CASE("corners of a sheet that bends have the normals of the bent surface, at every instant") {
-  const Sheet bent(glm::radians(10.0f));
-  for (const auto& [from, share] : {std::pair(Sheet(0.0f), 1.0f), std::pair(Sheet(glm::radians(20.0f)), 1.0f)}) {
+  const BentSheet bent(glm::radians(10.0f));
+  for (const auto& [from, share] :
+       {std::pair(BentSheet(0.0f), 1.0f), std::pair(BentSheet(glm::radians(20.0f)), 1.0f)}) {
     const auto corners = corners_between(from, bent, share);
     for (std::size_t n = 0; n < corners.size(); ++n) {
       const std::uint16_t vertex = bent.triangles[n / 3][n % 3];
       const int column = vertex / 2;
       CHECK(glm::length(corners[n]) == relative(1.0, 1e-5));
-      if (column == 0 || column == Sheet::columns - 1) continue;  // Faces on one side alone.
+      if (column == 0 || column == BentSheet::columns - 1) continue;  // Faces on one side alone.
       const float angle = glm::radians(10.0f) * static_cast<float>(column);
       // A vertex has one triangle on one side and two on the other: a third of half a bend.
       CHECK(glm::dot(corners[n], glm::vec3(std::sin(angle), 0.0f, std::cos(angle))) > std::cos(glm::radians(2.0f)));
     }
   }
   // Neighbouring faces share their normals along the edge between them: no facet is seen.
-  const auto half = corners_between(Sheet(0.0f), bent, 0.5f);
+  const auto half = corners_between(BentSheet(0.0f), bent, 0.5f);
   for (std::size_t n = 0; n < half.size(); ++n)
     for (std::size_t m = 0; m < half.size(); ++m)
       if (bent.triangles[n / 3][n % 3] == bent.triangles[m / 3][m % 3]) CHECK(glm::length(half[n] - half[m]) < 1e-5f);
 }
 
 TEST_CASE("an edge of 60 degrees and more stays an edge, and a face without area has a finite normal") {
-  const Sheet sharp(glm::radians(61.0f));
+  const BentSheet sharp(glm::radians(61.0f));
   const auto corners = corners_between(sharp, sharp, 0.3f);
   for (std::size_t n = 0; n < sharp.triangles.size(); ++n) {
     const auto& [a, b, c] = sharp.triangles[n];
@@ -95,7 +96,7 @@ TEST_CASE("an edge of 60 degrees and more stays an edge, and a face without area
         glm::normalize(glm::cross(sharp.places[b] - sharp.places[a], sharp.places[c] - sharp.places[a]));
     for (std::size_t corner = 0; corner < 3; ++corner) CHECK(glm::dot(corners[3 * n + corner], own) > 0.9999f);
   }
-  Sheet fallen(0.0f);
+  BentSheet fallen(0.0f);
   for (glm::vec3& place : fallen.places) place = {};
   for (const glm::vec3& normal : corners_between(fallen, fallen, 0.0f)) CHECK(normal == glm::vec3(0.0f, 0.0f, 1.0f));
 }

@@ -14,16 +14,16 @@ namespace {
 
 constexpr LoadBay bay{.load = Load::tank, .rear = -2.0f, .front = 6.0f, .half = 1.25f, .height = 3.4f};
 
-struct Extent {
+struct LoadExtent {
   glm::vec3 low_m{1e9f}, high_m{-1e9f};
 };
 
-/// Extent of what is of one finish.
-Extent extent_of(Finish finish, DetailLevel level) {
+/// LoadExtent of what is of one finish.
+LoadExtent extent_of(Finish finish, DetailLevel level) {
   geometry::MeshBuilder builder;
   add_load(builder, bay, level);
   const geometry::PolygonMesh load = builder.take();
-  Extent extent;
+  LoadExtent extent;
   for (std::size_t i = 0; i < load.polygons.size(); ++i) {
     if (load.polygon_materials[i] != index_of(finish)) continue;
     for (std::size_t k = 0; k < geometry::corner_count(load.polygons[i]); ++k) {
@@ -38,7 +38,7 @@ Extent extent_of(Finish finish, DetailLevel level) {
 
 TEST_CASE("a tank fills its bay, and the walkway on top of it ends as far from its front as from its rear") {
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle}) {
-    const Extent tank = extent_of(Finish::white_panel, level), walkway = extent_of(Finish::trim, level);
+    const LoadExtent tank = extent_of(Finish::white_panel, level), walkway = extent_of(Finish::trim, level);
     CHECK(tank.high_m.x == relative(bay.front, 1e-6));
     CHECK(tank.low_m.x < bay.rear + 0.1f);
     CHECK(tank.high_m.y < bay.half);
