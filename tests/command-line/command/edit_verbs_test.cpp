@@ -22,7 +22,7 @@ namespace {
 constexpr scene::NodeId own_ids = 1000;
 
 /// One editor's lines, each done to the scene at once.
-struct Editor {
+struct EditedWorld {
   scene::Store store;
   EditNames names{own_ids, own_ids};
 
@@ -48,7 +48,7 @@ using Names = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE("a pattern finds the names that a shell's pattern fits, whole, and no others") {
-  Editor editor;
+  EditedWorld editor;
   scene::SceneBuilder build(editor.store);
   Names all{"a", "b"};
   all.reserve(30);
@@ -69,7 +69,7 @@ TEST_CASE("a pattern finds the names that a shell's pattern fits, whole, and no 
 }
 
 TEST_CASE("what lies within so many metres of a place is found, whatever its height") {
-  Editor editor;
+  EditedWorld editor;
   for (const char* line : {"create at 3 4 100", "create beyond 3.1 4 0", "create away -40 0 0"})
     REQUIRE(editor.take(line).has_value());
   CHECK(editor.find("near 0 0 5") == Names{"at"});
@@ -80,20 +80,20 @@ TEST_CASE("what lies within so many metres of a place is found, whatever its hei
 TEST_CASE("a board is from a millimetre to a kilometre wide and high, and stands where it is said or at the origin") {
   for (const char* size : {"0.001 1000", "1000 0.001", "2 1", "2 1 3 4 5", "2 1 3 4 5 90"}) {
     CAPTURE(size);
-    Editor editor;
+    EditedWorld editor;
     CHECK(editor.take(fmt::format("board sign {}", size)).has_value());
   }
   for (const char* size : {"0.0009 1", "1 0.0009", "1000.1 1", "1 1000.1", "-1 1", "1 -1", "nan 1", "1 wide", "1",
                            "2 1 3", "2 1 3 4", "2 1 3 4 up", "0 1 3 4 5", "2 1 3 4 5 90 6"}) {
     CAPTURE(size);
-    Editor editor;
+    EditedWorld editor;
     CHECK_FALSE(editor.take(fmt::format("board sign {}", size)).has_value());
     CHECK(editor.store.nodes().empty());
   }
 }
 
 TEST_CASE("what is made under a name again takes the place of what had it, with all its parts") {
-  Editor editor;
+  EditedWorld editor;
   REQUIRE(editor.take("board sign 2 1").has_value());
   const std::size_t parts = editor.store.nodes().size();
   REQUIRE(parts > 1);
@@ -106,7 +106,7 @@ TEST_CASE("what is made under a name again takes the place of what had it, with 
 }
 
 TEST_CASE("what is moved keeps its heading unless another is given, and its scale always") {
-  Editor editor;
+  EditedWorld editor;
   for (const char* line : {"create cone 1 2 3 90", "transform-set cone 1 2 3 0 0 0 1 2 2 2", "move cone 4 5 6"})
     REQUIRE(editor.take(line).has_value());
   const auto place = [&] { return std::get<scene::ObjectData>(editor.store.find(own_ids)->data).transform; };

@@ -20,7 +20,7 @@ using namespace septet::simulation;
 
 namespace {
 
-constexpr ParticipantId first_other = first_scripted_participant + 1;
+constexpr ParticipantId first_box = first_scripted_participant + 1;
 
 struct Thing {
   Vec3 size_m{0.6, 0.6, 1.1};
@@ -47,7 +47,7 @@ Model model_with(const std::vector<Thing>& things) {
 
 /// The driver's car, at the origin, drives at a box.
 CrashSite driven_at(const Thing& thing, double x_m, double speed_mps, double y_m = 0.0) {
-  return {model_with({thing}), {}, speed_mps, {box_at(first_other, thing.size_m, x_m, y_m)}};
+  return {model_with({thing}), {}, speed_mps, {box_at(first_box, thing.size_m, x_m, y_m)}};
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ TEST_CASE("a bin is knocked away by a car that hardly feels it, slides and rests
   REQUIRE(site.state.bodies.bodies.size() == 1);
   CHECK(glm::distance(site.momentum(), before) < 1e-9 * glm::length(before));
   REQUIRE(site.count("collision") == 1);
-  CHECK(site.events.back().participant == first_other);
+  CHECK(site.events.back().participant == first_box);
   CHECK(told(site.events.back(), "closing_speed_mps") == relative(12.0, 0.001));
   double fastest_mps = 0.0;
   for (int i = 0; i < 600; ++i) {
@@ -76,7 +76,7 @@ TEST_CASE("a bin is knocked away by a car that hardly feels it, slides and rests
 
 TEST_CASE("a bin that was pushed comes to rest by its friction") {
   CrashSite site({});
-  Participant bin = box_at(first_other, {0.6, 0.6, 1.1}, 0.0, 0.0);
+  Participant bin = box_at(first_box, {0.6, 0.6, 1.1}, 0.0, 0.0);
   LooseBody loose = loose_body(bin, 15.0);
   loose.body.velocity_mps = {10.0, 0.0};
   site.model = model_with({{}});
@@ -124,10 +124,9 @@ TEST_CASE("a wreck runs into a crate, the crate into the next one, and each pair
   scenario::Entity& car = model.scenario.entities[1];
   car = {};
   car.model = *find_vehicle_model("saloon");
-  CrashSite site(
-      std::move(model), {{0.0, 1e4, 0.0}, {}}, 0.0,
-      {placed_participant(first_other, "saloon", 0.0, 0.0, 0.0, 14.0),
-       box_at(first_other + 1, {1.2, 1.2, 1.0}, 8.0, 0.1), box_at(first_other + 2, {1.2, 1.2, 1.0}, 10.0, 0.1)});
+  CrashSite site(std::move(model), {{0.0, 1e4, 0.0}, {}}, 0.0,
+                 {placed_participant(first_box, "saloon", 0.0, 0.0, 0.0, 14.0),
+                  box_at(first_box + 1, {1.2, 1.2, 1.0}, 8.0, 0.1), box_at(first_box + 2, {1.2, 1.2, 1.0}, 10.0, 0.1)});
   for (int i = 0; i < 720; ++i) site.tick();
   CHECK(site.state.bodies.bodies.size() == 3);
   CHECK(site.count("crash_of_others") >= 2);
@@ -153,7 +152,7 @@ TEST_CASE("a box hardly gives: what runs into it is not seen in it") {
 
 TEST_CASE("a box longer than every vehicle is near whatever touches its end") {
   const std::vector<Participant> two{placed_participant(1, "saloon", 0.0, 0.0, 0.0, 0.0),
-                                     box_at(first_other, {60.0, 0.4, 3.0}, 33.0, 0.0)};
+                                     box_at(first_box, {60.0, 0.4, 3.0}, 33.0, 0.0)};
   CHECK(near_pairs(two, first_traffic_participant, {}).size() == 1);
   CHECK(overlap(two[0], two[1]));
   const std::vector<Participant> other_way{two[1], placed_participant(9, "saloon", 66.0, 0.0, 0.0, 0.0)};
@@ -162,7 +161,7 @@ TEST_CASE("a box longer than every vehicle is near whatever touches its end") {
 
 TEST_CASE("a box above a car's roof is not met") {
   const Participant car = placed_participant(1, "saloon", 0.0, 0.0, 0.0, 0.0);
-  Participant box = box_at(first_other, {2.0, 2.0, 0.5}, 0.0, 0.0);
+  Participant box = box_at(first_box, {2.0, 2.0, 0.5}, 0.0, 0.0);
   CHECK(overlap(car, box));
   box.world_from_vehicle.position_m.z = 2.0;
   CHECK_FALSE(overlap(car, box));
@@ -170,11 +169,11 @@ TEST_CASE("a box above a car's roof is not met") {
 
 TEST_CASE("a box that its script moves and that has no mass stays on its script") {
   const Model model = model_with({{{6.0, 2.4, 2.6}, 0.0}, {}});
-  Participant moving = box_at(first_other, {6.0, 2.4, 2.6}, 0.0, 0.0);
+  Participant moving = box_at(first_box, {6.0, 2.4, 2.6}, 0.0, 0.0);
   CHECK(may_leave_rails(model, moving));
   moving.velocity_mps.x = 2.0;
   CHECK_FALSE(may_leave_rails(model, moving));
-  Participant light = box_at(first_other + 1, {0.6, 0.6, 1.1}, 0.0, 0.0);
+  Participant light = box_at(first_box + 1, {0.6, 0.6, 1.1}, 0.0, 0.0);
   light.velocity_mps.x = 2.0;
   CHECK(may_leave_rails(model, light));
 }

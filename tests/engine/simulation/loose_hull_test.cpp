@@ -52,14 +52,14 @@ const Model& roadside_model() {
   return model;
 }
 
-struct Throw {
+struct Thrown {
   double x_m = 0.0, y_m = 0.0;
   double heading_rad = 0.0;  ///< Of the vehicle,
   double way_rad = 0.0;      ///< and of its motion.
   double speed_mps = 0.0, yaw_rate_radps = 0.0;
 };
 
-CrashSite thrown(const Throw& with) {
+CrashSite thrown(const Thrown& with) {
   Participant saloon = placed_participant(thrown_one, "saloon", with.x_m, with.y_m, with.heading_rad, 0.0);
   CrashSite site(roadside_model(), {{0.0, 1e4, 0.0}, {}}, 0.0, {saloon});
   LooseBody loose = loose_body(saloon, 1450.0);

@@ -21,13 +21,14 @@
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/engine/simulation/crash_site.hpp"
+#include "tests/engine/simulation/thrown_drive.hpp"
 #include "tests/why_not.hpp"
 
 namespace septet::simulation {
 namespace {
 
-constexpr scenario::EntityIndex who = 1, hitter = 2;
-constexpr ParticipantId walker_id = first_scripted_participant + who, car_id = first_scripted_participant + hitter;
+constexpr scenario::EntityIndex walker = 1, hitter = 2;
+constexpr ParticipantId walker_id = first_scripted_participant + walker, car_id = first_scripted_participant + hitter;
 
 /// A level road: the driver's car stands far ahead, somebody at 200 m, and a saloon comes along the lane to his back.
 Model street(double speed_mps, const char* struck = "pedestrian", double walks_mps = 0.0, double from_m = 190.0) {
@@ -41,8 +42,8 @@ Model street(double speed_mps, const char* struck = "pedestrian", double walks_m
   model.roads = test_road();
   model.scenario = read_or_stop(text);
   model.scenario.entities[0].model = *find_vehicle_model("volvo-s80");
-  model.scenario.entities[who].model = *find_vehicle_model(struck);
-  model.scenario.entities[who].mass_kg = 80.0;
+  model.scenario.entities[walker].model = *find_vehicle_model(struck);
+  model.scenario.entities[walker].mass_kg = 80.0;
   model.scenario.entities[hitter].model = *find_vehicle_model("saloon");
   model.driver_entity = 0;
   model.car = vehicle::read_car("volvo-s80");
@@ -54,18 +55,6 @@ State begun(const Model& model) {
   auto state = initial_state(model, traffic::own_traffic(model.roads, 1));
   REQUIRE_MESSAGE(state.has_value(), why_not(state));
   return std::move(*state);
-}
-
-DriverInput braking() {
-  DriverInput input;
-  input.brake = 0.8;
-  return input;
-}
-
-const Participant& shown(const Snapshot& snapshot, ParticipantId number) {
-  const Participant* found = find_participant(snapshot, number);
-  REQUIRE(found != nullptr);
-  return *found;
 }
 
 /// A drive until whom it throws lies still.
@@ -137,7 +126,7 @@ TEST_CASE("a scripted car that runs over a walker throws him within Searle's ban
     CHECK_FALSE(record->of_first.delta_v_mps.has_value());
     REQUIRE(impulse_ns(*record).has_value());
     CHECK(impulse_ns(*record)->x < -0.6 * 80.0 * speed_mps);
-    CHECK(state.scenario.entities[who].external);
+    CHECK(state.scenario.entities[walker].external);
     REQUIRE(find_loose(state, car_id) != nullptr);
     CHECK(glm::length(shown(found.last, car_id).velocity_mps) == 0.0);
   }

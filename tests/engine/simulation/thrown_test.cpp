@@ -19,6 +19,7 @@
 #include "engine/world/wire_snapshot.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/engine/simulation/thrown_drive.hpp"
 #include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
@@ -54,18 +55,6 @@ State about_to_hit(const Model& model, double speed_mps, double aside_m = 0.0, d
       model.car, there * RigidTransform{Vec3(-front_m - gap_m, aside_m, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}, speed_mps);
   state->car_road.reset();
   return std::move(*state);
-}
-
-DriverInput braking() {
-  DriverInput input;
-  input.brake = 0.8;
-  return input;
-}
-
-const Participant& shown(const Snapshot& snapshot, ParticipantId number) {
-  const Participant* found = find_participant(snapshot, number);
-  REQUIRE(found != nullptr);
-  return *found;
 }
 
 double up_of(const Participant& participant) {
