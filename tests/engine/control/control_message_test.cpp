@@ -56,6 +56,8 @@ std::vector<std::pair<ControlMessage, std::string>> written_messages() {
       {Thumbnail{3, std::string("\0\xff", 2)}, "01 10 0300000000000000 02 00ff"},
       {Look{true}, "01 11 01"},
       {LargePicture{3, std::string("\0\xff", 2)}, "01 12 0300000000000000 02 00ff"},
+      {OperatorLine{2, "mark"}, "01 13 02000000 04 6d61726b"},
+      {OperatorAnswer{2, 7, "no"}, "01 14 02000000 0700000000000000 02 6e6f"},
   };
 }
 
