@@ -126,7 +126,7 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         live.write_bytes(triangle_glb()[:100])
         assert "live.glb" in (message := told.get(timeout=60)) and "changes" not in message, message
         # A batch is done whole at its tick, or nothing of it.
-        at = first.tick + 240
+        at = world.newest.tick + 240
         with world.batch(at_tick=at) as later:
             ball.visible = False
             sign.visible = False
