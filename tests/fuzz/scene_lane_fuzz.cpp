@@ -71,8 +71,7 @@ void feed_sealed(ByteReader& input) {
   double now_s = 0.0;
   for (std::uint64_t number = 0; input.ok() && !input.at_end(); ++number) {
     const auto steps = input.get<std::uint8_t>();
-    if (steps & 1)
-      channel.send(share(Bytes(steps * 40u)), steps & 2 ? Reliability::reliable : Reliability::unreliable, steps >> 5);
+    if (steps & 1) channel.send(share(Bytes(steps * 40u)), steps & 2 ? Reliability::reliable : Reliability::unreliable);
     if (steps & 4) channel.advance_to(now_s += 0.005);
     Bytes datagram;
     ByteWriter writer(datagram);

@@ -46,8 +46,9 @@ Expected<EditedLine> WatchedModel::read() {
   EditedLine line{{}, std::move(model->messages)};
   scene::describe_difference(made_, now, [&](scene::Command command) { line.commands.push_back(std::move(command)); });
   // Nobody may hang a node on another before it is there.
-  std::ranges::stable_partition(
-      line.commands, [](const scene::Command& command) { return std::holds_alternative<scene::NodeCreate>(command); });
+  std::stable_partition(line.commands.begin(), line.commands.end(), [](const scene::Command& command) {
+    return std::holds_alternative<scene::NodeCreate>(command);
+  });
   made_ = std::move(now);
   return line;
 }
