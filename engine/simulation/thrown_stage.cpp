@@ -198,8 +198,10 @@ class Meetings {
     }
     if (person::lies_still(thrown.body) && !stirred) return;
     std::vector<person::MovingSolid> near;
+    near.reserve(who.size());
     for (const std::size_t i : who) near.push_back(std::move(vehicles_[i].solid));
     std::vector<Vec3> before_ns;
+    before_ns.reserve(near.size());
     for (const person::MovingSolid& each : near) before_ns.push_back(each.taken_ns);
     person::advance_body(ground_below_body(model_, state_, at_m, thrown), gravity_mps2, tick_s, near, thrown.body);
     for (std::size_t k = 0; k < who.size(); ++k) {
