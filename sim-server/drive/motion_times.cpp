@@ -1,7 +1,7 @@
 #include "sim-server/drive/motion_times.hpp"
 
-#include <cstddef>
-#include <optional>
+#include <algorithm>
+#include <map>
 #include <variant>
 
 namespace septet::server {
@@ -9,21 +9,43 @@ namespace {
 
 using namespace scene;
 
-/// Of an object at a time, by what `batch` and the store say of it; none: there is no such object.
-std::optional<RigidTransform> pose_of(NodeId object, const Store& store, std::span<const Command> batch, double now_s) {
-  ObjectData data;
-  const Node* node = store.find(object);
-  const auto* known = node ? std::get_if<ObjectData>(&node->data) : nullptr;
-  bool is_there = known != nullptr;
-  if (known) data.transform = known->transform, data.motion = known->motion;
-  for (const Command& command : batch) {
-    if (const auto* created = std::get_if<NodeCreate>(&command); created && created->node == object) is_there = true;
-    if (const auto* placed = std::get_if<TransformSet>(&command); placed && placed->node == object)
-      data.transform = placed->transform;
-    if (const auto* moved = std::get_if<MotionSet>(&command); moved && moved->node == object)
-      data.motion = moved->motion;
+bool is_from_now(const Command& command) {
+  const auto* asked = std::get_if<MotionSet>(&command);
+  return asked && asked->from_now;
+}
+
+/// Where a batch has put its objects so far; of others the store tells it.
+class PlacedObjects {
+ public:
+  explicit PlacedObjects(const Store& store) : store_(store) {}
+
+  /// Null: there is no such object.
+  ObjectData* find(NodeId object) {
+    if (const auto known = placed_.find(object); known != placed_.end()) return &known->second;
+    const Node* node = store_.find(object);
+    const auto* stored = node ? std::get_if<ObjectData>(&node->data) : nullptr;
+    if (!stored) return nullptr;
+    ObjectData& data = placed_[object];
+    data.transform = stored->transform, data.motion = stored->motion;
+    return &data;
   }
-  if (!is_there) return std::nullopt;
+
+  void take(const Command& command) {
+    if (const auto* created = std::get_if<NodeCreate>(&command)) {
+      if (!find(created->node)) placed_[created->node] = {};
+    } else if (const auto* placed = std::get_if<TransformSet>(&command)) {
+      if (ObjectData* data = find(placed->node)) data->transform = placed->transform;
+    } else if (const auto* moved = std::get_if<MotionSet>(&command)) {
+      if (ObjectData* data = find(moved->node)) data->motion = moved->motion;
+    }
+  }
+
+ private:
+  const Store& store_;
+  std::map<NodeId, ObjectData> placed_;
+};
+
+RigidTransform pose_of(const ObjectData& data, double now_s) {
   if (!data.motion.legs.empty()) return pose_at(data.motion, now_s).world_from_object;
   return RigidTransform{data.transform.position_m, data.transform.rotation};
 }
@@ -31,15 +53,19 @@ std::optional<RigidTransform> pose_of(NodeId object, const Store& store, std::sp
 }  // namespace
 
 void put_true_times(const Store& store, std::span<Command> batch, double now_s) {
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    auto* asked = std::get_if<MotionSet>(&batch[i]);
-    if (!asked || !asked->from_now) continue;
-    const auto pose = pose_of(asked->node, store, batch.first(i), now_s);
-    if (!pose) continue;  // The store refuses it.
-    asked->from_now = false;
-    asked->motion.position_m = pose->position_m;
-    asked->motion.rotation = pose->orientation;
-    for (MotionLeg& leg : asked->motion.legs) leg.from_s += now_s;
+  if (std::ranges::none_of(batch, is_from_now)) return;
+  PlacedObjects objects(store);
+  for (Command& command : batch) {
+    auto* asked = std::get_if<MotionSet>(&command);
+    const ObjectData* data = is_from_now(command) ? objects.find(asked->node) : nullptr;
+    if (data) {  // Of no object the store refuses it.
+      const RigidTransform pose = pose_of(*data, now_s);
+      asked->from_now = false;
+      asked->motion.position_m = pose.position_m;
+      asked->motion.rotation = pose.orientation;
+      for (MotionLeg& leg : asked->motion.legs) leg.from_s += now_s;
+    }
+    objects.take(command);
   }
 }
 
