@@ -1,6 +1,5 @@
 #include "engine/simulation/broken_off.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "engine/simulation/bodies/bodies.hpp"
@@ -14,11 +13,8 @@ std::optional<PushedByPieces> pushed(ParticipantId id, const Vec3& impulse_ns, s
   LooseBody* loose = find_loose(state, id);
   if (!loose) return std::nullopt;
   const impact::Body before = loose->body;
-  const Vec2 change_mps = Vec2(impulse_ns) / before.mass_kg;
-  loose->body.velocity_mps += change_mps;
-  loose->acceleration_mps2 += change_mps / tick_s;
-  const auto shown = std::ranges::lower_bound(participants, id, {}, &Participant::id);
-  if (shown != participants.end() && shown->id == id) *shown = participant_of(*loose);
+  push(impulse_ns, *loose);
+  if (Participant* shown = find_participant(participants, id)) *shown = participant_of(*loose);
   return PushedByPieces{before, loose->body};
 }
 

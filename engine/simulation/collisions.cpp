@@ -63,13 +63,10 @@ class Contacts {
 
  private:
   std::size_t index_of(ParticipantId id) const {
-    return static_cast<std::size_t>(std::ranges::lower_bound(participants_, id, {}, &Participant::id) -
-                                    participants_.begin());
+    return static_cast<std::size_t>(find_participant(participants_, id) - participants_.data());
   }
   void drop_contacts_of_the_gone() {
-    const auto is_here = [&](ParticipantId id) {
-      return std::ranges::binary_search(participants_, id, {}, &Participant::id);
-    };
+    const auto is_here = [&](ParticipantId id) { return find_participant(participants_, id) != nullptr; };
     std::erase_if(state_.bodies.contacts,
                   [&](const BodyContact& contact) { return !is_here(contact.first) || !is_here(contact.second); });
   }

@@ -6,20 +6,12 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
 #include "engine/simulation/crash_recording.hpp"
 
 namespace septet::simulation {
 namespace {
-
-/// A vehicle's motion in plan, where it is one that bodies push.
-std::optional<impact::Body> pushed_body(const Model& model, const State& state, ParticipantId vehicle) {
-  if (vehicle == driver_participant) return vehicle::planar_body(model.car.body, state.car);
-  const LooseBody* loose = find_loose(state, vehicle);
-  return loose ? std::optional(loose->body) : std::nullopt;
-}
 
 /// Direction in plan from the vehicle to whom it meets.
 Vec2 way_to_other(const person::Touches& touches) {

@@ -222,7 +222,7 @@ class Meetings {
       if (one.id == driver_participant) push_car(model_, vehicle.solid.taken_ns, state_, car);
       if (!loose) continue;
       // One that has left its rails in this tick has taken the impulses unmoved.
-      if (std::isfinite(vehicle.solid.mass_kg)) push_loose(vehicle.solid.taken_ns, *loose);
+      if (std::isfinite(vehicle.solid.mass_kg)) push(vehicle.solid.taken_ns, *loose);
       one = participant_of(*loose);
     }
     for (const Loss& loss : losses_) record_loss(model_, loss.vehicle, loss.other, loss.on_vehicle_ns, state_);
@@ -240,15 +240,9 @@ class Meetings {
 
   const Participant& at(std::size_t vehicle) const { return participants_[vehicles_[vehicle].index]; }
 
-  static void push_loose(const Vec3& impulse_ns, LooseBody& loose) {
-    const Vec2 change_mps = Vec2(impulse_ns) / loose.body.mass_kg;
-    loose.body.velocity_mps += change_mps;
-    loose.acceleration_mps2 += change_mps / tick_s;
-  }
-
   void note(const Participant& vehicle, const person::Touches& touches, const ThrownBody& thrown) {
     if (touches.closing_mps < least_closing_mps || std::ranges::binary_search(thrown.met, vehicle.id)) return;
-    const auto other = std::ranges::lower_bound(participants_, whose(thrown), {}, &Participant::id);
+    const Participant* other = find_participant(participants_, whose(thrown));
     const bool is_told = std::ranges::any_of(new_touches_, [&](const ThrownTouch& touch) {
       return touch.vehicle.id == vehicle.id && touch.other.id == other->id;
     });
@@ -304,7 +298,7 @@ void advance_thrown(const Model& model, DrivenCar& car, std::vector<Participant>
   for (const ThrownBody& thrown : state.thrown) {
     const std::size_t entity = thrown.id - first_scripted_participant;
     if (thrown.id < first_scripted_participant || entity >= state.scenario.entities.size()) continue;
-    const auto drawn = std::ranges::lower_bound(participants, thrown.id, {}, &Participant::id);
+    const Participant* drawn = find_participant(participants, thrown.id);
     scenario::place_external(model.roads, static_cast<scenario::EntityIndex>(entity), drawn->world_from_vehicle,
                              drawn->velocity_mps, Vec3(0.0), state.scenario);
   }

@@ -120,7 +120,9 @@ struct Snapshot {
   std::optional<GameStanding> game;  ///< Present where the scenario is played as a game.
 };
 
-/// The participant with this id, or null. Logarithmic time.
+/// The participant with this id, or null. `participants`: ascending id. Logarithmic time.
+const Participant* find_participant(const std::vector<Participant>& participants, ParticipantId id);
+Participant* find_participant(std::vector<Participant>& participants, ParticipantId id);
 const Participant* find_participant(const Snapshot& snapshot, ParticipantId id);
 
 }  // namespace septet

@@ -24,6 +24,10 @@ const VehicleBody& vehicle_body(ParticipantKind kind) {
   SEPTET_CHECK(false, "kind {}", static_cast<int>(kind));
 }
 
+double middle_height_m(const VehicleModel& model) {
+  return 0.5 * (vehicle_body(model.kind).clearance_m + model.height_m);
+}
+
 std::optional<FrontSlope> front_slope(ParticipantKind kind) {
   switch (kind) {
 #define SEPTET_ENTRY(name, ...) \

@@ -14,6 +14,9 @@ struct VehicleBody {
 };
 const VehicleBody& vehicle_body(ParticipantKind kind);
 
+/// Height above the road of a body's middle, between its lowest edge and its top.
+double middle_height_m(const VehicleModel& model);
+
 /// Slope from the bonnet's edge to the roof's beginning, as shares of the height and the length.
 struct FrontSlope {
   double edge_height, roof_begins;

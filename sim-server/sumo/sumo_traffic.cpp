@@ -214,9 +214,8 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
       member.stay = Member::Stay::on_road;
       const double gained_mps = seen->speed_mps - member.speed_mps;
       if (auto participant = participant_of(member, *seen, is_new)) {
-        const auto before = std::ranges::lower_bound(before_, member.id, {}, &Participant::id);
-        if (!is_new && before != before_.end() && before->id == member.id)
-          tell_sumo_motion(*before, gained_mps, *participant);
+        const Participant* before = is_new ? nullptr : find_participant(before_, member.id);
+        if (before) tell_sumo_motion(*before, gained_mps, *participant);
         after_.push_back(*participant);
       }
     } else if (member.stay == Member::Stay::on_road) {

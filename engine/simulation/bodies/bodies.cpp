@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/physics/vehicle/planar_body.hpp"
 #include "engine/roadside/ground_beside.hpp"
 #include "engine/scenario/model/misc_object.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
@@ -92,6 +93,12 @@ const LooseBody* find_loose(const State& state, ParticipantId id) {
 LooseBody* find_loose(State& state, ParticipantId id) {
   const auto found = std::ranges::find(state.bodies.bodies, id, &LooseBody::id);
   return found == state.bodies.bodies.end() ? nullptr : &*found;
+}
+
+std::optional<impact::Body> pushed_body(const Model& model, const State& state, ParticipantId id) {
+  if (id == driver_participant) return vehicle::planar_body(model.car.body, state.car);
+  const LooseBody* loose = find_loose(state, id);
+  return loose ? std::optional(loose->body) : std::nullopt;
 }
 
 bool give_up_rails(const Model& model, ParticipantId id, const Participant& car, State& state,

@@ -6,6 +6,7 @@
 /// wait, the traffic engine has given it up. Traffic meets it as a vehicle of others, everybody else as the same
 /// participant.
 
+#include <optional>
 #include <vector>
 
 #include "engine/physics/impact/meet.hpp"
@@ -16,6 +17,9 @@ namespace septet::simulation {
 /// The loose body of a participant; null where it is none.
 const LooseBody* find_loose(const State& state, ParticipantId id);
 LooseBody* find_loose(State& state, ParticipantId id);
+
+/// Motion in plan of one whom contacts push: the driver's car, or a loose body; empty for others.
+std::optional<impact::Body> pushed_body(const Model& model, const State& state, ParticipantId id);
 
 /// Storyboard or traffic engine moves the participant no more. False, and nothing has changed: its engine keeps it.
 /// Events are appended.

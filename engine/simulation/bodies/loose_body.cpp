@@ -24,8 +24,7 @@ Quat orientation_on(const Vec3& up, double heading_rad) {
 
 /// From the vehicle's origin to the middle of its box, world frame.
 Vec3 arm_of(const VehicleModel& shape, const Quat& orientation) {
-  const double middle_m = 0.5 * (vehicle_body(shape.kind).clearance_m + shape.height_m);
-  return orientation * Vec3(shape.centre_x_m(), 0.0, middle_m);
+  return orientation * Vec3(shape.centre_x_m(), 0.0, middle_height_m(shape));
 }
 
 VehicleModel shape_of(const LooseBody& loose) {
@@ -112,6 +111,12 @@ impact::Side side_of(const LooseBody& loose) {
   impact::Side side = impact_side(participant_of(loose), loose.body.mass_kg);
   side.body = loose.body;
   return side;
+}
+
+void push(const Vec3& impulse_ns, LooseBody& loose) {
+  const Vec2 change_mps = Vec2(impulse_ns) / loose.body.mass_kg;
+  loose.body.velocity_mps += change_mps;
+  loose.acceleration_mps2 += change_mps / tick_s;
 }
 
 std::array<Vec3, vehicle::wheel_count> feet_m(const LooseBody& loose) {

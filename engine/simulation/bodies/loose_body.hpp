@@ -26,6 +26,9 @@ Participant participant_of(const LooseBody& loose);
 /// The body with its whole outline.
 impact::Side side_of(const LooseBody& loose);
 
+/// Takes over an impulse at its mass centre that it was given within a tick, as far as it is level.
+void push(const Vec3& impulse_ns, LooseBody& loose);
+
 /// Where it stands on the ground, seen from its origin: its wheels, front ones first, left ones first; near the corners
 /// of a box.
 std::array<Vec3, vehicle::wheel_count> feet_m(const LooseBody& loose);

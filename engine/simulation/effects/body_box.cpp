@@ -9,7 +9,7 @@ namespace septet::simulation {
 debris::Box body_box(const Participant& participant) {
   const VehicleModel model = shape_of(participant);
   const double low = vehicle_body(model.kind).clearance_m, high = model.height_m;
-  const Vec3 centre(model.centre_x_m(), 0.0, 0.5 * (low + high));
+  const Vec3 centre(model.centre_x_m(), 0.0, middle_height_m(model));
   const Vec3 arm = participant.world_from_vehicle.orientation * centre;
   debris::Box box;
   box.world_from_box = {participant.world_from_vehicle.position_m + arm, participant.world_from_vehicle.orientation};
