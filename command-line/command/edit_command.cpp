@@ -11,6 +11,7 @@
 
 #include "command-line/command/edit/edit_session.hpp"
 #include "engine/core/regular_file.hpp"
+#include "engine/scene/participant_root.hpp"
 #include "logging/session/drive_end.hpp"
 #include "program/clock.hpp"
 #include "program/stop_signal.hpp"
@@ -108,7 +109,7 @@ Expected<int> run_edit(const EditOptions& options) {
   EditSession session(**client, output);
   output.hello(place->name, link.welcome()->tick_rate_hz, link.welcome()->lockstep,
                link.history().empty() ? 0 : link.history().newest().snapshot.tick,
-               participant_names((*client)->store()));
+               scene::participant_names((*client)->store()));
   std::string end = "all lines are done";
   for (;;) {
     (*client)->pump();

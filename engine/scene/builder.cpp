@@ -245,7 +245,7 @@ NodeId SceneBuilder::add_object(std::string_view name, const ObjectParameters& p
 }
 
 NodeId SceneBuilder::add_prototype(std::string_view model_name) {
-  return create(NodeType::object, "model/" + std::string(model_name));
+  return create(NodeType::object, std::string(prototype_prefix).append(model_name));
 }
 
 void SceneBuilder::add_child(NodeId parent, NodeId child) {

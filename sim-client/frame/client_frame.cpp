@@ -1,12 +1,10 @@
 #include "sim-client/frame/client_frame.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +16,7 @@
 #include "engine/core/check.hpp"
 #include "engine/instant/mirror_view.hpp"
 #include "engine/scene/motion.hpp"
+#include "engine/scene/participant_root.hpp"
 #include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/world/instrument_panel.hpp"
 #include "engine/world/paint.hpp"
@@ -165,18 +164,11 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
 
 namespace {
 
-/// What editors have hung on participants, by their numbers: the prototypes `participant/NUMBER`. Mostly nothing.
+/// What editors have hung on participants, by their numbers. Mostly nothing.
 std::vector<std::pair<ParticipantId, std::uint32_t>> hung_things(const scene::ResolvedScene& scene) {
-  constexpr std::string_view prefix = "participant/";
   std::vector<std::pair<ParticipantId, std::uint32_t>> hung;
-  for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i) {
-    const std::string& name = scene.prototypes[i].name;
-    ParticipantId number = 0;
-    if (name.starts_with(prefix) &&
-        std::from_chars(name.data() + prefix.size(), name.data() + name.size(), number).ptr ==
-            name.data() + name.size())
-      hung.emplace_back(number, i);
-  }
+  for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i)
+    if (const auto number = scene::number_of_participant(scene.prototypes[i].name)) hung.emplace_back(*number, i);
   return hung;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/roadside/parked_cars.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scene/edit_file.hpp"
+#include "engine/scene/participant_root.hpp"
 #include "engine/scenery/vehicles/debris_looks.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/scenery/world/road_world.hpp"
@@ -68,9 +69,9 @@ Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vecto
 /// Roots for what hangs on those who have names, by which editors mean them (CONVENTIONS.md).
 void add_names(scene::SceneBuilder& builder, const simulation::Model& model) {
   for (const auto& [id, name] : participant_names(model)) {
-    const scene::NodeId root = builder.add_prototype(fmt::format("participant/{}", id));
-    builder.apply(scene::TagGroupSet{root, 1, "participant"});
-    builder.apply(scene::TagSet{root, 1, 0, {"name", name}});
+    const scene::NodeId root = builder.add_prototype(scene::participant_prototype(id));
+    builder.apply(scene::TagGroupSet{root, 1, std::string(scene::participant_tag_group)});
+    builder.apply(scene::TagSet{root, 1, 0, {std::string(scene::participant_name_tag), name}});
   }
 }
 

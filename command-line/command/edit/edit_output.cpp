@@ -25,10 +25,10 @@ void put(std::ostream& out, const Json& object) {
 }  // namespace
 
 void EditOutput::hello(const std::string& name, double tick_rate_hz, bool lockstep, Tick tick,
-                       const std::vector<std::pair<std::string, double>>& names) const {
+                       const std::vector<std::pair<std::string, std::uint32_t>>& names) const {
   if (!json_) return;
   Json by_name = Json::object();
-  for (const auto& [text, number] : names) by_name[text] = static_cast<std::uint64_t>(number);
+  for (const auto& [text, number] : names) by_name[text] = number;
   put(out_, {{"type", "hello"},
              {"name", name},
              {"tick_rate_hz", tick_rate_hz},

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/command_text.hpp"
@@ -16,7 +17,7 @@ class EditOutput {
   EditOutput(std::ostream& out, bool json) : out_(out), json_(json) {}
 
   void hello(const std::string& name, double tick_rate_hz, bool lockstep, Tick tick,
-             const std::vector<std::pair<std::string, double>>& names) const;
+             const std::vector<std::pair<std::string, std::uint32_t>>& names) const;
   /// `request`: number of the request, from 1.
   void done(std::uint64_t request, Tick tick, const std::vector<std::string>& messages) const;
   /// `line`: of its lines, from 1, which could not be done.

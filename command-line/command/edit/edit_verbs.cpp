@@ -23,6 +23,7 @@
 #include "engine/image/srgb.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/command_validation.hpp"
+#include "engine/scene/participant_root.hpp"
 
 namespace septet::server {
 namespace {
@@ -195,14 +196,14 @@ class Verbs {
     if (!id) return no_node_called(words[0]);
     auto transform = transform_of(words.subspan(1));
     if (!transform) return wrong("a place is three or four numbers", usage);
+    EditedLine line;
     const Node* node = store_.find(*id);
     if (const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr) {
       transform->scale = now->transform.scale;
       if (words.size() == 4) transform->rotation = now->transform.rotation;
+      if (!now->motion.legs.empty()) line.commands.emplace_back(MotionSet{*id, {}});
     }
-    EditedLine line{{TransformSet{*id, *transform}}};
-    if (const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr; now && !now->motion.legs.empty())
-      line.commands.emplace_back(MotionSet{*id, {}});
+    line.commands.emplace(line.commands.begin(), TransformSet{*id, *transform});
     return line;
   }
   Expected<EditedLine> go(Words words) {
@@ -290,17 +291,19 @@ class Verbs {
   }
 
   /// What hangs on a participant, and its paint, are of this root's; made by `made` where it is not there yet.
-  NodeId root_of(double number, Made& made) const {
-    const std::string root = fmt::format("model/participant/{:.0f}", number);
+  NodeId root_of(std::uint32_t number, Made& made) const {
+    const std::string root = std::string(prototype_prefix) + participant_prototype(number);
     if (const auto known = object({root, true})) return *known;
     const NodeId id = made.next++;
     made.commands = {NodeCreate{id, NodeType::object}, NodeNameSet{id, root}};
     return id;
   }
   /// A number, or a name of the scenario's.
-  std::optional<double> participant(const TextWord& word) const {
-    if (const auto number = numbers(std::span(&word, 1)))
-      return number->front() >= 0.0 && number->front() <= 4e9 ? std::optional(number->front()) : std::nullopt;
+  std::optional<std::uint32_t> participant(const TextWord& word) const {
+    if (const auto number = numbers(std::span(&word, 1))) {
+      if (!(number->front() >= 0.0 && number->front() <= 4e9)) return std::nullopt;
+      return static_cast<std::uint32_t>(std::nearbyint(number->front()));
+    }
     for (const auto& [name, number] : participant_names(store_))
       if (name == word.text) return number;
     return std::nullopt;
@@ -356,19 +359,6 @@ bool matches(std::string_view pattern, std::string_view name) {
 }
 
 }  // namespace
-
-std::vector<std::pair<std::string, double>> participant_names(const Store& store) {
-  std::vector<std::pair<std::string, double>> names;
-  for (const auto& [id, node] : store.nodes()) {
-    constexpr std::string_view root = "model/participant/";
-    const TagValue* tag = node.name.starts_with(root) ? find_tag(node, "participant", "name") : nullptr;
-    const auto* name = tag ? std::get_if<std::string>(tag) : nullptr;
-    const TextWord number{node.name.substr(std::min(root.size(), node.name.size()))};
-    const auto read = name ? numbers(std::span(&number, 1)) : std::nullopt;
-    if (read) names.emplace_back(*name, read->front());
-  }
-  return names;
-}
 
 Expected<EditedLine> edit_of(const std::vector<TextWord>& words, const Store& store, EditNames& names) {
   auto line = Verbs(store, names).line(words);

@@ -36,9 +36,6 @@ Expected<EditedLine> edit_of(const std::vector<scene::TextWord>& words, const sc
 /// A place: nothing, X Y Z, or X Y Z HEADING_DEG. Empty: other words.
 std::optional<scene::Transform> transform_of(std::span<const scene::TextWord> words);
 
-/// Those that the scenario names, with their numbers.
-std::vector<std::pair<std::string, double>> participant_names(const scene::Store& store);
-
 /// The nodes that `find` means: a pattern of names (* and ?), then `type TYPE`, `tag GROUP.TAG`, `near X Y METRES`. At most
 /// a thousand.
 Expected<std::vector<scene::NodeId>> found_nodes(const std::vector<scene::TextWord>& words, const scene::Store& store);
