@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "engine/simulation/operator_command.hpp"
+#include "sim-server/drive/operated.hpp"
 
 namespace septet::server {
 namespace {
@@ -36,7 +36,7 @@ std::optional<std::string> OperatorLines::fulfil(const OperatorRequest& request)
   if (!host_.rights_of(request.name).may_operate) return "the right to operate was taken from this key";
   const std::string_view line = request.line;
   if (const auto text = behind(line, "mark")) {
-    note(request.name, "mark", fmt::format("note={}", *text));
+    note(request.name, "mark", *text);
   } else if (line == "pause") {
     return pause(request, 0);
   } else if (const auto count = behind(line, "step")) {
@@ -49,17 +49,16 @@ std::optional<std::string> OperatorLines::fulfil(const OperatorRequest& request)
     if (!pauser_) return "no line has paused the drive";
     go_on(request.name);
   } else {
-    const auto command = simulation::parse_operator_command(line);
-    if (!command) return command.error().what;
-    if (auto done = drive_.live->command(*command); !done) return done.error().what;
-    note(request.name, "operator", fmt::format("wish={}", simulation::text_of(*command)));
+    const auto done = do_command(line, *drive_.live);
+    if (!done) return done.error().what;
+    note(request.name, "operator", *done);
   }
   return std::nullopt;
 }
 
 std::optional<std::string> OperatorLines::pause(const OperatorRequest& request, std::uint64_t ticks) {
   if (pauser_ && pauser_->client != request.client) return fmt::format("{} has paused the drive", pauser_->name);
-  if (!pauser_) note(request.name, "operator", "wish=pause");
+  if (!pauser_) note(request.name, "operator", "pause");
   pauser_ = request;
   ticks_to_go_ = ticks;
   return std::nullopt;
@@ -68,11 +67,11 @@ std::optional<std::string> OperatorLines::pause(const OperatorRequest& request, 
 void OperatorLines::go_on(const std::string& name) {
   pauser_.reset();
   ticks_to_go_ = 0;
-  note(name, "operator", "wish=go_on");
+  note(name, "operator", "go_on");
 }
 
-void OperatorLines::note(const std::string& name, const char* kind, const std::string& what) {
-  log_->session().record_message(kind, fmt::format("by={} {}", name, what));
+void OperatorLines::note(const std::string& name, const char* kind, std::string_view what) {
+  note_operator(name, kind, what, log_->session());
 }
 
 }  // namespace septet::server

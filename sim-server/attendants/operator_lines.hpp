@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sim-server/attendants/drive_log.hpp"
 #include "sim-server/drive/opened_drive.hpp"
@@ -26,7 +27,7 @@ class OperatorLines final : public Attendant {
   std::optional<std::string> fulfil(const OperatorRequest& request);
   std::optional<std::string> pause(const OperatorRequest& request, std::uint64_t ticks);
   void go_on(const std::string& name);
-  void note(const std::string& name, const char* kind, const std::string& what);
+  void note(const std::string& name, const char* kind, std::string_view what);
 
   OpenedDrive& drive_;
   ScreenHost& host_;

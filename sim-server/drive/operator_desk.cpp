@@ -14,6 +14,7 @@
 #include "program/child_process.hpp"
 #include "program/resources.hpp"
 #include "sim-server/drive/kept_state.hpp"
+#include "sim-server/drive/operated.hpp"
 #include "sim-server/drive/told_on_page.hpp"
 #include "sim-server/page/request_checks.hpp"
 
@@ -286,17 +287,14 @@ std::optional<std::string> OperatorDesk::rate(const page::OperatorWish& wish, in
 }
 
 std::optional<std::string> OperatorDesk::change(const page::OperatorWish& wish, const std::string& text) {
-  const auto command = simulation::parse_operator_command(text);
-  if (!command) return command.error().what;
-  if (auto done = drive_.command(*command); !done) return done.error().what;
-  note(wish, "operator", simulation::text_of(*command));
+  const auto done = do_command(text, drive_);
+  if (!done) return done.error().what;
+  note(wish, "operator", *done);
   return std::nullopt;
 }
 
 void OperatorDesk::note(const page::OperatorWish& wish, const std::string& kind, const std::string& what) {
-  const std::string by = wish.name.empty() ? "operator" : wish.name;
-  const char* const key = kind == "mark" ? "note" : kind == "word" ? "text" : "wish";
-  if (log_) log_->record_message(kind, fmt::format("by={} {}={}", by, key, what));
+  if (log_) note_operator(wish.name, kind, what, *log_);
 }
 
 }  // namespace septet::server

@@ -1,0 +1,21 @@
+#include "sim-server/drive/operated.hpp"
+
+#include <fmt/core.h>
+
+#include "engine/simulation/operator_command.hpp"
+
+namespace septet::server {
+
+Expected<std::string> do_command(std::string_view text, LiveDrive& drive) {
+  const auto command = simulation::parse_operator_command(text);
+  if (!command) return tl::unexpected(command.error());
+  if (auto done = drive.command(*command); !done) return tl::unexpected(done.error());
+  return simulation::text_of(*command);
+}
+
+void note_operator(const std::string& name, const std::string& kind, std::string_view what, SessionLog& log) {
+  const char* const key = kind == "mark" ? "note" : kind == "word" ? "text" : "wish";
+  log.record_message(kind, fmt::format("by={} {}={}", name.empty() ? "operator" : name, key, what));
+}
+
+}  // namespace septet::server
