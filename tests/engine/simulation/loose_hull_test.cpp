@@ -14,12 +14,12 @@
 #include <glm/geometric.hpp>
 
 #include "engine/physics/vehicle/hull_outline.hpp"
-#include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "engine/world/crash_record.hpp"
 #include "tests/engine/road/road_files.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/engine/simulation/crash_site.hpp"
+#include "tests/engine/simulation/saved_and_restored.hpp"
 #include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
@@ -206,14 +206,11 @@ TEST_CASE("a state that was saved while a rail presses a wreck goes on with the 
   };
   for (int i = 0; i < 240 && !is_pressed(); ++i) server_step(model, {}, state, events);
   REQUIRE(is_pressed());
-  const auto bytes = save_state(model, state);
-  REQUIRE(bytes.has_value());
-  auto again = restore_state(model, traffic::own_traffic(model.roads, 1), *bytes, "test");
-  REQUIRE_MESSAGE(again.has_value(), why_not(again));
+  State again = saved_and_restored(model, state);
   std::vector<Event> told_again;
   events.clear();
   for (int i = 0; i < 360; ++i)
-    REQUIRE(server_step(model, {}, *again, told_again).state_hash == server_step(model, {}, state, events).state_hash);
+    REQUIRE(server_step(model, {}, again, told_again).state_hash == server_step(model, {}, state, events).state_hash);
   REQUIRE(events.size() == told_again.size());
   for (std::size_t i = 0; i < events.size(); ++i) CHECK(events[i].detail == told_again[i].detail);
   CHECK(std::ranges::count(events, std::string("crash_of_others"), &Event::kind) == 1);

@@ -13,12 +13,12 @@
 #include <glm/geometric.hpp>
 
 #include "engine/physics/person/jointed_plans.hpp"
-#include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
+#include "tests/engine/simulation/saved_and_restored.hpp"
 #include "tests/engine/simulation/thrown_drive.hpp"
 #include "tests/relative.hpp"
 #include "tests/why_not.hpp"
@@ -142,19 +142,15 @@ TEST_CASE("a drive that is saved while somebody flies goes on with the same hash
   for (int tick = 0; tick < 50; ++tick) server_step(model, {}, state, events);
   REQUIRE(state.thrown.size() == 1);
   CHECK(hash_state(state) != before);
-  const auto bytes = save_state(model, state);
-  REQUIRE(bytes.has_value());
-  auto again = restore_state(model, traffic::own_traffic(model.roads, 1), *bytes, "test");
-  REQUIRE_MESSAGE(again.has_value(), why_not(again));
-  CHECK(hash_state(*again) == hash_state(state));
+  State again = saved_and_restored(model, state);
   for (int tick = 0; tick < 240; ++tick) {
-    const Snapshot one = server_step(model, {}, state, events), other = server_step(model, {}, *again, others);
+    const Snapshot one = server_step(model, {}, state, events), other = server_step(model, {}, again, others);
     REQUIRE(other.state_hash == one.state_hash);
     CHECK(shown(one, state.thrown.front().id).wheel_lift_m == shown(other, state.thrown.front().id).wheel_lift_m);
   }
   // Where he lies is part of the state.
   state.thrown.front().body.masses[0].position_m.x += 0.01;
-  CHECK(hash_state(state) != hash_state(*again));
+  CHECK(hash_state(state) != hash_state(again));
 }
 
 }  // namespace septet::simulation

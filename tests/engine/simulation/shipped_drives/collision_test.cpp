@@ -9,11 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "engine/simulation/bodies/bodies.hpp"
-#include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "tests/engine/simulation/saved_and_restored.hpp"
 #include "tests/relative.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
-#include "tests/why_not.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -21,15 +20,6 @@ namespace {
 std::optional<CrashRecord> record_among(const std::vector<Event>& events) {
   const auto found = std::ranges::find(events, crash_event, &Event::kind);
   return found == events.end() ? std::nullopt : read_crash(*found->participant, found->detail);
-}
-
-/// The state, saved and restored.
-State restored(const server::LoadedDrive& drive, const State& state) {
-  const auto bytes = save_state(*drive.model, state);
-  REQUIRE(bytes.has_value());
-  auto again = restore_state(*drive.model, traffic::own_traffic(drive.model->roads, 1), *bytes, "test");
-  REQUIRE_MESSAGE(again.has_value(), why_not(again));
-  return std::move(*again);
 }
 
 }  // namespace
@@ -103,7 +93,7 @@ TEST_CASE("a drive that is saved while the car runs into traffic goes on with th
   CHECK(std::ranges::find(of_traffic, struck, &Participant::id) == of_traffic.end());
   CHECK(find_loose(*state, struck) != nullptr);
 
-  auto again = restored(drive, *state);
+  auto again = saved_and_restored(*drive.model, *state);
   CHECK(hash_state(again) == hash_state(*state));
   std::vector<Event> others;
   Snapshot last;
@@ -160,7 +150,7 @@ TEST_CASE("a drive that is saved while the car crashes into a barrier goes on wi
   for (int i = 0; i < 2; ++i) server_step(*drive.model, {}, *state, events);
   REQUIRE(runs());
 
-  auto again = restored(drive, *state);
+  auto again = saved_and_restored(*drive.model, *state);
   CHECK(hash_state(again) == hash_state(*state));
   std::vector<Event> others;
   for (int i = 0; i < 120; ++i) {
