@@ -182,7 +182,7 @@ with tempfile.TemporaryDirectory() as name:
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
         glb = str(folder / "ball.glb")
         said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
-        for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["3"]), ("repaint_traffic.py", []),
+        for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["9"]), ("repaint_traffic.py", []),
                              ("log_gaze.py", [str(folder / "gaze.csv"), "1"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),
                              ("step_by_step.py", ["4"]), ("too_close.py", ["2"])):
             said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
