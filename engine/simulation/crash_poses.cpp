@@ -6,6 +6,7 @@
 #include "engine/physics/impact/outline.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::simulation {
@@ -18,7 +19,7 @@ impact::Body body_of(const Model& model, const State& state, const Participant& 
 
 double mass_centre_above_m(const Model& model, const Participant& one) {
   if (one.id == driver_participant) return model.car.body.mass_centre_z_m;
-  return middle_height_m(vehicle_models()[one.model]);
+  return middle_height_m(shape_of(one));
 }
 
 /// Takes over a side's motion; what it has lost since its last push is of wheels and others.

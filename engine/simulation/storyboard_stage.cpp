@@ -39,8 +39,7 @@ std::vector<traffic::ForeignVehicle> foreign_vehicles(const Model& model, const 
   foreign.reserve(others.size());
   for (const Participant& p : others)
     foreign.push_back({p.id, p.model, p.world_from_vehicle, p.velocity_mps, p.lamps,
-                       find_loose(state, p.id) != nullptr || is_thrown(state, p.id) || is_box(p),
-                       is_box(p) ? std::optional(box_size_m(p)) : std::nullopt});
+                       find_loose(state, p.id) != nullptr || is_thrown(state, p.id) || is_box(p), box_size_of(p)});
   return foreign;
 }
 

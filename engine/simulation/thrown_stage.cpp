@@ -68,7 +68,7 @@ bool is_near(const Participant& vehicle, const Vec3& at_m) {
 /// True where the vehicle's box, with all that a body reaches beside it, holds the place.
 bool is_beside(const Participant& vehicle, const Vec3& at_m) {
   if (!is_near(vehicle, at_m)) return false;
-  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const VehicleModel model = shape_of(vehicle);
   constexpr double reach_m = 2.5;  // From the origin of a machine to its front, or to its rider, and the way of a tick.
   const Vec3 there = inverse(vehicle.world_from_vehicle) * at_m;
   return there.x < model.front_m() + reach_m && there.x > -model.rear_overhang_m - reach_m &&

@@ -73,7 +73,7 @@ struct ForeignVehicle {
   bool adrift = false;
   std::optional<Vec3> box_size_m = {};  ///< Of a box (engine/world/participant_shape.hpp).
 
-  VehicleModel shape() const { return box_size_m ? box_shape(*box_size_m) : vehicle_models()[model]; }
+  VehicleModel shape() const { return shape_of(model, box_size_m); }
 };
 
 /// An emergency vehicle's demand on a driver.

@@ -34,6 +34,10 @@ Vec3 box_size_m(const Participant& box) {
   return {length_m(told[0]), length_m(told[1]), length_m(told[2])};
 }
 
+std::optional<Vec3> box_size_of(const Participant& participant) {
+  return is_box(participant) ? std::optional(box_size_m(participant)) : std::nullopt;
+}
+
 VehicleModel box_shape(const Vec3& size_m) {
   VehicleModel shape = vehicle_models()[box_model()];
   shape.length_m = size_m.x;
@@ -43,8 +47,10 @@ VehicleModel box_shape(const Vec3& size_m) {
   return shape;
 }
 
-VehicleModel shape_of(const Participant& participant) {
-  return is_box(participant) ? box_shape(box_size_m(participant)) : vehicle_models()[participant.model];
+VehicleModel shape_of(const Participant& participant) { return shape_of(participant.model, box_size_of(participant)); }
+
+VehicleModel shape_of(ModelIndex model, const std::optional<Vec3>& box_size_m) {
+  return box_size_m ? box_shape(*box_size_m) : vehicle_models()[model];
 }
 
 }  // namespace septet

@@ -18,6 +18,7 @@ import math
 import numpy as np
 import pandas
 
+import septet_snapshot
 from septet_session import SessionError
 
 RECORD_VERSION = 1
@@ -28,6 +29,7 @@ _OF_BODY = ("mass_kg", "yaw_inertia_kgm2", "mass_centre_ahead_m", "mass_centre_a
 _LEAST_TURN_RADPS = 0.1  # Of less the snapshots' steps are too large a share.
 _MOST_TICKS = 240  # engine/world/crash_record.hpp
 _CORNER_M = 0.3  # engine/physics/impact/impact.toml: vehicles' corners in plan.
+_BOX_CORNER_M = 0.02  # engine/simulation/effects/body_box.cpp
 
 
 def _number(text):
@@ -102,11 +104,16 @@ class _Body:
         before = 2.0 * motion[first] - motion[max(0, first - 1)]
         self.centre_m, self.velocity, self.yaw_rate = (origin_m + arm_m)[first:, :2], motion[first:, :2], motion[first:, 2]
         self.before, self.yaw_rate_before = before[:2], float(before[2])
-        half_m = np.array([model["length_m"], model["width_m"]]) / 2.0
+        size_m, rear_m, corner_m = (model["length_m"], model["width_m"], model["height_m"]), model["rear_overhang_m"], _CORNER_M
+        if model["name"] == septet_snapshot.BOX:
+            size_m = septet_snapshot.box_sizes_m(rows.iloc[:1])[0]
+            rear_m, corner_m = 0.5 * size_m[0], _BOX_CORNER_M
+        half_m = np.array(size_m[:2]) / 2.0
         low_m = model.get("clearance_m", 0.2)
-        to_middle_m = axes @ np.array([half_m[0] - model["rear_overhang_m"], 0.0, 0.5 * (low_m + model["height_m"])])
+        to_middle_m = axes @ np.array([half_m[0] - rear_m, 0.0, 0.5 * (low_m + size_m[2])])
         forward = axes[:, :2, 0] / np.linalg.norm(axes[:, :2, 0], axis=1, keepdims=True)
-        self.outlines = [_Outline(middle_m, ahead, half_m) for middle_m, ahead in zip((origin_m + to_middle_m)[first:, :2], forward[first:])]
+        self.outlines = [_Outline(middle_m, ahead, half_m, corner_m)
+                         for middle_m, ahead in zip((origin_m + to_middle_m)[first:, :2], forward[first:])]
 
     def moved(self, time_s):
         """Its outline so long after the first row."""
@@ -114,7 +121,7 @@ class _Body:
         cosine, sine = math.cos(turn_rad), math.sin(turn_rad)
         first, turn = self.outlines[0], np.array([[cosine, -sine], [sine, cosine]])
         centre_m = self.centre_m[0] + time_s * self.before
-        return _Outline(centre_m + turn @ (first.middle_m - self.centre_m[0]), turn @ first.forward, first.half_m)
+        return _Outline(centre_m + turn @ (first.middle_m - self.centre_m[0]), turn @ first.forward, first.half_m, first.round_m)
 
     def surface(self, point_m, tick_s):
         """Velocity of its surface there, at the touch."""
@@ -139,10 +146,10 @@ def _axes(quaternions):
 class _Outline:
     """A vehicle in plan: a rectangle with rounded corners."""
 
-    def __init__(self, middle_m, forward, half_m):
+    def __init__(self, middle_m, forward, half_m, corner_m):
         self.middle_m, self.forward, self.half_m = middle_m, forward, half_m
         self.left = np.array([-forward[1], forward[0]])
-        self.round_m = min(_CORNER_M, *half_m)
+        self.round_m = min(corner_m, *half_m)
         self.core_m = half_m - self.round_m
 
     def core_reach_m(self, way):

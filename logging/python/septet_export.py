@@ -17,6 +17,7 @@ import numpy as np
 import pandas
 
 import septet_session
+import septet_snapshot
 from septet_session import SessionError
 
 # Unit by the end of a column's name, longest first; UCUM's symbols.
@@ -155,7 +156,7 @@ class _GroundTruths:
         boxes = [(0.5 * m["length_m"] - m["rear_overhang_m"], 0.0, 0.5 * m["height_m"]) for m in self._models]
         self._middles = np.array(boxes)
         self._sizes = np.array([(m["length_m"], m["width_m"], m["height_m"]) for m in self._models])
-        self._is_box = np.array([m["name"] == "box" for m in self._models])
+        self._is_box = np.array([m["name"] == septet_snapshot.BOX for m in self._models])
         moving = self._objects.MovingObject
         self._kinds = []
         for model in self._models:
@@ -181,9 +182,8 @@ class _GroundTruths:
                    for name, unit in (("", "_m"), ("velocity_", "_mps"), ("acceleration_", "_mps2"), ("angular_velocity_", "_radps"))}
         spin = columns["angular_velocity_"]
         sizes, middles, boxes = self._sizes[place], self._middles[place], self._is_box[place]
-        if boxes.any():  # Each has a size of its own, as binary logarithms (engine/world/SNAPSHOT.md).
-            told = np.column_stack([frame[f"lift_{of}_m"] for of in ("front_left", "front_right", "rear_left")])
-            sizes[boxes] = np.exp2(told[boxes])
+        if boxes.any():
+            sizes[boxes] = septet_snapshot.box_sizes_m(frame)[boxes]
             middles[boxes] = 0.5 * sizes[boxes] * (0.0, 0.0, 1.0)
         to_middle = _turned(quaternions, middles)
         round_it = np.cross(spin, to_middle)

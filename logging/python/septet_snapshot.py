@@ -31,12 +31,19 @@ _UNIT_OF_FIELD = [
     ("front_steer_rad", 1 / 16384), ("wheel_spin_rad", 2.0 * math.pi / _SPIN_STEPS), ("wheel_spin_radps", 1 / 64),
     ("lift_front_left_m", 1 / 4096), ("lift_front_right_m", 1 / 4096), ("lift_rear_left_m", 1 / 4096), ("lift_rear_right_m", 1 / 4096)]
 FIELDS, _UNITS = zip(*_UNIT_OF_FIELD)
+BOX = "box"  # Of vehicle_models: each participant of this one has a size of its own.
 _POSITION, _VELOCITY, _ACCELERATION = slice(3, 6), slice(10, 13), slice(13, 16)
 _LARGEST, _SMALLEST = 6, slice(7, 10)
 _WHEEL_SPIN, _WHEEL_SPIN_RATE = 20, 21
 _ORIENTATION_STEPS = float((1 << 19) - 1)
 _POSITION_LIMIT = 524288 * 4096 - 1
 _VELOCITY_LIMIT = 1024 * 1024
+
+
+def box_sizes_m(participants):
+    """Length, width and height, a row a participant, of those that are boxes. They are told as binary logarithms where a vehicle's wheel lifts
+    are (engine/world/SNAPSHOT.md)."""
+    return np.exp2(np.column_stack([participants[f"lift_{of}_m"] for of in ("front_left", "front_right", "rear_left")]))
 
 
 class SessionError(Exception):

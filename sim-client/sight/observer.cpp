@@ -6,6 +6,7 @@
 
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/scenery/vehicles/vehicle_mirrors.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::sight {
 namespace {
@@ -56,7 +57,7 @@ std::vector<Mirror> mirrors_of(const Participant& observer, const Snapshot& worl
 }
 
 Box box_around(const Participant& participant) {
-  const VehicleModel& model = vehicle_models()[participant.model];
+  const VehicleModel model = shape_of(participant);
   Box box;
   box.world_from_box = {participant.world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.5 * model.height_m),
                         participant.world_from_vehicle.orientation};

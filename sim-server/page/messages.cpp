@@ -10,6 +10,7 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/document/json.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "sim-server/page/web_server.hpp"
 
 namespace septet::page {
@@ -88,13 +89,20 @@ double heading_rad(const RigidTransform& pose) {
   return std::atan2(ahead.y, ahead.x);
 }
 
-/// Everybody: id, model, x and y of the rear axle, heading, speed, and which lamps matter from above.
+/// Everybody: id, model, x and y of the origin, heading, speed; of a box also length and width.
 Json everybody(const Snapshot& snapshot) {
   Json list = Json::array();
   for (const Participant& p : snapshot.participants) {
     const Vec3& at = p.world_from_vehicle.position_m;
-    list.push_back({p.id, p.model, rounded(at.x, 0.01), rounded(at.y, 0.01),
-                    rounded(heading_rad(p.world_from_vehicle), 0.001), rounded(glm::length(p.velocity_mps), 0.1)});
+    Json row = {p.id,
+                p.model,
+                rounded(at.x, 0.01),
+                rounded(at.y, 0.01),
+                rounded(heading_rad(p.world_from_vehicle), 0.001),
+                rounded(glm::length(p.velocity_mps), 0.1)};
+    if (const auto size_m = box_size_of(p))
+      row.push_back(rounded(size_m->x, 0.01)), row.push_back(rounded(size_m->y, 0.01));
+    list.push_back(std::move(row));
   }
   return list;
 }

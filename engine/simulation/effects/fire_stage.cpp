@@ -9,6 +9,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
 #include "engine/simulation/effects/body_box.hpp"
+#include "engine/world/participant_shape.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -40,7 +41,7 @@ RigidTransform lower_corner(const RigidTransform& place, int ny) {
 
 /// Seat of the fire: over the bonnet of a car, at the front of the load of anything bigger.
 Vec3 seat_of_fire(const Participant& vehicle) {
-  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const VehicleModel model = shape_of(vehicle);
   return vehicle.world_from_vehicle * Vec3(model.front_m() - 0.25 * model.length_m, 0.0, 0.85 * model.height_m);
 }
 

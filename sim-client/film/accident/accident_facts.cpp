@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "engine/world/participant_shape.hpp"
 #include "logging/session/participants.hpp"
 #include "logging/study/measures/collisions.hpp"
 #include "logging/study/measures/crashes.hpp"
@@ -167,11 +168,11 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
       const auto one = std::ranges::find(facts.involved, participant.id, &Involved::number);
       const WayPoint point = way_point(participant, world.simulated_time_s);
       if (one != facts.involved.end()) {
-        one->model = participant.model;
+        one->model = participant.model, one->box_size_m = box_size_of(participant);
         one->way.push_back(point);
       } else if (first && glm::length(first->world_from_vehicle.position_m - point.position_m) < bystanders_within_m) {
         Involved& other = others[participant.id];
-        other.number = participant.id, other.model = participant.model;
+        other.number = participant.id, other.model = participant.model, other.box_size_m = box_size_of(participant);
         other.way.push_back(point);
       }
     }

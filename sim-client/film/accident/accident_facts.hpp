@@ -45,6 +45,7 @@ struct Involved {
   ParticipantId number = 0;
   std::string name;  ///< Of the scenario; empty: it gives none.
   ModelIndex model = 0;
+  std::optional<Vec3> box_size_m = {};  ///< Of a box (engine/world/participant_shape.hpp).
   MovedBy moved_by = MovedBy::traffic;
   std::vector<WayPoint> way;  ///< Every tick of the window in which they are there.
 };

@@ -99,7 +99,7 @@ bool Solids::holds(const Vec3& p) const { return obstacles_ && standing_m(p, ste
 
 CameraPose camera_pose(const Shot& shot, const Involved* pivot, const WayPoint& at) {
   if (shot.place_m) return {*shot.place_m, *shot.place_m};
-  const VehicleModel& model = vehicle_models()[pivot ? pivot->model : 0];
+  const VehicleModel model = pivot ? shape_of(pivot->model, pivot->box_size_m) : vehicle_models().front();
   const double heading_rad = shot.heading_rad + (shot.bearings == Bearings::vehicle ? at.heading_rad : 0.0);
   const Vec3 ahead(std::cos(at.heading_rad), std::sin(at.heading_rad), 0.0);
   const Vec3 aim_m = at.position_m + model.centre_x_m() * ahead + Vec3(0.0, 0.0, 0.5 * model.height_m);
@@ -122,7 +122,8 @@ bool is_clear(const Shot& shot, const AccidentFacts& facts, const Solids& solids
     for (const auto* people : {&facts.involved, &facts.bystanders})
       for (const Involved& one : *people)
         if (const WayPoint* other = at_time(one, at.time_s))
-          if (distance_from_body_m(pose.eye_m, vehicle_models()[one.model], *other) < least_clearance_m) return false;
+          if (distance_from_body_m(pose.eye_m, shape_of(one.model, one.box_size_m), *other) < least_clearance_m)
+            return false;
     if (solids.distance_m(pose.eye_m, 2.0 * least_clearance_m) < least_clearance_m) return false;
     if (at.time_s < looked_until_s + 0.1) continue;  // Lines of sight: ten times a second.
     looked_until_s = at.time_s;

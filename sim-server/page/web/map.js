@@ -66,8 +66,9 @@ function draw() {
   const least = (p) => (p === own ? 16 : 7) / view.scale;  // Nobody is smaller than that on the screen.
   const leader = state && state.leader ? state.leader.id : -1;
   for (const p of [...all.filter((q) => q !== own), ...(own ? [own] : [])]) {
-    const model = hello.models[p[1]];
+    let model = hello.models[p[1]];
     if (!model) continue;
+    if (p.length > 6) model = {...model, length: p[6], width: p[7], rear: p[6] / 2};  // A box has its own size.
     const big = Math.max(1, least(p) / model.length);
     pen.save();
     pen.translate(p[2], p[3]);

@@ -17,6 +17,7 @@
 #include "engine/simulation/server_step.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/crash_record.hpp"
+#include "engine/world/participant_shape.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/engine/simulation/crash_site.hpp"
@@ -101,6 +102,24 @@ std::ptrdiff_t count(const std::vector<Event>& events, const std::string& kind) 
 }
 
 }  // namespace
+
+TEST_CASE("who rides against a large box is thrown at its end and not within it") {
+  constexpr double box_m = 8.0, middle_m = 230.0;
+  Model model = street(0.0, "motorcycle", 10.0, middle_m);
+  scenario::Entity& box = model.scenario.entities[hitter];
+  box.kind = scenario::EntityKind::misc_object;
+  box.category = "obstacle";
+  box.model = box_model();
+  box.box = {{0.0, 0.0, 1.3}, box_m, 2.4, 2.6};
+  State state = begun(model);
+  std::vector<Event> events;
+  Snapshot now;
+  while (state.thrown.empty() && state.tick < 600) now = server_step(model, {}, state, events);
+  REQUIRE(state.thrown.size() == 2);
+  const double front_m = vehicle_models()[model.scenario.entities[walker].model].front_m();
+  const double reaches_m = shown(now, walker_id).world_from_vehicle.position_m.x + front_m;
+  CHECK(std::abs(reaches_m - (middle_m - 0.5 * box_m)) < 0.3);
+}
 
 TEST_CASE("a scripted car that runs over a walker throws him within Searle's band, brakes, and both are named") {
   for (const double speed_mps : {6.0, 9.0, 40.0 / 3.6, 15.0, 20.0}) {

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "engine/world/participant_shape.hpp"
 #include "sim-server/drive/who_is_who.hpp"
 #include "tests/engine/simulation/crash_site.hpp"
 #include "tests/engine/simulation/shipped_drives/staged_crash.hpp"
@@ -113,6 +114,28 @@ TEST_CASE("figures of six kinds of crashes of two follow from the snapshots with
     }
     CHECK(log.is_reckoned(fmt::format("{} {}", of_one, of_two)));
   }
+}
+
+TEST_CASE("figures of a crash with a box follow from the snapshots within 1 %, whatever it measures") {
+  const TemporaryFolder folder;
+  const Vec3 size_m{3.2, 2.1, 1.6};
+  Model model = plane_model(2);
+  scenario::Entity& crate = model.scenario.entities[2];
+  crate.kind = scenario::EntityKind::misc_object;
+  crate.category = "obstacle";
+  crate.mass_kg = 900.0;
+  crate.box = {{0.0, 0.0, 0.5 * size_m.z}, size_m.x, size_m.y, size_m.z};
+  Participant box = placed_participant(first_scripted_participant + 2, "box", 12.0, 1.3, 0.3, 0.0);
+  set_box_size(size_m, box);
+  CrashSite site(std::move(model), {{0.0, 1e4, 0.0}, {}}, 0.0,
+                 {placed(first_scripted_participant + 1, "saloon", Vec2(0.0), {14.0, 0.0}, 0.0, 0.0), box});
+  Log log(folder.path() / "box.sqlite", site.model);
+  log.add(snapshot_of(site), site.events);
+  for (int i = 0; i < 400; ++i) {
+    site.tick();
+    log.add(snapshot_of(site), site.events);
+  }
+  CHECK(log.is_reckoned(fmt::format("{} {}", of_one, of_two)));
 }
 
 TEST_CASE("figures of the crashes of three shipped scenarios follow from the snapshots within 1 %") {
