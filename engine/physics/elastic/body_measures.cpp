@@ -50,10 +50,11 @@ Eigen::Vector3d angular_momentum_nms(const ElasticBody& body) {
   return sum;
 }
 
-RigidMotion rigid_motion(const ElasticBody& body) {
+RigidMotion motion_about(const ElasticBody& body, const Eigen::Vector3d& centre_m,
+                         const Eigen::Vector3d& velocity_mps) {
   RigidMotion motion;
-  motion.centre_m = centre_of_mass_m(body);
-  motion.velocity_mps = momentum_ns(body) / total_mass_kg(body);
+  motion.centre_m = centre_m;
+  motion.velocity_mps = velocity_mps;
   motion.angular_momentum_nms.setZero();
   Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
   for (int i = 0; i < body.node_count(); ++i) {
@@ -64,6 +65,10 @@ RigidMotion rigid_motion(const ElasticBody& body) {
   motion.inertia_kgm2 = second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
   motion.angular_velocity_radps = motion.inertia_kgm2.inverse() * motion.angular_momentum_nms;
   return motion;
+}
+
+RigidMotion rigid_motion(const ElasticBody& body) {
+  return motion_about(body, centre_of_mass_m(body), momentum_ns(body) / total_mass_kg(body));
 }
 
 Eigen::Matrix3d cauchy_stress_pa(const ElasticBody& body, int element) {

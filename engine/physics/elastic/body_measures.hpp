@@ -22,6 +22,8 @@ struct RigidMotion {
   Eigen::Matrix3d inertia_kgm2;          ///< About the centre.
 };
 RigidMotion rigid_motion(const ElasticBody& body);
+/// The same about another place that moves with `velocity_mps`.
+RigidMotion motion_about(const ElasticBody& body, const Eigen::Vector3d& centre_m, const Eigen::Vector3d& velocity_mps);
 
 /// Cauchy stress of one element, σ = F S Fᵀ / det F.
 Eigen::Matrix3d cauchy_stress_pa(const ElasticBody& body, int element);

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "engine/core/check.hpp"
 #include "engine/physics/elastic/assembly.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/pivot.hpp"
 #include "engine/physics/elastic/preconditioned_solve.hpp"
 
 namespace septet::elastic {
@@ -28,36 +29,42 @@ void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double 
   }
 }
 
-/// Angular momentum about the centre after the forces and contacts of this step.
-Eigen::Vector3d expected_angular_momentum(const ElasticBody& body, const RigidMotion& before, double dt,
-                                          std::span<const NodeContact> contacts) {
+/// Angular momentum about the pivot after the forces and contacts of this step.
+Eigen::Vector3d expected_angular_momentum(const ElasticBody& body, const RigidMotion& before,
+                                          const StepSettings& settings, std::span<const NodeContact> contacts) {
   Eigen::Vector3d result = before.angular_momentum_nms;
   for (int i = 0; i < body.node_count(); ++i)
-    result += dt * (body.position_m[i] - before.centre_m).cross(body.force_n[i]);
+    result += settings.step_s *
+              (body.position_m[i] - before.centre_m).cross(body.force_n[i] + body.mass_kg[i] * settings.gravity_mps2);
   for (const NodeContact& c : contacts) result += (body.position_m[c.node] - before.centre_m).cross(c.impulse_ns);
   return result;
 }
 
 /// Moves the body along the arcs of its rigid rotation: positions and velocities turn by exp(Δt ω), and ω then changes
 /// to follow the angular momentum, as a rigid body's does.
-void move_along_arcs(ElasticBody& body, double dt, const Eigen::Vector3d& angular_momentum_nms) {
-  RigidMotion motion = rigid_motion(body);
+void move_along_arcs(ElasticBody& body, const Pivot& pivot, double dt, const Eigen::Vector3d& angular_momentum_nms) {
+  RigidMotion motion = motion_about(body, pivot);
   const Eigen::Vector3d spin = motion.angular_velocity_radps;
   const double angle = spin.norm() * dt;
   const Eigen::Matrix3d turn =
       angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix() : Eigen::Matrix3d::Identity().eval();
   const Eigen::Vector3d centre = motion.centre_m + dt * motion.velocity_mps;
   for (int i = 0; i < body.node_count(); ++i) {
+    if (body.fixed[i]) {
+      body.position_m[i] += dt * body.velocity_mps[i];
+      continue;
+    }
     const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
     const Eigen::Vector3d relative = body.velocity_mps[i] - motion.velocity_mps;
     const Eigen::Vector3d deforming = relative - spin.cross(arm);
     body.position_m[i] = centre + turn * (arm + dt * deforming);
     body.velocity_mps[i] = motion.velocity_mps + turn * relative;
   }
-  motion = rigid_motion(body);
-  const Eigen::Vector3d change = motion.inertia_kgm2.ldlt().solve(angular_momentum_nms - motion.angular_momentum_nms);
+  motion = motion_about(body, pivot);
+  const Eigen::Vector3d change =
+      spin_of(pivot, motion.inertia_kgm2, angular_momentum_nms - motion.angular_momentum_nms);
   for (int i = 0; i < body.node_count(); ++i)
-    body.velocity_mps[i] += change.cross(body.position_m[i] - motion.centre_m);
+    if (!body.fixed[i]) body.velocity_mps[i] += change.cross(body.position_m[i] - motion.centre_m);
 }
 
 /// A contact in the same regularised form as the strain: φ is the gap, its stiffness is large, and it acts while the
@@ -183,9 +190,12 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
       settings.solver == Solver::direct ||
       (settings.solver == Solver::automatic && static_cast<int>(body.elements.size()) <= settings.direct_limit);
   assemble(body, settings, !direct, report);
-  const bool follow_spin = settings.follow_spin && std::ranges::find(body.fixed, std::uint8_t{1}) == body.fixed.end();
-  const RigidMotion before = rigid_motion(body);
-  if (follow_spin) add_centrifugal_force(body, before, settings.step_s);
+  const std::optional<Pivot> pivot = settings.follow_spin ? pivot_of(body) : std::nullopt;
+  RigidMotion before;
+  if (pivot) {
+    before = motion_about(body, *pivot);
+    add_centrifugal_force(body, before, settings.step_s);
+  }
   const auto active = add_contacts(body, settings, contacts);
   hold_fixed_nodes(body);
 
@@ -224,8 +234,8 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
     body.contact_impulse_ns[c.node] += std::max(0.0, normal_impulse);
   }
   if (settings.keep_stress) keep_step_stress(body, settings);
-  if (follow_spin)
-    move_along_arcs(body, settings.step_s, expected_angular_momentum(body, before, settings.step_s, contacts));
+  if (pivot)
+    move_along_arcs(body, *pivot, settings.step_s, expected_angular_momentum(body, before, settings, contacts));
   else
     for (int i = 0; i < body.node_count(); ++i) body.position_m[i] += settings.step_s * body.velocity_mps[i];
   report.bad_numbers += reset_bad_nodes(body);  // Other code reads the body from here on.
