@@ -20,6 +20,8 @@ namespace {
 constexpr double contact_stiffness = 1e3;
 /// Below this sliding speed friction is viscous, so that a resting body comes to rest.
 constexpr double creep_speed_mps = 2e-3;
+/// A contact that still pulls after so many solutions pulls until the next step.
+constexpr int most_contact_passes = 4;
 
 void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double dt) {
   const Eigen::Vector3d& spin = motion.angular_velocity_radps;
@@ -73,7 +75,32 @@ void move_along_arcs(ElasticBody& body, const Pivot& pivot, double dt, const Eig
 struct ActiveContact {
   NodeContact* contact;
   double normal_rate_kg, normal_impulse_ns, tangent_rate_kg;
+
+  /// Along the normal, at the node's new velocity.
+  double normal_impulse_at(const Eigen::Vector3d& velocity_mps) const {
+    return normal_impulse_ns - normal_rate_kg * (velocity_mps - contact->surface_velocity_mps).dot(contact->normal);
+  }
 };
+
+/// Adds the contact to the system, or with −1 takes it out again.
+void add_contact(const ActiveContact& a, double sign, StepWorkspace& w) {
+  const NodeContact& c = *a.contact;
+  const Eigen::Matrix3d normal_part = c.normal * c.normal.transpose();
+  const Eigen::Matrix3d rate =
+      sign * (a.normal_rate_kg * normal_part + a.tangent_rate_kg * (Eigen::Matrix3d::Identity() - normal_part));
+  for (int k = 0; k < 3; ++k) w.matrix.diagonal[c.node].column[k] += padded(rate.col(k));
+  w.right_side[c.node] += padded(rate * c.surface_velocity_mps + sign * a.normal_impulse_ns * c.normal);
+}
+
+/// Takes out the contacts that would pull; false where there is none. The gap of such a one opens within the step, and
+/// opens further without it: what is left presses, as Signorini's condition asks.
+bool release_pulling(const BlockVector& velocity_mps, std::vector<ActiveContact>& active, StepWorkspace& w) {
+  return std::erase_if(active, [&](const ActiveContact& a) {
+           if (!(a.normal_impulse_at(velocity_mps[a.contact->node].head<3>().matrix()) < 0.0)) return false;
+           add_contact(a, -1.0, w);
+           return true;
+         }) > 0;
+}
 
 std::vector<ActiveContact> add_contacts(ElasticBody& body, const StepSettings& settings,
                                         std::span<NodeContact> contacts) {
@@ -100,11 +127,7 @@ std::vector<ActiveContact> add_contacts(ElasticBody& body, const StepSettings& s
     const Eigen::Vector3d slide = relative - normal_speed * c.normal;
     const double pressing = std::max(known_impulse[c.node], m * std::max(0.0, -predicted.dot(c.normal)));
     a.tangent_rate_kg = c.friction * pressing / std::max(slide.norm(), creep_speed_mps);
-    const Eigen::Matrix3d normal_part = c.normal * c.normal.transpose();
-    const Eigen::Matrix3d rate =
-        a.normal_rate_kg * normal_part + a.tangent_rate_kg * (Eigen::Matrix3d::Identity() - normal_part);
-    for (int k = 0; k < 3; ++k) w.matrix.diagonal[c.node].column[k] += padded(rate.col(k));
-    w.right_side[c.node] += padded(rate * c.surface_velocity_mps + a.normal_impulse_ns * c.normal);
+    add_contact(a, 1.0, w);
     active.push_back(a);
   }
   return active;
@@ -132,6 +155,31 @@ void hold_fixed_nodes(ElasticBody& body) {
     w.matrix.diagonal[i] = zero_block();
     for (int c = 0; c < 3; ++c) w.matrix.diagonal[i].column[c][c] = body.mass_kg[i];
     w.right_side[i] = padded(body.mass_kg[i] * body.velocity_mps[i]);
+  }
+}
+
+/// The first guess of the conjugate gradients: every node flies.
+void start_from_flight(ElasticBody& body, const StepSettings& settings) {
+  StepWorkspace& w = body.workspace;
+  w.solution.resize(body.velocity_mps.size());
+  const Eigen::Vector3d gained_mps = settings.step_s * settings.gravity_mps2;
+  for (int i = 0; i < body.node_count(); ++i)
+    w.solution[i] = padded(body.fixed[i] ? body.velocity_mps[i] : body.velocity_mps[i] + gained_mps);
+  follow_rotations(body);
+}
+
+/// The new velocities; not a number where the matrix has no factor.
+void solve_system(ElasticBody& body, const StepSettings& settings, bool direct, StepReport& report) {
+  StepWorkspace& w = body.workspace;
+  if (!direct) {
+    const SolveReport result = preconditioned_solve(body, settings);
+    report.iterations += result.iterations;
+    report.converged = result.converged;
+  } else if (factorise(body.pattern, body.factor_structure, w.matrix, w.factor)) {
+    w.solution = w.right_side;
+    solve(body.factor_structure, w.factor, w.solution);
+  } else {
+    w.solution.assign(body.velocity_mps.size(), padded(Eigen::Vector3d::Constant(NAN)));
   }
 }
 
@@ -191,33 +239,16 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
       (settings.solver == Solver::automatic && static_cast<int>(body.elements.size()) <= settings.direct_limit);
   assemble(body, settings, !direct, report);
   const std::optional<Pivot> pivot = settings.follow_spin ? pivot_of(body) : std::nullopt;
-  RigidMotion before;
-  if (pivot) {
-    before = motion_about(body, *pivot);
-    add_centrifugal_force(body, before, settings.step_s);
-  }
-  const auto active = add_contacts(body, settings, contacts);
+  const RigidMotion before = pivot ? motion_about(body, *pivot) : RigidMotion{};
+  if (pivot) add_centrifugal_force(body, before, settings.step_s);
+  auto active = add_contacts(body, settings, contacts);
   hold_fixed_nodes(body);
 
   StepWorkspace& w = body.workspace;
-  if (direct) {
-    if (factorise(body.pattern, body.factor_structure, w.matrix, w.factor)) {
-      w.solution = w.right_side;
-      solve(body.factor_structure, w.factor, w.solution);
-    } else {
-      w.solution.assign(body.velocity_mps.size(), padded(Eigen::Vector3d::Constant(NAN)));
-    }
-  } else {
-    w.solution.resize(body.velocity_mps.size());
-    for (int i = 0; i < body.node_count(); ++i)
-      w.solution[i] =
-          padded(body.velocity_mps[i] + (body.fixed[i] ? Eigen::Vector3d::Zero().eval()
-                                                       : Eigen::Vector3d(settings.step_s * settings.gravity_mps2)));
-    follow_rotations(body);
-    const SolveReport result = preconditioned_solve(body, settings);
-    report.iterations = result.iterations;
-    report.converged = result.converged;
-  }
+  if (!direct) start_from_flight(body, settings);
+  solve_system(body, settings, direct, report);
+  for (int pass = 1; pass < most_contact_passes && release_pulling(w.solution, active, w); ++pass)
+    solve_system(body, settings, direct, report);
   for (int i = 0; i < body.node_count(); ++i) {
     const Eigen::Vector3d v = w.solution[i].head<3>().matrix();
     if (v.allFinite())
@@ -228,8 +259,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
   for (const ActiveContact& a : active) {
     const NodeContact& c = *a.contact;
     const Eigen::Vector3d relative = body.velocity_mps[c.node] - c.surface_velocity_mps;
-    const double normal_speed = relative.dot(c.normal);
-    const double normal_impulse = a.normal_impulse_ns - a.normal_rate_kg * normal_speed;
+    const double normal_speed = relative.dot(c.normal), normal_impulse = a.normal_impulse_at(body.velocity_mps[c.node]);
     a.contact->impulse_ns = normal_impulse * c.normal - a.tangent_rate_kg * (relative - normal_speed * c.normal);
     body.contact_impulse_ns[c.node] += std::max(0.0, normal_impulse);
   }
