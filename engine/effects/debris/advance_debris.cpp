@@ -5,11 +5,11 @@
 #include <utility>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/blow.hpp"
 #include "engine/effects/debris/contacts.hpp"
+#include "engine/effects/debris/energy_bound.hpp"
 #include "engine/effects/debris/fracture.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/shards.hpp"
@@ -46,102 +46,6 @@ int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, 
   return std::clamp(static_cast<int>(std::ceil(std::min(wanted, double{most}))), 1, most);
 }
 
-/// The surfaces that enclose a piece, and the energy that they may leave it with, in the frame that moves with their
-/// middle. One surface, whatever its speed, returns less than it took: in its own frame a piece gains no energy. Two
-/// that close on a piece can make it as fast as they are themselves: they are vehicles, whose metal yields before it
-/// does more.
-struct Frame {
-  Eigen::Vector3d velocity_mps{0, 0, 0};
-  double allowed_j = 0.0;
-};
-
-/// Kinetic energy in a frame that moves with `frame_mps`.
-double kinetic_energy_j(const Piece& piece, const Eigen::Vector3d& frame_mps) {
-  double sum = 0.0;
-  for (int i = 0; i < piece.body.node_count(); ++i)
-    sum += 0.5 * piece.body.mass_kg[i] * (piece.body.velocity_mps[i] - frame_mps).squaredNorm();
-  return sum;
-}
-
-Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double step_s) {
-  Frame frame;
-  Eigen::AlignedBox3d velocities;
-  for (const FoundContact& f : found)
-    if (f.box >= 0) velocities.extend(f.contact.surface_velocity_mps);
-  if (!velocities.isEmpty()) frame.velocity_mps = velocities.center();
-  const double mass = elastic::total_mass_kg(piece.body);
-  const double before = kinetic_energy_j(piece, frame.velocity_mps) + elastic::elastic_energy_j(piece.body);
-  double apart = 0.0;
-  for (const FoundContact& f : found)
-    apart = std::max(apart, (f.contact.surface_velocity_mps - frame.velocity_mps).norm());
-  // Extra energy of weight and of leaving a surface's inside.
-  const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * gravity_mps2 * step_s * (speed + 0.2);
-  frame.allowed_j = weight_j + std::max(before, 0.5 * mass * apart * apart);
-  return frame;
-}
-
-/// The elastic step errs where elements turn or shear by much within it. Energy without a source is taken out of the
-/// deformation: of its velocity, and of its shape by going back towards the rest shape in its best place. Mass,
-/// momentum and angular momentum stay.
-void bound_energy(Piece& piece, const Frame& frame) {
-  auto& body = piece.body;
-  const auto motion = elastic::rigid_motion(body);
-  const double elastic_j = elastic::elastic_energy_j(body);
-  const double mass = elastic::total_mass_kg(body);
-  const double turning_j = 0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps);
-  const double moving_j =
-      std::max(0.0, elastic::kinetic_energy_j(body) - 0.5 * mass * motion.velocity_mps.squaredNorm() - turning_j);
-  const double rigid_j = 0.5 * mass * (motion.velocity_mps - frame.velocity_mps).squaredNorm() + turning_j;
-  const double budget = std::max(0.0, frame.allowed_j - rigid_j);
-  const double excess = elastic_j + moving_j;
-  if (excess <= budget || excess <= 1e-6) return;
-  const double keep = std::sqrt(budget / excess);
-  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d rest_centre = Eigen::Vector3d::Zero();
-  for (int i = 0; i < body.node_count(); ++i)
-    rest_centre += body.mass_kg[i] * body.rest_position_m[i] / elastic::total_mass_kg(body);
-  for (int i = 0; i < body.node_count(); ++i)
-    correlation +=
-        body.mass_kg[i] * (body.position_m[i] - motion.centre_m) * (body.rest_position_m[i] - rest_centre).transpose();
-  Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant());
-  const Eigen::Matrix3d turn = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  for (int i = 0; i < body.node_count(); ++i) {
-    const Eigen::Vector3d home = motion.centre_m + turn * (body.rest_position_m[i] - rest_centre);
-    if (elastic_j > budget) body.position_m[i] = home + keep * (body.position_m[i] - home);
-    const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
-    const Eigen::Vector3d rigid = motion.velocity_mps + motion.angular_velocity_radps.cross(arm);
-    body.velocity_mps[i] = rigid + keep * (body.velocity_mps[i] - rigid);
-  }
-  const auto now = elastic::rigid_motion(body);
-  const Eigen::Vector3d change = now.inertia_kgm2.inverse() * (motion.angular_momentum_nms - now.angular_momentum_nms);
-  for (int i = 0; i < body.node_count(); ++i) body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
-}
-
-/// Two surfaces that close on a piece demand an impossible velocity, and the step returns more energy than either
-/// gives. Where that made it faster than the frame allows, the step's change of velocity, and with it the surfaces'
-/// impulses, is taken only as far as that. `position_m` and `velocity_mps` are those before the step.
-void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
-                std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts) {
-  auto& body = piece.body;
-  if (kinetic_energy_j(piece, frame.velocity_mps) <= frame.allowed_j) return;
-  // K(s) = K₀ + bs + as² of v₀ + s Δv.
-  double a = 0.0, b = 0.0, k0 = 0.0;
-  for (int i = 0; i < body.node_count(); ++i) {
-    const Eigen::Vector3d change = body.velocity_mps[i] - velocity_mps[i], start = velocity_mps[i] - frame.velocity_mps;
-    a += 0.5 * body.mass_kg[i] * change.squaredNorm();
-    b += body.mass_kg[i] * start.dot(change);
-    k0 += 0.5 * body.mass_kg[i] * start.squaredNorm();
-  }
-  const double root = std::sqrt(std::max(0.0, b * b + 4.0 * a * (frame.allowed_j - k0)));
-  const double share = a > 0.0 ? std::clamp((root - b) / (2.0 * a), 0.0, 1.0) : 1.0;
-  for (int i = 0; i < body.node_count(); ++i) {
-    body.velocity_mps[i] = velocity_mps[i] + share * (body.velocity_mps[i] - velocity_mps[i]);
-    body.position_m[i] = position_m[i] + step_s * body.velocity_mps[i];
-  }
-  for (auto& contact : contacts) contact.impulse_ns *= share;
-}
-
 /// Adds the impulses on the boxes. The press of two of them on each other through the piece is left out: their own
 /// collision has it already, and between boxes that cannot yield it has no bound.
 void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic::NodeContact> contacts,
@@ -159,12 +63,6 @@ void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic:
       b->second += both * way;
     }
   for (const auto& [box, impulse_ns] : given_ns) world.boxes[static_cast<std::size_t>(box)].impulse_ns += impulse_ns;
-}
-
-/// Energy lost in the surfaces' frame: it pays for flow, cracks and scatter.
-double lost_j(const Piece& piece, const Frame& frame) {
-  return std::max(
-      0.0, frame.allowed_j - kinetic_energy_j(piece, frame.velocity_mps) - elastic::elastic_energy_j(piece.body));
 }
 
 /// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds the impulses

@@ -7,7 +7,7 @@
 /// step whose energy grew by more than the forces' work is undone and repeated as two halves.
 ///
 /// For bodies under gravity and constant forces whose fixed nodes stand still. Contacts do work that is not known here;
-/// debris bounds its energy itself (advance_debris.cpp).
+/// debris bounds its energy itself (energy_bound.hpp).
 
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
