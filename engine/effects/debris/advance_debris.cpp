@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <glm/geometric.hpp>
 
+#include "engine/effects/debris/air_force.hpp"
 #include "engine/effects/debris/blow.hpp"
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/energy_bound.hpp"
@@ -138,6 +139,7 @@ StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
       continue;
     }
     done.clear();
+    feel_air(piece, to_eigen(world.wind_mps));
     const int substeps = substeps_for(piece, find_contacts(piece, world, step_s), step_s);
     step_piece(std::move(piece), world, 0, substeps, step_s / substeps, report, done);
     ++report.awake;

@@ -23,6 +23,17 @@ double kinetic_energy_j(const Piece& piece, const Eigen::Vector3d& frame_mps) {
   return sum;
 }
 
+/// Energy that the air can give a piece in a step; what it takes is no bound.
+double air_work_j(const Piece& piece, const Eigen::Vector3d& frame_mps, double step_s) {
+  double sum = 0.0;
+  for (int i = 0; i < piece.body.node_count(); ++i) {
+    const Eigen::Vector3d& force = piece.body.force_n[i];
+    const Eigen::Vector3d gained_mps = step_s / piece.body.mass_kg[i] * force;
+    sum += step_s * force.dot(piece.body.velocity_mps[i] - frame_mps + 0.5 * gained_mps);
+  }
+  return std::max(0.0, sum);
+}
+
 /// Relaxes the shape until it stores `most_j`, or as little as a few steps reach: what the elements' plastic strains, which need not fit
 /// together, keep for good. A step without velocity, weight and contacts, long beside all periods of the piece, is one of Newton's towards equilibrium;
 /// inner forces alone move the nodes, so that the mass centre stays and the body does not turn.
@@ -77,7 +88,8 @@ Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double s
     apart = std::max(apart, (f.contact.surface_velocity_mps - frame.velocity_mps).norm());
   // Extra energy of weight and of leaving a surface's inside.
   const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * gravity_mps2 * step_s * (speed + 0.2);
-  frame.allowed_j = weight_j + std::max(before, 0.5 * mass * apart * apart);
+  frame.allowed_j =
+      weight_j + air_work_j(piece, frame.velocity_mps, step_s) + std::max(before, 0.5 * mass * apart * apart);
   return frame;
 }
 

@@ -120,6 +120,8 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   contacts.ground = [&](double x_m, double y_m) {
     return surface_below(world.roads, world.ground_friction, x_m, y_m, state);
   };
+  const double towards = world.environment.wind_direction_rad;
+  contacts.wind_mps = world.environment.wind_speed_mps * Vec3(std::cos(towards), std::sin(towards), 0.0);
   int driver_box = -1;
   report.crashes =
       advance_crashes(world.participants, world.driver, contacts, state.crashes, state.debris, state.random);

@@ -1,0 +1,34 @@
+#pragma once
+/// Force of the air on a piece of debris: that on a flat plate, face by face.
+///
+/// A plate of area A in a wind w at the angle of attack α between them is pressed along its normal with
+///     N = C_N(α) ½ρw²A,   C_N = 1.7 α/40° up to 40°, where the flow parts, and 1.15 beyond,
+/// at a place before its middle by c(α) of its length along the wind:
+///     c = 0.3 − 0.22 α/38° up to 38°,   0.08 cos 2(α − 38°) up to 82.5°,   0 beyond
+/// (J. D. Holmes, C. W. Letchford and N. Lin, "Investigations of plate-type windborne debris, part II", J. Wind Eng.
+/// Ind. Aerodyn. 94, 2006; P. J. Richards et al., "Numerical calculation of the three-dimensional motion of wind-borne
+/// debris", the same 96, 2008; after ESDU 70015; the values were not checked against their texts). Drag is
+/// N sin α and lift N cos α. How far that carries a plate of mass m is told by its Tachikawa number ρw²A/2mg
+/// (M. Tachikawa, "Trajectories of flat plates in uniform flow", the same 14, 1983): 0.5 for 80 mm of ice at 25 m/s, 4
+/// for 10 mm.
+///
+/// A plate's two faces bear half of N each. Each triangle of a surface has the wind past its own middle, so that a turn
+/// is damped. A block is met by its front and its back, with 1.15; its sides, along the wind, bear nothing.
+/// World frame of Septet; pure functions.
+
+#include "engine/effects/debris/piece.hpp"
+
+namespace septet::debris {
+
+inline constexpr double air_density_kgpm3 = 1.2;  ///< At 20 °C and sea level.
+
+/// C_N of a plate, of the sine of its angle of attack, 0 to 1.
+double plate_normal_coefficient(double sine_of_attack);
+
+/// c of a plate: how far before its middle it is pressed, as a share of its length along the wind.
+double plate_pressure_offset(double sine_of_attack);
+
+/// Sets the body's `force_n` to the air's, in a wind of this velocity.
+void feel_air(Piece& piece, const Eigen::Vector3d& wind_mps);
+
+}  // namespace septet::debris
