@@ -121,6 +121,22 @@ def _tick(row: dict[str, Any]) -> Tick:
     return Tick(row["tick"], row["time_s"], Car(**row["car"]), everybody, row["collisions"], row["rain_mm_per_h"], row["visibility_m"])
 
 
+class _Every:
+    """Of ticks, some of which are missed, one for each multiple of n: it, or the first that comes after it."""
+
+    def __init__(self, every: int) -> None:
+        self._every = every
+        self._due: Optional[int] = None
+
+    def takes(self, tick: int) -> bool:
+        if self._due is None:
+            self._due = -(-tick // self._every) * self._every
+        if tick < self._due:
+            return False
+        self._due = (tick // self._every + 1) * self._every
+        return True
+
+
 def _word(text: str) -> str:
     """The text as one quoted word of a line."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
@@ -378,17 +394,19 @@ class World:
     # ---- ticks
 
     def ticks(self, every: int = 1) -> Iterator[Tick]:
-        """Each tick as it comes, or every n-th, until the drive ends."""
+        """Each tick as it comes, or every n-th, until the drive ends. For one that was missed the next that comes stands in."""
         self._want_ticks()
+        chosen = _Every(every)
         while (tick := self._next_tick()) is not None:
-            if tick.tick % every == 0:
+            if chosen.takes(tick.tick):
                 yield tick
 
     async def aticks(self, every: int = 1) -> AsyncIterator[Tick]:
         """The same for asyncio."""
         self._want_ticks()
+        chosen = _Every(every)
         while (tick := await asyncio.get_running_loop().run_in_executor(None, self._next_tick)) is not None:
-            if tick.tick % every == 0:
+            if chosen.takes(tick.tick):
                 yield tick
 
     def on(self, what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:

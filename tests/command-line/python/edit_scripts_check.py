@@ -68,6 +68,11 @@ def refused(change) -> septet.Refused:
     raise AssertionError("nothing was refused")
 
 
+def every_tick_that_is_missed_is_stood_in_for() -> None:
+    every = septet._Every(12)
+    assert [tick for tick in (5, 11, 12, 13, 25, 30, 36, 59, 60, 61) if every.takes(tick)] == [12, 25, 36, 59, 60]
+
+
 def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pathlib.Path) -> None:
     with septet.connect(host, port, keys / "lab/lab.key") as world:
         first = next(world.ticks())
@@ -126,10 +131,11 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         live.write_bytes(triangle_glb()[:100])
         assert "live.glb" in (message := told.get(timeout=60)) and "changes" not in message, message
         # A batch is done whole at its tick, or nothing of it.
-        at = world.newest.tick + 240
+        at = world.pause() + 24
         with world.batch(at_tick=at) as later:
             ball.visible = False
             sign.visible = False
+        world.go_on()
         assert later.result() == at
         def half():
             with world.batch():
@@ -162,6 +168,7 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         assert "may look, not edit" in refused(lambda: reader.get("stimuli/ball").remove()).why
 
 
+every_tick_that_is_missed_is_stood_in_for()
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     (folder / "small.toml").write_text(RIG)
@@ -171,7 +178,7 @@ with tempfile.TemporaryDirectory() as name:
         "--editor", "guest=edit hide move", "--editor", "reader=look")
     server = subprocess.Popen(
         [str(septet_program.parent / "septet-server"), "--scenario", "first-lesson", "--rig", str(folder / "small.toml"), "--keys",
-         str(keys / "server"), "--out", str(folder / "out"), "--any-port", "--wait-for-screens", "0", "--start-now", "--seconds", "600",
+         str(keys / "server"), "--out", str(folder / "out"), "--any-port", "--wait-for-screens", "0", "--start-now", "--seconds", "36000",
          "--save", str(folder / "saved.edits")],
         stdout=subprocess.PIPE, stderr=(folder / "server.log").open("w"), text=True)
     try:
@@ -183,7 +190,7 @@ with tempfile.TemporaryDirectory() as name:
         glb = str(folder / "ball.glb")
         said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
         for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["9"]), ("repaint_traffic.py", []),
-                             ("log_gaze.py", [str(folder / "gaze.csv"), "1"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),
+                             ("log_gaze.py", [str(folder / "gaze.csv"), "4"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),
                              ("step_by_step.py", ["4"]), ("too_close.py", ["2"])):
             said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
             assert said.startswith(said_by.get(script, "")), (script, said)
@@ -200,7 +207,10 @@ with tempfile.TemporaryDirectory() as name:
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
     notes = [row for row in sqlite3.connect(session).execute("SELECT kind, detail FROM events WHERE detail LIKE 'by=lab %'")]
     assert ("mark", "by=lab note=phase 2") in notes and ("operator", "by=lab wish=pause") in notes, notes
-    assert len((folder / "gaze.csv").read_text().splitlines()) > 9
+    # A row for each tenth of a second of which a tick came.
+    rows = (folder / "gaze.csv").read_text().splitlines()[1:]
+    tenths = [int(float(row.split(",")[0]) * 10 + 0.01) for row in rows]
+    assert len(set(tenths)) == len(tenths) > 9, tenths
     assert sum(detail.startswith("by=lab note=n-back") for _, detail in notes) > 1, notes
     assert any(detail.startswith("by=lab wish=conditions") for _, detail in notes), notes
     assert logged > 20, logged
