@@ -121,7 +121,7 @@ Expected<int> run_edit(const EditOptions& options) {
                                       session.answers_owed() < most_answers_owed);
     };
     while (!lines->empty() && may_take(lines->front())) session.take(lines->take());
-    if (lines->ended() && session.answers_owed() == 0 && !session.is_watching()) break;
+    if (lines->ended() && session.is_settled() && !session.is_watching()) break;
     if (link.finished() || link.server_is_gone() || link.refusal() || program::should_stop()) {
       end = link.finished() ? "the drive has ended" : program::should_stop() ? "stopped" : "the server is gone";
       break;

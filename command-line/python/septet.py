@@ -33,6 +33,10 @@ MOST_TICKS_KEPT = 1200
 """Ticks that wait for a script that is slow; older ones are dropped and counted."""
 
 
+Parent = Union[int, str, "Participant", "Car", "Handle"]
+"""A participant, by its number, the scenario's name or as a tick has it; or a thing."""
+
+
 class Refused(Exception):
     """Nothing of a change was done. `why` is the server's own sentence, `line` and `text` the change that it is about."""
 
@@ -143,7 +147,9 @@ def _word(text: str) -> str:
     return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
 
 
-def _who(participant: Union[int, str, Participant, Car]) -> str:
+def _who(participant: Parent) -> str:
+    if isinstance(participant, Handle):
+        return participant.node
     return _word(participant) if isinstance(participant, str) else str(participant if isinstance(participant, int) else participant.id)
 
 
@@ -244,9 +250,10 @@ class Handle:
         """One colour, each part from 0 to 1 as in pictures, in the place of all its materials."""
         self._world._change(f"color {self.node} {_numbers((red, green, blue))}")
 
-    def hang_on(self, participant: Union[int, str, "Participant", "Car"]) -> None:
-        """On one vehicle: its position is then in that one's frame, x forward, y left, z up from the ground below the rear axle."""
-        self._world._change(f"hang {self.node} {_who(participant)}")
+    def hang_on(self, parent: Parent) -> None:
+        """On another thing, or on one vehicle: its position is then in that one's frame, a vehicle's x forward, y left, z up from the
+        ground below the rear axle."""
+        self._world._change(f"hang {self.node} {_who(parent)}")
 
     def remove(self) -> None:
         self._world._change(f"remove {self.node}")
@@ -307,19 +314,41 @@ class World:
 
     # ---- changes
 
-    def add(self, name: str, glb: Optional[Path] = None, position: Vector = (0, 0, 0), heading_deg: float = 0.0, watch: bool = False) -> Handle:
+    def add(
+        self,
+        name: str,
+        glb: Optional[Path] = None,
+        position: Vector = (0, 0, 0),
+        heading_deg: float = 0.0,
+        watch: bool = False,
+        lifetime_s: Optional[float] = None,
+        parent: Optional[Parent] = None,
+    ) -> Handle:
         """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced.
 
         `watch`: the file is read again each time when it was saved, as long as this connection stands; nothing is replaced.
+        `lifetime_s`: it is removed so many seconds of drive time after the tick that shows it first, also when this script has ended.
+        `parent`: what it hangs on from the first, as of Handle.hang_on; `position` is in that one's frame.
         """
+        if watch and (lifetime_s is not None or parent is not None):
+            raise ValueError("a file that is watched has no lifetime, and is hung on something by hang_on")
         at = f"{_numbers(position)} {float(heading_deg)!r}"
         what = f"create {_word(name)} {at}" if glb is None else f"{'watch' if watch else 'import'} {_word(name)} {_word(os.path.abspath(glb))} {at}"
-        return self._made(name, what, position, heading_deg)
+        return self._made(name, what, position, heading_deg, lifetime_s, parent)
 
-    def board(self, name: str, width_m: float, height_m: float, position: Vector = (0, 0, 0), heading_deg: float = 0.0) -> Handle:
-        """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it."""
+    def board(
+        self,
+        name: str,
+        width_m: float,
+        height_m: float,
+        position: Vector = (0, 0, 0),
+        heading_deg: float = 0.0,
+        lifetime_s: Optional[float] = None,
+        parent: Optional[Parent] = None,
+    ) -> Handle:
+        """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it. `lifetime_s` and `parent` as of add."""
         what = f"board {_word(name)} {_numbers((width_m, height_m))} {_numbers(position)} {float(heading_deg)!r}"
-        return self._made(name, what, position, heading_deg)
+        return self._made(name, what, position, heading_deg, lifetime_s, parent)
 
     def repaint(self, participant: Union[int, str, "Participant", "Car"], red: float, green: float, blue: float) -> None:
         """The paint of one participant, each part from 0 to 1 as in pictures."""
@@ -444,15 +473,23 @@ class World:
 
     # ---- within
 
-    def _made(self, name: str, line: str, position: Vector, heading_deg: float) -> Handle:
-        self._change(line)
+    def _made(
+        self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent]
+    ) -> Handle:
+        lines = [line]
+        if lifetime_s is not None:
+            lines.append(f"lifetime {_word(name)} {float(lifetime_s)!r}")
+        if parent is not None:
+            lines.append(f"hang {_word(name)} {_who(parent)}")
+        self._change(*lines)
         return Handle(self, _word(name), position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
 
-    def _change(self, line: str) -> None:
+    def _change(self, *lines: str) -> None:
+        """One line, or several that are one batch."""
         if self._batch is not None:
-            self._batch.append(line)
+            self._batch.extend(lines)
         else:
-            self._ask([line]).result(60.0)
+            self._ask(list(lines) if len(lines) == 1 else ["begin", *lines, "commit"]).result(60.0)
 
     def _file(self, content: Union[Path, bytes], ending: str) -> str:
         if not isinstance(content, bytes):

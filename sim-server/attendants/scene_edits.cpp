@@ -1,6 +1,7 @@
 #include "sim-server/attendants/scene_edits.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include <fmt/core.h>
 
@@ -50,12 +51,15 @@ void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
   const auto rights = host_.rights_of(request.editor.name).edit;
   if (!rights) return host_.refuse_scene(request, 0, "the right to edit was taken from this key", now_s);
   put_true_times(drive_.store, request.batch.changes, static_cast<double>(from) / simulation::tick_rate_hz);
+  const auto left = without_gone(drive_.store, request.batch.changes, request.editor.own_ids);
+  const std::span<const scene::Command> changes = left ? left->commands : request.batch.changes;
   const Editor editor{request.editor.name, *rights, request.editor.own_ids};
-  const auto refused = pass_gate(drive_.store, request.batch.changes, editor, makers_,
+  const auto refused = pass_gate(drive_.store, changes, editor, makers_,
                                  [&](const scene::Command& command) { host_.scene_changed(command, from); });
-  if (refused) return host_.refuse_scene(request, refused->index, refused->why, now_s);
+  if (refused)
+    return host_.refuse_scene(request, left ? left->places[refused->index] : refused->index, refused->why, now_s);
   host_.scene_done(request, from);
-  if (log_) log_->session().record_edits(from, request.batch.changes);
+  if (log_) log_->session().record_edits(from, changes);
 }
 
 void SceneEdits::close(ServeResult&) {

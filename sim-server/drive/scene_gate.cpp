@@ -1,11 +1,35 @@
 #include "sim-server/drive/scene_gate.hpp"
 
+#include <set>
+#include <utility>
 #include <variant>
 
+#include "engine/replication/message.hpp"
 #include "engine/scene/inverse.hpp"
 #include "sim-server/drive/edit_rights.hpp"
 
 namespace septet::server {
+
+std::optional<LeftOfBatch> without_gone(const scene::Store& store, std::span<const scene::Command> batch,
+                                        scene::NodeId own_ids) {
+  if (own_ids == 0) return std::nullopt;
+  std::set<scene::NodeId> created;
+  std::vector<std::size_t> left;
+  left.reserve(batch.size());
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    if (const auto* create = std::get_if<scene::NodeCreate>(&batch[i])) created.insert(create->node);
+    const auto* destroy = std::get_if<scene::NodeDestroy>(&batch[i]);
+    const bool is_gone = destroy && destroy->node - own_ids < replication::ids_per_session &&
+                         !created.contains(destroy->node) && !store.find(destroy->node);
+    if (!is_gone) left.push_back(i);
+  }
+  if (left.size() == batch.size()) return std::nullopt;
+  LeftOfBatch rest;
+  rest.commands.reserve(left.size());
+  for (const std::size_t place : left) rest.commands.push_back(batch[place]);
+  rest.places = std::move(left);
+  return rest;
+}
 
 std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, const Editor& editor,
                                      NodeMakers& makers, const std::function<void(const scene::Command&)>& applied) {

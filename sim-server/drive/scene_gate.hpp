@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/scene/command.hpp"
 #include "engine/scene/store.hpp"
@@ -23,6 +24,17 @@ struct EditRefusal {
 /// The nodes that editors made, with the names of their keys. A node belongs to its maker: others need a right to a
 /// prefix of its name.
 using NodeMakers = std::map<scene::NodeId, std::string>;
+
+/// What of a batch is still to be done, and where it stood in it.
+struct LeftOfBatch {
+  std::vector<scene::Command> commands;
+  std::vector<std::size_t> places;
+};
+
+/// A batch without its commands to destroy nodes of the editor's own ids that are gone already, as those which waited for
+/// a tick may be. Empty: there are no such commands.
+std::optional<LeftOfBatch> without_gone(const scene::Store& store, std::span<const scene::Command> batch,
+                                        scene::NodeId own_ids);
 
 /// Checks a batch of an editor against its rights and applies it to the store, whole or not at all. An id of its own that
 /// was used and destroyed may be used again. `applied` is called for each command, in order, once all are applied.

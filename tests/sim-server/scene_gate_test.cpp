@@ -200,6 +200,23 @@ TEST_CASE("an editor does what the words of its key say and a node belongs to wh
   CHECK(makers.empty());
 }
 
+TEST_CASE("an editor's own node that is gone already need not be destroyed, and what is left keeps its place") {
+  scene::Store store;
+  scene::SceneBuilder build(store);
+  const NodeId tree = build.add_object("tree/1", {});
+  REQUIRE(store.apply(scene::NodeCreate{1001, scene::NodeType::object}).has_value());
+  const std::vector<Command> batch = {
+      scene::NodeDestroy{1000}, scene::NodeDestroy{1001}, scene::NodeCreate{1002, scene::NodeType::object},
+      scene::NodeDestroy{1002}, scene::NodeDestroy{999},  scene::NodeDestroy{tree}};
+  const auto left = without_gone(store, batch, 1000);
+  REQUIRE(left.has_value());
+  CHECK(left->places == std::vector<std::size_t>{1, 2, 3, 4, 5});
+  for (std::size_t i = 0; i < left->places.size(); ++i) CHECK(left->commands[i] == batch[left->places[i]]);
+  // Who has no ids has no nodes; and a batch of which nothing is gone is done as it is.
+  CHECK_FALSE(without_gone(store, batch, 0).has_value());
+  CHECK_FALSE(without_gone(store, left->commands, 1000).has_value());
+}
+
 TEST_CASE("an editor that floods is refused beyond what waits for one tick and the host keeps its memory") {
   Stage stage;
   REQUIRE(stage.all_equal());

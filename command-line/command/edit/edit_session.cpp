@@ -1,7 +1,9 @@
 #include "command-line/command/edit/edit_session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <utility>
 #include <variant>
@@ -73,6 +75,14 @@ void EditSession::take(const std::string& line) {
 void EditSession::add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words) {
   batch.lines.push_back(line);
   if (batch.wrong) return;
+  if (words.front().text == "lifetime") {
+    auto lifetime = lifetime_of(words, client_.store(), names_);
+    if (lifetime)
+      batch.lifetimes.push_back(std::move(*lifetime));
+    else
+      batch.wrong = {batch.lines.size(), describe(lifetime.error())};
+    return;
+  }
   auto edit = edit_of(words, client_.store(), names_);
   if (!edit) {
     batch.wrong = {batch.lines.size(), describe(edit.error())};
@@ -90,7 +100,12 @@ void EditSession::send(Batch batch) {
     forget_created(batch);
     return refuse(request, batch.wrong->first, batch.lines[batch.wrong->first - 1], batch.wrong->second);
   }
-  if (batch.commands.empty()) return output_.done(request, 0, {});
+  if (batch.commands.empty()) {
+    const auto& ticks = client_.link().history();
+    const Tick now = batch.lifetimes.empty() || ticks.empty() ? 0 : ticks.newest().snapshot.tick;
+    end_lifetimes(batch, now);
+    return output_.done(request, now, {});
+  }
   const auto number = client_.request(batch.commands, batch.tick);
   if (!number) {
     forget_created(batch);
@@ -110,8 +125,28 @@ void EditSession::forget_created(const Batch& batch) {
     }
 }
 
+/// The server keeps the removals until their ticks, whether this editor is still there or not.
+void EditSession::end_lifetimes(const Batch& batch, Tick from) {
+  for (const Lifetime& lifetime : batch.lifetimes) {
+    const double ticks = std::max(1.0, std::round(lifetime.seconds * client_.link().welcome()->tick_rate_hz));
+    auto removal = removal_of(lifetime.node, client_.store(), names_.own_ids, batch.commands);
+    const auto number = client_.request(removal, from + static_cast<Tick>(ticks));
+    if (number)
+      ends_.emplace(*number, End{lifetime.thing, std::move(removal)});
+    else
+      output_.message(fmt::format("{} stays: {}", lifetime.thing, describe(number.error())));
+  }
+}
+
 void EditSession::hear() {
   for (const EditAnswer& answer : client_.take_answers()) {
+    if (const auto end = ends_.extract(answer.batch)) {
+      if (answer.refused)
+        output_.message(fmt::format("{} stays: {}", end.mapped().thing, answer.refused->why));
+      else
+        forget_destroyed(names_, end.mapped().removal);
+      continue;
+    }
     const auto found = waiting_.find(answer.batch);
     if (found == waiting_.end()) continue;
     const Waiting waiting = std::move(found->second);
@@ -129,6 +164,7 @@ void EditSession::hear() {
       refuse(waiting.request, line, line <= batch.lines.size() ? batch.lines[line - 1] : "", answer.refused->why);
       continue;
     }
+    end_lifetimes(batch, answer.tick);
     if (!waiting.undo.empty()) undo_.push_back(waiting.undo);
     if (undo_.size() > most_undone) undo_.erase(undo_.begin());
     output_.done(waiting.request, answer.tick, batch.messages);

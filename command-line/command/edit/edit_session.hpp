@@ -43,6 +43,7 @@ class EditSession {
     std::vector<scene::Command> commands;
     std::vector<std::size_t> line_of;  ///< Of each command.
     std::vector<std::string> messages;
+    std::vector<Lifetime> lifetimes;
     std::optional<std::pair<std::size_t, std::string>> wrong;  ///< The first line that cannot be read, and why.
     bool may_be_undone = true;
     bool was_asked = true;  ///< False: of a file that was saved; its answer is a message.
@@ -53,11 +54,17 @@ class EditSession {
     std::vector<scene::Command> undo;
   };
 
+  struct End {
+    std::string thing;
+    std::vector<scene::Command> removal;
+  };
+
   scene::TextNames names() const { return {client_.store(), names_.own_ids, nullptr, &names_.fresh}; }
   void add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words);
   void send(Batch batch);
   void refuse(std::uint64_t request, std::size_t line, const std::string& text, const std::string& why);
   void forget_created(const Batch& batch);
+  void end_lifetimes(const Batch& batch, Tick from);
   bool query(const std::string& line, const std::vector<scene::TextWord>& words);
   void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
   void undo();
@@ -71,6 +78,7 @@ class EditSession {
   std::uint64_t requests_ = 0, refusals_ = 0;
   std::optional<Batch> batch_;
   std::map<std::uint64_t, Waiting> waiting_;  ///< By the batch's number.
+  std::map<std::uint64_t, End> ends_;         ///< Removals that the server keeps for their ticks; no answer is owed.
   std::vector<std::vector<scene::Command>> undo_;
   std::vector<WatchedModel> watched_;
   std::map<std::uint32_t, std::pair<std::uint64_t, std::string>>

@@ -32,6 +32,7 @@ using namespace scene;
 using Words = std::span<const TextWord>;
 
 constexpr std::size_t most_name_bytes = 200;
+constexpr double longest_lifetime_s = 1e6;
 
 tl::unexpected<Error> wrong(const std::string& what, std::string_view usage) {
   return failure(what, fmt::format("the line {}", usage), "septet edit --help and docs/editing.md show the lines");
@@ -53,6 +54,30 @@ std::optional<std::vector<double>> numbers(Words words) {
 Quat turned(double heading_deg) { return glm::angleAxis(heading_deg * std::numbers::pi / 180.0, Vec3(0, 0, 1)); }
 
 }  // namespace
+
+std::vector<Command> removal_of(NodeId thing, const Store& store, NodeId own_ids, std::span<const Command> batch) {
+  std::vector<const LinkSet*> to_come;
+  for (const Command& command : batch)
+    if (const auto* link = std::get_if<LinkSet>(&command)) to_come.push_back(link);
+  std::set<NodeId> gone{thing};
+  std::vector<NodeId> next{thing};
+  const auto reach = [&](NodeId target) {
+    if (target - own_ids < replication::ids_per_session && gone.insert(target).second) next.push_back(target);
+  };
+  while (!next.empty()) {
+    const NodeId id = next.back();
+    next.pop_back();
+    const Node* node = store.find(id);
+    if (const auto* data = node ? std::get_if<ObjectData>(&node->data) : nullptr)
+      for (const auto& [link_id, link] : data->links) reach(link.target);
+    for (const LinkSet* link : to_come)
+      if (link->node == id) reach(link->value.target);
+  }
+  std::vector<Command> commands;
+  commands.reserve(gone.size());
+  for (const NodeId each : gone) commands.emplace_back(NodeDestroy{each});
+  return commands;
+}
 
 std::optional<Transform> transform_of(Words words) {
   const auto read = numbers(words);
@@ -158,23 +183,9 @@ class Verbs {
     line.messages = std::move(kept.messages);
     return line;
   }
-  /// The object, with all that it links to and this editor made.
   std::vector<Command> removal(NodeId object) {
-    std::set<NodeId> gone{object};
-    std::vector<NodeId> next{object};
-    while (!next.empty()) {
-      const Node* node = store_.find(next.back());
-      next.pop_back();
-      const auto* data = node ? std::get_if<ObjectData>(&node->data) : nullptr;
-      if (!data) continue;
-      for (const auto& [link_id, link] : data->links)
-        if (link.target - names_.own_ids < replication::ids_per_session && gone.insert(link.target).second)
-          next.push_back(link.target);
-    }
-    std::vector<Command> commands;
-    commands.reserve(gone.size());
-    for (const NodeId each : gone) commands.emplace_back(NodeDestroy{each});
-    std::erase_if(names_.fresh, [&](const auto& entry) { return gone.contains(entry.second); });
+    std::vector<Command> commands = removal_of(object, store_, names_.own_ids, {});
+    forget_destroyed(names_, commands);
     return commands;
   }
 
@@ -309,18 +320,22 @@ class Verbs {
     return std::nullopt;
   }
 
-  /// A link of each thing's own, by its id.
+  /// A link of each thing's own, by its id; on another object from the last one down, as its own parts have the first.
   Expected<EditedLine> hang(Words words) {
-    constexpr std::string_view usage = "hang NODE PARTICIPANT, a node of this editor's own and a number or a name";
+    constexpr std::string_view usage =
+        "hang NODE PARENT, a node of this editor's own, and a participant's number or name, or another object";
     const auto number = words.size() == 2 ? participant(words[1]) : std::nullopt;
     const auto id = words.empty() ? std::nullopt : object(words[0]);
-    if (!number || !id || *id - names_.own_ids >= replication::ids_per_session)
-      return wrong("a thing and a participant are needed", usage);
+    const auto other = words.size() == 2 && !number ? object(words[1]) : std::nullopt;
+    if (!(number || other) || !id || *id - names_.own_ids >= replication::ids_per_session || other == id)
+      return wrong("a thing and what it hangs on are needed", usage);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
     Made made{{}, *first};
-    const NodeId parent = root_of(*number, made);
-    made.commands.emplace_back(LinkSet{parent, static_cast<PartId>(*id - names_.own_ids), {"child", *id, 0}});
+    const NodeId parent = number ? root_of(*number, made) : *other;
+    const auto place = static_cast<PartId>(*id - names_.own_ids);
+    const auto link = number ? place : static_cast<PartId>(replication::ids_per_session - 1 - place);
+    made.commands.emplace_back(LinkSet{parent, link, {"child", *id, 0}});
     return keep(std::move(made));
   }
   Expected<EditedLine> repaint(Words words) {
@@ -366,6 +381,23 @@ Expected<EditedLine> edit_of(const std::vector<TextWord>& words, const Store& st
   for (const Command& command : line->commands)  // A server ends the connection of who sends what is out of range.
     if (auto valid = validate(command); !valid) return tl::unexpected(valid.error());
   return line;
+}
+
+Expected<Lifetime> lifetime_of(const std::vector<TextWord>& words, const Store& store, const EditNames& names) {
+  constexpr std::string_view usage = "lifetime NODE SECONDS, a node of this editor's own and more than 0 seconds";
+  const auto seconds = words.size() == 3 ? numbers(std::span(words).last(1)) : std::nullopt;
+  if (!seconds || !(seconds->front() > 0.0 && seconds->front() <= longest_lifetime_s))
+    return wrong("a thing and how long it is there are needed", usage);
+  const auto id = node_of({store, names.own_ids, nullptr, &names.fresh}, words[1]);
+  if (!id || *id - names.own_ids >= replication::ids_per_session)
+    return wrong(fmt::format("{:.80} is not of this editor's own", words[1].text), usage);
+  return Lifetime{words[1].text, *id, seconds->front()};
+}
+
+void forget_destroyed(EditNames& names, std::span<const Command> batch) {
+  for (const Command& command : batch)
+    if (const auto* destroy = std::get_if<NodeDestroy>(&command))
+      std::erase_if(names.fresh, [&](const auto& entry) { return entry.second == destroy->node; });
 }
 
 Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store) {

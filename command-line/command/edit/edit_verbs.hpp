@@ -30,8 +30,24 @@ struct EditedLine {
   std::vector<std::string> messages{};
 };
 
+/// A thing of this editor's own that is to be gone.
+struct Lifetime {
+  std::string thing;  ///< As it was named.
+  scene::NodeId node = 0;
+  double seconds = 0.0;  ///< Of drive time, after the tick that shows its batch first.
+};
+
 /// The commands of one line. Error: which word is wrong, what a file lacks, or that the own ids are used up.
 Expected<EditedLine> edit_of(const std::vector<scene::TextWord>& words, const scene::Store& store, EditNames& names);
+
+/// Of `lifetime NODE SECONDS`. Error: which word is wrong.
+Expected<Lifetime> lifetime_of(const std::vector<scene::TextWord>& words, const scene::Store& store,
+                               const EditNames& names);
+/// Commands that destroy a thing and all that it links to of these own ids, by the scene and by a batch after it.
+std::vector<scene::Command> removal_of(scene::NodeId thing, const scene::Store& store, scene::NodeId own_ids,
+                                       std::span<const scene::Command> batch);
+/// Names of things that are destroyed mean nothing.
+void forget_destroyed(EditNames& names, std::span<const scene::Command> batch);
 
 /// A place: nothing, X Y Z, or X Y Z HEADING_DEG. Empty: other words.
 std::optional<scene::Transform> transform_of(std::span<const scene::TextWord> words);

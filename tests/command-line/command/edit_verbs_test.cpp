@@ -105,6 +105,49 @@ TEST_CASE("what is made under a name again takes the place of what had it, with 
   CHECK(editor.store.nodes().empty());
 }
 
+TEST_CASE("a lifetime ends what a line before it in its batch makes, as it ends what is there, with all parts") {
+  const auto lifetime = [](const EditedWorld& editor, std::string_view line) {
+    return lifetime_of(scene::words_of(line).value(), editor.store, editor.names);
+  };
+  EditedWorld there, coming;
+  REQUIRE(there.take("board sign 2 1").has_value());
+  const auto made = edit_of(scene::words_of("board sign 2 1").value(), coming.store, coming.names);
+  REQUIRE(made.has_value());
+  const auto of_there = lifetime(there, "lifetime sign 2.5"), of_coming = lifetime(coming, "lifetime sign 2.5");
+  REQUIRE(of_there.has_value());
+  REQUIRE(of_coming.has_value());
+  CHECK(of_there->seconds == 2.5);
+  CHECK(of_there->node == of_coming->node);
+  const auto removal = removal_of(of_there->node, there.store, own_ids, {});
+  CHECK(removal == removal_of(of_coming->node, coming.store, own_ids, made->commands));
+  for (const scene::Command& command : removal) REQUIRE(there.store.apply(command).has_value());
+  CHECK(there.store.nodes().empty());
+  for (const char* line : {"lifetime sign 0", "lifetime sign -1", "lifetime sign nan", "lifetime sign 1e7",
+                           "lifetime sign", "lifetime", "lifetime sign 1 2", "lifetime nobody 1", "lifetime #7 1"}) {
+    CAPTURE(line);
+    CHECK_FALSE(lifetime(coming, line).has_value());
+  }
+}
+
+TEST_CASE("a thing that hangs on another one takes no link from it, is removed with it, and never hangs on itself") {
+  EditedWorld editor;
+  for (const char* line : {"create cup", "board tray 2 1"}) REQUIRE(editor.take(line).has_value());
+  const auto links = [&] {
+    return std::get<scene::ObjectData>(editor.store.find(editor.names.fresh.at("tray"))->data).links;
+  };
+  const auto own = links();
+  REQUIRE(own.contains(0));
+  REQUIRE(editor.take("hang cup tray").has_value());
+  const auto all = links();
+  CHECK(all.size() == own.size() + 1);
+  for (const auto& [id, link] : own) CHECK(all.at(id) == link);
+  CHECK(all.rbegin()->second == scene::Link{"child", own_ids, 0});
+  for (const char* line : {"hang cup cup", "hang cup nobody", "hang cup", "hang nobody tray"})
+    CHECK_FALSE(editor.take(line).has_value());
+  REQUIRE(editor.take("remove tray").has_value());
+  CHECK(editor.store.nodes().empty());
+}
+
 TEST_CASE("what is moved keeps its heading unless another is given, and its scale always") {
   EditedWorld editor;
   for (const char* line : {"create cone 1 2 3 90", "transform-set cone 1 2 3 0 0 0 1 2 2 2", "move cone 4 5 6"})

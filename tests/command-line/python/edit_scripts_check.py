@@ -68,6 +68,32 @@ def refused(change) -> septet.Refused:
     raise AssertionError("nothing was refused")
 
 
+def end_lifetimes(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path) -> int:
+    """What has a lifetime is gone at its tick, which is returned; its script has ended while the world stood."""
+    with septet.connect(host, port, keys / "desk/desk.key") as desk:
+        stood = desk.pause()
+        with septet.connect(host, port, keys / "lab/lab.key") as lab:
+            with lab.batch() as batch:
+                lab.add("stimuli/flash", glb, lifetime_s=0.5)
+                lab.board("stimuli/notice", 2, 1, lifetime_s=0.5).show_text("NOW")
+            assert batch.result() == stood
+            # Removed before, or replaced by one that stays: nothing of it is refused later.
+            lab.add("stimuli/early", glb, lifetime_s=0.25).remove()
+            lab.add("stimuli/again", glb, lifetime_s=0.25)
+            lab.add("stimuli/again", glb)
+            assert "more than 0 seconds" in refused(lambda: lab.add("stimuli/never", glb, lifetime_s=0)).why
+            assert not lab.find("stimuli/never")
+        desk.step(50)
+        while not (desk.find("stimuli/flash") and desk.find("stimuli/notice") and desk.find("stimuli/again")):
+            pass
+        assert not desk.find("stimuli/early")
+        desk.step(10)
+        while desk.find("stimuli/flash") or desk.find("stimuli/notice"):
+            pass
+        assert desk.find("stimuli/again")
+    return stood + 60
+
+
 def every_tick_that_is_missed_is_stood_in_for() -> None:
     every = septet._Every(12)
     assert [tick for tick in (5, 11, 12, 13, 25, 30, 36, 59, 60, 61) if every.takes(tick)] == [12, 25, 36, 59, 60]
@@ -91,6 +117,14 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         sign.hang_on(first.driver)
         sign.position = (-1, 0, 2)
         assert len(world.find(f"model/participant/{first.car.id}")) == 1
+        # A thing hangs on another one and is removed with it.
+        tray = world.add("stimuli/tray", glb, (0, 0, 1), parent=first.car)
+        cup = world.add("stimuli/cup", glb, (0, 0, 0.1), parent=tray)
+        links = [line.split() for line in world._ask(["read stimuli/tray"]).result(60) if line.startswith("link-set")]
+        assert sum(line[3] == "child" for line in links) == 2, links
+        assert "what it hangs on" in refused(lambda: cup.hang_on(cup)).why
+        tray.remove()
+        assert not world.find("stimuli/cup")
         (driver,) = [name for name, number in world.participants.items() if number == first.car.id]
         world.repaint(driver, 0, 0, 1)
         assert any("paint" in line for line in world._ask([f"read model/participant/{first.car.id}"]).result(60))
@@ -174,7 +208,7 @@ with tempfile.TemporaryDirectory() as name:
     (folder / "small.toml").write_text(RIG)
     (folder / "ball.glb").write_bytes(triangle_glb())
     keys = folder / "keys"
-    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit operate",
+    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit operate", "--editor", "desk=edit operate",
         "--editor", "guest=edit hide move", "--editor", "reader=look")
     server = subprocess.Popen(
         [str(septet_program.parent / "septet-server"), "--scenario", "first-lesson", "--rig", str(folder / "small.toml"), "--keys",
@@ -186,6 +220,7 @@ with tempfile.TemporaryDirectory() as name:
         assert ready.startswith("ready "), (ready, (folder / "server.log").read_text())
         port = ready.split()[1]
         use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
+        ended_at = end_lifetimes("127.0.0.1", int(port), keys, folder / "ball.glb")
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
         glb = str(folder / "ball.glb")
         said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
@@ -207,6 +242,10 @@ with tempfile.TemporaryDirectory() as name:
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
     notes = [row for row in sqlite3.connect(session).execute("SELECT kind, detail FROM events WHERE detail LIKE 'by=lab %'")]
     assert ("mark", "by=lab note=phase 2") in notes and ("operator", "by=lab wish=pause") in notes, notes
+    # What had half a second went at its tick; of what had a quarter, parts that were left when it was replaced.
+    at_tick = [row[0] for row in sqlite3.connect(session).execute("SELECT tick FROM scene_edits WHERE tick > ? AND tick <= ?", (ended_at - 60, ended_at))]
+    assert ended_at in at_tick and set(at_tick) <= {ended_at - 30, ended_at}, at_tick
+    assert not [line for line in log.splitlines() if "lab: nothing" in line and "node destroy" in line], log
     # A row for each tenth of a second of which a tick came.
     rows = (folder / "gaze.csv").read_text().splitlines()[1:]
     tenths = [int(float(row.split(",")[0]) * 10 + 0.01) for row in rows]
