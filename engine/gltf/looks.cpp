@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
+#include "engine/image/jpeg.hpp"
 #include "engine/image/png.hpp"
 
 namespace septet::gltf {
@@ -161,18 +162,23 @@ class Looks {
       if (!read) return tl::unexpected(read.error());
       bytes = *read;
     }
-    if (bytes.size() < 24 || !bytes.starts_with("\x89PNG")) {
+    const auto file = std::as_bytes(std::span(bytes.data(), bytes.size()));
+    const bool is_jpeg = image::begins_as_jpeg(file);
+    if (!is_jpeg && (bytes.size() < 24 || !bytes.starts_with("\x89PNG"))) {
       model_.left_out.push_back(
-          fmt::format("image {} is no PNG: material \"{}\" has its plain colour", *source, material));
+          fmt::format("image {} is neither PNG nor JPEG: material \"{}\" has its plain colour", *source, material));
       return std::optional<Image>();
     }
-    const std::uint32_t width = big_endian(bytes, 16), height = big_endian(bytes, 20);
-    if (width > largest_picture_px || height > largest_picture_px)
-      return failure(fmt::format("it is of {} × {} pixels, more than {} a side", width, height, largest_picture_px),
-                     where, "make it smaller");
-    auto picture = image::decode_png(std::as_bytes(std::span(bytes.data(), bytes.size())), where);
+    if (!is_jpeg) {
+      const std::uint32_t width = big_endian(bytes, 16), height = big_endian(bytes, 20);
+      if (width > largest_picture_px || height > largest_picture_px)
+        return failure(fmt::format("it is of {} × {} pixels, more than {} a side", width, height, largest_picture_px),
+                       where, "make it smaller");
+    }
+    auto picture = is_jpeg ? image::decode_jpeg(file, where, largest_picture_px) : image::decode_png(file, where);
     if (!picture) return tl::unexpected(picture.error());
-    if ((pixels_ += std::size_t{width} * height) > 16 * std::size_t{largest_picture_px} * largest_picture_px / 4)
+    pixels_ += std::size_t{picture->width} * picture->height;
+    if (pixels_ > 16 * std::size_t{largest_picture_px} * largest_picture_px / 4)
       return failure("its images hold too many pixels", container_.where, "make them smaller");
     return std::optional<Image>(std::move(*picture));
   }

@@ -15,6 +15,7 @@
 #include <sodium.h>
 #include <glm/geometric.hpp>
 
+#include "engine/image/jpeg.hpp"
 #include "engine/image/png.hpp"
 #include "tests/why_not.hpp"
 
@@ -177,6 +178,35 @@ TEST_CASE("a material's factors, its picture and the mean of vertex colours arri
   REQUIRE(look.picture == 0);
   CHECK(model->pictures[0].width == 4);
   CHECK(model->pictures[0].at(3, 1) == image::Color{10, 20, 30, 40});
+}
+
+TEST_CASE("a material's picture may be a JPEG, and one that is cut off is refused with its image") {
+  const Bytes jpeg = image::encode_jpeg(image::Image(40, 24, {10, 120, 200, 255}), 95);
+  const auto with = [](std::string_view bytes) {
+    return File{.primitives = R"([{"attributes":{"POSITION":0},"material":0}])",
+                .more = fmt::format(R"("materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],)"
+                                    R"("textures":[{{"source":0}}],"images":[{{"uri":"data:;base64,{}"}}],)",
+                                    base64(bytes))};
+  };
+  const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+  const auto model = read(with(bytes));
+  REQUIRE_MESSAGE(model.has_value(), why_not(model));
+  REQUIRE(model->looks.at(0).picture == 0);
+  CHECK(model->pictures[0].width == 40);
+  CHECK(model->pictures[0].height == 24);
+  const image::Color color = model->pictures[0].at(39, 23);
+  CHECK(std::abs(color.red - 10) < 4);
+  CHECK(std::abs(color.green - 120) < 4);
+  CHECK(std::abs(color.blue - 200) < 4);
+  CHECK(color.alpha == 255);
+  const auto cut = read(with(bytes.substr(0, bytes.size() - 8)));
+  REQUIRE_FALSE(cut.has_value());
+  CHECK(cut.error().what == "its JPEG is cut off or damaged");
+  CHECK(cut.error().where == "own.glb, image 0");
+  const auto other = read(with("GIF89a and what follows it"));
+  REQUIRE(other.has_value());
+  CHECK(other->left_out ==
+        std::vector<std::string>{"image 0 is neither PNG nor JPEG: material \"material 0\" has its plain colour"});
 }
 
 TEST_CASE("a texture lies by the coordinates that it names, scaled, turned and moved") {
