@@ -35,7 +35,7 @@ std::size_t bytes_of(Component component) {
 }
 
 std::size_t width_of(std::string_view type) {
-  return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 0;
+  return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : type == "MAT4" ? 16 : 0;
 }
 
 template <class T>

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -23,11 +22,11 @@
 #include "engine/gltf/accessors.hpp"
 #include "engine/gltf/container.hpp"
 #include "engine/gltf/looks.hpp"
+#include "engine/gltf/nodes.hpp"
+#include "engine/gltf/skin.hpp"
 
 namespace septet::gltf {
 namespace {
-
-constexpr std::size_t deepest_node = 256;
 
 /// glTF's x is left, y up, z forward; ours x forward, y left, z up.
 glm::vec3 our_axes(const glm::vec3& p) { return {p.z, p.x, p.y}; }
@@ -75,11 +74,11 @@ class Reader {
     if (auto known = check_extensions(); !known) return tl::unexpected(known.error());
     if (auto looks = read_looks(container_, model_); !looks) return tl::unexpected(looks.error());
     growing_.emplace_back();
-    visited_.assign(nodes_.size(), false);
-    const auto roots = root_nodes();
-    if (!roots) return tl::unexpected(roots.error());
-    for (const std::int64_t root : *roots)
-      if (auto added = add_node(root, glm::mat4(1.0f), 0, 0); !added) return tl::unexpected(added.error());
+    auto placed = place_nodes(container_);
+    if (!placed) return tl::unexpected(placed.error());
+    placed_ = std::move(*placed);
+    for (const std::int64_t root : placed_.roots)
+      if (auto added = add_node(root, 0); !added) return tl::unexpected(added.error());
     finish();
     if (model_.parts.empty())
       return failure("it has no triangle in its scene", container_.where, "export what is to be seen");
@@ -99,77 +98,12 @@ class Reader {
     return {};
   }
 
-  /// Root nodes of the default scene; without scenes the nodes that are no node's child.
-  Expected<std::vector<std::int64_t>> root_nodes() const {
-    std::vector<std::int64_t> roots;
-    const Json& scenes = list_of(*container_.json, "scenes");
-    if (!scenes.empty()) {
-      const std::int64_t scene = index_in(*container_.json, "scene", 0);
-      if (scene < 0 || static_cast<std::uint64_t>(scene) >= scenes.size())
-        return failure(fmt::format("its scene is none of its {}", scenes.size()), container_.where, export_anew);
-      for (const Json& node : list_of(scenes[static_cast<std::size_t>(scene)], "nodes"))
-        roots.push_back(node_index(node));
-      return roots;
-    }
-    std::vector<bool> is_child(nodes_.size(), false);
-    for (const Json& node : nodes_)
-      for (const Json& child : list_of(node, "children"))
-        if (const std::int64_t index = node_index(child); index >= 0) is_child[static_cast<std::size_t>(index)] = true;
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (!is_child[i]) roots.push_back(static_cast<std::int64_t>(i));
-    return roots;
-  }
-
-  /// −1 where there is no such node.
-  std::int64_t node_index(const Json& number) const {
-    if (!number.is_number_unsigned() || number.get<std::uint64_t>() >= nodes_.size()) return -1;
-    return number.get<std::int64_t>();
-  }
-
   std::string node_place(std::int64_t index) const { return fmt::format("{}, node {}", container_.where, index); }
 
-  /// Empty where there are no such `numbers` of them.
-  template <std::size_t count>
-  static std::optional<std::array<float, count>> numbers_of(const Json& object, const char* name) {
-    const Json& list = list_of(object, name);
-    if (list.size() != count) return std::nullopt;
-    std::array<float, count> numbers{};
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!list[i].is_number()) return std::nullopt;
-      numbers[i] = static_cast<float>(std::clamp(list[i].get<double>(), -1e9, 1e9));
-    }
-    return numbers;
-  }
-
-  static glm::mat4 transform_of(const Json& node) {
-    glm::mat4 transform(1.0f);
-    if (const auto matrix = numbers_of<16>(node, "matrix")) {
-      for (int i = 0; i < 16; ++i) transform[i / 4][i % 4] = (*matrix)[static_cast<std::size_t>(i)];
-      return transform;
-    }
-    const auto turn = numbers_of<4>(node, "rotation");
-    glm::quat rotation(1.0f, 0.0f, 0.0f, 0.0f);
-    if (turn) rotation = glm::quat((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]);
-    const float length = glm::length(rotation);
-    transform = glm::mat4(length > 1e-6f ? glm::mat3_cast(rotation / length) : glm::mat3(1.0f));
-    if (const auto scale = numbers_of<3>(node, "scale"))
-      for (int i = 0; i < 3; ++i) transform[i] *= (*scale)[static_cast<std::size_t>(i)];
-    if (const auto shift = numbers_of<3>(node, "translation"))
-      transform[3] = glm::vec4((*shift)[0], (*shift)[1], (*shift)[2], 1.0f);
-    return transform;
-  }
-
-  Expected<void> add_node(std::int64_t index, const glm::mat4& parent, std::size_t part, std::size_t depth) {
-    if (index < 0 || static_cast<std::uint64_t>(index) >= nodes_.size())
-      return failure(fmt::format("a node that is named is none of its {}", nodes_.size()), container_.where,
-                     export_anew);
-    if (visited_[static_cast<std::size_t>(index)])
-      return failure("it hangs below two nodes, or below itself", node_place(index), export_anew);
-    if (depth > deepest_node)
-      return failure(fmt::format("it hangs more than {} nodes deep", deepest_node), node_place(index), export_anew);
-    visited_[static_cast<std::size_t>(index)] = true;
+  /// `index`: a placed node's.
+  Expected<void> add_node(std::int64_t index, std::size_t part) {
     const Json& node = nodes_[static_cast<std::size_t>(index)];
-    const glm::mat4 model_from_node = parent * transform_of(node);
+    const glm::mat4& model_from_node = *placed_.model_from_node[static_cast<std::size_t>(index)];
     if (const std::string name = text_in(node, "name"); !name.empty() && begins_part_(name)) {
       if (growing_.size() >= most_parts)
         return failure(fmt::format("more than {} parts begin", most_parts), node_place(index), "join some");
@@ -183,7 +117,7 @@ class Reader {
     if (node.is_object() && node.contains("mesh"))
       if (auto added = add_mesh(index_in(node, "mesh"), index, model_from_node, growing_[part]); !added) return added;
     for (const Json& child : list_of(node, "children"))
-      if (auto added = add_node(node_index(child), model_from_node, part, depth + 1); !added) return added;
+      if (auto added = add_node(node_index(*container_.json, child), part); !added) return added;
     return {};
   }
 
@@ -199,19 +133,28 @@ class Reader {
     const Json& meshes = list_of(*container_.json, "meshes");
     if (mesh < 0 || static_cast<std::uint64_t>(mesh) >= meshes.size())
       return failure(fmt::format("its mesh is none of the file's {}", meshes.size()), node_place(node), export_anew);
+    std::optional<Skin> skin;
+    if (const Json& json = nodes_[static_cast<std::size_t>(node)]; json.contains("skin")) {
+      auto read = read_skin(container_, index_in(json, "skin"), placed_, node_place(node));
+      if (!read) return tl::unexpected(read.error());
+      skin = std::move(*read);
+    }
+    // The joints alone place a skinned mesh (3.7.3.3).
+    const glm::mat4 model_from_mesh = skin ? glm::mat4(1.0f) : model_from_node;
     for (const Json& primitive : list_of(meshes[static_cast<std::size_t>(mesh)], "primitives"))
-      if (auto added = add_primitive(primitive, mesh, node, model_from_node, growing); !added) return added;
+      if (auto added = add_primitive(primitive, mesh, node, model_from_mesh, skin ? &*skin : nullptr, growing); !added)
+        return added;
     return {};
   }
 
   Expected<void> add_primitive(const Json& primitive, std::int64_t mesh, std::int64_t node,
-                               const glm::mat4& model_from_node, Growing& growing) {
+                               const glm::mat4& model_from_node, const Skin* skin, Growing& growing) {
     constexpr std::int64_t triangle_list = 4, triangle_fan = 6;
     const std::int64_t mode = index_in(primitive, "mode", triangle_list);
     if (mode < triangle_list || mode > triangle_fan) return {};  // Points and lines are not drawn.
     static const Json none = Json::object();
     const Json& attributes = primitive.contains("attributes") ? primitive["attributes"] : none;
-    const auto positions = read_rows(container_, index_in(attributes, "POSITION"), 3, 3, most_vertices);
+    auto positions = read_rows(container_, index_in(attributes, "POSITION"), 3, 3, most_vertices);
     if (!positions) return tl::unexpected(positions.error());
     const auto optional_rows = [&](const char* name, std::size_t least, std::size_t most) -> Expected<Rows> {
       if (!attributes.contains(name)) return Rows{};
@@ -233,7 +176,13 @@ class Reader {
     } else {
       for (std::uint32_t i = 0; i < positions->count; ++i) indices.push_back(i);
     }
-    const auto triangles = triangles_of(indices, mode);
+    auto triangles = triangles_of(indices, mode);
+    if (skin) {
+      const auto mirrors = place_by_skin(container_, attributes, *skin, *positions, node_place(node));
+      if (!mirrors) return tl::unexpected(mirrors.error());
+      if (*mirrors)
+        for (auto& triangle : triangles) std::swap(triangle[1], triangle[2]);
+    }
     triangles_ += triangles.size();
     vertices_ += positions->count + indices.size();
     if (triangles_ > most_triangles || vertices_ > 6 * most_vertices)
@@ -360,9 +309,9 @@ class Reader {
   const Container& container_;
   const std::function<bool(std::string_view)>& begins_part_;
   const Json& nodes_;
+  PlacedNodes placed_;
   Model model_;
   std::vector<Growing> growing_;
-  std::vector<bool> visited_;
   std::map<std::array<int, 4>, std::uint32_t> coloured_;
   std::map<std::int64_t, std::set<std::int64_t>> unmapped_;  ///< Meshes without their material's texture coordinates.
   std::size_t triangles_ = 0, vertices_ = 0;

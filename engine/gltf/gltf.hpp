@@ -4,8 +4,8 @@
 /// Read from a file: the default scene's nodes with their transforms; triangles, strips and fans with positions,
 /// normals, texture coordinates and the mean of the first vertex colours, sparse accessors too; of materials base
 /// colour (factor and PNG or JPEG texture, which may name its set of coordinates and transform them), metallic, roughness,
-/// emissive (with KHR_materials_emissive_strength), alpha, and transmission as transparency. Skins and morph targets
-/// stay as they were modelled; cameras, lights, animations and other textures are skipped. A file is self-contained: a
+/// emissive (with KHR_materials_emissive_strength), alpha, and transmission as transparency. Skinned meshes
+/// stand as their joints do, morph targets stay as they were modelled; cameras, lights, animations and other textures are skipped. A file is self-contained: a
 /// .glb, or a .gltf whose buffers are data: URIs. External files that it names are never opened.
 ///
 /// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres.
