@@ -258,6 +258,8 @@ class Reader {
       mesh.polygons.push_back(corners);
       mesh.polygon_materials.push_back(look);
       mesh.corner_uvs.push_back(near_origin(file_uvs));
+      if (uvs.count > 0 && model_.looks[look].clamps && reaches_beyond(file_uvs))
+        beyond_edges_.insert(model_.looks[look].name);
       growing.has_uvs |= uvs.count > 0;
     }
     return {};
@@ -269,6 +271,14 @@ class Reader {
     const bool is_far = glm::any(glm::greaterThan(glm::abs(uvs[0]), glm::dvec2(far)));
     const glm::dvec2 whole = is_far ? glm::floor(uvs[0]) : glm::dvec2(0.0);
     return {uvs[0] - whole, uvs[1] - whole, uvs[2] - whole, glm::vec2(0.0f)};
+  }
+
+  /// True beyond the picture's edges, by more than rounding makes.
+  static bool reaches_beyond(const std::array<glm::dvec2, 3>& uvs) {
+    constexpr double rounding = 1e-3;
+    return std::ranges::any_of(uvs, [](const glm::dvec2& uv) {
+      return glm::any(glm::greaterThan(glm::abs(uv - 0.5), glm::dvec2(0.5 + rounding)));
+    });
   }
 
   /// The mesh's name, or its number where it has none.
@@ -292,6 +302,9 @@ class Reader {
 
   void finish() {
     report_unmapped();
+    for (const std::string& material : beyond_edges_)
+      model_.left_out.push_back(fmt::format(
+          "material \"{}\" goes beyond its picture's edges, where the picture repeats instead of ending", material));
     for (Growing& growing : growing_) {
       Part& part = growing.part;
       if (part.mesh.polygons.empty()) continue;
@@ -314,6 +327,7 @@ class Reader {
   std::vector<Growing> growing_;
   std::map<std::array<int, 4>, std::uint32_t> coloured_;
   std::map<std::int64_t, std::set<std::int64_t>> unmapped_;  ///< Meshes without their material's texture coordinates.
+  std::set<std::string> beyond_edges_;                       ///< Materials whose picture should end and repeats.
   std::size_t triangles_ = 0, vertices_ = 0;
   bool bounded_ = false;
 };
@@ -323,7 +337,8 @@ class Reader {
 glm::dvec2 PictureMapping::operator()(const glm::dvec2& uv) const {
   const glm::dvec2 scaled = scale * uv;
   const double cosine = std::cos(rotation_rad), sine = std::sin(rotation_rad);
-  return offset + glm::dvec2(cosine * scaled.x + sine * scaled.y, cosine * scaled.y - sine * scaled.x);
+  const glm::dvec2 turned(cosine * scaled.x + sine * scaled.y, cosine * scaled.y - sine * scaled.x);
+  return share * (offset + turned);
 }
 
 Expected<Model> read_gltf(std::string_view bytes, std::string_view where,

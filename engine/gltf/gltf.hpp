@@ -41,6 +41,9 @@ struct PictureMapping {
   std::uint32_t uv_set = 0;  ///< n of TEXCOORD_n.
   glm::dvec2 scale{1.0}, offset{0.0};
   double rotation_rad = 0.0;  ///< About the coordinates' origin, counter-clockwise in the picture; v points down.
+  /// Share of the held picture that the file's takes: a half along an axis on which it repeats mirrored (3.8.4.5), since
+  /// the held one is then followed by its mirror image.
+  glm::dvec2 share{1.0};
 
   glm::dvec2 operator()(const glm::dvec2& uv) const;
 };
@@ -51,6 +54,7 @@ struct Look {
   glm::vec3 base_color{1.0f};
   std::int32_t picture = -1;  ///< Indexes Model::pictures; multiplies base_color.
   PictureMapping mapping;     ///< Mapping of the picture's coordinates.
+  bool clamps = false;        ///< The file's picture ends at its edges; the held one repeats.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
   glm::vec3 emission{0.0f};
   bool two_sided = false;  ///< The file's `doubleSided`.

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -66,6 +67,24 @@ Image halved(const Image& picture) {
   return half;
 }
 
+/// The picture followed by its mirror image on the right, below, or both.
+Image with_mirror_image(const Image& picture, bool right, bool below) {
+  if (!right && !below) return picture;
+  Image whole(right ? 2 * picture.width : picture.width, below ? 2 * picture.height : picture.height);
+  for (std::uint32_t y = 0; y < whole.height; ++y)
+    for (std::uint32_t x = 0; x < whole.width; ++x)
+      whole.set(x, y,
+                picture.at(x < picture.width ? x : whole.width - 1 - x, y < picture.height ? y : whole.height - 1 - y));
+  return whole;
+}
+
+/// Ways in which a picture goes on beyond its edges (3.8.4.5); any other repeats.
+constexpr std::int64_t clamped = 33071, mirrored = 33648;
+
+struct Wrapping {
+  std::int64_t u = 0, v = 0;
+};
+
 std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
@@ -109,8 +128,13 @@ class Looks {
       auto picture = picture_of(member(metallic_roughness, "baseColorTexture"), look.name);
       if (!picture) return tl::unexpected(picture.error());
       const Json& texture = metallic_roughness["baseColorTexture"];
-      if (*picture) look.picture = drawn(std::move(**picture), *source_of(texture), mode);
-      if (*picture) look.mapping = mapping_of(texture);
+      if (*picture) {
+        const Wrapping wrapping = wrapping_of(texture, look.name);
+        look.picture = drawn(std::move(**picture), *source_of(texture), mode, wrapping);
+        look.mapping = mapping_of(texture);
+        look.mapping.share = {wrapping.u == mirrored ? 0.5 : 1.0, wrapping.v == mirrored ? 0.5 : 1.0};
+        look.clamps = wrapping.u == clamped || wrapping.v == clamped;
+      }
     }
     return look;
   }
@@ -129,6 +153,20 @@ class Looks {
             .scale = pair("scale", glm::dvec2(1.0)),
             .offset = pair("offset", glm::dvec2(0.0)),
             .rotation_rad = number_in(transform, "rotation", 0.0)};
+  }
+
+  /// A texture's sampler (3.8.4); what is unknown repeats. Pixels that should stay sharp are reported.
+  Wrapping wrapping_of(const Json& texture, const std::string& material) {
+    const Json& textures = list_of(*container_.json, "textures");
+    const Json& samplers = list_of(*container_.json, "samplers");
+    const std::int64_t index = index_in(textures[static_cast<std::size_t>(index_in(texture, "index"))], "sampler");
+    if (index < 0 || static_cast<std::uint64_t>(index) >= samplers.size()) return {};
+    const Json& sampler = samplers[static_cast<std::size_t>(index)];
+    constexpr std::int64_t nearest = 9728;
+    if (index_in(sampler, "magFilter") == nearest)
+      model_.left_out.push_back(
+          fmt::format("material \"{}\" asks for sharp pixels (magFilter NEAREST), which are smoothed", material));
+    return {index_in(sampler, "wrapS"), index_in(sampler, "wrapT")};
   }
 
   /// Index of a texture's image.
@@ -192,10 +230,13 @@ class Looks {
   }
 
   /// The picture's index among the model's; alpha cuts out only where the material asks for it.
-  std::int32_t drawn(Image picture, std::int64_t source, const std::string& mode) {
+  std::int32_t drawn(Image picture, std::int64_t source, const std::string& mode, const Wrapping& wrapping) {
     const bool cut = mode == "MASK" || mode == "BLEND";
-    const auto [known, is_new] = drawn_.try_emplace({source, cut}, static_cast<std::int32_t>(model_.pictures.size()));
+    const auto [known, is_new] = drawn_.try_emplace({source, cut, wrapping.u == mirrored, wrapping.v == mirrored},
+                                                    static_cast<std::int32_t>(model_.pictures.size()));
     if (!is_new) return known->second;
+    while (std::max(picture.width, picture.height) > drawn_picture_px) picture = halved(picture);
+    picture = with_mirror_image(picture, wrapping.u == mirrored, wrapping.v == mirrored);
     while (std::max(picture.width, picture.height) > drawn_picture_px) picture = halved(picture);
     if (!cut)
       for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
@@ -206,7 +247,8 @@ class Looks {
   const Container& container_;
   Model& model_;
   std::size_t pixels_ = 0;
-  std::map<std::pair<std::int64_t, bool>, std::int32_t> drawn_;
+  /// By image, cut out or not, mirrored along u and along v.
+  std::map<std::tuple<std::int64_t, bool, bool, bool>, std::int32_t> drawn_;
 };
 
 }  // namespace
