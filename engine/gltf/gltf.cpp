@@ -23,6 +23,7 @@
 #include "engine/gltf/container.hpp"
 #include "engine/gltf/looks.hpp"
 #include "engine/gltf/nodes.hpp"
+#include "engine/gltf/passed_over.hpp"
 #include "engine/gltf/skin.hpp"
 
 namespace septet::gltf {
@@ -71,7 +72,7 @@ class Reader {
       : container_(container), begins_part_(begins_part), nodes_(list_of(*container.json, "nodes")) {}
 
   Expected<Model> read() {
-    if (auto known = check_extensions(); !known) return tl::unexpected(known.error());
+    if (auto known = check_required_extensions(container_); !known) return tl::unexpected(known.error());
     if (auto looks = read_looks(container_, model_); !looks) return tl::unexpected(looks.error());
     growing_.emplace_back();
     auto placed = place_nodes(container_);
@@ -86,18 +87,6 @@ class Reader {
   }
 
  private:
-  Expected<void> check_extensions() const {
-    for (const Json& extension : list_of(*container_.json, "extensionsRequired")) {
-      const std::string name = extension.is_string() ? extension.get<std::string>() : std::string("?");
-      constexpr std::array<std::string_view, 4> done{"KHR_mesh_quantization", "KHR_texture_transform",
-                                                     "KHR_materials_emissive_strength", "KHR_materials_transmission"};
-      if (std::ranges::find(done, name) == done.end())
-        return failure(fmt::format("it requires {}, which is not done", printable(name, 60)), container_.where,
-                       "export it without this extension, or without requiring it");
-    }
-    return {};
-  }
-
   std::string node_place(std::int64_t index) const { return fmt::format("{}, node {}", container_.where, index); }
 
   /// `index`: a placed node's.
@@ -203,9 +192,16 @@ class Reader {
   /// The material in the mean of a primitive's vertex colours, where it has some.
   std::uint32_t look_of(std::size_t material, const Rows& colours) {
     if (colours.count == 0) return static_cast<std::uint32_t>(material);
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < colours.count; ++i)
-      for (int c = 0; c < 3; ++c) sum[c] += colours.numbers[i * colours.width + static_cast<std::size_t>(c)];
+    glm::dvec3 sum(0.0), least(1.0), most(0.0);
+    for (std::size_t i = 0; i < colours.count; ++i) {
+      const float* c = &colours.numbers[i * colours.width];
+      const glm::dvec3 colour(c[0], c[1], c[2]);
+      sum += colour;
+      least = glm::min(least, colour);
+      most = glm::max(most, colour);
+    }
+    constexpr double seen = 0.02;
+    if (glm::any(glm::greaterThan(most - least, glm::dvec3(seen)))) many_coloured_.insert(model_.looks[material].name);
     const glm::dvec3 mean = glm::clamp(sum / static_cast<double>(colours.count), 0.0, 1.0);
     // In steps of a hundredth: parts of one colour share one look.
     const auto hundredths = [](double share) { return static_cast<int>(std::lround(share * 100.0)); };
@@ -301,7 +297,11 @@ class Reader {
   }
 
   void finish() {
+    for (std::string& sentence : passed_over(container_)) model_.left_out.push_back(std::move(sentence));
     report_unmapped();
+    for (const std::string& material : many_coloured_)
+      model_.left_out.push_back(
+          fmt::format("material \"{}\" lies on vertices of several colours, of which the mean is drawn", material));
     for (const std::string& material : beyond_edges_)
       model_.left_out.push_back(fmt::format(
           "material \"{}\" goes beyond its picture's edges, where the picture repeats instead of ending", material));
@@ -327,6 +327,7 @@ class Reader {
   std::vector<Growing> growing_;
   std::map<std::array<int, 4>, std::uint32_t> coloured_;
   std::map<std::int64_t, std::set<std::int64_t>> unmapped_;  ///< Meshes without their material's texture coordinates.
+  std::set<std::string> many_coloured_;                      ///< Materials on vertices of several colours.
   std::set<std::string> beyond_edges_;                       ///< Materials whose picture should end and repeats.
   std::size_t triangles_ = 0, vertices_ = 0;
   bool bounded_ = false;

@@ -1,0 +1,66 @@
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "engine/gltf/gltf.hpp"
+#include "tests/engine/gltf/file_text.hpp"
+#include "tests/why_not.hpp"
+
+namespace septet::gltf {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+Sentences told(const File& file) {
+  const auto model = read_gltf(file.text(), "own.glb", [](std::string_view) { return false; });
+  REQUIRE_MESSAGE(model.has_value(), why_not(model));
+  return model->left_out;
+}
+Sentences told(const char* more) { return told(File{.more = more}); }
+
+}  // namespace
+
+TEST_CASE("a file of which all is read says nothing") {
+  CHECK(told("") == Sentences{});
+  CHECK(told(R"("extensionsUsed":["KHR_texture_transform","KHR_mesh_quantization"],"materials":[{}],)") == Sentences{});
+}
+
+TEST_CASE("each kind of contents that is passed over is told in one sentence") {
+  CHECK(told(R"("extensionsUsed":["KHR_materials_clearcoat","KHR_lights_punctual"],)") ==
+        Sentences{"KHR_materials_clearcoat is not done: what it changes is drawn without it",
+                  "KHR_lights_punctual is not done: what it changes is drawn without it"});
+  CHECK(told(R"("materials":[{},{"name":"door","normalTexture":{}},{"normalTexture":{}},{"occlusionTexture":{}}],)") ==
+        Sentences{"material \"door\" (and 1 more) has a normal texture, which is not read: its surface is drawn even",
+                  "material 3 has an occlusion texture, which is not read: nothing is darkened by it"});
+  CHECK(told(R"("animations":[{"name":"opens"}],"cameras":[{},{},{}],)") ==
+        Sentences{"animation \"opens\" is not read: nodes and joints stand as they do in the file",
+                  "camera 0 (and 2 more) is not read"});
+  CHECK(told(File{.primitives = R"([{"attributes":{"POSITION":0},"targets":[{}]},{"attributes":{},"mode":1}])"}) ==
+        Sentences{"mesh 0 has points or lines, which are not drawn",
+                  "mesh 0 has morph targets, which are not read: it is drawn as it was modelled"});
+}
+
+TEST_CASE("vertices of several colours are told with their material, and those of one colour are not") {
+  for (const float other : {0.2f, 0.9f}) {
+    const Sentences sentences =
+        told(File{.positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2f, 0, 0, 0.2f, 0, 0, other, 0, 0}),
+                  .primitives = R"([{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}])",
+                  .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                               R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}])",
+                  .more = R"("materials":[{"name":"leaf"}],)"});
+    CHECK(sentences == (other > 0.5f ? Sentences{"material \"leaf\" lies on vertices of several colours, of which the "
+                                                 "mean is drawn"}
+                                     : Sentences{}));
+  }
+}
+
+TEST_CASE("of a file that names more extensions than anybody reads the first twenty are told") {
+  std::string names = "7";
+  for (int i = 0; i < 1000; ++i) names += fmt::format(R"(,"EXT_{}")", i);
+  CHECK(told(File{.more = fmt::format(R"("extensionsUsed":[{}],)", names)}).size() == 20);
+}
+
+}  // namespace septet::gltf
