@@ -21,6 +21,7 @@
 #include "engine/core/printable.hpp"
 #include "engine/gltf/accessors.hpp"
 #include "engine/gltf/container.hpp"
+#include "engine/gltf/extras.hpp"
 #include "engine/gltf/looks.hpp"
 #include "engine/gltf/nodes.hpp"
 #include "engine/gltf/passed_over.hpp"
@@ -92,6 +93,7 @@ class Reader {
   /// `index`: a placed node's.
   Expected<void> add_node(std::int64_t index, std::size_t part) {
     const Json& node = nodes_[static_cast<std::size_t>(index)];
+    add_extras(node, model_.extras, model_.left_out);
     const glm::mat4& model_from_node = *placed_.model_from_node[static_cast<std::size_t>(index)];
     if (const std::string name = text_in(node, "name"); !name.empty() && begins_part_(name)) {
       if (growing_.size() >= most_parts)

@@ -16,6 +16,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -67,11 +68,21 @@ struct Part {
   geometry::PolygonMesh mesh;  ///< Materials are indices of Model::looks.
 };
 
+using ExtraValue = std::variant<bool, double, std::string, glm::dvec3>;
+
+/// A property that the file's author gave to a node.
+struct Extra {
+  std::string name;
+  ExtraValue value;
+  bool operator==(const Extra&) const = default;
+};
+
 struct Model {
   std::vector<Part> parts;  ///< Empty without a triangle.
   std::vector<Look> looks;
   std::vector<image::Image> pictures;
   glm::vec3 least_m{0.0f}, most_m{0.0f};  ///< Bounds of all parts.
+  std::vector<Extra> extras;              ///< Of all nodes, by name; of equal names the first that is read.
   std::vector<std::string> left_out;      ///< Skipped contents that may be missed, each a sentence.
 };
 

@@ -29,6 +29,19 @@ Made built(scene::NodeId first, const std::function<void(scene::SceneBuilder&)>&
   return made;
 }
 
+/// An author's properties as tags of the group "extras".
+void add_tags(scene::SceneBuilder& builder, scene::NodeId object, const std::vector<gltf::Extra>& extras) {
+  constexpr scene::PartId group = 7;
+  if (!extras.empty()) builder.apply(scene::TagGroupSet{object, group, "extras"});
+  scene::PartId id = 0;
+  for (const gltf::Extra& extra : extras)
+    builder.apply(
+        scene::TagSet{object,
+                      group,
+                      id++,
+                      {extra.name, std::visit([](const auto& value) { return scene::TagValue(value); }, extra.value)}});
+}
+
 /// A link by which an object wears a material.
 struct Worn {
   scene::NodeId object = scene::no_node;
@@ -71,6 +84,7 @@ Expected<Made> make_model(const std::string& name, const std::filesystem::path& 
   auto model = gltf::read_gltf(*bytes, printable(file.string()), scenery::begins_own_part);
   if (!model) return tl::unexpected(model.error());
   std::vector<std::string> left_out = std::move(model->left_out);
+  const std::vector<gltf::Extra> extras = std::move(model->extras);
   // A name of the scene holds both this one and the look's.
   for (gltf::Look& look : model->looks) look.name.resize(std::min<std::size_t>(look.name.size(), 50));
   scenery::OwnModels models;
@@ -80,6 +94,7 @@ Expected<Made> make_model(const std::string& name, const std::filesystem::path& 
   Made made = built(first, [&](scene::SceneBuilder& builder) {
     const scene::NodeId root = builder.add_object(name, {});
     builder.apply(scene::TransformSet{root, transform});
+    add_tags(builder, root, extras);
     scenery::OwnShapes(builder, &models).place(part, {}, root);
   });
   made.messages = std::move(left_out);

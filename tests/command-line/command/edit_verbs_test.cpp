@@ -1,9 +1,12 @@
 #include "command-line/command/edit/edit_verbs.hpp"
 
 #include <fnmatch.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -158,6 +161,27 @@ TEST_CASE("what is moved keeps its heading unless another is given, and its scal
   REQUIRE(editor.take("move cone 4 5 6 0").has_value());
   CHECK(place().rotation == Quat(1, 0, 0, 0));
   CHECK(place().scale == glm::vec3(2));
+}
+
+TEST_CASE("an imported model's properties are tags of its object, by which it is found") {
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("{}-deer.gltf", getpid());
+  std::ofstream(file)
+      << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"extras":{"mass_kg":60,"kind":"deer","list":[1]}}],)"
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+         R"("buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAQAAAAAAAAAAAAAAAAAAAAAAAAIBA"}]})";
+  EditedWorld editor;
+  const auto made = editor.take(fmt::format("import deer \"{}\" 1 2 3", file.string()));
+  std::filesystem::remove(file);
+  REQUIRE(made.has_value());
+  CHECK(made->messages.size() == 1);
+  CHECK(editor.find("tag extras.mass_kg") == Names{"deer"});
+  const scene::Node& deer = *editor.store.find(own_ids);
+  REQUIRE(scene::find_tag(deer, "extras", "kind") != nullptr);
+  CHECK(*scene::find_tag(deer, "extras", "kind") == scene::TagValue(std::string("deer")));
+  CHECK(*scene::find_tag(deer, "extras", "mass_kg") == scene::TagValue(60.0));
+  CHECK(scene::find_tag(deer, "extras", "list") == nullptr);
 }
 
 }  // namespace septet::server
