@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <ostream>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "command-line/command/check_model.hpp"
 #include "command-line/command/check_rig.hpp"
 #include "command-line/command/experiment_inputs.hpp"
 #include "engine/core/regular_file.hpp"
@@ -36,6 +38,7 @@ using road::Severity;
 struct Checked {
   std::string file, kind;
   std::vector<Finding> findings;
+  std::vector<std::string> found;  ///< Of a model: its contents, a sentence each.
 
   std::size_t count(Severity severity) const {
     return static_cast<std::size_t>(std::ranges::count(findings, severity, &Finding::severity));
@@ -118,20 +121,24 @@ void check_session(Checked& checked) {
 }
 
 Checked check_file(const std::string& name) {
-  Checked checked{name, "", {}};
+  Checked checked{name, "", {}, {}};
   const std::filesystem::path file(name);
   const auto extension = file.extension();
   if (extension == ".sqlite") {
     check_session(checked);
     return checked;
   }
+  if (extension == ".glb" || extension == ".gltf") {
+    auto [findings, found] = check_model(file);
+    return {name, "model", std::move(findings), std::move(found)};
+  }
   if (extension != ".xodr" && extension != ".xosc" && extension != ".toml") {
     checked.kind = "unknown";
-    checked.findings.push_back(
-        {Severity::error,
-         0,
-         {"it is neither .xodr, .xosc, .toml nor .sqlite", name,
-          "check roads, scenarios, rigs, vehicles, film scripts, lessons, questionnaires, experiments or sessions"}});
+    checked.findings.push_back({Severity::error,
+                                0,
+                                {"it is neither .xodr, .xosc, .toml, .glb, .gltf nor .sqlite", name,
+                                 "check roads, scenarios, rigs, vehicles, film scripts, lessons, questionnaires, "
+                                 "experiments, models or sessions"}});
     return checked;
   }
   checked.kind = extension == ".xodr" ? "road" : extension == ".xosc" ? "scenario" : "TOML";
@@ -148,9 +155,11 @@ Checked check_file(const std::string& name) {
 const char* word(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
 
 void print_lines(const std::vector<Checked>& all, std::size_t errors, std::size_t warnings, std::ostream& out) {
-  for (const Checked& checked : all)
+  for (const Checked& checked : all) {
+    for (const std::string& found : checked.found) out << fmt::format("found: {}: {}\n", checked.file, found);
     for (const Finding& finding : checked.findings)
       out << word(finding.severity) << ": " << describe(finding.error) << "\n";
+  }
   out << fmt::format("{} files, {} errors, {} warnings\n", all.size(), errors, warnings);
 }
 
@@ -173,6 +182,7 @@ void print_json(const std::vector<Checked>& all, std::size_t errors, std::size_t
                      {"kind", checked.kind},
                      {"errors", checked.count(Severity::error)},
                      {"warnings", checked.count(Severity::warning)},
+                     {"found", checked.found},
                      {"findings", std::move(findings)}});
   }
   const Json answer = {{"format", "septet check"},

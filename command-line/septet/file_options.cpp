@@ -76,7 +76,8 @@ void add_file_commands(CLI::App& app, Options& options) {
   check_command
       ->add_option(
           "files", options.check.files,
-          "Roads (.xodr), scenarios and catalogs (.xosc), rigs, vehicles and film scripts (.toml), sessions (.sqlite)")
+          "Roads (.xodr), scenarios and catalogs (.xosc), rigs, vehicles and film scripts (.toml), models (.glb), "
+          "sessions (.sqlite)")
       ->required();
   check_command->add_flag("--json", options.check.json, "Answer in JSON (docs/check.md)");
   check_command->add_flag("--strict", options.check.strict, "Warnings count as errors in the exit status");

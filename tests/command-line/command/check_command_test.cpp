@@ -202,4 +202,40 @@ TEST_CASE("what is no session is not taken for one") {
   CHECK(answer.text.find("not an SQLite file") != std::string::npos);
 }
 
+TEST_CASE("a model is checked as a drive reads it, and what was found in it is told") {
+  // A triangle in buffer bytes 0, 0, 0, 4, 0, 0, 0, 0, 4 as 32-bit floats.
+  const auto text = [](const char* node, const char* more) {
+    return std::string(R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0},{"name":"lamp_brake.001","mesh":0},)") + node +
+           R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"materials":[{"name":"paint"}],)"
+           R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+           R"("bufferViews":[{"buffer":0,"byteLength":36}],)" +
+           more +
+           R"("buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAQAAAAAAAAAAAAAAAAAAAAAAAAIBA"}]})";
+  };
+  const auto has = [](const Answer& answer, const char* part) {
+    CAPTURE(answer.text);
+    CHECK(answer.text.find(part) != std::string::npos);
+  };
+  const Written good("own.gltf", text(R"({"name":"lamp_brake","mesh":0})", ""));
+  const Answer answer = check({good.path.string()});
+  CHECK(answer.status == 0);
+  has(answer, "3 triangles; 4.00 m long (glTF's z, forward), 4.00 m wide (x, left), 0.00 m high (y, up)");
+  has(answer, "own.gltf: parts that move or shine: 2 × lamp_brake\n");
+  has(answer, "own.gltf: materials: \"paint\"; 0 pictures\n");
+  has(answer, "1 files, 0 errors, 0 warnings");
+  const Written large("large.gltf", text(R"({"mesh":0,"scale":[100,1,1]})", R"("animations":[{}],)"));
+  const Answer warned = check({large.path.string()});
+  CHECK(warned.status == 0);
+  has(warned, "animation 0 is not read");
+  has(warned, "its longest side is 400 m, as if its lengths were no metres; scale it by 0.01");
+  has(warned, "0 errors, 2 warnings");
+  CHECK(check({large.path.string()}, false, true).status == 1);
+  const Written bad("bad.glb", "glTF and nothing that belongs to it");
+  const auto json = nlohmann::json::parse(check({bad.path.string(), good.path.string()}, true).text);
+  CHECK(json["files"][0]["kind"] == "model");
+  CHECK(json["files"][0]["errors"] == 1);
+  CHECK(json["files"][0]["found"].empty());
+  CHECK(json["files"][1]["found"].size() == 3);
+}
+
 }  // namespace septet::server
