@@ -1,6 +1,6 @@
 #pragma once
-/// `septet check FILE…`: all faults of roads, scenarios, catalogs, rigs, vehicles, film scripts, models and sessions, one
-/// line each or as JSON (docs/check.md).
+/// `septet check FILE…`: all faults of roads, scenarios, catalogs, rigs, vehicles, film scripts, models and sessions,
+/// one line each or as JSON (docs/check.md).
 
 #include <iosfwd>
 #include <string>

@@ -3,10 +3,11 @@
 ///
 /// Read from a file: the default scene's nodes with their transforms; triangles, strips and fans with positions,
 /// normals, texture coordinates and the mean of the first vertex colours, sparse accessors too; of materials base
-/// colour (factor and PNG or JPEG texture, which may name its set of coordinates and transform them), metallic, roughness,
-/// emissive (with KHR_materials_emissive_strength), alpha, and transmission as transparency. Skinned meshes
-/// stand as their joints do, morph targets stay as they were modelled; cameras, lights, animations and other textures are skipped. A file is self-contained: a
-/// .glb, or a .gltf whose buffers are data: URIs. External files that it names are never opened.
+/// colour (factor and PNG or JPEG texture, which may name its set of coordinates and transform them), metallic,
+/// roughness, emissive (with KHR_materials_emissive_strength), alpha, and transmission as transparency. Skinned
+/// meshes stand as their joints do, morph targets stay as they were modelled; cameras, lights, animations and other
+/// textures are skipped. A file is self-contained: a .glb, or a .gltf whose buffers are data: URIs. External files
+/// that it names are never opened.
 ///
 /// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres.
 /// Vertices are joined where position and normal agree, so that edges which the file keeps sharp stay sharp.
@@ -42,8 +43,8 @@ struct PictureMapping {
   std::uint32_t uv_set = 0;  ///< n of TEXCOORD_n.
   glm::dvec2 scale{1.0}, offset{0.0};
   double rotation_rad = 0.0;  ///< About the coordinates' origin, counter-clockwise in the picture; v points down.
-  /// Share of the held picture that the file's takes: a half along an axis on which it repeats mirrored (3.8.4.5), since
-  /// the held one is then followed by its mirror image.
+  /// Share of the held picture that the file's takes: a half along an axis on which it repeats mirrored (3.8.4.5),
+  /// since the held one is then followed by its mirror image.
   glm::dvec2 share{1.0};
 
   glm::dvec2 operator()(const glm::dvec2& uv) const;

@@ -1,6 +1,7 @@
 #pragma once
 /// Pictures as JPEG files (ITU-T T.81, by libjpeg-turbo). Written, baseline, for remote viewers: a tenth of a PNG's
-/// bytes, not the same pixels. Read, baseline and progressive, as users' models hold them. Thread-safe: no shared state.
+/// bytes, not the same pixels. Read, baseline and progressive, as users' models hold them.
+/// Thread-safe: no shared state.
 
 #include <cstdint>
 #include <span>
