@@ -1,6 +1,7 @@
 #include "engine/simulation/effects/effects_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include <doctest/doctest.h>
@@ -126,6 +127,21 @@ TEST_CASE("the same seed gives the same effects and another seed others") {
   CHECK(first.hash == second.hash);
   CHECK(first.published.keyframes == second.published.keyframes);
   CHECK(first.hash != other.hash);
+}
+
+TEST_CASE("what falls is carried where the scene's wind blows") {
+  EffectsState state;
+  put_on_lane(debris::Part::bumper, 6.0, state);
+  const std::vector<Participant> nobody;
+  Environment environment;
+  environment.wind_speed_mps = 20.0;
+  environment.wind_direction_rad = 2.0;
+  for (Tick tick = 2; tick < 62; tick += effects_step_ticks)
+    advance_effects({motorway(), nullptr, nobody, environment, 1, 1.0, tick, step_s}, state);
+  REQUIRE(state.debris.pieces.size() == 1);
+  const Vec3 speed_mps = debris::from_eigen(state.debris.pieces[0].body.velocity_mps.front());
+  const Vec3 towards(std::cos(2.0), std::sin(2.0), 0.0);
+  CHECK(glm::dot(speed_mps, towards) > 1.0);
 }
 
 TEST_CASE("a slab that lies on the road lifts the wheel that rolls over it") {
