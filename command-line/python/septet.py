@@ -258,6 +258,10 @@ class Handle:
     def remove(self) -> None:
         self._world._change(f"remove {self.node}")
 
+    def export(self, file: Path) -> None:
+        """Writes it, with all that hangs below it, as a glTF file (.glb) around its own origin."""
+        self._world._ask([f"export {self.node} {_word(os.path.abspath(file))}"]).result(60.0)
+
 
 class Batch:
     """Changes that are made together, whole or not at all: one tick shows them first."""

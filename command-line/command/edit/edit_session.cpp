@@ -5,11 +5,14 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <span>
 #include <utility>
 #include <variant>
 
 #include <fmt/core.h>
 
+#include "command-line/command/edit/exported_model.hpp"
+#include "engine/core/whole_file.hpp"
 #include "engine/document/text_file.hpp"
 #include "engine/scene/edit_file.hpp"
 #include "engine/scene/inverse.hpp"
@@ -48,8 +51,8 @@ EditSession::EditSession(EditClient& client, const EditOutput& output)
     : client_(client), output_(output), names_{client.own_ids(), client.own_ids()}, before_(client.store()) {}
 
 bool EditSession::reads_scene(std::string_view line) {
-  constexpr std::array<std::string_view, 9> verbs{"find",   "read", "save",    "undo", "wait",
-                                                  "remove", "text", "picture", "color"};
+  constexpr std::array<std::string_view, 10> verbs{"find",   "read", "save",    "undo",  "wait",
+                                                   "remove", "text", "picture", "color", "export"};
   return std::ranges::find(verbs, first_word(line)) != verbs.end();
 }
 
@@ -223,6 +226,8 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
       output_.done(request, 0, {});
     else
       refuse(request, 1, line, describe(saved.error()));
+  } else if (verb == "export") {
+    export_model(++requests_, line, words);
   } else if (verb == "undo") {
     undo();
   } else if (verb == "operate") {
@@ -248,6 +253,21 @@ void EditSession::read(std::uint64_t request, const std::vector<scene::TextWord>
     lines.push_back(std::move(text));
   });
   output_.lines(request, lines);
+}
+
+void EditSession::export_model(std::uint64_t request, const std::string& line,
+                               const std::vector<scene::TextWord>& words) {
+  const auto id = words.size() == 3 ? scene::node_of(names(), words[1]) : std::nullopt;
+  const scene::Node* node = id ? client_.store().find(*id) : nullptr;
+  if (!node || !std::holds_alternative<scene::ObjectData>(node->data))
+    return refuse(request, 1, line, "write export NODE FILE.glb, of an object that exists");
+  auto written = exported_model(client_.store(), *id, words[1].text);
+  if (written) {
+    const auto saved = write_whole_file(words[2].text, "model", std::as_bytes(std::span(*written)));
+    if (!saved) written = tl::unexpected(saved.error());
+  }
+  if (!written) return refuse(request, 1, line, describe(written.error()));
+  output_.done(request, 0, {});
 }
 
 void EditSession::undo() {

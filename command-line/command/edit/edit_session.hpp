@@ -67,6 +67,7 @@ class EditSession {
   void end_lifetimes(const Batch& batch, Tick from);
   bool query(const std::string& line, const std::vector<scene::TextWord>& words);
   void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
+  void export_model(std::uint64_t request, const std::string& line, const std::vector<scene::TextWord>& words);
   void undo();
   void operate(const std::string& line);
   void watch(const std::string& line, const std::vector<scene::TextWord>& words);

@@ -117,6 +117,10 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         sign.hang_on(first.driver)
         sign.position = (-1, 0, 2)
         assert len(world.find(f"model/participant/{first.car.id}")) == 1
+        # What was made and what was generated leave the world as models, which a check reads.
+        for thing, name in ((ball, "ball"), (tree, "tree"), (world.get("model/hatchback"), "car")):
+            thing.export(folder / f"{name}.glb")
+            assert " triangles;" in run(str(septet_program), "check", str(folder / f"{name}.glb")), name
         # A thing hangs on another one and is removed with it.
         tray = world.add("stimuli/tray", glb, (0, 0, 1), parent=first.car)
         cup = world.add("stimuli/cup", glb, (0, 0, 0.1), parent=tray)

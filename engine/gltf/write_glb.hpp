@@ -1,0 +1,53 @@
+#pragma once
+/// A drawing as a glTF 2.0 binary file (.glb): meshes placed by nodes, materials with their base colour's pictures.
+///
+/// Axes as in gltf.hpp: here x is forward, y left, z up, metres; the file has y up, z forward and x left (3.4). Pictures are embedded
+/// as PNG. What read_gltf reads of the file is what was written, to the bits of a float.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/expected.hpp"
+#include "engine/gltf/gltf.hpp"
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet::gltf {
+
+struct DrawnVertex {
+  glm::vec3 position_m, normal;
+  glm::vec2 uv;
+};
+
+/// Triangles of one look; `look` indexes Drawing::looks.
+struct DrawnRun {
+  std::uint32_t first_index = 0, index_count = 0, look = 0;
+};
+
+struct DrawnMesh {
+  std::vector<DrawnVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< Counter-clockwise seen from the front.
+  std::vector<DrawnRun> runs;
+};
+
+struct DrawnNode {
+  std::string name;
+  std::uint32_t mesh = 0;  ///< Indexes Drawing::meshes.
+  RigidTransform model_from_node;
+  glm::vec3 scale{1.0f};
+};
+
+struct Drawing {
+  std::vector<DrawnMesh> meshes;
+  std::vector<DrawnNode> nodes;
+  std::vector<Look> looks;  ///< Of their mapping nothing is written.
+  std::vector<image::Image> pictures;
+};
+
+/// Bytes of the file. Error: nothing is drawn, or more than a file holds. `where` names the drawing in errors.
+Expected<std::string> write_glb(const Drawing& drawing, const std::string& where);
+
+}  // namespace septet::gltf
