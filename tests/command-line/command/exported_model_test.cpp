@@ -22,7 +22,7 @@
 namespace septet::server {
 namespace {
 
-gltf::Model read(const std::string& bytes) {
+gltf::Model model_of(const std::string& bytes) {
   auto model = gltf::read_gltf(bytes, "exported.glb", [](std::string_view) { return false; });
   REQUIRE(model.has_value());
   return std::move(*model);
@@ -49,7 +49,7 @@ TEST_CASE("an object is exported with what hangs on it, about its own origin, an
   const scene::Store store = two_boards();
   const auto bytes = exported_model(store, 1002, "sign");
   REQUIRE(bytes.has_value());
-  const gltf::Model model = read(*bytes);
+  const gltf::Model model = model_of(*bytes);
   CHECK(glm::distance(model.least_m, {0.0f, -1.0f, -0.5f}) < 1e-6f);
   CHECK(glm::distance(model.most_m, {0.0f, 1.0f, 1.25f}) < 1e-6f);
   std::size_t triangles = 0;
@@ -67,7 +67,7 @@ TEST_CASE("an object is exported with what hangs on it, about its own origin, an
   do_all(other, made->commands);
   const auto again = exported_model(other, 5000, "again");
   REQUIRE(again.has_value());
-  const gltf::Model back = read(*again);
+  const gltf::Model back = model_of(*again);
   CHECK(glm::distance(back.least_m, model.least_m) < 1e-6f);
   CHECK(glm::distance(back.most_m, model.most_m) < 1e-6f);
   CHECK(back.pictures == model.pictures);

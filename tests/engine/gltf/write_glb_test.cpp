@@ -22,7 +22,7 @@ DrawnMesh square() {
           {{0, 3, 0}, {3, 3, 1}}};
 }
 
-Model read(const std::string& bytes) {
+Model model_of(const std::string& bytes) {
   auto model = read_gltf(bytes, "written.glb", [](std::string_view) { return false; });
   REQUIRE(model.has_value());
   CHECK(model->left_out.empty());
@@ -52,7 +52,7 @@ TEST_CASE("a drawing that is written is read again with its shape, its place, it
 
   const auto bytes = write_glb(drawing, "sign");
   REQUIRE(bytes.has_value());
-  const Model model = read(*bytes);
+  const Model model = model_of(*bytes);
   REQUIRE(model.parts.size() == 1);
   CHECK(model.parts[0].mesh.polygons.size() == 2);
   CHECK(glm::distance(model.least_m, {3.0f, 6.0f, 7.0f}) < 1e-5f);  // Twice as wide, along −x; three times as high.

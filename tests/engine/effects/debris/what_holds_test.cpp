@@ -14,8 +14,8 @@ using namespace septet::debris;
 
 namespace {
 
-constexpr double step_s = 1.0 / 60.0;
-constexpr std::uint64_t seeds = 3;
+constexpr double tick_s = 1.0 / 60.0;
+constexpr std::uint64_t seed_count = 3;
 
 /// A part whose lowest node is `height_m` above the road and that falls with `falling_mps`.
 State part_above(Part part, double height_m, double falling_mps, std::uint64_t seed) {
@@ -31,8 +31,8 @@ State part_above(Part part, double height_m, double falling_mps, std::uint64_t s
 int opened_faces(State& state, ContactWorld& world) {
   int faces = 0;
   for (int k = 0; k < 120; ++k) {
-    faces += advance_debris(state, world, step_s).fractures;
-    for (Box& box : world.boxes) box.world_from_box.position_m += step_s * box.velocity_mps;
+    faces += advance_debris(state, world, tick_s).fractures;
+    for (Box& box : world.boxes) box.world_from_box.position_m += tick_s * box.velocity_mps;
   }
   return faces;
 }
@@ -47,7 +47,7 @@ TEST_CASE("nothing breaks that falls as low as its part may fall") {
   for (const Fall& fall :
        {Fall{Part::ice_slab, 0.05, 0.0}, Fall{Part::windscreen, 0.0, 1.0}, Fall{Part::windscreen, 0.5, 0.0},
         Fall{Part::barrier_post, 0.05, 0.0}, Fall{Part::bumper, 0.85, 0.0}, Fall{Part::door, 0.55, 0.0}})
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= seed_count; ++seed) {
       CAPTURE(static_cast<int>(fall.part));
       CAPTURE(fall.height_m);
       CAPTURE(seed);
@@ -60,7 +60,7 @@ TEST_CASE("nothing breaks that falls as low as its part may fall") {
 }
 
 TEST_CASE("a slab of ice that falls from a lorry's height breaks") {
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= seed_count; ++seed) {
     State state = part_above(Part::ice_slab, 3.5, 0.0, seed);
     ContactWorld world = level_road();
     CHECK(opened_faces(state, world) > 0);
@@ -68,7 +68,7 @@ TEST_CASE("a slab of ice that falls from a lorry's height breaks") {
 }
 
 TEST_CASE("a cone that a slow wheel pushes stays in one piece") {
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= seed_count; ++seed) {
     CAPTURE(seed);
     State state = part_above(Part::traffic_cone, 0.0, 0.0, seed);
     ContactWorld world = level_road();
