@@ -10,7 +10,6 @@
 #include <glm/common.hpp>
 
 #include "engine/core/printable.hpp"
-#include "engine/core/regular_file.hpp"
 #include "engine/gltf/gltf.hpp"
 #include "engine/scenery/own_models.hpp"
 #include "engine/world/vehicle_model.hpp"
@@ -55,14 +54,11 @@ CheckedModel check_model(const std::filesystem::path& file) {
   const auto warn = [&](const std::string& what, const char* remedy) {
     checked.findings.push_back({road::Severity::warning, 0, {what, where, remedy}});
   };
-  const auto refuse = [&](const Error& error) {
-    checked.findings.push_back({road::Severity::error, 0, error});
+  const auto model = scenery::read_own_model(file);
+  if (!model) {
+    checked.findings.push_back({road::Severity::error, 0, model.error()});
     return checked;
-  };
-  const auto bytes = read_regular_file(file, gltf::largest_file_bytes);
-  if (!bytes) return refuse(bytes.error());
-  const auto model = gltf::read_gltf(*bytes, where, scenery::begins_own_part);
-  if (!model) return refuse(model.error());
+  }
   for (const std::string& passed_over : model->left_out)
     warn(passed_over, "expect it to be drawn so, or change it in a modelling program");
   const glm::vec3 size_m = model->most_m - model->least_m;

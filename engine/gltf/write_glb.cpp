@@ -2,27 +2,31 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "engine/gltf/container.hpp"
 #include "engine/image/png.hpp"
 
 namespace septet::gltf {
 namespace {
-
-using Json = nlohmann::json;
 
 /// Numbers of the format (3.6.2.2, 3.6.1.2 and 5.18.2).
 constexpr int float_numbers = 5126, unsigned_int_numbers = 5125, vertex_data = 34962, index_data = 34963;
 
 glm::vec3 file_axes(const glm::vec3& v) { return {v.y, v.z, v.x}; }
 Json list(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+
+/// Chunks and views begin at multiples of four bytes.
+std::size_t whole_words(std::size_t size) { return (size + 3) / 4 * 4; }
 
 /// The binary chunk, and what the file says of it.
 class Buffer {
@@ -32,10 +36,10 @@ class Buffer {
     return view(std::as_bytes(std::span(values)), target);
   }
   std::size_t view(std::span<const std::byte> values, int target = 0) {
-    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    bytes_.resize(whole_words(bytes_.size()));
     Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", values.size()}};
     if (target != 0) view["target"] = target;
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size());
+    ByteWriter(bytes_).put_bytes(values);
     views_.push_back(std::move(view));
     return views_.size() - 1;
   }
@@ -45,8 +49,8 @@ class Buffer {
     return accessors_.size() - 1;
   }
   Json& last_accessor() { return accessors_.back(); }
-  std::string finish(Json& file) {
-    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+  Bytes finish(Json& file) {
+    bytes_.resize(whole_words(bytes_.size()));
     file["buffers"] = {{{"byteLength", bytes_.size()}}};
     file["bufferViews"] = std::move(views_);
     file["accessors"] = std::move(accessors_);
@@ -54,7 +58,7 @@ class Buffer {
   }
 
  private:
-  std::string bytes_;
+  Bytes bytes_;
   Json views_ = Json::array(), accessors_ = Json::array();
 };
 
@@ -119,13 +123,9 @@ Json written_look(const Look& look, const std::vector<image::Image>& pictures, J
   return material;
 }
 
-void append_number(std::string& file, std::size_t number) {
-  for (int k = 0; k < 4; ++k) file.push_back(static_cast<char>(number >> (8 * k) & 0xFF));
-}
-
 }  // namespace
 
-Expected<std::string> write_glb(const Drawing& drawing, const std::string& where) {
+Expected<Bytes> write_glb(const Drawing& drawing, const std::string& where) {
   if (drawing.nodes.empty()) return failure("nothing of it is drawn", where, "name a thing that has a shape");
   Json file = {{"asset", {{"version", "2.0"}, {"generator", "Septet"}}}, {"scene", 0}};
   Buffer buffer;
@@ -151,19 +151,26 @@ Expected<std::string> write_glb(const Drawing& drawing, const std::string& where
     file["images"].push_back({{"bufferView", buffer.view(std::as_bytes(std::span(png)))}, {"mimeType", "image/png"}});
     file["textures"].push_back({{"source", i}});
   }
-  const std::string binary = buffer.finish(file);
+  const Bytes binary = buffer.finish(file);
   std::string text = file.dump(-1, ' ', false, Json::error_handler_t::replace);
-  text.resize((text.size() + 3) / 4 * 4, ' ');
+  text.resize(whole_words(text.size()), ' ');
   const std::size_t size = 12 + 8 + text.size() + 8 + binary.size();
   if (size > std::numeric_limits<std::uint32_t>::max())
     return failure(fmt::format("it has {} bytes, more than a .glb holds", size), where, "export parts of it");
-  std::string glb = "glTF";  // The container: 4.4.
-  append_number(glb, 2);
-  append_number(glb, size);
-  append_number(glb, text.size());
-  glb += "JSON" + text;
-  append_number(glb, binary.size());
-  glb += std::string("BIN\0", 4) + binary;
+  Bytes glb;
+  glb.reserve(size);
+  ByteWriter file_bytes(glb);
+  const auto put_text = [&](std::string_view part) { file_bytes.put_bytes(std::as_bytes(std::span(part))); };
+  const auto put_number = [&](std::size_t number) { file_bytes.put(static_cast<std::uint32_t>(number)); };
+  put_text("glTF");  // The container: 4.4.
+  put_number(2);
+  put_number(size);
+  put_number(text.size());
+  put_text("JSON");
+  put_text(text);
+  put_number(binary.size());
+  put_text({"BIN\0", 4});
+  file_bytes.put_bytes(binary);
   return glb;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// A drawing as a glTF 2.0 binary file (.glb): meshes placed by nodes, materials with their base colour's pictures.
 ///
-/// Axes as in gltf.hpp: here x is forward, y left, z up, metres; the file has y up, z forward and x left (3.4). Pictures are embedded
-/// as PNG. What read_gltf reads of the file is what was written, to the bits of a float.
+/// Axes as in gltf.hpp: here x is forward, y left, z up, metres; the file has y up, z forward and x left (3.4).
+/// Pictures are embedded as PNG. What read_gltf reads of the file is what was written, to the bits of a float.
 
 #include <cstdint>
 #include <string>
@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/core/bytes.hpp"
 #include "engine/core/expected.hpp"
 #include "engine/gltf/gltf.hpp"
 #include "engine/math/rigid_transform.hpp"
@@ -48,6 +49,6 @@ struct Drawing {
 };
 
 /// Bytes of the file. Error: nothing is drawn, or more than a file holds. `where` names the drawing in errors.
-Expected<std::string> write_glb(const Drawing& drawing, const std::string& where);
+Expected<Bytes> write_glb(const Drawing& drawing, const std::string& where);
 
 }  // namespace septet::gltf

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/printable.hpp"
+#include "engine/core/regular_file.hpp"
 #include "engine/scene/part_role.hpp"
 
 namespace septet::scenery {
@@ -51,6 +53,12 @@ bool is_replaceable(std::string_view name) {
 
 bool begins_own_part(std::string_view node_name) {
   return scene::part_role(without_number(node_name)) != scene::PartRole::fixed;
+}
+
+Expected<gltf::Model> read_own_model(const std::filesystem::path& file) {
+  const auto bytes = read_regular_file(file, gltf::largest_file_bytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return gltf::read_gltf(*bytes, printable(file.string()), begins_own_part);
 }
 
 glm::dvec3 vehicle_from_own_model_m(const gltf::Model& own, const VehicleModel& vehicle) {

@@ -6,6 +6,7 @@
 /// (`wheel_front_left`, `lamp_brake`, …) moves or shines accordingly; a material named `paint` takes the participant's
 /// colour.
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -28,6 +29,9 @@ bool is_replaceable(std::string_view name);
 
 /// True if a node of that name moves or shines on its own.
 bool begins_own_part(std::string_view node_name);
+
+/// The model in a file. Error: as of read_gltf, or a file that cannot be read.
+Expected<gltf::Model> read_own_model(const std::filesystem::path& file);
 
 /// Offset of a vehicle's model in the vehicle frame: the middle of its box, seen from above, goes to the middle of the
 /// vehicle's.

@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "engine/core/printable.hpp"
-#include "engine/core/regular_file.hpp"
 #include "engine/world/vehicle_model.hpp"
 
 namespace septet::server {
@@ -61,9 +60,7 @@ Expected<OwnModelsFolder> read_own_models(const fs::path& folder) {
                      fmt::format("call it {}", fmt::join(replaceable_names(), ", ")));
     if (read.models.contains(name))
       return failure(fmt::format("{} is replaced by two files", name), where, "keep one of .glb and .gltf");
-    const auto bytes = read_regular_file(file, gltf::largest_file_bytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    auto model = gltf::read_gltf(*bytes, where, scenery::begins_own_part);
+    auto model = scenery::read_own_model(file);
     if (!model) return tl::unexpected(model.error());
     for (const std::string& left_out : model->left_out) read.messages.push_back(fmt::format("{}: {}", where, left_out));
     if (const auto index = find_vehicle_model(name))

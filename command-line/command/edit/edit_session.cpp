@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <span>
 #include <utility>
 #include <variant>
 
@@ -263,7 +262,7 @@ void EditSession::export_model(std::uint64_t request, const std::string& line,
     return refuse(request, 1, line, "write export NODE FILE.glb, of an object that exists");
   auto written = exported_model(client_.store(), *id, words[1].text);
   if (written) {
-    const auto saved = write_whole_file(words[2].text, "model", std::as_bytes(std::span(*written)));
+    const auto saved = write_whole_file(words[2].text, "model", *written);
     if (!saved) written = tl::unexpected(saved.error());
   }
   if (!written) return refuse(request, 1, line, describe(written.error()));

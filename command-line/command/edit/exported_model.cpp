@@ -108,7 +108,7 @@ class DrawingOf {
 
 }  // namespace
 
-Expected<std::string> exported_model(const scene::Store& store, scene::NodeId object, const std::string& name) {
+Expected<Bytes> exported_model(const scene::Store& store, scene::NodeId object, const std::string& name) {
   const scene::ResolvedScene scene = scene::resolve(store_of(store, object));
   DrawingOf drawing(scene);
   for (const scene::Instance& instance : scene.instances) drawing.add(instance, name);

@@ -9,8 +9,6 @@
 #include <utility>
 #include <variant>
 
-#include "engine/core/printable.hpp"
-#include "engine/core/regular_file.hpp"
 #include "engine/image/font.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scenery/own_models.hpp"
@@ -79,9 +77,7 @@ void wear(Made& made, const Worn& worn, scene::NodeId material) {
 
 Expected<Made> make_model(const std::string& name, const std::filesystem::path& file, const scene::Transform& transform,
                           scene::NodeId first) {
-  const auto bytes = read_regular_file(file, gltf::largest_file_bytes);
-  if (!bytes) return tl::unexpected(bytes.error());
-  auto model = gltf::read_gltf(*bytes, printable(file.string()), scenery::begins_own_part);
+  auto model = scenery::read_own_model(file);
   if (!model) return tl::unexpected(model.error());
   std::vector<std::string> left_out = std::move(model->left_out);
   const std::vector<gltf::Extra> extras = std::move(model->extras);

@@ -34,9 +34,10 @@ double air_work_j(const Piece& piece, const Eigen::Vector3d& frame_mps, double s
   return std::max(0.0, sum);
 }
 
-/// Relaxes the shape until it stores `most_j`, or as little as a few steps reach: what the elements' plastic strains, which need not fit
-/// together, keep for good. A step without velocity, weight and contacts, long beside all periods of the piece, is one of Newton's towards equilibrium;
-/// inner forces alone move the nodes, so that the mass centre stays and the body does not turn.
+/// Relaxes the shape until it stores `most_j`, or as little as a few steps reach: what the elements' plastic strains,
+/// which need not fit together, keep for good. A step without velocity, weight and contacts, long beside all periods of
+/// the piece, is one of Newton's towards equilibrium; inner forces alone move the nodes, so that the mass centre stays
+/// and the body does not turn.
 void relax_shape(elastic::ElasticBody& body, double most_j) {
   constexpr int most_steps = 8, most_halvings = 20;
   elastic::ElasticBody relaxed = body;

@@ -1,6 +1,6 @@
 #pragma once
-/// The energy that a step may leave a piece with. The elastic step errs where elements turn or shear by much within it, and where surfaces demand what
-/// no velocity satisfies; what has no source is taken out again.
+/// The energy that a step may leave a piece with. The elastic step errs where elements turn or shear by much within it,
+/// and where surfaces demand what no velocity satisfies; what has no source is taken out again.
 
 #include <span>
 #include <vector>
@@ -25,8 +25,8 @@ struct Frame {
 /// Of a piece before its step.
 Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double step_s);
 
-/// Takes energy beyond the frame's out of the deformation: of its velocity, and of its shape by relaxing towards the natural one, which
-/// holds what has flowed. Mass, momentum and angular momentum stay; energy never grows.
+/// Takes energy beyond the frame's out of the deformation: of its velocity, and of its shape by relaxing towards the
+/// natural one, which holds what has flowed. Mass, momentum and angular momentum stay; energy never grows.
 void bound_energy(Piece& piece, const Frame& frame);
 
 /// Where surfaces made the piece faster than the frame allows, the step's change of velocity, and with it the surfaces'

@@ -10,7 +10,8 @@
 
 namespace septet::elastic {
 
-/// A free body turns about its mass centre, one that is fixed at a point about that, one that is fixed along a line about that axis.
+/// A free body turns about its mass centre, one that is fixed at a point about that, one that is fixed along a line about
+/// that axis.
 struct Pivot {
   std::optional<Eigen::Vector3d> place_m;  ///< Of fixed nodes; the mass centre where there is none.
   Eigen::Vector3d velocity_mps{0.0, 0.0, 0.0};

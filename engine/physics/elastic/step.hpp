@@ -13,10 +13,11 @@
 /// get the tensile part of their geometric stiffness, on the change of velocity, so that spin is not slowed:
 ///     (M + Δt²/γ (JᵀDJ + K_g)) v⁺ = (M + Δt²/γ K_g) v + …
 ///
-/// A body that can turn as a whole, free or about fixed nodes on a line or in a point, moves along arcs: its rigid rotation is taken
-/// out of the update of positions and applied exactly, with the centrifugal force in its place. Along straight lines, 10 rad/s at
-/// 15 ms would stretch a body by one per cent, which breaks everything but rubber; and geometric stiffness takes that stretch
-/// for tension, so that a cube of 10 GPa on a hinge swings down in 1.4 times its time.
+/// A body that can turn as a whole, free or about fixed nodes on a line or in a point, moves along arcs: its rigid
+/// rotation is taken out of the update of positions and applied exactly, with the centrifugal force in its place. Along
+/// straight lines, 10 rad/s at 15 ms would stretch a body by one per cent, which breaks everything but rubber; and
+/// geometric stiffness takes that stretch for tension, so that a cube of 10 GPa on a hinge swings down in 1.4 times its
+/// time.
 
 #include <span>
 

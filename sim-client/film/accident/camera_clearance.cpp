@@ -9,6 +9,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/world/participant_shape.hpp"
+
 namespace septet::film {
 namespace {
 

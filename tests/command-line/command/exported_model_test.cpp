@@ -22,8 +22,10 @@
 namespace septet::server {
 namespace {
 
-gltf::Model model_of(const std::string& bytes) {
-  auto model = gltf::read_gltf(bytes, "exported.glb", [](std::string_view) { return false; });
+std::string_view text_of(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+gltf::Model model_of(const Bytes& bytes) {
+  auto model = gltf::read_gltf(text_of(bytes), "exported.glb", [](std::string_view) { return false; });
   REQUIRE(model.has_value());
   return std::move(*model);
 }
@@ -60,7 +62,7 @@ TEST_CASE("an object is exported with what hangs on it, about its own origin, an
 
   const TemporaryFolder folder;
   const auto file = folder.path() / "sign.glb";
-  std::ofstream(file, std::ios::binary) << *bytes;
+  std::ofstream(file, std::ios::binary) << text_of(*bytes);
   const auto made = make_model("again", file, {}, 5000);
   REQUIRE(made.has_value());
   scene::Store other;
@@ -86,7 +88,7 @@ TEST_CASE("a wheel of an exported vehicle is a wheel to the reader of models") {
   build.add_child(vehicle, build.add_object("wheel", wheel));
   const auto bytes = exported_model(store, vehicle, "model/trolley");
   REQUIRE(bytes.has_value());
-  const auto model = gltf::read_gltf(*bytes, "trolley.glb", scenery::begins_own_part);
+  const auto model = gltf::read_gltf(text_of(*bytes), "trolley.glb", scenery::begins_own_part);
   REQUIRE(model.has_value());
   REQUIRE(model->parts.size() == 1);
   CHECK(model->parts[0].name == "wheel_front_left");

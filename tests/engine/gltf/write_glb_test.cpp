@@ -2,6 +2,8 @@
 
 #include "engine/gltf/write_glb.hpp"
 
+#include <string_view>
+
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -22,8 +24,9 @@ DrawnMesh square() {
           {{0, 3, 0}, {3, 3, 1}}};
 }
 
-Model model_of(const std::string& bytes) {
-  auto model = read_gltf(bytes, "written.glb", [](std::string_view) { return false; });
+Model model_of(const Bytes& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  auto model = read_gltf(text, "written.glb", [](std::string_view) { return false; });
   REQUIRE(model.has_value());
   CHECK(model->left_out.empty());
   return std::move(*model);
