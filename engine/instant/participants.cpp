@@ -239,7 +239,8 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   } else if (model.kind == ParticipantKind::pedestrian) {
     drawn.thrown_rad = participant.wheel_lift_m;
     // One who flies or slides does not walk, however fast.
-    drawn.speed_mps = participant.wheel_spin_radps * stride_m / (2.0 * std::numbers::pi);
+    const double strides_per_s = participant.wheel_spin_radps / (2.0 * std::numbers::pi);
+    drawn.speed_mps = strides_per_s * stride_m(strides_per_s);
   } else {
     drawn.wheel_lift_m = participant.wheel_lift_m;
   }

@@ -14,6 +14,7 @@
 #include "engine/scenario/run/speed_control.hpp"
 #include "engine/scenario/run/storyboard_runtime.hpp"
 #include "engine/scenario/run/transition.hpp"
+#include "engine/world/limbs.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -259,6 +260,8 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario, con
   const double radius = std::max(0.1, 0.5 * scenario.entities[who].front_axle.wheel_diameter_m);
   entity.wheel_angle_rad = std::fmod(entity.wheel_angle_rad + way_m / radius, 2.0 * std::numbers::pi);
   if (entity.wheel_angle_rad < 0.0) entity.wheel_angle_rad += 2.0 * std::numbers::pi;
+  if (scenario.entities[who].kind == EntityKind::pedestrian)
+    entity.strides = std::fmod(entity.strides + dt_s * strides_hz(way_m / dt_s), 1.0);
   return finite(entity) || reset();
 }
 

@@ -33,10 +33,13 @@ SEPTET_MEMBER_GROUPS(PathControl, hashed(active, action), kept(path), hashed(tim
 SEPTET_MEMBER_GROUPS(RouteState, kept(roads), hashed(at))
 SEPTET_MEMBERS(Waypoint, lane, along_s)
 SEPTET_MEMBERS(PlannedRoute, waypoints, roads)
-SEPTET_MEMBERS(EntityState, active, external, on_road, lane, along_s, heading_offset_rad, world_from_entity, speed_mps,
-               acceleration_mps2, velocity_mps, acceleration_vector_mps2, angular_velocity_radps, in_the_way,
-               beside_is_taken, held_back_mps, travelled_m, at_road_end_s, standing_s, wheel_angle_rad, lamps,
-               speed_control, lateral_control, path_control, route)
+// A step is only seen.
+SEPTET_MEMBER_GROUPS(EntityState,
+                     hashed(active, external, on_road, lane, along_s, heading_offset_rad, world_from_entity, speed_mps,
+                            acceleration_mps2, velocity_mps, acceleration_vector_mps2, angular_velocity_radps,
+                            in_the_way, beside_is_taken, held_back_mps, travelled_m, at_road_end_s, standing_s,
+                            wheel_angle_rad),
+                     kept(strides), hashed(lamps, speed_control, lateral_control, path_control, route))
 SEPTET_MEMBERS(ElementState, initialised, status, last_transition, transition_sequence, executions)
 SEPTET_MEMBERS(ConditionState::Change, time_s, value)
 SEPTET_MEMBERS(ConditionState, evaluated, last_value, sequence, delayed_value, delayed)

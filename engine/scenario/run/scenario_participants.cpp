@@ -74,8 +74,8 @@ void append_participants(const Scenario& scenario, const ScenarioState& state, P
     }
     if (model.kind == ParticipantKind::pedestrian) {
       constexpr double turn_rad = 2.0 * std::numbers::pi;
-      participant.wheel_spin_rad = turn_rad * (std::fmod(std::max(from.travelled_m, 0.0), stride_m) / stride_m);
-      participant.wheel_spin_radps = turn_rad * std::abs(speed) / stride_m;
+      participant.wheel_spin_rad = turn_rad * from.strides;
+      participant.wheel_spin_radps = turn_rad * strides_hz(speed);
     } else {
       participant.wheel_spin_rad = from.wheel_angle_rad;
       participant.wheel_spin_radps = model.wheel_radius_m > 0.0 ? speed / model.wheel_radius_m : 0.0;

@@ -104,6 +104,7 @@ struct EntityState {
   double at_road_end_s = 0.0;  ///< Time since it came to the end of its road: it has left.
   double standing_s = 0.0;
   double wheel_angle_rad = 0.0;  ///< Angle of the wheels' rolling, [0, 2π).
+  double strides = 0.0;          ///< Of one on foot, made since a heel of the left foot struck, [0, 1).
   Lamps lamps;
   SpeedControl speed_control;
   LateralControl lateral_control;

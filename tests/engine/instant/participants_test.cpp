@@ -92,58 +92,90 @@ TEST_CASE("a film of 25 pictures a second has all of a beacon's light whenever i
 
 namespace {
 
-/// Poses of a walker's left and right foot in the world at a phase: he goes on by a stride each turn of it.
-RigidTransform world_from_foot(bool left, double phase_rad, double speed_mps) {
-  Participant person;
-  person.model = *find_vehicle_model("pedestrian");
-  person.world_from_vehicle.position_m.x = phase_rad / (2.0 * std::numbers::pi) * stride_m;
-  person.velocity_mps = Vec3(speed_mps, 0.0, 0.0);
-  person.wheel_spin_rad = std::fmod(phase_rad, 2.0 * std::numbers::pi);
-  person.wheel_spin_radps = 2.0 * std::numbers::pi * speed_mps / stride_m;
-  scene::Instance foot;
-  foot.world_from_object.position_m = {0.1, left ? 0.09 : -0.09, hip_height_m};
-  foot.role = left ? PartRole::foot_left : PartRole::foot_right;
-  return person.world_from_vehicle * vehicle_from_part(foot, drawn_participant(person, 0));
-}
+/// A walker on a circle (curvature 0: a straight line) at an even speed.
+struct Walk {
+  double speed_mps = 1.4, curvature_1pm = 0.0;
+
+  double stride() const { return speed_mps / strides_hz(speed_mps); }
+  /// Pose of his left or right foot in the world at a phase: he goes on by a stride each turn of it.
+  RigidTransform world_from_foot(bool left, double phase_rad) const {
+    const double way_m = phase_rad / (2.0 * std::numbers::pi) * stride();
+    const CurvePlace place = beside_curve(curvature_1pm, way_m, 0.0);
+    Participant person;
+    person.model = *find_vehicle_model("pedestrian");
+    person.world_from_vehicle = {{place.x_m, place.y_m, 0.0}, orientation_from_angles(place.turn_rad, 0.0, 0.0)};
+    person.velocity_mps = person.world_from_vehicle.orientation * Vec3(speed_mps, 0.0, 0.0);
+    person.angular_velocity_radps.z = curvature_1pm * speed_mps;
+    person.wheel_spin_rad = std::fmod(phase_rad, 2.0 * std::numbers::pi);
+    person.wheel_spin_radps = 2.0 * std::numbers::pi * strides_hz(speed_mps);
+    scene::Instance foot;
+    foot.world_from_object.position_m = {0.1, left ? 0.09 : -0.09, hip_height_m};
+    foot.role = left ? PartRole::foot_left : PartRole::foot_right;
+    return person.world_from_vehicle * vehicle_from_part(foot, drawn_participant(person, 0));
+  }
+};
 
 const Vec3 heel_m(-heel_behind_m, 0.0, -ankle_height_m), toe_m(toe_ahead_m, 0.0, -ankle_height_m);
 
 }  // namespace
 
-TEST_CASE("the foot on the ground stays where it is for the whole stance, and the other is in the air") {
+namespace {
+
+/// One stance of a foot: from the first to the last picture in which a point of its sole is on the ground.
+struct Stance {
+  double slide_m = 0.0, deepest_m = 0.0, highest_ankle_m = 0.0, lowest_ankle_m = 1.0;
+  double on_ground = 0.0, flat = 0.0;  ///< Shares of the cycle.
+};
+
+Stance stance_of(const Walk& walk, bool left) {
   constexpr double turn = 2.0 * std::numbers::pi;
   constexpr int steps = 2000;
-  for (const double speed_mps : {0.8, 1.0, 1.4, 1.7, 2.0})
-    for (const bool left : {true, false}) {
-      CAPTURE(speed_mps);
-      // One stance: from the first to the last picture in which a point of the sole is on the ground.
-      double slide_m = 0.0, way_m = 0.0, deepest_m = 0.0, highest_ankle_m = 0.0, lowest_ankle_m = 1.0;
-      int on_ground = 0, flat = 0;
-      for (int i = 0; i < steps; ++i) {
-        const double phase = turn * (10.0 + double(i) / steps), next = phase + turn / steps;
-        const RigidTransform now = world_from_foot(left, phase, speed_mps),
-                             then = world_from_foot(left, next, speed_mps);
-        const bool heel_down = (now * heel_m).z < 0.002, toe_down = (now * toe_m).z < 0.002;
-        deepest_m = std::min({deepest_m, (now * heel_m).z, (now * toe_m).z});
-        on_ground += heel_down || toe_down;
-        if (!heel_down && !toe_down) continue;
-        const Vec3 point = heel_down ? heel_m : toe_m;
-        slide_m += std::abs((then * point).x - (now * point).x);
-        way_m += stride_m / steps;
-        if (!heel_down || !toe_down) continue;
-        ++flat;
-        const double ankle_m = now.position_m.z;
-        highest_ankle_m = std::max(highest_ankle_m, ankle_m), lowest_ankle_m = std::min(lowest_ankle_m, ankle_m);
+  Stance stance;
+  for (int i = 0; i < steps; ++i) {
+    const double phase = turn * (10.0 + double(i) / steps), next = phase + turn / steps;
+    const RigidTransform now = walk.world_from_foot(left, phase), then = walk.world_from_foot(left, next);
+    const bool heel_down = (now * heel_m).z < 0.002, toe_down = (now * toe_m).z < 0.002;
+    stance.deepest_m = std::min({stance.deepest_m, (now * heel_m).z, (now * toe_m).z});
+    if (!heel_down && !toe_down) continue;
+    stance.on_ground += 1.0 / steps;
+    const Vec3 point = heel_down ? heel_m : toe_m;
+    stance.slide_m += glm::length(Vec2(then * point - now * point));
+    if (!heel_down || !toe_down) continue;
+    stance.flat += 1.0 / steps;
+    stance.highest_ankle_m = std::max(stance.highest_ankle_m, now.position_m.z);
+    stance.lowest_ankle_m = std::min(stance.lowest_ankle_m, now.position_m.z);
+  }
+  return stance;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the foot on the ground stays where it is for the whole stance, on turns as well, and the other is in the air") {
+  for (const double speed_mps : {0.5, 0.8, 1.0, 1.4, 1.7, 2.0, 3.5})
+    for (const double radius_m : {0.0, 10.0, 3.0, -1.5})
+      for (const bool left : {true, false}) {
+        CAPTURE(speed_mps);
+        CAPTURE(radius_m);
+        const Stance stance = stance_of({speed_mps, radius_m == 0.0 ? 0.0 : 1.0 / radius_m}, left);
+        CHECK(stance.slide_m < 0.01);
+        CHECK(stance.flat > 0.18);
+        CHECK(stance.highest_ankle_m < ankle_height_m + 0.01);
+        CHECK(stance.lowest_ankle_m > ankle_height_m - 0.01);
+        CHECK(stance.deepest_m > -0.005);
+        // Walkers have a foot on the ground at every instant, runners fly.
+        CHECK(stance.on_ground < 0.64);
+        if (speed_mps < 1.8) CHECK(stance.on_ground > 0.5);
+        if (speed_mps > 3.0) CHECK(stance.on_ground < 0.42);
       }
-      CHECK(slide_m < 0.01);
-      CHECK(way_m > 0.7);
-      CHECK(on_ground > 0.54 * steps);
-      CHECK(on_ground < 0.64 * steps);
-      CHECK(flat > 0.25 * steps);
-      CHECK(highest_ankle_m < ankle_height_m + 0.01);
-      CHECK(lowest_ankle_m > ankle_height_m - 0.01);
-      CHECK(deepest_m > -0.005);
-    }
+}
+
+TEST_CASE("steps a minute are those of people who walk and run") {
+  CHECK(120.0 * strides_hz(1.4) == relative(113.7, 0.02));
+  CHECK(120.0 * strides_hz(1.0) == relative(96.1, 0.02));
+  CHECK(120.0 * strides_hz(1.8) == relative(128.9, 0.02));
+  for (const double speed_mps : {0.3, 1.4, 3.5})
+    CHECK(stride_m(strides_hz(speed_mps)) * strides_hz(speed_mps) == relative(speed_mps, 1e-12));
 }
 
 TEST_CASE("who walks bends his knees, rises and falls by some centimetres, and stands still when he stands") {
