@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "engine/road/road_locate.hpp"
+#include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "program/resources.hpp"
 #include "program/temporary_folder.hpp"
@@ -218,6 +219,68 @@ TEST_CASE(
     CHECK((said != ride.events.end()) == (after_a_second != 12));
     CHECK(fast < seen / 50);
   }
+}
+
+TEST_CASE("one of SUMO's own that has left its rails stays as a wreck, is passed, and none of SUMO's touches it") {
+  if (!has_sumo()) return;
+  Ride ride("sumo");
+  ride.input.accelerator = 0.0, ride.input.brake = 0.4;
+  Snapshot now;
+  for (int tick = 0; tick < 15 * 120; ++tick) now = ride.step();
+  // The nearest in the driver's own direction from 150 m ahead on.
+  const Participant& car = now.participants.front();
+  const Participant* chosen = nullptr;
+  const auto ahead_m = [&](const Participant& p) {
+    return (glm::conjugate(car.world_from_vehicle.orientation) *
+            (p.world_from_vehicle.position_m - car.world_from_vehicle.position_m))
+        .x;
+  };
+  const auto traffic = traffic_of(now);
+  const Vec3 forward = car.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
+  for (const Participant& p : traffic)
+    if (glm::dot(p.velocity_mps, forward) > 10.0 && ahead_m(p) > 150.0 &&
+        (chosen == nullptr || ahead_m(p) < ahead_m(*chosen)))
+      chosen = &p;
+  REQUIRE(chosen != nullptr);
+  const ParticipantId wreck = chosen->id;
+  REQUIRE(simulation::leave_rails(*ride.model, *chosen, car, ride.state, ride.events));
+
+  std::map<ParticipantId, double> behind_m;  // Along the wreck, of those that go its way.
+  std::size_t passed = 0, hits = 0, lost = 0;
+  double travelled_m = 0.0;
+  Vec3 stood{0.0};
+  for (int tick = 0; tick < 90 * 120; ++tick) {
+    now = ride.step();
+    const auto error = ride.state.traffic->take_error();
+    REQUIRE_MESSAGE(!error, describe(*error));
+    const Participant* there = find_participant(now.participants, wreck);
+    if (there == nullptr) {
+      ++lost;
+      continue;
+    }
+    if (tick == 20 * 120) stood = there->world_from_vehicle.position_m;
+    if (tick > 20 * 120)
+      travelled_m = std::max(travelled_m, glm::distance(stood, there->world_from_vehicle.position_m));
+    for (const Participant& p : traffic_of(now)) {
+      const Vec3 at = glm::conjugate(there->world_from_vehicle.orientation) *
+                      (p.world_from_vehicle.position_m - there->world_from_vehicle.position_m);
+      if (p.id == wreck || std::abs(at.x) > 60.0 || std::abs(at.y) > 15.0 ||
+          glm::dot(p.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0), forward) < 0.0) {
+        behind_m.erase(p.id);
+        continue;
+      }
+      const auto [known, is_new] = behind_m.try_emplace(p.id, at.x);
+      passed += known->second < 0.0 && at.x >= 0.0;
+      known->second = at.x;
+    }
+  }
+  for (const auto& event : ride.events) hits += event.kind.find("crash") != std::string::npos;
+  MESSAGE(passed << " passed it, " << hits << " crashes, lost in " << lost << " ticks, moved by " << travelled_m
+                 << " m");
+  CHECK(lost == 0);
+  CHECK(hits == 0);
+  CHECK(travelled_m < 0.01);
+  CHECK(passed > 15);
 }
 
 }  // namespace septet::server
