@@ -6,6 +6,9 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/core/check.hpp"
+#include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/collisions.hpp"
+#include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "program/resources.hpp"
@@ -61,6 +64,22 @@ void server_tick_200(benchmark::State& bench) {
       static_cast<double>(simulation::capture_snapshot(*drive->model, drive->state).participants.size());
 }
 BENCHMARK(server_tick_200)->Name("server_tick/200")->Unit(benchmark::kMicrosecond);
+
+/// The part of that tick which anybody's being hit costs while nobody is: beside server_tick/200 of the same run.
+void collisions_of_nobody_200(benchmark::State& bench) {
+  RunningDrive drive;
+  const Snapshot now = drive.step();
+  simulation::DrivenCar car = simulation::driven_car(*drive.model, drive.state);
+  std::vector<Participant> participants = now.participants;
+  for (auto _ : bench) {
+    simulation::place_in_storyboard(*drive.model, drive.state);
+    simulation::advance_bodies(*drive.model, drive.state, drive.events);
+    simulation::append_bodies(drive.state, participants);
+    simulation::find_collisions(*drive.model, car, participants, drive.state, drive.events);
+  }
+  SEPTET_CHECK(drive.state.bodies.empty(), "somebody was hit in tick {}", drive.state.tick);
+}
+BENCHMARK(collisions_of_nobody_200)->Name("server_tick/200_collisions_of_nobody")->Unit(benchmark::kMicrosecond);
 
 /// Simulated over computed time, without screens: driver's car, simulated driver, traffic and the session log. The
 /// benchmark's own figure is the CPU time of the thread that simulates; by the clock the log's thread, which encodes
