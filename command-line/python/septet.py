@@ -174,7 +174,7 @@ class Handle:
     def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
         self._world, self.node = world, node
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
-        self._is_moving = False
+        self._is_moving = self._is_solid = False
 
     def __repr__(self) -> str:
         return f"<septet.Handle {self.node} at {self._position}>"
@@ -237,6 +237,16 @@ class Handle:
     def visible(self, value: bool) -> None:
         self._world._change(f"{'show' if value else 'hide'} {self.node}")
         self._visible = bool(value)
+
+    @property
+    def solid(self) -> bool:
+        """True once this script has made it so: an upright box around it stands fast and is hit. What is solid does not go()."""
+        return self._is_solid
+
+    @solid.setter
+    def solid(self, value: bool) -> None:
+        self._world._change(f"solid {self.node}{'' if value else ' off'}")
+        self._is_solid = bool(value)
 
     def show_text(self, text: str) -> None:
         """Black letters on white in the place of its first material: for boards and signs."""
@@ -327,18 +337,20 @@ class World:
         watch: bool = False,
         lifetime_s: Optional[float] = None,
         parent: Optional[Parent] = None,
+        solid: bool = False,
     ) -> Handle:
         """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced.
 
         `watch`: the file is read again each time when it was saved, as long as this connection stands; nothing is replaced.
         `lifetime_s`: it is removed so many seconds of drive time after the tick that shows it first, also when this script has ended.
         `parent`: what it hangs on from the first, as of Handle.hang_on; `position` is in that one's frame.
+        `solid`: it can be hit from the first tick that shows it, as of Handle.solid.
         """
-        if watch and (lifetime_s is not None or parent is not None):
-            raise ValueError("a file that is watched has no lifetime, and is hung on something by hang_on")
+        if watch and (lifetime_s is not None or parent is not None or solid):
+            raise ValueError("a file that is watched has no lifetime, is hung on something by hang_on and made solid by Handle.solid")
         at = f"{_numbers(position)} {float(heading_deg)!r}"
         what = f"create {_word(name)} {at}" if glb is None else f"{'watch' if watch else 'import'} {_word(name)} {_word(os.path.abspath(glb))} {at}"
-        return self._made(name, what, position, heading_deg, lifetime_s, parent)
+        return self._made(name, what, position, heading_deg, lifetime_s, parent, solid)
 
     def board(
         self,
@@ -349,10 +361,11 @@ class World:
         heading_deg: float = 0.0,
         lifetime_s: Optional[float] = None,
         parent: Optional[Parent] = None,
+        solid: bool = False,
     ) -> Handle:
-        """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it. `lifetime_s` and `parent` as of add."""
+        """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it. `lifetime_s`, `parent` and `solid` as of add."""
         what = f"board {_word(name)} {_numbers((width_m, height_m))} {_numbers(position)} {float(heading_deg)!r}"
-        return self._made(name, what, position, heading_deg, lifetime_s, parent)
+        return self._made(name, what, position, heading_deg, lifetime_s, parent, solid)
 
     def repaint(self, participant: Union[int, str, "Participant", "Car"], red: float, green: float, blue: float) -> None:
         """The paint of one participant, each part from 0 to 1 as in pictures."""
@@ -478,15 +491,19 @@ class World:
     # ---- within
 
     def _made(
-        self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent]
+        self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent], solid: bool
     ) -> Handle:
         lines = [line]
         if lifetime_s is not None:
             lines.append(f"lifetime {_word(name)} {float(lifetime_s)!r}")
         if parent is not None:
             lines.append(f"hang {_word(name)} {_who(parent)}")
+        if solid:
+            lines.append(f"solid {_word(name)}")
         self._change(*lines)
-        return Handle(self, _word(name), position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
+        made = Handle(self, _word(name), position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
+        made._is_solid = solid
+        return made
 
     def _change(self, *lines: str) -> None:
         """One line, or several that are one batch."""

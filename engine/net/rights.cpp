@@ -6,7 +6,7 @@
 namespace septet::net {
 namespace {
 
-constexpr std::array<std::string_view, 4> kind_names{"hide", "move", "paint", "create"};
+constexpr std::array<std::string_view, 5> kind_names{"hide", "move", "paint", "create", "solid"};
 constexpr std::string_view operate = "operate";
 
 }  // namespace

@@ -4,10 +4,12 @@
 ///     KEY NAME                                            a screen of the rig, or its car
 ///     KEY NAME look                                       reads the scene and all ticks
 ///     KEY NAME operate                                    marks, pauses and commands the drive as its operator does
-///     KEY NAME edit [PREFIX…] [hide] [move] [paint] [create]   changes the scene as well
+///     KEY NAME edit [PREFIX…] [hide] [move] [paint] [create] [solid]
+///                                                         changes the scene as well
 ///
-/// `operate` may also stand behind `look` and `edit`. Without a prefix an editor may change what the world was generated with; with prefixes, the nodes whose names begin
-/// with one of them. Without any of the four words it may do all four. What it made is its own.
+/// `operate` may also stand behind `look` and `edit`. Without a prefix an editor may change what the world was generated
+/// with; with prefixes, the nodes whose names begin with one of them. `solid`: decides what of the scene can be hit.
+/// Without any of the five words it may do all five. What it made is its own.
 
 #include <cstdint>
 #include <optional>
@@ -18,8 +20,8 @@
 
 namespace septet::net {
 
-enum class EditKind : std::uint8_t { hide, move, paint, create };
-inline constexpr std::uint8_t all_edit_kinds = 0b1111;
+enum class EditKind : std::uint8_t { hide, move, paint, create, solid };
+inline constexpr std::uint8_t all_edit_kinds = 0b11111;
 
 std::string_view name_of(EditKind kind);
 

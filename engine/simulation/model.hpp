@@ -13,6 +13,7 @@
 #include "engine/scenario/model/scenario.hpp"
 #include "engine/simulation/given_motion.hpp"
 #include "engine/traffic/yield_line.hpp"
+#include "engine/world/solid.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/wire_snapshot.hpp"
 
@@ -25,7 +26,7 @@ inline constexpr ParticipantId first_scripted_participant = 2;  ///< The scenari
 inline constexpr ParticipantId first_traffic_participant = 1000;
 
 static_assert(first_scripted_participant + scenario::most_entities <= first_traffic_participant);
-static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles <=
+static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles + most_solids <=
               max_wire_participants);
 
 /// A head of lamps that the scenario switches.

@@ -258,6 +258,14 @@ Expected<void> apply(const Model& model, const PutCar& put, State& state, std::v
   return {};
 }
 
+Expected<void> apply(const Model& model, const StandSolid& stand, State& state, std::vector<Event>&) {
+  return stand_solid(model, stand, state);
+}
+
+Expected<void> apply(const Model&, const ClearSolid& clear, State& state, std::vector<Event>&) {
+  return clear_solid(clear, state);
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -280,6 +288,8 @@ std::string text_of(const OperatorCommand& command) {
                        put->speed_mps);
   if (const auto* show = std::get_if<ShowEntity>(&command))
     return fmt::format("{} entity={}", show->shown ? "show" : "hide", show->name);
+  if (const auto* stand = std::get_if<StandSolid>(&command)) return text_of(*stand);
+  if (const auto* clear = std::get_if<ClearSolid>(&command)) return text_of(*clear);
   std::string text = "conditions";
   for (const auto& [condition, value] : std::get<SetConditions>(command).values)
     text += fmt::format(" {}={}", condition->name, value);
@@ -306,6 +316,10 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
   }
   if (constexpr std::string_view begin = "put x_m="; text.starts_with(begin))
     return parse_put(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "stand "; text.starts_with(begin))
+    return read_stand(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "clear "; text.starts_with(begin))
+    return read_clear(text.substr(begin.size()));
   for (const bool failed : {false, true}) {
     const std::string_view begin = failed ? "fault what=" : "repair what=";
     if (!text.starts_with(begin)) continue;

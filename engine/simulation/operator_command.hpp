@@ -1,5 +1,6 @@
 #pragma once
-/// An operator's changes of the drive: weather, light, grip, traffic, the storyboard's next event.
+/// An operator's changes of the drive: weather, light, grip, traffic, the storyboard's next event; and the solids that
+/// editors stand in the scene (solids.hpp).
 ///
 /// A command is applied between two ticks, and is input like the driver's: it is logged as its text, with the tick that
 /// it came before, and running the drive again applies it there. The text parses to the same command to the last bit:
@@ -14,6 +15,7 @@
 ///     fault what=tyre_front_left
 ///     repair what=tyre_front_left
 ///     put x_m=120.5 y_m=-3.25 heading_rad=0.5 speed_mps=13
+///     clear solid=3
 
 #include <cstdint>
 #include <span>
@@ -24,6 +26,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/simulation/solids.hpp"
 #include "engine/simulation/state.hpp"
 
 namespace septet::simulation {
@@ -83,8 +86,8 @@ struct PutCar {
   double speed_mps = 0.0;
   bool operator==(const PutCar&) const = default;
 };
-using OperatorCommand =
-    std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity, SetFault, PutCar>;
+using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity,
+                                     SetFault, PutCar, StandSolid, ClearSolid>;
 
 /// Bounds of PutCar: distance from a road, speed, and distance to other participants.
 inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;

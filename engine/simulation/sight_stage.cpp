@@ -13,6 +13,7 @@
 #include "engine/sight/air.hpp"
 #include "engine/sight/line_of_sight.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/solid.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -194,7 +195,7 @@ void look_through_air(const Model& model, const std::vector<Participant>& partic
   const bool notes = state.tick % static_cast<Tick>(tick_rate_hz) == 0;
   for (const Participant& driver : participants) {
     if (driver.id != driver_participant && driver.id < first_traffic_participant) continue;
-    if (!may_be_limited(air, driver)) continue;
+    if (is_solid(driver.id) || !may_be_limited(air, driver)) continue;
     const DriverSight seen = look(model, state, participants, air, driver);
     if (seen.road_m >= farthest_sight_m) continue;
     state.sights.push_back({driver.id, seen.road_m});

@@ -20,6 +20,7 @@
 #include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/world/instrument_panel.hpp"
 #include "engine/world/paint.hpp"
+#include "engine/world/solid.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "sim-client/frame/cockpit_drawing.hpp"
 #include "sim-client/frame/prototype_of.hpp"
@@ -220,6 +221,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
 
   const auto hung = hung_things(scene);
   for (const Participant& participant : shown.participants) {
+    if (is_solid(participant.id)) continue;  // The scene draws it.
     add_hung_things(frame, participant, hung);
     const auto prototype = prototype_of(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;

@@ -1,7 +1,9 @@
 #include "sim-server/attendants/scene_edits.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -23,7 +25,20 @@ std::size_t bytes_of(const SceneRequest& request) {
 
 }  // namespace
 
+/// What the scene's tags make of the simulation: commands that were found possible, so none is refused.
+void SceneEdits::stand(SolidChange change) {
+  for (const simulation::OperatorCommand& command : change.commands)
+    if (const auto done = drive_.live->command(command); !done) messages_.push_back(describe(done.error()));
+  solids_.take_over(std::move(change));
+}
+
+void SceneEdits::begin_solids() {
+  if (!drive_.live || std::exchange(solids_have_begun_, true)) return;
+  stand(solids_.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_));
+}
+
 void SceneEdits::before_tick(const Moment& moment) {
+  begin_solids();
   // A world that stands still shows its tick on, with the changes.
   const Tick from = drive_.live ? drive_.live->state().tick + (moment.doing == "driving" ? 1 : 0) : 0;
   for (SceneRequest& request : host_.take_scene_requests()) {
@@ -54,10 +69,19 @@ void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
   const auto left = without_gone(drive_.store, request.batch.changes, request.editor.own_ids);
   const std::span<const scene::Command> changes = left ? left->commands : request.batch.changes;
   const Editor editor{request.editor.name, *rights, request.editor.own_ids};
-  const auto refused = pass_gate(drive_.store, changes, editor, makers_,
-                                 [&](const scene::Command& command) { host_.scene_changed(command, from); });
+  SolidChange solids;
+  const auto accept = [&]() -> std::optional<EditRefusal> {
+    auto change = solids_.change(drive_.store, changes, editor, *drive_.loaded.model, drive_.live->state());
+    if (!change) return change.error();
+    solids = std::move(*change);
+    return std::nullopt;
+  };
+  const auto refused = pass_gate(
+      drive_.store, changes, editor, makers_,
+      [&](const scene::Command& command) { host_.scene_changed(command, from); }, accept);
   if (refused)
     return host_.refuse_scene(request, left ? left->places[refused->index] : refused->index, refused->why, now_s);
+  stand(std::move(solids));
   host_.scene_done(request, from);
   if (log_) log_->session().record_edits(from, changes);
 }

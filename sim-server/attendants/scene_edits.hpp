@@ -14,6 +14,7 @@
 #include "sim-server/attendants/drive_log.hpp"
 #include "sim-server/drive/opened_drive.hpp"
 #include "sim-server/drive/scene_gate.hpp"
+#include "sim-server/drive/solid_things.hpp"
 #include "sim-server/host/attendant.hpp"
 #include "sim-server/host/screen_host.hpp"
 
@@ -31,13 +32,17 @@ class SceneEdits final : public Attendant {
   void close(ServeResult& result) override;
 
  private:
+  void begin_solids();
   void make(SceneRequest request, Tick from, double now_s);
+  void stand(SolidChange change);
 
   OpenedDrive& drive_;
   ScreenHost& host_;
   DriveLog* log_;
   std::filesystem::path save_;
   NodeMakers makers_;
+  SolidThings solids_;
+  bool solids_have_begun_ = false;
   std::multimap<Tick, SceneRequest> ahead_;  ///< By the tick that is to show them first.
   std::size_t bytes_ahead_ = 0;
   std::vector<std::string> messages_;

@@ -1,5 +1,7 @@
 #include "sim-server/drive/operated.hpp"
 
+#include <variant>
+
 #include <fmt/core.h>
 
 #include "engine/simulation/operator_command.hpp"
@@ -9,6 +11,10 @@ namespace septet::server {
 Expected<std::string> do_command(std::string_view text, LiveDrive& drive) {
   const auto command = simulation::parse_operator_command(text);
   if (!command) return tl::unexpected(command.error());
+  if (std::holds_alternative<simulation::StandSolid>(*command) ||
+      std::holds_alternative<simulation::ClearSolid>(*command))
+    return failure("solids follow the scene: what is met is what is drawn", "operator's command",
+                   "let an editor set the tag body.solid of a thing (docs/editing.md)");
   if (auto done = drive.command(*command); !done) return tl::unexpected(done.error());
   return simulation::text_of(*command);
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/core/check.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/inverse.hpp"
 #include "sim-server/drive/edit_rights.hpp"
@@ -32,12 +33,18 @@ std::optional<LeftOfBatch> without_gone(const scene::Store& store, std::span<con
 }
 
 std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, const Editor& editor,
-                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied) {
+                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied,
+                                     const std::function<std::optional<EditRefusal>()>& accept) {
   BatchRights rights(store, editor, makers);
   for (std::size_t i = 0; i < batch.size(); ++i)
     if (auto why = rights.refusal(batch[i])) return EditRefusal{i, std::move(*why)};
   const auto undo = scene::apply_whole(store, batch);
   if (!undo) return EditRefusal{undo.error().index, describe(undo.error().why)};
+  if (auto refused = accept ? accept() : std::nullopt) {
+    for (const scene::Command& command : *undo)
+      SEPTET_CHECK(store.apply(command).has_value(), "{} does not undo a refused batch", scene::name_of(command));
+    return refused;
+  }
   for (const scene::Command& command : batch) {
     if (const auto* create = std::get_if<scene::NodeCreate>(&command)) makers[create->node] = editor.name;
     if (const auto* destroy = std::get_if<scene::NodeDestroy>(&command)) makers.erase(destroy->node);

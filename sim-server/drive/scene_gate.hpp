@@ -37,8 +37,10 @@ std::optional<LeftOfBatch> without_gone(const scene::Store& store, std::span<con
                                         scene::NodeId own_ids);
 
 /// Checks a batch of an editor against its rights and applies it to the store, whole or not at all. An id of its own that
-/// was used and destroyed may be used again. `applied` is called for each command, in order, once all are applied.
+/// was used and destroyed may be used again. `accept` sees the store with the batch, and may refuse it still; empty:
+/// nothing more is asked. `applied` is called for each command, in order, once all are applied.
 std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, const Editor& editor,
-                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied);
+                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied,
+                                     const std::function<std::optional<EditRefusal>()>& accept = {});
 
 }  // namespace septet::server

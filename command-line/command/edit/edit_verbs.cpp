@@ -24,6 +24,7 @@
 #include "engine/replication/message.hpp"
 #include "engine/scene/command_validation.hpp"
 #include "engine/scene/participant_root.hpp"
+#include "engine/scene/solid_box.hpp"
 
 namespace septet::server {
 namespace {
@@ -131,6 +132,7 @@ class Verbs {
     if (verb == "text") return text(rest);
     if (verb == "color") return color(rest);
     if (verb == "hang") return hang(rest);
+    if (verb == "solid") return solid(rest);
     if (verb == "repaint") return repaint(rest);
     auto command = command_from_words(words, {store_, names_.own_ids, nullptr, &names_.fresh});
     if (!command) return tl::unexpected(command.error());
@@ -337,6 +339,25 @@ class Verbs {
     const auto link = number ? place : static_cast<PartId>(replication::ids_per_session - 1 - place);
     made.commands.emplace_back(LinkSet{parent, link, {"child", *id, 0}});
     return keep(std::move(made));
+  }
+  /// In the group that the node has for it, else in one of an id that models and paint leave free.
+  Expected<EditedLine> solid(Words words) {
+    constexpr std::string_view usage = "solid NODE [off]";
+    constexpr PartId free_group = 0xFF00;
+    const bool off = words.size() == 2 && words[1].text == "off";
+    if (words.empty() || (words.size() != 1 && !off)) return wrong("one node is needed, and off at most", usage);
+    const auto id = object(words[0]);
+    if (!id) return no_node_called(words[0]);
+    PartId group = free_group, tag = 0;
+    if (const Node* node = store_.find(*id))
+      for (const auto& [known_group, held] : node->tag_groups)
+        if (held.name == solid_group) {
+          group = known_group;
+          for (const auto& [known_tag, value] : held.tags)
+            if (value.name == solid_tag) tag = known_tag;
+        }
+    return EditedLine{
+        {TagGroupSet{*id, group, std::string(solid_group)}, TagSet{*id, group, tag, {std::string(solid_tag), !off}}}};
   }
   Expected<EditedLine> repaint(Words words) {
     constexpr std::string_view usage = "repaint PARTICIPANT RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";

@@ -15,6 +15,7 @@
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/solid.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -149,7 +150,8 @@ void append_bodies(const State& state, std::vector<Participant>& participants) {
 }
 
 void drop_traffic_bodies(State& state) {
-  std::erase_if(state.bodies.bodies, [](const LooseBody& loose) { return loose.id >= first_traffic_participant; });
+  std::erase_if(state.bodies.bodies,
+                [](const LooseBody& loose) { return loose.id >= first_traffic_participant && !is_solid(loose.id); });
 }
 
 impact::Due due_of_contacts(const State& state, ParticipantId id, const impact::Body& body,

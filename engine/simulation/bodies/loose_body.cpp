@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -10,6 +11,7 @@
 #include "engine/scenario/model/misc_object.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/solid.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::simulation {
@@ -35,6 +37,7 @@ VehicleModel shape_of(const LooseBody& loose) {
 
 double mass_kg(const Model& model, const Participant& participant) {
   if (participant.id == driver_participant) return model.car.body.mass_kg;
+  if (is_solid(participant.id)) return std::numeric_limits<double>::infinity();
   const std::size_t entity = participant.id - first_scripted_participant;
   if (participant.id >= first_scripted_participant && entity < model.scenario.entities.size()) {
     const scenario::Entity& of = model.scenario.entities[entity];

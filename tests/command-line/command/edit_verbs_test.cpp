@@ -18,6 +18,7 @@
 
 #include "engine/core/random.hpp"
 #include "engine/scene/builder.hpp"
+#include "engine/scene/solid_box.hpp"
 
 namespace septet::server {
 namespace {
@@ -130,6 +131,20 @@ TEST_CASE("a lifetime ends what a line before it in its batch makes, as it ends 
     CAPTURE(line);
     CHECK_FALSE(lifetime(coming, line).has_value());
   }
+}
+
+TEST_CASE("a thing is tagged solid and no more, in the group that it has for it") {
+  EditedWorld editor;
+  REQUIRE(editor.take("create wall 1 2 3").has_value());
+  const scene::NodeId wall = editor.names.fresh.at("wall");
+  for (const bool solid : {true, false, true}) {
+    REQUIRE(editor.take(solid ? "solid wall" : "solid wall off").has_value());
+    CHECK(scene::is_tagged_solid(*editor.store.find(wall)) == solid);
+    CHECK(editor.store.find(wall)->tag_groups.size() == 1);
+  }
+  CHECK(editor.find("tag body.solid") == Names{"wall"});
+  for (const char* line : {"solid", "solid nobody", "solid wall on", "solid wall off off"})
+    CHECK_FALSE(editor.take(line).has_value());
 }
 
 TEST_CASE("a thing that hangs on another one takes no link from it, is removed with it, and never hangs on itself") {

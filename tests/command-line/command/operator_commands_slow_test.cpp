@@ -19,13 +19,26 @@ namespace {
 
 using Commands = std::vector<std::pair<Tick, std::string>>;  ///< After this tick.
 
-const std::string place_ahead = "PLACE", put_back = "PUT", brake = "BRAKE", let_go = "LET GO";
+const std::string place_ahead = "PLACE", put_back = "PUT", solid_ahead = "SOLID", brake = "BRAKE", let_go = "LET GO";
 
 /// A cone 60 m ahead of the driver's car.
 std::string placed_before(const LiveDrive& live) {
   const auto& car = live.newest().participants.front().world_from_vehicle;
   const Vec3 at = car * Vec3(60.0, 0.0, 0.0);
   return fmt::format("place x_m={:.2f} y_m={:.2f} part=traffic-cone", at.x, at.y);
+}
+
+/// A wall across the way, 60 m ahead of the driver's car.
+std::string solid_before(const LiveDrive& live) {
+  const auto& car = live.newest().participants.front().world_from_vehicle;
+  const Vec3 at = car * Vec3(60.0, 0.0, 0.0);
+  return simulation::text_of(simulation::StandSolid{.x_m = at.x,
+                                                    .y_m = at.y,
+                                                    .z_m = at.z,
+                                                    .heading_rad = heading_rad(car.orientation),
+                                                    .length_m = 0.3,
+                                                    .width_m = 12.0,
+                                                    .height_m = 2.0});
 }
 
 /// To a free place behind the car, at rest.
@@ -58,9 +71,10 @@ std::uint64_t drive_with(const Commands& commands, Tick ticks, const std::filesy
         (*live)->brake(text == brake ? 1.0 : 0.0);
         continue;
       }
-      const auto command = simulation::parse_operator_command(text == place_ahead ? placed_before(**live)
-                                                              : text == put_back  ? put_before(**live)
-                                                                                  : text);
+      const auto command = simulation::parse_operator_command(text == place_ahead   ? placed_before(**live)
+                                                              : text == put_back    ? put_before(**live)
+                                                              : text == solid_ahead ? solid_before(**live)
+                                                                                    : text);
       REQUIRE(command.has_value());
       const auto done = (*live)->command(*command);
       REQUIRE_MESSAGE(done.has_value(), why_not(done));
@@ -106,6 +120,18 @@ TEST_CASE("a drive with an operator's commands is verified from its start and fr
   for (std::size_t i = 0; i < commands.size(); ++i)
     CHECK(logged[i].starts_with(fmt::format("{} {}", commands[i].first + 1,
                                             commands[i].second == place_ahead ? "place x_m=" : commands[i].second)));
+}
+
+TEST_CASE("a drive with a solid is verified from its start and from a state kept while it stands") {
+  const septet::TemporaryFolder plain, changed;
+  const Commands commands{{1000, solid_ahead}, {1230, "clear solid=0"}};
+  const auto hash = drive_with(commands, 1260, changed.path());
+  CHECK(hash != drive_with({}, 1260, plain.path()));
+  const auto session = changed.path() / "session.sqlite";
+  const auto whole = run_verify(session, 0.0);
+  REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
+  const auto part = run_verify(session, 10.2);
+  REQUIRE_MESSAGE(part.has_value(), why_not(part));
 }
 
 TEST_CASE(

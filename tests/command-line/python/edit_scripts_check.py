@@ -146,6 +146,13 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         world.go_on()
         assert next(tick for tick in world.ticks() if tick.tick > stood).tick > stood
         # What moves is sent once, and begins where it is when the server does it.
+        # What is solid is met where it is seen, far from everybody here; it is no more where it is hidden.
+        wall = world.add("stimuli/wall", glb, (5, 6, 700), solid=True)
+        assert wall.solid
+        assert "in motion" in refused(lambda: wall.go((1, 0, 0))).why
+        wall.visible = False
+        wall.visible = True
+        wall.solid = False
         deer = world.add("stimuli/deer", glb, (5, 6, 7))
         deer.go((0, 3, 0), turn_degps=90, then=[(2, (0, 0, 0))])
         (line,) = [line.split() for line in world._ask(["read stimuli/deer"]).result(60) if line.startswith("motion-set")]
@@ -240,7 +247,7 @@ with tempfile.TemporaryDirectory() as name:
         server.terminate()
         server.wait(300)
     log = (folder / "server.log").read_text()
-    assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create, and operates" in log, log
+    assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create, solid, and operates" in log, log
     assert "refused so far: 2" in log, log
     session = folder / "out/session.sqlite"
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
@@ -258,4 +265,7 @@ with tempfile.TemporaryDirectory() as name:
     assert any(detail.startswith("by=lab wish=conditions") for _, detail in notes), notes
     assert logged > 20, logged
     print(run(str(septet_program), "replay", "--verify", str(session)))
+    told = sqlite3.connect(session).execute("SELECT detail FROM events WHERE kind = 'operator_command'").fetchall()
+    solids = [row[0].split()[:2] for row in told if "solid=" in row[0]]
+    assert solids == [["stand", "solid=0"], ["clear", "solid=0"]] * 2, told
     assert "stimuli/sign" in (folder / "saved.edits").read_text()

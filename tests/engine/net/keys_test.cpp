@@ -128,7 +128,7 @@ TEST_CASE("words behind a name are its rights and a word that is none is refused
   const auto all = rights("edit");
   REQUIRE(all.edit.has_value());
   CHECK(all.edit->kinds == all_edit_kinds);
-  CHECK(describe(all) == "may hide, move, paint, create");
+  CHECK(describe(all) == "may hide, move, paint, create, solid");
   const auto some = rights("edit tree/ hide sign/a/ move");
   REQUIRE(some.edit.has_value());
   CHECK(some.edit->includes(EditKind::hide));
