@@ -1,6 +1,6 @@
 #pragma once
-/// Contacts of debris with the ground, with boxes and with other pieces (whose impulses are derived in
-/// piece_impulses.cpp).
+/// Contacts of debris with the ground, with boxes and with other pieces. The law of the first two is derived at the head
+/// of contacts.cpp, that of pieces among themselves in piece_impulses.cpp.
 
 #include <vector>
 

@@ -16,12 +16,21 @@
 namespace septet::elastic {
 namespace {
 
-/// Contact stiffness in units of node mass / Δt²: a column of a hundred nodes sinks in by 0.2 mm.
+// The law of contact is derived in engine/effects/debris/contacts.cpp, with the meaning of these. All are chosen; the
+// figures are of six parts of three seeds each that fall from a metre at 4 m/s onto a level road, for ten seconds.
+
+/// κ, contact stiffness in units of node mass / Δt²: a column of a hundred nodes stands 0.2 mm deep at 15 ms. Nodes came
+/// 59, 17 and 5 mm deep at 10, 100 and 1000; from 10⁴ on about twice as many steps are solved again, and 7 of some 110
+/// pieces are still awake instead of 2.
 constexpr double contact_stiffness = 1e3;
-/// Below this sliding speed friction is viscous, so that a resting body comes to rest.
+/// s₀: below this sliding speed friction is viscous, so that a resting body comes to rest. Ways and depths at rest are
+/// the same from 0.2 to 20 mm/s.
 constexpr double creep_speed_mps = 2e-3;
-/// A contact that still pulls after so many solutions pulls until the next step.
+/// Solutions of a step; a contact that still pulls after them pulls until the next step. 13 % of the contacts pull after
+/// one, 2.4 % after two, 0.8 % after four, none after eight, which solve a third more often again.
 constexpr int most_contact_passes = 4;
+/// A spawn inside a wall is no shot. The figures are the same from 1 to 20 m/s.
+constexpr double most_release_mps = 2.0;
 
 void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double dt) {
   const Eigen::Vector3d& spin = motion.angular_velocity_radps;
@@ -119,8 +128,7 @@ std::vector<ActiveContact> add_contacts(ElasticBody& body, const StepSettings& s
     const double normal_speed = relative.dot(c.normal);
     const Eigen::Vector3d predicted = relative + dt * settings.gravity_mps2;
     if (c.gap_m + dt * predicted.dot(c.normal) > 0.0) continue;
-    // Deep overlaps are released at no more than 2 m/s, so that a spawn inside a wall is no shot.
-    const double gap = std::max(c.gap_m, -2.0 * dt / gamma);
+    const double gap = std::max(c.gap_m, -most_release_mps * dt / gamma);
     ActiveContact a{&c, 0, 0, 0};
     a.normal_rate_kg = contact_stiffness * m / gamma;
     a.normal_impulse_ns = -contact_stiffness * m * gap / dt;

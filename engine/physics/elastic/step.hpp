@@ -47,7 +47,7 @@ struct StepSettings {
   int max_iterations = 400;
 };
 
-/// A node against a surface, for one step. The gap is negative inside.
+/// A node against a surface, for one step. The gap is negative inside. Derived in engine/effects/debris/contacts.cpp.
 struct NodeContact {
   int node = 0;
   Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< Unit length, away from the surface.
