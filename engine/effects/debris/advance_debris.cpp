@@ -12,6 +12,7 @@
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/energy_bound.hpp"
 #include "engine/effects/debris/fracture.hpp"
+#include "engine/effects/debris/melt.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/shards.hpp"
 #include "engine/math/gravity.hpp"
@@ -127,6 +128,7 @@ std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_fr
 StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
   StepReport report;
   for (Box& box : world.boxes) box.impulse_ns = Vec3(0.0);
+  melt_ice(state, world.melted_m);
   exchange_impulses(state.pieces, step_s);
   std::vector<Piece> kept, broken_off, done;
   for (Piece& piece : state.pieces) {

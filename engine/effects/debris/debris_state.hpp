@@ -1,7 +1,7 @@
 #pragma once
 /// The debris of a drive: elastic pieces that can break further, and shards that cannot.
 ///
-/// `advance_debris` is the tick: contacts, the air, one elastic step, plastic flow, fracture, sleep. World
+/// `advance_debris` is the tick: melting, contacts, the air, one elastic step, plastic flow, fracture, sleep. World
 /// frame of Septet. State is plain data; the same state and input give the same result. One thread.
 
 #include <cstdint>
@@ -66,7 +66,8 @@ struct Box {
 struct ContactWorld {
   std::function<GroundPoint(double x_m, double y_m)> ground;
   std::vector<Box> boxes;
-  Vec3 wind_mps{0.0};  ///< Velocity of the air (air_force.hpp).
+  Vec3 wind_mps{0.0};     ///< Velocity of the air (air_force.hpp).
+  double melted_m = 0.0;  ///< Thickness that a surface of ice loses in the step (melt.hpp).
 };
 
 struct StepReport {

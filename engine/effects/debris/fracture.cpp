@@ -227,6 +227,8 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements, const std::ve
   Piece piece;
   piece.part = from.part;
   piece.origin = from.origin;
+  piece.height_m = from.height_m;
+  piece.melted_m = from.melted_m;
   piece.material = from.material;
   piece.body = std::move(*made);
   for (std::size_t i = 0; i < source.size(); ++i) {

@@ -25,6 +25,7 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
   }
   Piece piece;
   piece.part = part;
+  piece.height_m = height_left * recipe.size_m.z;
   piece.material = spread_material(recipe);
   auto made = elastic::make_elastic_body(mesh, piece.material.elastic);
   SEPTET_CHECK(made.has_value(), "part {}: {}", static_cast<int>(part), made.error().what);

@@ -33,8 +33,10 @@ struct Piece {
   std::vector<double> plastic_strain;  ///< Accumulated, of each element.
   std::vector<FaceCrack> cracks;       ///< Cracks of ice; ascending.
   std::vector<elastic::SurfaceTriangle> surface;
-  double calm_s = 0.0;  ///< Time for which it has hardly moved.
-  bool asleep = false;  ///< Neither stepped nor broken until touched.
+  double height_m = 0.0;  ///< Of the whole part along z, as far as it has not melted.
+  double melted_m = 0.0;  ///< Melted since, which the shape does not show yet (melt.hpp).
+  double calm_s = 0.0;    ///< Time for which it has hardly moved.
+  bool asleep = false;    ///< Neither stepped nor broken until touched.
 };
 
 inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }

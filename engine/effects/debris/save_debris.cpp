@@ -11,9 +11,10 @@ namespace septet::debris {
 SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg)
 
 SEPTET_MEMBERS(FaceCrack, first, second, reach)
-// Left out are data of its part, of its picture, and its body, which has a reader of its own; kept is its look.
+// Left out are data of its part, of its picture, and its body, which has a reader of its own; kept is its look; its melting shows in the hashed body.
 SEPTET_MEMBER_GROUPS(Piece, hashed(id, part), kept(origin), left_out(material, body), kept(splinter),
-                     hashed(plastic_strain, cracks), left_out(surface), hashed(calm_s, asleep))
+                     hashed(plastic_strain, cracks), left_out(surface), kept(height_m, melted_m),
+                     hashed(calm_s, asleep))
 // Pieces and, in the hash, shards are taken one by one.
 SEPTET_MEMBER_GROUPS(State, left_out(pieces), kept(shards), hashed(next_id, bad_numbers))
 
@@ -29,6 +30,9 @@ void restore_piece(StateReader& reader, Piece& piece) {
     reader.require(static_cast<int>(piece.origin->mount) < mount_count && piece.origin->model < vehicle_models().size(),
                    "debris in it is of no known vehicle");
   const PartRecipe& recipe = part_recipe(piece.part);
+  reader.require(piece.height_m > 0.0 && piece.height_m <= recipe.size_m.z && piece.melted_m >= 0.0 &&
+                     piece.melted_m < piece.height_m,
+                 wrong);
   piece.material = spread_material(recipe);
   piece.body.material = piece.material.elastic;
   constexpr int tetrahedra_per_cube = 5;

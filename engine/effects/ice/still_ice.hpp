@@ -25,9 +25,11 @@ inline constexpr double melt_m_per_kh = 0.008 / 24.0;
 constexpr double degree_hours(double temperature_k, double time_s) {
   return temperature_k > freezing_k ? (temperature_k - freezing_k) * time_s / 3600.0 : 0.0;
 }
+/// Thickness that a surface has lost.
+constexpr double melted_m(double thawed_kh) { return melt_m_per_kh * thawed_kh; }
 /// Remaining thickness.
 constexpr double left_m(double thickness_m, double thawed_kh) {
-  const double left = thickness_m - melt_m_per_kh * thawed_kh;
+  const double left = thickness_m - melted_m(thawed_kh);
   return left > 0.0 ? left : 0.0;
 }
 /// Wetness of a surface, 0 to 1: a film stands on it from half a kelvin below freezing on, full at one above.

@@ -8,8 +8,10 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/debris/melt.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/save_debris.hpp"
+#include "engine/effects/ice/still_ice.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
 #include "engine/world/breakable_names.hpp"
 
@@ -96,8 +98,7 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
   const double whole_m = debris::part_recipe(*part).size_m.z, roof = entity.box.centre_m.z + 0.5 * entity.box.height_m;
   double left = 1.0;
   if (*part == debris::Part::ice_slab) left = release_slab(vehicle, {action.x_m, action.y_m}, whole_m, state.ice);
-  constexpr double least_left = 0.1;  // Thinner ice runs off as water.
-  if (left < least_left) return;
+  if (left < debris::least_height_left) return;
   const double half = 0.5 * left * whole_m;
   const Quat& turn = from.world_from_entity.orientation;
   const Vec3 place = from.world_from_entity * Vec3(action.x_m, action.y_m, roof + half + 0.02);
@@ -122,6 +123,7 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   };
   const double towards = world.environment.wind_direction_rad;
   contacts.wind_mps = world.environment.wind_speed_mps * Vec3(std::cos(towards), std::sin(towards), 0.0);
+  contacts.melted_m = ice::melted_m(ice::degree_hours(world.environment.temperature_k, step_s));
   int driver_box = -1;
   report.crashes =
       advance_crashes(world.participants, world.driver, contacts, state.crashes, state.debris, state.random);

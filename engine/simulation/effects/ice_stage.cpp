@@ -147,7 +147,7 @@ void freeze(const road::RoadNetwork& roads, const scenario::EffectAction& action
   ice::Sheet sheet = sheet_of(roads, black);
   if (sheet.left_m.size() < 2) return;
   // From now on the ice has its stated thickness, whatever has thawed before.
-  sheet.thickness_m += ice::melt_m_per_kh * state.still.thawed_kh;
+  sheet.thickness_m += ice::melted_m(state.still.thawed_kh);
   state.black.push_back(black);
   state.black.back().thickness_m = sheet.thickness_m;
   state.still.sheets.push_back(std::move(sheet));

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/piece.hpp"
+#include "engine/effects/ice/still_ice.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/simulation/effects/body_box.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
@@ -179,4 +180,24 @@ TEST_CASE("what stands beside the road is looked for around what moves") {
   debris.shards.resize(20);
   for (std::size_t i = 0; i < 17; ++i) debris.shards[i].velocity_mps = {1.0, 0.0, 0.0};
   CHECK(moving_places(debris).size() == 2 + 3);  // Of 17 shards the first, the ninth and the seventeenth.
+}
+
+TEST_CASE("ice on the road melts by the law of the ice on roofs and keeps in frost") {
+  const std::vector<Participant> driver{vehicle_on_lane(1, "volvo-s80", 900.0, -5)};
+  const double whole_kg = debris::part_recipe(debris::Part::ice_slab).mass_kg, whole_m = 0.08;
+  // A second of 36,000 K has the heat of an hour at 10 K.
+  const auto mass_after_a_second_kg = [&](double temperature_k) {
+    EffectsState state;
+    put(debris::Part::ice_slab, over_lane(920.0, 0.05), state, true);
+    Environment environment;
+    environment.temperature_k = temperature_k;
+    for (Tick tick = 2; tick <= 120; tick += effects_step_ticks)
+      advance_effects({motorway(), nullptr, driver, environment, 1, 1.0, tick, 1.0 / 120.0}, state);
+    double mass_kg = 0.0;
+    for (const debris::Piece& piece : state.debris.pieces) mass_kg += elastic::total_mass_kg(piece.body);
+    return mass_kg;
+  };
+  CHECK(mass_after_a_second_kg(272.15) == relative(whole_kg, 1e-3));
+  const double left = ice::left_m(whole_m, ice::degree_hours(36'273.15, 1.0)) / whole_m;
+  CHECK(whole_kg - mass_after_a_second_kg(36'273.15) == relative(whole_kg * (1.0 - left), 0.01));
 }
