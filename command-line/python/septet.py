@@ -25,24 +25,42 @@ import threading
 from concurrent.futures import Future
 from typing import Any, AsyncIterator, Callable, Iterable, Iterator, Optional, Sequence, Union
 
-__all__ = ["connect", "World", "Handle", "Batch", "Tick", "Car", "Participant", "Refused", "Ended"]
+__all__ = ["connect", "World", "Handle", "Batch", "Tick", "Event", "Car", "Participant", "Refused", "Failure", "Ended"]
 
 Vector = Sequence[float]
 Path = Union[str, "os.PathLike[str]"]
 MOST_TICKS_KEPT = 1200
 """Ticks that wait for a script that is slow; older ones are dropped and counted."""
+MOST_EVENTS_KEPT = 10_000
+"""Events that wait with them; older ones are dropped and counted."""
 
 
 Parent = Union[int, str, "Participant", "Car", "Handle"]
 """A participant, by its number, the scenario's name or as a tick has it; or a thing."""
 
 
-class Refused(Exception):
-    """Nothing of a change was done. `why` is the server's own sentence, `line` and `text` the change that it is about."""
+@dataclasses.dataclass(frozen=True)
+class Failure:
+    """A change that could not be done. `index`: its place in the batch, from 1; `node` is empty where it is about no thing."""
 
-    def __init__(self, why: str, line: int, text: str) -> None:
-        super().__init__(f"{why} (change {line}: {text})")
-        self.why, self.line, self.text = why, line, text
+    index: int
+    command: str
+    node: str
+    why: str
+
+
+class Refused(Exception):
+    """Nothing of a change, or of a batch, was done.
+
+    `failures` has each change that could not be done, in their order, the first 16 at most; `others` counts the rest. What failed only
+    because an earlier change did is left out, or says so. `why`, `line` and `text` are the first one's.
+    """
+
+    def __init__(self, failures: Sequence[Failure], others: int = 0) -> None:
+        told = [f"{one.why} (change {one.index}: {one.command})" for one in failures]
+        super().__init__("\n".join(told + ([f"and {others} more"] if others else [])))
+        self.failures, self.others = list(failures), others
+        self.why, self.line, self.text = failures[0].why, failures[0].index, failures[0].command
 
 
 class Ended(Exception):
@@ -99,6 +117,20 @@ class Car:
 
 
 @dataclasses.dataclass(frozen=True)
+class Event:
+    """Something that happened, as the log has it: "collision", "lane_change", "mark", "scenario", ... (logging/FORMAT.md).
+
+    `fields` are its values as text; `participant` is whom it happened to, if anybody.
+    """
+
+    tick: int
+    time_s: float
+    name: str
+    participant: Optional[int]
+    fields: dict[str, str]
+
+
+@dataclasses.dataclass(frozen=True)
 class Tick:
     tick: int
     time_s: float
@@ -107,6 +139,10 @@ class Tick:
     collisions: int
     rain_mm_per_h: float
     visibility_m: float
+    events: tuple[Event, ...] = ()
+    """What has happened since the tick before this one that the script was given; an event has its own tick."""
+    dropped_events: int = 0
+    """Events of that time that were lost because somebody was too slow."""
 
     @property
     def driver(self) -> Participant:
@@ -122,7 +158,20 @@ def _tick(row: dict[str, Any]) -> Tick:
         Participant(one["id"], one["model"], tuple(one["position"]), tuple(one["wxyz"]), tuple(one["velocity"]))
         for one in row["everybody"]
     )
-    return Tick(row["tick"], row["time_s"], Car(**row["car"]), everybody, row["collisions"], row["rain_mm_per_h"], row["visibility_m"])
+    events = tuple(Event(**one) for one in row["events"])
+    return Tick(
+        row["tick"], row["time_s"], Car(**row["car"]), everybody, row["collisions"], row["rain_mm_per_h"], row["visibility_m"],
+        events, row["dropped_events"],
+    )
+
+
+def _joined(earlier: Optional[Tick], later: Tick) -> Tick:
+    """The later tick, with the events of both."""
+    if earlier is None or not (earlier.events or earlier.dropped_events):
+        return later
+    events = earlier.events + later.events
+    over = max(0, len(events) - MOST_EVENTS_KEPT)
+    return dataclasses.replace(later, events=events[over:], dropped_events=earlier.dropped_events + later.dropped_events + over)
 
 
 class _Every:
@@ -312,6 +361,7 @@ class World:
         self._requests = 0
         self._news = threading.Condition()
         self._ticks: collections.deque[Tick] = collections.deque()
+        self._stepped: Optional[Tick] = None
         self._handlers: dict[str, list[Callable[..., Any]]] = {"tick": [], "end": [], "message": []}
         self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
         self._files = 0
@@ -417,20 +467,24 @@ class World:
 
     def pause(self) -> int:
         """The world stands still until go_on, or this connection's end."""
-        return self.operate("pause")
+        tick = self.operate("pause")
+        with self._news:
+            self._stepped = None
+        return tick
 
     def go_on(self) -> int:
         return self.operate("go_on")
 
     def step(self, ticks: int = 1, timeout_s: float = 60.0) -> Tick:
-        """So many ticks, then the world stands still; returns the last of them."""
+        """So many ticks, then the world stands still; returns the last of them, with the events since the last step or pause."""
         self._want_ticks()
         last = self.operate(f"step {int(ticks)}") + int(ticks)
         with self._news:
             self._news.wait_for(lambda: (self.newest is not None and self.newest.tick >= last) or self.why_ended is not None, timeout_s)
             if self.newest is None or self.newest.tick < last:
                 raise Ended(self.why_ended or "the ticks do not come")
-            return self.newest
+            stepped, self._stepped = self._stepped, None
+            return stepped or dataclasses.replace(self.newest, events=(), dropped_events=0)
 
     @property
     def participants(self) -> dict[str, int]:
@@ -440,19 +494,23 @@ class World:
     # ---- ticks
 
     def ticks(self, every: int = 1) -> Iterator[Tick]:
-        """Each tick as it comes, or every n-th, until the drive ends. For one that was missed the next that comes stands in."""
+        """Each tick as it comes, or every n-th, until the drive ends. For one that was missed the next that comes stands in, and has its events."""
         self._want_ticks()
-        chosen = _Every(every)
+        chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
         while (tick := self._next_tick()) is not None:
-            if chosen.takes(tick.tick):
+            tick = _joined(passed, tick)
+            passed = None if (taken := chosen.takes(tick.tick)) else tick
+            if taken:
                 yield tick
 
     async def aticks(self, every: int = 1) -> AsyncIterator[Tick]:
         """The same for asyncio."""
         self._want_ticks()
-        chosen = _Every(every)
+        chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
         while (tick := await asyncio.get_running_loop().run_in_executor(None, self._next_tick)) is not None:
-            if chosen.takes(tick.tick):
+            tick = _joined(passed, tick)
+            passed = None if (taken := chosen.takes(tick.tick)) else tick
+            if taken:
                 yield tick
 
     def on(self, what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
@@ -575,7 +633,9 @@ class World:
             tick = _tick(row)
             with self._news:
                 self.newest = tick
+                self._stepped = _joined(self._stepped, tick)
                 if len(self._ticks) == MOST_TICKS_KEPT:
+                    self._ticks[1] = _joined(self._ticks[0], self._ticks[1])
                     self._ticks.popleft()
                     self.missed_ticks += 1
                 self._ticks.append(tick)
@@ -601,7 +661,8 @@ class World:
             elif row["ok"]:
                 answer.set_result(row["tick"])
             else:
-                answer.set_exception(Refused(row["why"], row["line"], row["text"]))
+                failures = [Failure(one["line"], one["text"], one["node"], one["why"]) for one in row["failures"]]
+                answer.set_exception(Refused(failures, row["others"]))
 
     def _wait_for_hello(self, timeout_s: float) -> None:
         with self._news:

@@ -151,6 +151,23 @@ void fields(OperatorAnswer& m, Visitor& v) {
   v(m.why_not);
 }
 
+template <class Visitor>
+void fields(HearEvents&, Visitor&) {}
+template <class Visitor>
+void fields(EventsFrom& m, Visitor& v) {
+  v(m.count);
+}
+template <class Visitor>
+void fields(DriveEvent& m, Visitor& v) {
+  v(m.number);
+  v(m.tick);
+  v(m.simulated_time_s);
+  v(m.kind);
+  v(m.has_participant);
+  v(m.participant);
+  v.text(m.detail, most_event_detail_bytes);
+}
+
 struct Put {
   ByteWriter writer;
   template <class T>
@@ -254,6 +271,7 @@ void put_tick_header(ByteWriter& writer, const TickHeader& header) {
   writer.put(header.next_offset_s);
   writer.put(header.next_from_s);
   writer.put_varint(header.scene_revision);
+  writer.put_varint(header.events);
 }
 
 TickHeader get_tick_header(ByteReader& reader) {
@@ -263,6 +281,7 @@ TickHeader get_tick_header(ByteReader& reader) {
   header.next_offset_s = reader.get_double();
   header.next_from_s = reader.get_double();
   header.scene_revision = reader.get_varint();
+  header.events = reader.get_varint();
   for (const double value : {header.published_s, header.offset_s, header.next_offset_s, header.next_from_s})
     if (!std::isfinite(value)) reader.fail();
   return header;

@@ -22,7 +22,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Version of these messages; a program of another version is refused.
-inline constexpr std::uint16_t protocol_version = 7;
+inline constexpr std::uint16_t protocol_version = 8;
 
 /// Screen → server, first of all.
 struct Hello {
@@ -167,9 +167,30 @@ struct OperatorAnswer {
   std::string why_not;  ///< Empty: done.
 };
 
-using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish,
-                                    ScreenReport, CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause,
-                                    Thumbnail, Look, LargePicture, OperatorLine, OperatorAnswer>;
+/// Editor → server: tell the drive's events from now on, as the log has them.
+struct HearEvents {};
+
+/// Server → editor, the reply: how many there have been. Those after them are told.
+struct EventsFrom {
+  std::uint64_t count = 0;
+};
+
+/// Server → editor: something happened. The numbers count up by one; a gap: the events between were dropped.
+struct DriveEvent {
+  std::uint64_t number = 0;  ///< From 1, of the drive.
+  Tick tick = 0;
+  double simulated_time_s = 0.0;
+  std::string kind;  ///< "collision", "lane_change", "mark", …: logging/FORMAT.md.
+  bool has_participant = false;
+  ParticipantId participant = 0;
+  std::string detail;  ///< key=value pairs.
+};
+inline constexpr std::size_t most_event_detail_bytes = 4096;
+
+using ControlMessage =
+    std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport,
+                 CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause, Thumbnail, Look, LargePicture,
+                 OperatorLine, OperatorAnswer, HearEvents, EventsFrom, DriveEvent>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);
@@ -191,6 +212,7 @@ struct TickHeader {
   double next_offset_s = 0.0;
   double next_from_s = 0.0;          ///< Server's clock from which the next offset holds.
   std::uint64_t scene_revision = 0;  ///< Of the server's store, as the tick shows it.
+  std::uint64_t events = 0;          ///< Of the drive until then: a hearer waits for them before it reads the tick.
 };
 void put_tick_header(ByteWriter& writer, const TickHeader& header);
 /// Puts the reader into its failed state where the header makes no sense.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include <fmt/core.h>
 #include <zstd.h>
@@ -44,6 +46,25 @@ Bytes get_commands(ByteReader& in) {
   return commands;
 }
 
+std::string_view beginning(const std::string& text, std::size_t bytes) {
+  return std::string_view(text).substr(0, bytes);
+}
+
+Refusal get_refusal(ByteReader& in) {
+  Refusal refusal;
+  refusal.others = in.get_varint();
+  const std::size_t told = in.get_count(most_failures_told);
+  if (told == 0) in.fail();
+  refusal.failures.reserve(told);
+  for (std::size_t i = 0; i < told && in.ok(); ++i) {
+    Failure failed;
+    failed.index = in.get_varint(), failed.node = in.get_string(max_failed_name_bytes);
+    failed.why = in.get_string(max_refusal_bytes);
+    refusal.failures.push_back(std::move(failed));
+  }
+  return refusal;
+}
+
 struct Put {
   ByteWriter& out;
   void operator()(const Hello& m) const { out.put(m.token), out.put_varint(m.received); }
@@ -57,8 +78,12 @@ struct Put {
   void operator()(const Complete& m) const { out.put_varint(m.revision), out.put_varint(m.answered); }
   void operator()(const Received& m) const { out.put_varint(m.sequence); }
   void operator()(const Refused& m) const {
-    out.put_varint(m.sequence), out.put_varint(m.index);
-    out.put_bytes(std::as_bytes(std::span(m.why).first(std::min(m.why.size(), max_refusal_bytes))));
+    const std::size_t told = std::min(m.refusal.failures.size(), most_failures_told);
+    out.put_varint(m.sequence), out.put_varint(m.refusal.others + (m.refusal.failures.size() - told));
+    out.put_varint(told);
+    for (const Failure& failed : std::span(m.refusal.failures).first(told))
+      out.put_varint(failed.index), out.put_string(beginning(failed.node, max_failed_name_bytes)),
+          out.put_string(beginning(failed.why, max_refusal_bytes));
   }
   void operator()(const Done& m) const { out.put_varint(m.sequence), out.put_varint(m.tick); }
 };
@@ -96,9 +121,7 @@ Message get(ByteReader& in, std::uint8_t kind) {
       return Received{in.get_varint()};
     case 5: {
       Refused m;
-      m.sequence = in.get_varint(), m.index = in.get_varint();
-      const auto why = in.take(std::min(in.remaining(), max_refusal_bytes));
-      m.why.assign(reinterpret_cast<const char*>(why.data()), why.size());
+      m.sequence = in.get_varint(), m.refusal = get_refusal(in);
       return m;
     }
     case 6: {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "engine/core/bytes.hpp"
 #include "engine/core/expected.hpp"
@@ -12,9 +13,10 @@
 
 namespace septet::replication {
 
-inline constexpr std::uint8_t message_version = 2;
+inline constexpr std::uint8_t message_version = 3;
 inline constexpr std::size_t max_batch_bytes = 2u << 20;
-inline constexpr std::size_t max_refusal_bytes = 1000;  ///< Of its words.
+/// Of a refusal: failures that are told, and bytes of the words and of the node's name of each.
+inline constexpr std::size_t most_failures_told = 16, max_refusal_bytes = 1000, max_failed_name_bytes = 200;
 
 struct Hello {
   std::uint64_t token = 0;
@@ -45,11 +47,23 @@ struct Complete {
 struct Received {
   std::uint64_t sequence = 0;
 };
+/// A command that could not be done.
+struct Failure {
+  std::uint64_t index = 0;  ///< Its place in the batch, from 0.
+  std::string node;         ///< Its node's name, or its number where it has no name; empty: the command has no node.
+  std::string why;          ///< What is wrong, where, and what to do.
+  bool operator==(const Failure&) const = default;
+};
+/// Why nothing of a batch was done.
+struct Refusal {
+  std::vector<Failure> failures;  ///< The first ones, in the batch's order; one at least, most_failures_told at most.
+  std::uint64_t others = 0;       ///< Commands that could not be done either.
+  bool operator==(const Refusal&) const = default;
+};
 /// Nothing of the client's batch was done.
 struct Refused {
   std::uint64_t sequence = 0;  ///< Of the batch.
-  std::uint64_t index = 0;     ///< Of the command in it that could not be done, from 0.
-  std::string why;             ///< What is wrong, where, and what to do.
+  Refusal refusal;
 };
 
 /// The client's batch was done, whole.

@@ -10,7 +10,6 @@
 
 #include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
-#include "engine/replication/message.hpp"
 #include "engine/replication/outbox.hpp"
 #include "engine/scene/command_codec.hpp"
 
@@ -371,8 +370,8 @@ NodeId ReplicationServer::own_ids(ConnectionId connection) const {
   return found == state_->connections.end() || !found->second.session ? 0 : found->second.session->own_ids;
 }
 
-void ReplicationServer::refuse(ConnectionId connection, std::uint64_t batch, std::size_t index, std::string why) {
-  state_->answer(connection, Refused{batch, index, std::move(why)});
+void ReplicationServer::refuse(ConnectionId connection, std::uint64_t batch, Refusal refusal) {
+  state_->answer(connection, Refused{batch, std::move(refusal)});
 }
 
 void ReplicationServer::done(ConnectionId connection, std::uint64_t batch, std::uint64_t tick) {

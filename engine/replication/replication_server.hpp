@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/replication/message.hpp"
 #include "engine/scene/command.hpp"
 #include "engine/scene/store.hpp"
 
@@ -62,9 +63,9 @@ class ReplicationServer {
 
   /// The first of the ids that are this client's own; 0: it has not said hello.
   scene::NodeId own_ids(ConnectionId connection) const;
-  /// Tells a client that nothing of its batch was done, because of one command of it. Of the answers that wait, the
+  /// Tells a client that nothing of its batch was done, and why. Of the answers that wait, the
   /// oldest thousand are told. A connection that is gone is told nothing.
-  void refuse(ConnectionId connection, std::uint64_t batch, std::size_t index, std::string why);
+  void refuse(ConnectionId connection, std::uint64_t batch, Refusal refusal);
   /// Tells a client that its batch was done, and the first tick that shows it.
   void done(ConnectionId connection, std::uint64_t batch, std::uint64_t tick);
 

@@ -157,15 +157,20 @@ struct CommandCheck {
 
 }  // namespace
 
-tl::unexpected<Error> refuse(const Command& command, std::string what, std::string remedy) {
-  const std::string node = std::visit(
-      [](const auto& c) {
+NodeId node_of(const Command& command) {
+  return std::visit(
+      [](const auto& c) -> NodeId {
         if constexpr (requires { c.node; })
-          return c.node == no_node ? std::string() : fmt::format(" of node {}", c.node);
+          return c.node;
         else
-          return std::string();
+          return no_node;
       },
       command);
+}
+
+tl::unexpected<Error> refuse(const Command& command, std::string what, std::string remedy) {
+  const NodeId id = node_of(command);
+  const std::string node = id == no_node ? std::string() : fmt::format(" of node {}", id);
   return failure(std::move(what), fmt::format("command \"{}\"{}", name_of(command), node), std::move(remedy));
 }
 

@@ -211,6 +211,22 @@ struct Inverse {
   }
 };
 
+using Inverses = std::vector<std::vector<Command>>;
+
+std::vector<Command> newest_first(Inverses& inverses) {
+  std::vector<Command> commands;
+  for (auto each = inverses.rbegin(); each != inverses.rend(); ++each)
+    std::move(each->begin(), each->end(), std::back_inserter(commands));
+  return commands;
+}
+
+void undo(Store& store, Inverses& inverses) {
+  for (const Command& command : newest_first(inverses)) {
+    const auto undone = store.apply(command);
+    SEPTET_CHECK(undone.has_value(), "a command cannot be undone: {}", undone ? "" : undone.error().what);
+  }
+}
+
 }  // namespace
 
 std::vector<Command> inverse_of(const Store& store, const Command& command) {
@@ -220,13 +236,7 @@ std::vector<Command> inverse_of(const Store& store, const Command& command) {
 }
 
 tl::expected<std::vector<Command>, BatchRefusal> apply_whole(Store& store, std::span<const Command> batch) {
-  std::vector<std::vector<Command>> inverses;
-  const auto undo_all = [&] {
-    std::vector<Command> undo;
-    for (auto each = inverses.rbegin(); each != inverses.rend(); ++each)
-      std::move(each->begin(), each->end(), std::back_inserter(undo));
-    return undo;
-  };
+  Inverses inverses;
   for (std::size_t i = 0; i < batch.size(); ++i) {
     std::vector<Command> inverse = inverse_of(store, batch[i]);
     auto done = store.apply(batch[i]);
@@ -234,13 +244,27 @@ tl::expected<std::vector<Command>, BatchRefusal> apply_whole(Store& store, std::
       inverses.push_back(std::move(inverse));
       continue;
     }
-    for (const Command& command : undo_all()) {
-      const auto undone = store.apply(command);
-      SEPTET_CHECK(undone.has_value(), "a command cannot be undone: {}", undone ? "" : undone.error().what);
-    }
+    undo(store, inverses);
     return tl::unexpected(BatchRefusal{i, std::move(done.error())});
   }
-  return undo_all();
+  return newest_first(inverses);
+}
+
+void try_each(Store& store, std::span<const Command> batch, const std::function<bool(std::size_t)>& is_forbidden,
+              const std::function<void(std::size_t, const Error*)>& failed) {
+  Inverses inverses;
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    if (is_forbidden(i)) {
+      failed(i, nullptr);
+      continue;
+    }
+    std::vector<Command> inverse = inverse_of(store, batch[i]);
+    if (const auto done = store.apply(batch[i]))
+      inverses.push_back(std::move(inverse));
+    else
+      failed(i, &done.error());
+  }
+  undo(store, inverses);
 }
 
 }  // namespace septet::scene

@@ -2,6 +2,7 @@
 /// Undoing commands: the inverse of each, and batches that are applied whole or not at all.
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,5 +25,11 @@ struct BatchRefusal {
 /// Applies all commands, or none: after a refusal the store's content is what it was. Returns the commands that undo the
 /// batch.
 tl::expected<std::vector<Command>, BatchRefusal> apply_whole(Store& store, std::span<const Command> batch);
+
+/// Tries each command of a batch that is not to be done, and undoes it all: the store's content is what it was.
+/// `is_forbidden(index)`: the command is not tried. `failed(index, why)`: the store has refused it; nullptr: it was
+/// forbidden. The store is then as the commands before it left it.
+void try_each(Store& store, std::span<const Command> batch, const std::function<bool(std::size_t)>& is_forbidden,
+              const std::function<void(std::size_t, const Error*)>& failed);
 
 }  // namespace septet::scene

@@ -1,6 +1,7 @@
 #include "sim-client/link/screen_link.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -28,6 +29,7 @@ void ScreenLink::pump(double now_s) {
       case net::ClientEvent::Kind::lost:
         scene_.disconnected();
         scene_arrived_ = is_welcome_ = false;
+        events_.lose();
         break;
       case net::ClientEvent::Kind::message:
         switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
@@ -87,6 +89,7 @@ void ScreenLink::on_control(std::span<const std::byte> bytes, double now_s) {
     is_welcome_ = true;
     welcome_ = std::move(*welcome);
     ++welcomes_;
+    if (hears_events_) send(HearEvents{}, net::Reliability::reliable);
   } else if (auto* refusal = std::get_if<Refusal>(&*message)) {
     // The server may be started again with another rig or list: the request is repeated, though not all the time.
     if (std::exchange(refused_, refusal->reason) != refusal->reason)
@@ -101,9 +104,18 @@ void ScreenLink::on_control(std::span<const std::byte> bytes, double now_s) {
     looked_at_until_s_ = look->closely ? now_s + looked_at_for_s : -1e9;
   } else if (auto* answer = std::get_if<OperatorAnswer>(&*message)) {
     operator_answers_.push_back(std::move(*answer));
+  } else if (const auto* from = std::get_if<EventsFrom>(&*message)) {
+    events_.begin(from->count);
+  } else if (auto* event = std::get_if<DriveEvent>(&*message)) {
+    events_.take(std::move(*event));
   } else if (std::holds_alternative<Finish>(*message)) {
     finished_ = true;
   }
+}
+
+void ScreenLink::hear_events() {
+  if (std::exchange(hears_events_, true) || !is_welcome_) return;
+  send(HearEvents{}, net::Reliability::reliable);
 }
 
 void ScreenLink::show_scene(Tick tick) {

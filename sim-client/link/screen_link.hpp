@@ -18,6 +18,7 @@
 #include "engine/replication/replication_client.hpp"
 #include "engine/scene/store.hpp"
 #include "sim-client/frame/tick_history.hpp"
+#include "sim-client/link/heard_events.hpp"
 
 namespace septet::screen {
 
@@ -59,6 +60,12 @@ class ScreenLink {
 
   /// Answers to an editor's lines since the last call.
   std::vector<control::OperatorAnswer> take_operator_answers() { return std::exchange(operator_answers_, {}); }
+
+  /// Asks for the drive's events from now on, also after a new connection.
+  void hear_events();
+  /// True if all events that this tick counts have been heard.
+  bool has_events_of(const frame::HistoryTick& tick) const { return events_.has(tick.header.events); }
+  HeardEvents& events() { return events_; }
 
   const frame::TickHistory& history() const { return history_; }
   const scene::Store& scene() const { return scene_.store(); }
@@ -119,6 +126,8 @@ class ScreenLink {
   net::ConnectionReport connection_;
   std::vector<std::string> messages_;
   std::vector<control::OperatorAnswer> operator_answers_;
+  bool hears_events_ = false;
+  HeardEvents events_;
   std::string refused_;  ///< Server's last refusal of this screen.
   std::uint64_t told_forged_ = 0;
   double told_s_ = 0.0;

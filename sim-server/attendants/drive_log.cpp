@@ -23,6 +23,11 @@ Expected<void> DriveLog::begin() {
   auto log = SessionLog::create(loaded_, options_, live_.state().tick);
   if (!log) return tl::unexpected(log.error());
   session_.emplace(std::move(*log));
+  if (host_)
+    session_->tell([host = host_](const logging::Event& event) {
+      host->tell_event({0, event.tick, event.simulated_time_s, event.kind, event.participant.has_value(),
+                        event.participant.value_or(0), event.detail});
+    });
   session_->record_scene(store_);
   live_.log_to(*session_);
   return {};

@@ -16,7 +16,7 @@ class DriveLog final : public Attendant {
  public:
   /// All arguments outlive the log. `host`: null without screens.
   DriveLog(const ServerOptions& options, const LoadedDrive& loaded, const scene::Store& store, LiveDrive& live,
-           const ScreenHost* host, program::ProgressLine& line)
+           ScreenHost* host, program::ProgressLine& line)
       : options_(options), loaded_(loaded), store_(store), live_(live), host_(host), line_(line) {}
 
   /// Creates the session file, which must not exist yet. From here on `session` may be called.
@@ -33,7 +33,7 @@ class DriveLog final : public Attendant {
   const LoadedDrive& loaded_;
   const scene::Store& store_;
   LiveDrive& live_;
-  const ScreenHost* host_;
+  ScreenHost* host_;
   program::ProgressLine& line_;
   std::optional<SessionLog> session_;
 };

@@ -43,9 +43,9 @@ void SceneEdits::before_tick(const Moment& moment) {
   const Tick from = drive_.live ? drive_.live->state().tick + (moment.doing == "driving" ? 1 : 0) : 0;
   for (SceneRequest& request : host_.take_scene_requests()) {
     if (!drive_.live) {
-      host_.refuse_scene(request, 0, "a session that is shown again cannot be changed: edit a drive", moment.now_s);
+      host_.refuse_scene(request, "a session that is shown again cannot be changed: edit a drive", moment.now_s);
     } else if (bytes_ahead_ + bytes_of(request) > most_bytes_ahead) {
-      host_.refuse_scene(request, 0, "the changes of later ticks fill their queue: send these when it is their time",
+      host_.refuse_scene(request, "the changes of later ticks fill their queue: send these when it is their time",
                          moment.now_s);
     } else {
       bytes_ahead_ += bytes_of(request);
@@ -64,23 +64,26 @@ void SceneEdits::before_tick(const Moment& moment) {
 void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
   // The list may have changed since it was asked for.
   const auto rights = host_.rights_of(request.editor.name).edit;
-  if (!rights) return host_.refuse_scene(request, 0, "the right to edit was taken from this key", now_s);
+  if (!rights) return host_.refuse_scene(request, "the right to edit was taken from this key", now_s);
   put_true_times(drive_.store, request.batch.changes, static_cast<double>(from) / simulation::tick_rate_hz);
   const auto left = without_gone(drive_.store, request.batch.changes, request.editor.own_ids);
   const std::span<const scene::Command> changes = left ? left->commands : request.batch.changes;
   const Editor editor{request.editor.name, *rights, request.editor.own_ids};
   SolidChange solids;
-  const auto accept = [&]() -> std::optional<EditRefusal> {
+  const auto accept = [&]() -> std::optional<replication::Failure> {
     auto change = solids_.change(drive_.store, changes, editor, *drive_.loaded.model, drive_.live->state());
     if (!change) return change.error();
     solids = std::move(*change);
     return std::nullopt;
   };
-  const auto refused = pass_gate(
+  auto refused = pass_gate(
       drive_.store, changes, editor, makers_,
       [&](const scene::Command& command) { host_.scene_changed(command, from); }, accept);
-  if (refused)
-    return host_.refuse_scene(request, left ? left->places[refused->index] : refused->index, refused->why, now_s);
+  if (refused) {
+    if (left)
+      for (replication::Failure& failed : refused->failures) failed.index = left->places[failed.index];
+    return host_.refuse_scene(request, std::move(*refused), now_s);
+  }
   stand(std::move(solids));
   host_.scene_done(request, from);
   if (log_) log_->session().record_edits(from, changes);

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/replication/message.hpp"
+#include "engine/scene/command_validation.hpp"
 
 namespace septet::server {
 namespace {
@@ -70,17 +71,10 @@ std::optional<std::string> BatchRights::refusal_to_hang(scene::NodeId child) con
 
 std::optional<std::string> BatchRights::refusal(const scene::Command& command) {
   if (const auto* create = std::get_if<scene::NodeCreate>(&command)) return refusal(*create);
-  const auto node = std::visit(
-      [](const auto& c) -> std::optional<scene::NodeId> {
-        if constexpr (requires { c.node; })
-          return c.node;
-        else
-          return std::nullopt;
-      },
-      command);
-  if (!node) return std::nullopt;
+  const scene::NodeId node = scene::node_of(command);
+  if (node == scene::no_node) return std::nullopt;
   const EditKind kind = std::visit([](const auto& c) { return kind_of(c); }, command);
-  if (auto why = refusal(kind, *node)) return why;
+  if (auto why = refusal(kind, node)) return why;
   if (const auto* link = std::get_if<scene::LinkSet>(&command); link && link->value.label == "child")
     return refusal_to_hang(link->value.target);
   const auto* named = std::get_if<scene::NodeNameSet>(&command);

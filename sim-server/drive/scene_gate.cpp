@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "engine/core/check.hpp"
-#include "engine/replication/message.hpp"
 #include "engine/scene/inverse.hpp"
+#include "sim-server/drive/batch_failures.hpp"
 #include "sim-server/drive/edit_rights.hpp"
 
 namespace septet::server {
@@ -32,18 +32,21 @@ std::optional<LeftOfBatch> without_gone(const scene::Store& store, std::span<con
   return rest;
 }
 
-std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, const Editor& editor,
-                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied,
-                                     const std::function<std::optional<EditRefusal>()>& accept) {
+std::optional<replication::Refusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch,
+                                              const Editor& editor, NodeMakers& makers,
+                                              const std::function<void(const scene::Command&)>& applied,
+                                              const std::function<std::optional<replication::Failure>()>& accept) {
   BatchRights rights(store, editor, makers);
+  std::map<std::size_t, std::string> forbidden;
   for (std::size_t i = 0; i < batch.size(); ++i)
-    if (auto why = rights.refusal(batch[i])) return EditRefusal{i, std::move(*why)};
+    if (auto why = rights.refusal(batch[i])) forbidden.emplace(i, std::move(*why));
+  if (!forbidden.empty()) return failures_of(store, batch, forbidden);
   const auto undo = scene::apply_whole(store, batch);
-  if (!undo) return EditRefusal{undo.error().index, describe(undo.error().why)};
+  if (!undo) return failures_of(store, batch, forbidden);
   if (auto refused = accept ? accept() : std::nullopt) {
     for (const scene::Command& command : *undo)
       SEPTET_CHECK(store.apply(command).has_value(), "{} does not undo a refused batch", scene::name_of(command));
-    return refused;
+    return replication::Refusal{{std::move(*refused)}, 0};
   }
   for (const scene::Command& command : batch) {
     if (const auto* create = std::get_if<scene::NodeCreate>(&command)) makers[create->node] = editor.name;

@@ -9,17 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/replication/message.hpp"
 #include "engine/scene/command.hpp"
 #include "engine/scene/store.hpp"
 #include "sim-server/host/editor.hpp"
 
 namespace septet::server {
-
-/// Why nothing of a batch was done.
-struct EditRefusal {
-  std::size_t index = 0;  ///< Of the command that could not be done.
-  std::string why;        ///< What is wrong, where, and what to do.
-};
 
 /// The nodes that editors made, with the names of their keys. A node belongs to its maker: others need a right to a
 /// prefix of its name.
@@ -38,9 +33,11 @@ std::optional<LeftOfBatch> without_gone(const scene::Store& store, std::span<con
 
 /// Checks a batch of an editor against its rights and applies it to the store, whole or not at all. An id of its own that
 /// was used and destroyed may be used again. `accept` sees the store with the batch, and may refuse it still; empty:
-/// nothing more is asked. `applied` is called for each command, in order, once all are applied.
-std::optional<EditRefusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch, const Editor& editor,
-                                     NodeMakers& makers, const std::function<void(const scene::Command&)>& applied,
-                                     const std::function<std::optional<EditRefusal>()>& accept = {});
+/// nothing more is asked. `applied` is called for each command, in order, once all are applied. Of a batch that is
+/// refused every command is checked, and each failure answered (batch_failures.hpp).
+std::optional<replication::Refusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch,
+                                              const Editor& editor, NodeMakers& makers,
+                                              const std::function<void(const scene::Command&)>& applied,
+                                              const std::function<std::optional<replication::Failure>()>& accept = {});
 
 }  // namespace septet::server

@@ -208,6 +208,7 @@ void SessionLog::record_command(Tick before, const simulation::OperatorCommand& 
 
 void SessionLog::record(logging::Event event) {
   if (happened_) happened_(event);
+  if (heard_) heard_(event);
   digest_.add(event);
   writer_.record(std::move(event));
 }

@@ -47,6 +47,8 @@ class SessionLog {
     sampled_ = std::move(sampled);
     happened_ = std::move(happened);
   }
+  /// Sets another listener for events.
+  void tell(std::function<void(const logging::Event&)> heard) { heard_ = std::move(heard); }
   void record_scene(const scene::Store& store);
   /// Records changes of the scene that hold from this tick on.
   void record_edits(Tick from, std::span<const scene::Command> changes);
@@ -92,7 +94,7 @@ class SessionLog {
 
   logging::SessionWriter writer_;
   std::function<void(const logging::Sample&)> sampled_;
-  std::function<void(const logging::Event&)> happened_;
+  std::function<void(const logging::Event&)> happened_, heard_;
   std::shared_ptr<const simulation::Model> model_;
   bool real_time_;
   bool samples_only_;  ///< True: no snapshots, states or scene.

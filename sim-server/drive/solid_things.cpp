@@ -9,7 +9,9 @@
 #include <fmt/core.h>
 
 #include "engine/core/printable.hpp"
+#include "engine/scene/command_validation.hpp"
 #include "engine/simulation/solids.hpp"
+#include "sim-server/drive/batch_failures.hpp"
 
 namespace septet::server {
 namespace {
@@ -17,21 +19,11 @@ namespace {
 using simulation::ClearSolid;
 using simulation::StandSolid;
 
-std::optional<scene::NodeId> node_named_by(const scene::Command& command) {
-  return std::visit(
-      [](const auto& c) -> std::optional<scene::NodeId> {
-        if constexpr (requires { c.node; })
-          return c.node;
-        else
-          return std::nullopt;
-      },
-      command);
-}
-
+/// no_node may be among them.
 std::set<scene::NodeId> named_in(std::span<const scene::Command> batch) {
   std::set<scene::NodeId> named;
   for (const scene::Command& command : batch) {
-    if (const auto node = node_named_by(command)) named.insert(*node);
+    named.insert(scene::node_of(command));
     if (const auto* link = std::get_if<scene::LinkSet>(&command)) named.insert(link->value.target);
   }
   return named;
@@ -41,9 +33,8 @@ std::set<scene::NodeId> named_in(std::span<const scene::Command> batch) {
 std::size_t place_in(std::span<const scene::Command> batch, const std::vector<scene::ReadNode>& nodes,
                      scene::NodeId object) {
   for (std::size_t i = batch.size(); i-- > 0;) {
-    const auto named = node_named_by(batch[i]);
-    if (!named) continue;
-    if (*named == object || std::ranges::find(nodes, *named, &scene::ReadNode::first) != nodes.end()) return i;
+    const scene::NodeId named = scene::node_of(batch[i]);
+    if (named == object || std::ranges::find(nodes, named, &scene::ReadNode::first) != nodes.end()) return i;
   }
   return batch.empty() ? 0 : batch.size() - 1;
 }
@@ -131,13 +122,14 @@ std::string why_no_right(const Editor& editor, const std::string& name) {
 
 }  // namespace
 
-tl::expected<SolidChange, EditRefusal> SolidThings::change(const scene::Store& store,
-                                                           std::span<const scene::Command> batch, const Editor& editor,
-                                                           const simulation::Model& model,
-                                                           const simulation::State& state) const {
+tl::expected<SolidChange, replication::Failure> SolidThings::change(const scene::Store& store,
+                                                                    std::span<const scene::Command> batch,
+                                                                    const Editor& editor,
+                                                                    const simulation::Model& model,
+                                                                    const simulation::State& state) const {
   SolidChange change{things_, {}};
   const auto refuse = [&](scene::NodeId id, const std::vector<scene::ReadNode>& parts, std::string why) {
-    return tl::unexpected(EditRefusal{place_in(batch, parts, id), std::move(why)});
+    return tl::unexpected(replication::Failure{place_in(batch, parts, id), told_name(store, id), std::move(why)});
   };
   const bool may_change = editor.rights.includes(net::EditKind::solid);
   const std::set<scene::NodeId> named = named_in(batch);

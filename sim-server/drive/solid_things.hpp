@@ -38,9 +38,10 @@ class SolidThings {
  public:
   /// The change by a batch that the store has just taken; nothing changes here before take_over(). `editor`: whose
   /// batch it is. Error: the command by which something became solid that may not, or came where it may not stand.
-  tl::expected<SolidChange, EditRefusal> change(const scene::Store& store, std::span<const scene::Command> batch,
-                                                const Editor& editor, const simulation::Model& model,
-                                                const simulation::State& state) const;
+  tl::expected<SolidChange, replication::Failure> change(const scene::Store& store,
+                                                         std::span<const scene::Command> batch, const Editor& editor,
+                                                         const simulation::Model& model,
+                                                         const simulation::State& state) const;
 
   /// The same at a drive's beginning, when nobody may be refused: a thing that may not be solid is left out, with a
   /// message. Clears what an earlier log left standing.

@@ -100,6 +100,7 @@ void ScreenHost::pump(double now_s) {
       const auto sent = lane_.send(client, control::scene_message(message), net::Reliability::reliable);
       return sent == net::SendResult::queued;
     });
+  events_.pump([&](std::uint32_t hearer, const DriveEvent& event) { send(hearer, event); });
   if (options_.welcome.group_ip != 0) send_unicast_to_the_deaf(now_s);
 }
 
@@ -197,11 +198,10 @@ void ScreenHost::on_scene(const net::ServerEvent& event, double now_s) {
   SceneRequest request{
       event.client, {name, rights.value_or(net::EditRights{}), scene_.own_ids(event.client)}, std::move(*batch)};
   if (!rights)
-    return refuse_scene(request, 0,
-                        fmt::format("the key of {0} may look, not edit: allowed-clients needs `KEY {0} edit`", name),
-                        now_s);
+    return refuse_scene(
+        request, fmt::format("the key of {0} may look, not edit: allowed-clients needs `KEY {0} edit`", name), now_s);
   if (request.batch.changes.size() > most_edits - edits_waiting_)
-    return refuse_scene(request, 0, fmt::format("{} changes wait for this tick already: send fewer", edits_waiting_),
+    return refuse_scene(request, fmt::format("{} changes wait for this tick already: send fewer", edits_waiting_),
                         now_s);
   edits_waiting_ += request.batch.changes.size();
   scene_requests_.push_back(std::move(request));
@@ -212,16 +212,24 @@ std::vector<SceneRequest> ScreenHost::take_scene_requests() {
   return std::exchange(scene_requests_, {});
 }
 
-void ScreenHost::refuse_scene(const SceneRequest& request, std::size_t index, const std::string& why, double now_s) {
-  scene_.refuse(request.client, request.batch.number, index, why);
+void ScreenHost::refuse_scene(const SceneRequest& request, const std::string& why, double now_s) {
+  refuse_scene(request, replication::Refusal{{{0, {}, why}}, 0}, now_s);
+}
+
+void ScreenHost::refuse_scene(const SceneRequest& request, replication::Refusal refusal, double now_s) {
+  const replication::Failure& first = refusal.failures.front();
   const auto& changes = request.batch.changes;
-  const std::string_view what = index < changes.size() ? scene::name_of(changes[index]) : "nothing";
+  const std::string_view what = first.index < changes.size() ? scene::name_of(changes[first.index]) : "nothing";
+  const std::uint64_t more = refusal.failures.size() - 1 + refusal.others;
   const std::uint64_t refused = ++refused_changes_[request.editor.name];
   if (clients_.contains(request.client))
     tell(request.client,
-         fmt::format("{}: nothing of its {} changes of the scene was done, for command {} ({}): {}; refused so far: {}",
-                     request.editor.name, changes.size(), index + 1, what, why, refused),
+         fmt::format(
+             "{}: nothing of its {} changes of the scene was done, for command {} ({}): {}{}; refused so far: {}",
+             request.editor.name, changes.size(), first.index + 1, what, first.why,
+             more == 0 ? "" : fmt::format("; {} more could not be done", more), refused),
          now_s);
+  scene_.refuse(request.client, request.batch.number, std::move(refusal));
 }
 
 void ScreenHost::on_operator_line(net::ClientId client, const OperatorLine& line) {
@@ -248,6 +256,8 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     return;
   }
   if (const auto* line = std::get_if<OperatorLine>(&message)) return on_operator_line(client, *line);
+  if (std::holds_alternative<HearEvents>(message) && watchers_.contains(client))
+    return send(client, EventsFrom{events_.join(client)});
   HostedScreen* screen = screen_of(client);
   if (const auto* arrived = std::get_if<TickArrived>(&message); arrived && watchers_.contains(client))
     return arrived->lost_baseline ? baselines_.join(client, now_s)
@@ -402,6 +412,7 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
     unicast_.erase(destination);
   }
   watchers_.erase(client);
+  events_.leave(client);
   if (!is_of_the_rig(known->second)) tell(client, fmt::format("the client {} left: {}", known->second, reason), now_s);
   if (car_client_ == client) {
     tell(client, fmt::format("the car left: {}", reason), now_s);
@@ -428,6 +439,7 @@ void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_
   ByteWriter writer(payload);
   TickHeader header = planner_.header(now_s, taken->snapshot().simulated_time_s);
   header.scene_revision = store_.revision();
+  header.events = events_.count();
   put_tick_header(writer, header);
   encode_snapshot(taken->wire(), baseline, payload);
   last_tick_bytes_ = payload.size();

@@ -29,6 +29,7 @@
 #include "engine/world/taken_snapshot.hpp"
 #include "logging/session/drive_end.hpp"
 #include "sim-server/host/editor.hpp"
+#include "sim-server/host/event_feed.hpp"
 #include "sim-server/host/latency_record.hpp"
 #include "sim-server/host/playout_planner.hpp"
 #include "sim-server/host/remote_car.hpp"
@@ -127,10 +128,14 @@ class ScreenHost {
   net::Rights rights_of(const std::string& name) const;
   /// Call after every command that was applied to the store; `from`: the first tick that shows it.
   void scene_changed(const scene::Command& command, Tick from) { scene_.applied(command, from); }
+  /// Something happened in the drive: told to the clients that asked for it, with the next pumps.
+  void tell_event(control::DriveEvent event) { events_.add(std::move(event)); }
   /// Tells the client that its batch was done, and the first tick that shows it.
   void scene_done(const SceneRequest& request, Tick from) { scene_.done(request.client, request.batch.number, from); }
-  /// Tells the client, and the operator, that nothing of a batch was done. `index`: of the command that could not be.
-  void refuse_scene(const SceneRequest& request, std::size_t index, const std::string& why, double now_s);
+  /// Tells the client, and the operator, that nothing of a batch was done.
+  void refuse_scene(const SceneRequest& request, replication::Refusal refusal, double now_s);
+  /// The same for a reason that holds for the whole batch.
+  void refuse_scene(const SceneRequest& request, const std::string& why, double now_s);
 
   /// Sends one tick to all screens, as a difference to a tick that all live screens hold. `now_s`: time when the tick
   /// began, by reading the driver's controls.
@@ -213,8 +218,9 @@ class ScreenHost {
   /// Names of clients in the list, from connection to end in the order of events: some events come from a client that
   /// has gone.
   std::map<net::ClientId, std::string> clients_;
-  std::map<std::string, MessageLimit> limits_;            ///< By name in the list.
-  std::set<net::ClientId> watchers_;                      ///< Told the ticks, and no screens.
+  std::map<std::string, MessageLimit> limits_;  ///< By name in the list.
+  std::set<net::ClientId> watchers_;            ///< Told the ticks, and no screens.
+  EventFeed events_;
   std::map<std::string, std::uint64_t> refused_changes_;  ///< Batches, by name in the list.
   std::map<net::ClientId, net::Address> unicast_;
   std::deque<std::shared_ptr<const TakenSnapshot>> sent_;  ///< Possible baselines, ascending tick.

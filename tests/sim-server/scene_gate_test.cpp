@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -71,10 +72,10 @@ struct Stage {
     const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     host.pump(now_s);
     for (const SceneRequest& request : host.take_scene_requests()) {
-      const auto refused = pass_gate(store, request.batch.changes, request.editor, makers,
-                                     [&](const Command& command) { host.scene_changed(command, 0); });
+      auto refused = pass_gate(store, request.batch.changes, request.editor, makers,
+                               [&](const Command& command) { host.scene_changed(command, 0); });
       if (refused)
-        host.refuse_scene(request, refused->index, refused->why, now_s);
+        host.refuse_scene(request, std::move(*refused), now_s);
       else
         logged.insert(logged.end(), request.batch.changes.begin(), request.batch.changes.end()),
             host.scene_done(request, 7);
@@ -135,12 +136,74 @@ TEST_CASE("of a batch that cannot be done nothing is done and its client is told
     std::vector<replication::Refused> refusals;
     REQUIRE(stage.until([&] { return !(refusals = stage.editor.scene.take_refusals()).empty(); }));
     CHECK(refusals.front().sequence == *number);
-    CHECK(refusals.front().index == why[i].first);
-    CHECK(refusals.front().why.find(why[i].second) != std::string::npos);
+    REQUIRE(refusals.front().refusal.failures.size() == 1);
+    CHECK(refusals.front().refusal.failures.front().index == why[i].first);
+    CHECK(refusals.front().refusal.failures.front().why.find(why[i].second) != std::string::npos);
     CHECK(scene::same_content(stage.store, before));
   }
   CHECK(stage.logged.empty());
   CHECK(stage.told.size() >= 3);
+}
+
+TEST_CASE("an editor is told of each command of a refused batch that could not be done, with its node's name") {
+  Stage stage;
+  REQUIRE(stage.all_equal());
+  const NodeId own = stage.editor.scene.own_ids();
+  const scene::Store before = stage.store;
+  const std::vector<Command> bad = {scene::NodeCreate{own, scene::NodeType::object}, scene::NodeNameSet{own, "deer"},
+                                    scene::TagSet{own, 3, 0, {"a", true}}, scene::HideSet{own + 7, true},
+                                    scene::TagSet{stage.tree, 9, 0, {"a", true}}};
+  REQUIRE(stage.editor.scene.request_batch(bad).has_value());
+  std::vector<replication::Refused> refusals;
+  REQUIRE(stage.until([&] { return !(refusals = stage.editor.scene.take_refusals()).empty(); }));
+  const replication::Refusal& told = refusals.front().refusal;
+  REQUIRE(told.failures.size() == 3);
+  CHECK(told.others == 0);
+  CHECK(told.failures[0].index == 2);
+  CHECK(told.failures[0].node == "deer");
+  CHECK(told.failures[1].index == 3);
+  CHECK(told.failures[1].node == std::to_string(own + 7));
+  CHECK(told.failures[2].index == 4);
+  CHECK(told.failures[2].node == "tree");
+  CHECK(scene::same_content(stage.store, before));
+  REQUIRE_FALSE(stage.told.empty());
+  CHECK(stage.told.back().find("; 2 more could not be done") != std::string::npos);
+}
+
+TEST_CASE("what fails for an earlier failure alone is left out, or told so, and of many failures the first are told") {
+  scene::Store store;
+  scene::SceneBuilder build(store);
+  const NodeId tree = build.add_object("tree/1", {}), sign = build.add_object("sign/1", {});
+  NodeMakers makers;
+  const Editor lab{"lab", {{"tree/"}, net::all_edit_kinds}, 1000};
+  const scene::Store before = store;
+  const auto refusal = [&](const std::vector<Command>& batch) {
+    auto why = pass_gate(store, batch, lab, makers, [](const Command&) {});
+    REQUIRE(why.has_value());
+    CHECK(scene::same_content(store, before));
+    return *why;
+  };
+  // Node 900,000 is not of this editor's ids; its name and its place on the tree fail with it, the sign for itself.
+  const auto created =
+      refusal({scene::NodeCreate{5000, scene::NodeType::object}, scene::NodeCreate{900'000, scene::NodeType::object},
+               scene::NodeNameSet{900'000, "tree/5"}, scene::TransformSet{900'000, {}},
+               scene::LinkSet{tree, 0, {"child", 900'000, 0}}, scene::HideSet{sign, true}});
+  REQUIRE(created.failures.size() == 2);
+  CHECK(created.failures[0].index == 1);
+  CHECK(created.failures[1].index == 5);
+  CHECK(created.failures[1].node == "sign/1");
+  CHECK(created.failures[1].why.find("may not hide \"sign/1\"") != std::string::npos);
+
+  const auto twice = refusal({scene::TagSet{tree, 9, 0, {"a", true}}, scene::TagSet{tree, 9, 1, {"a", true}}});
+  REQUIRE(twice.failures.size() == 2);
+  CHECK(twice.failures[0].why.find("earlier failure") == std::string::npos);
+  CHECK(twice.failures[1].why.starts_with("after an earlier failure of this node: "));
+
+  const auto many = refusal(std::vector<Command>(5000, scene::HideSet{sign, true}));
+  CHECK(many.failures.size() == replication::most_failures_told);
+  CHECK(many.others == 5000 - replication::most_failures_told);
+  CHECK(many.failures.back().index == replication::most_failures_told - 1);
+  CHECK(makers.empty());
 }
 
 TEST_CASE("a key without the right to edit changes nothing and is told the line that it needs") {
@@ -150,7 +213,8 @@ TEST_CASE("a key without the right to edit changes nothing and is told the line 
   stage.looker.scene.request(scene::HideSet{stage.tree, true});
   std::vector<replication::Refused> refusals;
   REQUIRE(stage.until([&] { return !(refusals = stage.looker.scene.take_refusals()).empty(); }));
-  CHECK(refusals.front().why == "the key of guest may look, not edit: allowed-clients needs `KEY guest edit`");
+  CHECK(refusals.front().refusal.failures.front().why ==
+        "the key of guest may look, not edit: allowed-clients needs `KEY guest edit`");
   CHECK(scene::same_content(stage.store, before));
   CHECK(stage.looker.lane.state() == net::ClientState::connected);
   // The right may be given while the server runs.
@@ -169,7 +233,7 @@ TEST_CASE("an editor does what the words of its key say and a node belongs to wh
       hider{"hider", {{}, 1u << static_cast<int>(net::EditKind::hide)}, 100'000}, free{"free", {}, 200'000};
   const auto refused = [&](const Editor& editor, const std::vector<Command>& batch) {
     const auto why = pass_gate(store, batch, editor, makers, [](const Command&) {});
-    return why ? why->why : std::string();
+    return why ? why->failures.front().why : std::string();
   };
   CHECK(refused(lab, {scene::HideSet{tree, true}}).empty());
   CHECK(refused(lab, {scene::HideSet{sign, true}}) ==

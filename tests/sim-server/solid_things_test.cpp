@@ -62,14 +62,14 @@ struct Site {
     SolidChange change;
     const auto refused = pass_gate(
         store, batch, lab, makers, [](const Command&) {},
-        [&]() -> std::optional<EditRefusal> {
+        [&]() -> std::optional<replication::Failure> {
           auto made = things.change(store, batch, lab, model, state);
           if (!made) return made.error();
           change = std::move(*made);
           return std::nullopt;
         });
-    if (refused && index) *index = refused->index;
-    if (refused) return refused->why;
+    if (refused && index) *index = refused->failures.front().index;
+    if (refused) return refused->failures.front().why;
     for (const simulation::OperatorCommand& command : change.commands) {
       const auto done = simulation::apply_operator_command(model, command, state, events);
       REQUIRE_MESSAGE(done.has_value(), why_not(done));

@@ -48,6 +48,8 @@ class EditClient {
     link_.send(control::OperatorLine{number, line}, net::Reliability::reliable);
   }
   std::vector<control::OperatorAnswer> take_operator_answers() { return link_.take_operator_answers(); }
+  void hear_events() { link_.hear_events(); }
+  screen::HeardEvents& events() { return link_.events(); }
   std::vector<EditAnswer> take_answers();
   std::vector<std::string> take_messages() { return link_.take_messages(); }
 

@@ -8,6 +8,7 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/world/vehicle_model.hpp"
+#include "sim-server/drive/told_on_page.hpp"
 
 namespace septet::server {
 namespace {
@@ -16,6 +17,16 @@ using Json = nlohmann::json;
 
 Json of(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json of(const Quat& q) { return {q.w, q.x, q.y, q.z}; }
+
+Json of(const control::DriveEvent& event) {
+  Json fields = Json::object();
+  for (const auto& [name, value] : values_of(event.detail)) fields[name] = value;
+  return {{"tick", event.tick},
+          {"time_s", event.simulated_time_s},
+          {"name", event.kind},
+          {"participant", event.has_participant ? Json(event.participant) : Json(nullptr)},
+          {"fields", std::move(fields)}};
+}
 
 void put(std::ostream& out, const Json& object) {
   // Names may hold any bytes.
@@ -45,13 +56,26 @@ void EditOutput::done(std::uint64_t request, Tick tick, const std::vector<std::s
   out_ << std::flush;
 }
 
-void EditOutput::refused(std::uint64_t request, std::size_t line, const std::string& text,
-                         const std::string& why) const {
-  if (json_)
-    return put(out_,
-               {{"type", "answer"}, {"request", request}, {"ok", false}, {"line", line}, {"text", text}, {"why", why}});
-  out_ << fmt::format("{}: nothing is done, for line {} ({}): {}\n", request, line, printable(text, 80), printable(why))
-       << std::flush;
+void EditOutput::refused(std::uint64_t request, const FailedLines& failed) const {
+  if (json_) {
+    const FailedLine& first = failed.lines.front();
+    Json failures = Json::array();
+    for (const FailedLine& one : failed.lines)
+      failures.push_back({{"line", one.line}, {"text", one.text}, {"node", one.node}, {"why", one.why}});
+    return put(out_, {{"type", "answer"},
+                      {"request", request},
+                      {"ok", false},
+                      {"line", first.line},
+                      {"text", first.text},
+                      {"why", first.why},
+                      {"failures", std::move(failures)},
+                      {"others", failed.others}});
+  }
+  for (const FailedLine& one : failed.lines)
+    out_ << fmt::format("{}: nothing is done, for line {} ({}): {}\n", request, one.line, printable(one.text, 80),
+                        printable(one.why));
+  if (failed.others > 0) out_ << fmt::format("{}: {} more commands could not be done\n", request, failed.others);
+  out_ << std::flush;
 }
 
 void EditOutput::nodes(std::uint64_t request, const std::vector<scene::NodeId>& found,
@@ -90,7 +114,10 @@ void EditOutput::lines(std::uint64_t request, const std::vector<std::string>& li
   out_ << std::flush;
 }
 
-void EditOutput::tick(const Snapshot& snapshot) const {
+void EditOutput::tick(const Snapshot& snapshot, std::span<const control::DriveEvent> events,
+                      std::uint64_t dropped) const {
+  Json happened = Json::array();
+  for (const control::DriveEvent& event : events) happened.push_back(of(event));
   Json everybody = Json::array();
   for (const Participant& p : snapshot.participants)
     everybody.push_back({{"id", p.id},
@@ -103,6 +130,8 @@ void EditOutput::tick(const Snapshot& snapshot) const {
              {"tick", snapshot.tick},
              {"time_s", snapshot.simulated_time_s},
              {"everybody", std::move(everybody)},
+             {"events", std::move(happened)},
+             {"dropped_events", dropped},
              {"collisions", snapshot.diagnostics.collisions},
              {"rain_mm_per_h", snapshot.environment.rain_mm_per_h},
              {"visibility_m", snapshot.environment.visibility_m},

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -13,6 +14,7 @@
 #include "command-line/command/edit/exported_model.hpp"
 #include "engine/core/whole_file.hpp"
 #include "engine/document/text_file.hpp"
+#include "engine/scene/command_validation.hpp"
 #include "engine/scene/edit_file.hpp"
 #include "engine/scene/inverse.hpp"
 
@@ -30,18 +32,39 @@ std::string_view first_word(std::string_view line) {
 /// The commands that undo a batch, by the nodes that it touches alone; none where it cannot be done.
 std::vector<scene::Command> undo_of(const scene::Store& store, const std::vector<scene::Command>& batch) {
   std::set<scene::NodeId> touched;
-  for (const scene::Command& command : batch)
-    std::visit(
-        [&](const auto& c) {
-          if constexpr (requires { c.node; }) touched.insert(c.node);
-        },
-        command);
+  for (const scene::Command& command : batch) touched.insert(scene::node_of(command));
   scene::Store some;
   for (const scene::NodeId id : touched)
     if (const scene::Node* node = store.find(id))
       scene::describe_node(*node, [&](const scene::Command& command) { (void)some.apply(command); });
   auto undo = scene::apply_whole(some, batch);
   return undo ? std::move(*undo) : std::vector<scene::Command>{};
+}
+
+/// True if the line would have made the thing that its second word names.
+bool makes(const std::vector<scene::TextWord>& words) {
+  constexpr std::array<std::string_view, 3> verbs{"create", "import", "board"};
+  return words.size() > 1 && std::ranges::find(verbs, words.front().text) != verbs.end();
+}
+
+/// True if a line speaks of a thing that an earlier line failed to make: it fails for that reason alone.
+bool is_about(const std::vector<scene::TextWord>& words, const std::set<std::string>& not_made) {
+  return std::ranges::any_of(words, [&](const scene::TextWord& word) { return not_made.contains(word.text); });
+}
+
+/// The first reason, for what is told in one sentence.
+const std::string& why_of(const replication::Refused& refused) { return refused.refusal.failures.front().why; }
+
+/// What the server has told of commands, by the lines that they came from: of each line its first failure.
+FailedLines by_line(const replication::Refusal& refusal, const std::vector<std::size_t>& line_of,
+                    const std::vector<std::string>& lines) {
+  FailedLines failed{{}, refusal.others};
+  for (const replication::Failure& one : refusal.failures) {
+    const std::size_t line = one.index < line_of.size() ? line_of[one.index] : 1;
+    if (!failed.lines.empty() && failed.lines.back().line == line) continue;
+    failed.lines.push_back({line, line <= lines.size() ? lines[line - 1] : "", one.node, one.why});
+  }
+  return failed;
 }
 
 }  // namespace
@@ -55,9 +78,13 @@ bool EditSession::reads_scene(std::string_view line) {
   return std::ranges::find(verbs, first_word(line)) != verbs.end();
 }
 
-void EditSession::refuse(std::uint64_t request, std::size_t line, const std::string& text, const std::string& why) {
+void EditSession::refuse(std::uint64_t request, const FailedLines& failed) {
   ++refusals_;
-  output_.refused(request, line, text, why);
+  output_.refused(request, failed);
+}
+
+void EditSession::refuse(std::uint64_t request, const std::string& text, const std::string& why) {
+  refuse(request, {{{1, text, {}, why}}, 0});
 }
 
 void EditSession::take(const std::string& line) {
@@ -69,25 +96,26 @@ void EditSession::take(const std::string& line) {
   Batch& batch = batch_ ? *batch_ : one;
   if (words)
     add(batch, line, *words);
-  else if (batch.lines.push_back(line); !batch.wrong)
-    batch.wrong = {batch.lines.size(), describe(words.error())};
+  else
+    batch.lines.push_back(line), batch.fail({}, describe(words.error()));
   if (!batch_) send(std::move(one));
 }
 
 void EditSession::add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words) {
   batch.lines.push_back(line);
-  if (batch.wrong) return;
+  const std::string thing = words.size() > 1 ? words[1].text : std::string();
   if (words.front().text == "lifetime") {
     auto lifetime = lifetime_of(words, client_.store(), names_);
     if (lifetime)
       batch.lifetimes.push_back(std::move(*lifetime));
-    else
-      batch.wrong = {batch.lines.size(), describe(lifetime.error())};
+    else if (!is_about(words, batch.not_made))
+      batch.fail(thing, describe(lifetime.error()));
     return;
   }
   auto edit = edit_of(words, client_.store(), names_);
   if (!edit) {
-    batch.wrong = {batch.lines.size(), describe(edit.error())};
+    if (!is_about(words, batch.not_made)) batch.fail(thing, describe(edit.error()));
+    if (makes(words)) batch.not_made.insert(thing);
     return;
   }
   batch.line_of.insert(batch.line_of.end(), edit->commands.size(), batch.lines.size());
@@ -98,9 +126,9 @@ void EditSession::add(Batch& batch, const std::string& line, const std::vector<s
 
 void EditSession::send(Batch batch) {
   const std::uint64_t request = batch.was_asked ? ++requests_ : 0;
-  if (batch.wrong) {
+  if (!batch.wrong.empty()) {
     forget_created(batch);
-    return refuse(request, batch.wrong->first, batch.lines[batch.wrong->first - 1], batch.wrong->second);
+    return refuse(request, {batch.wrong, batch.wrong_untold});
   }
   if (batch.commands.empty()) {
     const auto& ticks = client_.link().history();
@@ -112,7 +140,7 @@ void EditSession::send(Batch batch) {
   if (!number) {
     forget_created(batch);
     if (!batch.was_asked) return output_.message(describe(number.error()));
-    return refuse(request, 1, batch.lines.empty() ? "" : batch.lines.front(), describe(number.error()));
+    return refuse(request, batch.lines.empty() ? "" : batch.lines.front(), describe(number.error()));
   }
   std::vector<scene::Command> undo;
   if (batch.may_be_undone) undo = undo_of(client_.store(), batch.commands);
@@ -144,7 +172,7 @@ void EditSession::hear() {
   for (const EditAnswer& answer : client_.take_answers()) {
     if (const auto end = ends_.extract(answer.batch)) {
       if (answer.refused)
-        output_.message(fmt::format("{} stays: {}", end.mapped().thing, answer.refused->why));
+        output_.message(fmt::format("{} stays: {}", end.mapped().thing, why_of(*answer.refused)));
       else
         forget_destroyed(names_, end.mapped().removal);
       continue;
@@ -155,15 +183,14 @@ void EditSession::hear() {
     waiting_.erase(found);
     const Batch& batch = waiting.batch;
     if (!batch.was_asked) {
-      output_.message(answer.refused ? fmt::format("{}: {}", batch.lines.front(), answer.refused->why)
+      output_.message(answer.refused ? fmt::format("{}: {}", batch.lines.front(), why_of(*answer.refused))
                                      : fmt::format("{}: {} changes, from tick {} on", batch.lines.front(),
                                                    batch.commands.size(), answer.tick));
       continue;
     }
     if (answer.refused) {
       forget_created(batch);
-      const std::size_t line = answer.refused->index < batch.line_of.size() ? batch.line_of[answer.refused->index] : 1;
-      refuse(waiting.request, line, line <= batch.lines.size() ? batch.lines[line - 1] : "", answer.refused->why);
+      refuse(waiting.request, by_line(answer.refused->refusal, batch.line_of, batch.lines));
       continue;
     }
     end_lifetimes(batch, answer.tick);
@@ -179,14 +206,22 @@ void EditSession::hear() {
     if (answer.why_not.empty())
       output_.done(request, answer.tick, {});
     else
-      refuse(request, 1, line, answer.why_not);
+      refuse(request, line, answer.why_not);
   }
   for (const std::string& message : client_.take_messages()) output_.message(message);
-  if (!tells_ticks_) return;
+  if (tells_ticks_) tell_ticks();
+}
+
+/// A tick waits for its events. What happened after a tick was sent goes with the next one.
+void EditSession::tell_ticks() {
+  for (control::DriveEvent& event : client_.events().take_all()) untold_.push_back(std::move(event));
   for (const frame::HistoryTick& tick : client_.link().history().ticks()) {
     if (told_tick_ && tick.snapshot.tick <= *told_tick_) continue;
+    if (!client_.link().has_events_of(tick)) break;
     told_tick_ = tick.snapshot.tick;
-    output_.tick(tick.snapshot);
+    const auto later = std::ranges::find_if(untold_, [&](const auto& event) { return event.tick > *told_tick_; });
+    output_.tick(tick.snapshot, std::span(untold_.begin(), later), client_.events().take_dropped());
+    untold_.erase(untold_.begin(), later);
   }
 }
 
@@ -200,10 +235,11 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
   if (verb == "begin") {
     Batch batch;
     const bool at = words.size() == 3 && words[1].text == "at" && is_number(words[2].text, batch.tick);
-    if (words.size() != 1 && !at) batch.wrong = {1, "write `begin`, or `begin at TICK`"}, batch.lines.push_back(line);
+    if (words.size() != 1 && !at) batch.lines.push_back(line), batch.fail({}, "write `begin`, or `begin at TICK`");
     batch_ = std::move(batch);
   } else if (verb == "ticks") {
     tells_ticks_ = words.size() != 2 || words[1].text != "off";
+    if (tells_ticks_) client_.hear_events();
     output_.done(++requests_, 0, {});
   } else if (verb == "wait") {
     output_.done(++requests_, 0, {});
@@ -213,7 +249,7 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
     if (found)
       output_.nodes(request, *found, names());
     else
-      refuse(request, 1, line, describe(found.error()));
+      refuse(request, line, describe(found.error()));
   } else if (verb == "read") {
     read(++requests_, words);
   } else if (verb == "save") {
@@ -224,7 +260,7 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
     if (saved)
       output_.done(request, 0, {});
     else
-      refuse(request, 1, line, describe(saved.error()));
+      refuse(request, line, describe(saved.error()));
   } else if (verb == "export") {
     export_model(++requests_, line, words);
   } else if (verb == "undo") {
@@ -244,7 +280,7 @@ void EditSession::read(std::uint64_t request, const std::vector<scene::TextWord>
   constexpr std::size_t longest = 400;
   const auto id = words.size() == 2 ? scene::node_of(names(), words[1]) : std::nullopt;
   const scene::Node* node = id ? client_.store().find(*id) : nullptr;
-  if (!node) return refuse(request, 1, "read", "write read NODE, a node that exists");
+  if (!node) return refuse(request, "read", "write read NODE, a node that exists");
   std::vector<std::string> lines;
   scene::describe_node(*node, [&](const scene::Command& command) {
     std::string text = scene::to_text(command, names());
@@ -259,13 +295,13 @@ void EditSession::export_model(std::uint64_t request, const std::string& line,
   const auto id = words.size() == 3 ? scene::node_of(names(), words[1]) : std::nullopt;
   const scene::Node* node = id ? client_.store().find(*id) : nullptr;
   if (!node || !std::holds_alternative<scene::ObjectData>(node->data))
-    return refuse(request, 1, line, "write export NODE FILE.glb, of an object that exists");
+    return refuse(request, line, "write export NODE FILE.glb, of an object that exists");
   auto written = exported_model(client_.store(), *id, words[1].text);
   if (written) {
     const auto saved = write_whole_file(words[2].text, "model", *written);
     if (!saved) written = tl::unexpected(saved.error());
   }
-  if (!written) return refuse(request, 1, line, describe(written.error()));
+  if (!written) return refuse(request, line, describe(written.error()));
   output_.done(request, 0, {});
 }
 
@@ -274,7 +310,7 @@ void EditSession::undo() {
   batch.lines = {"undo"};
   batch.may_be_undone = false;
   if (undo_.empty())
-    batch.wrong = {1, "there is nothing of this editor's to be undone"};
+    batch.fail({}, "there is nothing of this editor's to be undone");
   else
     batch.commands = std::move(undo_.back()), undo_.pop_back();
   send(std::move(batch));
@@ -286,7 +322,7 @@ void EditSession::operate(const std::string& line) {
   const auto begin = line.find_first_not_of(" \t", line.find("operate") + std::string_view("operate").size());
   const std::string text = begin == std::string::npos ? std::string() : line.substr(begin);
   if (text.empty() || text.size() > control::most_operator_line_bytes)
-    return refuse(request, 1, line.substr(0, 80), "write operate and a line of an operator's: docs/editing.md");
+    return refuse(request, line.substr(0, 80), "write operate and a line of an operator's: docs/editing.md");
   operating_[++operated_] = {request, line};
   client_.operate(operated_, text);
 }
@@ -297,12 +333,12 @@ void EditSession::watch(const std::string& line, const std::vector<scene::TextWo
   batch.may_be_undone = false;
   auto watched = watched_of(words, client_.store(), names_);
   if (!watched) {
-    batch.wrong = {1, describe(watched.error())};
+    batch.fail(words.size() > 1 ? words[1].text : std::string(), describe(watched.error()));
     return send(std::move(batch));
   }
   auto first = watched->read();
   if (!first) {
-    batch.wrong = {1, describe(first.error())};
+    batch.fail(words[1].text, describe(first.error()));
     return send(std::move(batch));
   }
   batch.commands = std::move(first->commands);

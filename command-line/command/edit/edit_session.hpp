@@ -4,14 +4,17 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "command-line/command/edit/edit_client.hpp"
 #include "command-line/command/edit/edit_output.hpp"
 #include "command-line/command/edit/edit_verbs.hpp"
 #include "command-line/command/edit/watched_model.hpp"
+#include "engine/replication/message.hpp"
 
 namespace septet::server {
 
@@ -44,9 +47,19 @@ class EditSession {
     std::vector<std::size_t> line_of;  ///< Of each command.
     std::vector<std::string> messages;
     std::vector<Lifetime> lifetimes;
-    std::optional<std::pair<std::size_t, std::string>> wrong;  ///< The first line that cannot be read, and why.
+    std::vector<FailedLine> wrong;     ///< The lines that cannot be read: the first, as many as a server tells.
+    std::uint64_t wrong_untold = 0;    ///< The lines that cannot be read either.
+    std::set<std::string> not_made{};  ///< Things that lines of it failed to make.
     bool may_be_undone = true;
     bool was_asked = true;  ///< False: of a file that was saved; its answer is a message.
+
+    /// Its newest line cannot be read.
+    void fail(const std::string& node, const std::string& why) {
+      if (wrong.size() < replication::most_failures_told)
+        wrong.push_back({lines.size(), lines.back(), node, why});
+      else
+        ++wrong_untold;
+    }
   };
   struct Waiting {
     std::uint64_t request = 0;
@@ -62,8 +75,11 @@ class EditSession {
   scene::TextNames names() const { return {client_.store(), names_.own_ids, nullptr, &names_.fresh}; }
   void add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words);
   void send(Batch batch);
-  void refuse(std::uint64_t request, std::size_t line, const std::string& text, const std::string& why);
+  void refuse(std::uint64_t request, const FailedLines& failed);
+  /// A request of one line.
+  void refuse(std::uint64_t request, const std::string& text, const std::string& why);
   void forget_created(const Batch& batch);
+  void tell_ticks();
   void end_lifetimes(const Batch& batch, Tick from);
   bool query(const std::string& line, const std::vector<scene::TextWord>& words);
   void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
@@ -87,6 +103,7 @@ class EditSession {
   std::uint32_t operated_ = 0;
   bool tells_ticks_ = false;
   std::optional<Tick> told_tick_;
+  std::vector<control::DriveEvent> untold_;  ///< Events of ticks that are not told yet.
 };
 
 }  // namespace septet::server

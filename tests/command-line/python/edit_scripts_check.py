@@ -94,6 +94,31 @@ def end_lifetimes(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path) -
     return stood + 60
 
 
+def hear(world: septet.World) -> list[septet.Event]:
+    """All events of two seconds, by a script that takes each seventh tick and is late for a while."""
+    first, events = None, []
+    for tick in world.ticks(every=7):
+        assert tick.dropped_events == 0
+        if first is None:
+            first = tick.tick
+            for n in range(20):
+                world.mark(f"number {n}")
+        events += tick.events
+        if tick.tick > first + 240 and sum(one.name == "mark" and one.fields["note"].startswith("number") for one in events) == 20:
+            return events
+    raise AssertionError("the drive has ended")
+
+
+def events_of_ticks_that_a_slow_script_misses_go_to_the_next_and_are_bounded() -> None:
+    def tick(number: int, events: int, dropped: int = 0) -> septet.Tick:
+        happened = tuple(septet.Event(number, 0.0, "mark", None, {"note": str(n)}) for n in range(events))
+        return septet.Tick(number, 0.0, None, (), 0, 0.0, 0.0, happened, dropped)
+    both = septet._joined(tick(1, 2, 3), tick(2, 1))
+    assert both.tick == 2 and [one.tick for one in both.events] == [1, 1, 2] and both.dropped_events == 3
+    full = septet._joined(tick(1, septet.MOST_EVENTS_KEPT), tick(2, 5))
+    assert len(full.events) == septet.MOST_EVENTS_KEPT and full.dropped_events == 5 and full.events[-1].tick == 2
+
+
 def every_tick_that_is_missed_is_stood_in_for() -> None:
     every = septet._Every(12)
     assert [tick for tick in (5, 11, 12, 13, 25, 30, 36, 59, 60, 61) if every.takes(tick)] == [12, 25, 36, 59, 60]
@@ -143,8 +168,15 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
             stood += n
         time.sleep(0.3)
         assert world.newest.tick == stood
+        # What happens while it stands is told with the next tick, and once.
+        world.mark("at rest")
+        marks = [one for _ in range(3) for one in world.step(2).events if one.name == "mark"]
+        assert [one.fields for one in marks] == [{"by": "lab", "note": "at rest"}], marks
+        assert (marks[0].tick, marks[0].participant) == (stood, None), marks
+        stood += 6
         world.go_on()
         assert next(tick for tick in world.ticks() if tick.tick > stood).tick > stood
+        heard_by.extend(hear(world))
         # What moves is sent once, and begins where it is when the server does it.
         # What is solid is met where it is seen, far from everybody here; it is no more where it is hidden.
         wall = world.add("stimuli/wall", glb, (5, 6, 700), solid=True)
@@ -189,6 +221,18 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         why = refused(half)
         assert why.line == 2 and "nobody" in why.why, (why.line, why.why)
         assert not world.get("stimuli/ball").visible
+        # Each change that cannot be read is named; what needs a thing that was not made is left out.
+        def three_wrong():
+            with world.batch():
+                world.add("stimuli/none", folder / "none.glb").visible = False
+                ball.visible = True
+                world._change("hide nobody")
+                world._change("jump stimuli/ball")
+        why = refused(three_wrong)
+        assert [one.index for one in why.failures] == [1, 4, 5], why
+        assert [one.node for one in why.failures] == ["stimuli/none", "nobody", "stimuli/ball"] and why.others == 0, why.failures
+        assert all(one.why in str(why) and one.command in str(why) for one in why.failures), why
+        assert not world.get("stimuli/ball").visible
         # Adding again replaces.
         world.add("stimuli/ball", glb, (1, 2, 3))
         assert [one.position for one in world.find("stimuli/ball")] == [(1, 2, 3)]
@@ -208,12 +252,27 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         why = refused(second_may_not)
         assert why.line == 2 and "which lab made" in why.why, (why.line, why.why)
         assert guest.get(tree.node.strip('"')).visible
+        sign = guest.get("stimuli/sign")
+        def three_may_not():
+            with guest.batch():
+                ball.visible = False
+                tree.visible = False
+                sign.visible = False
+                for _ in range(40):
+                    ball.position = (0, 0, 0)
+        why = refused(three_may_not)
+        assert [one.index for one in why.failures[:3]] == [1, 3, 4] and len(why.failures) + why.others == 42, why
+        assert [one.node for one in why.failures[:2]] == ["stimuli/ball", "stimuli/sign"] and len(why.failures) == 16, why.failures
+        assert "after an earlier failure of this node" in why.failures[2].why and str(why).endswith("and 26 more"), why
+        assert guest.get(tree.node.strip('"')).visible
     with septet.connect(host, port, keys / "reader/reader.key") as reader:
         assert next(reader.ticks()).everybody
         assert "may look, not edit" in refused(lambda: reader.get("stimuli/ball").remove()).why
 
 
 every_tick_that_is_missed_is_stood_in_for()
+events_of_ticks_that_a_slow_script_misses_go_to_the_next_and_are_bounded()
+heard_by: list = []
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     (folder / "small.toml").write_text(RIG)
@@ -253,6 +312,10 @@ with tempfile.TemporaryDirectory() as name:
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
     notes = [row for row in sqlite3.connect(session).execute("SELECT kind, detail FROM events WHERE detail LIKE 'by=lab %'")]
     assert ("mark", "by=lab note=phase 2") in notes and ("operator", "by=lab wish=pause") in notes, notes
+    # A script hears what the log has, in its order, without a gap. A glance is logged when it is over, with the tick of its beginning.
+    events = [(one.tick, one.name, one.participant) for one in heard_by]
+    logged_events = sqlite3.connect(session).execute("SELECT tick, kind, participant FROM events ORDER BY id").fetchall()
+    assert any(logged_events[i : i + len(events)] == events for i in range(len(logged_events))), (logged_events, events)
     # What had half a second went at its tick; of what had a quarter, parts that were left when it was replaced.
     at_tick = [row[0] for row in sqlite3.connect(session).execute("SELECT tick FROM scene_edits WHERE tick > ? AND tick <= ?", (ended_at - 60, ended_at))]
     assert ended_at in at_tick and set(at_tick) <= {ended_at - 30, ended_at}, at_tick

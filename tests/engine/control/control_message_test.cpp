@@ -58,6 +58,10 @@ std::vector<std::pair<ControlMessage, std::string>> written_messages() {
       {LargePicture{3, std::string("\0\xff", 2)}, "01 12 0300000000000000 02 00ff"},
       {OperatorLine{2, "mark"}, "01 13 02000000 04 6d61726b"},
       {OperatorAnswer{2, 7, "no"}, "01 14 02000000 0700000000000000 02 6e6f"},
+      {HearEvents{}, "01 15"},
+      {EventsFrom{9}, "01 16 0900000000000000"},
+      {DriveEvent{3, 5, 0.25, "mark", true, 2, "a=b"},
+       "01 17 0300000000000000 0500000000000000 000000000000d03f 04 6d61726b 01 02000000 03 613d62"},
   };
 }
 
@@ -165,11 +169,11 @@ TEST_CASE("the first byte tells control messages from those of the scene") {
   CHECK_FALSE(lane_of({}).has_value());
 }
 
-TEST_CASE("a tick's header is four times and a revision in their order and no time may be no number") {
+TEST_CASE("a tick's header is four times, a revision and a count in their order and no time may be no number") {
   Bytes bytes;
   ByteWriter writer(bytes);
-  put_tick_header(writer, {0.25, 0.5, 0.75, 1.0, 300});
-  CHECK(bytes == bytes_of("000000000000d03f 000000000000e03f 000000000000e83f 000000000000f03f ac02"));
+  put_tick_header(writer, {0.25, 0.5, 0.75, 1.0, 300, 7});
+  CHECK(bytes == bytes_of("000000000000d03f 000000000000e03f 000000000000e83f 000000000000f03f ac02 07"));
   ByteReader reader(bytes);
   const TickHeader header = get_tick_header(reader);
   CHECK(reader.ok());
@@ -178,6 +182,7 @@ TEST_CASE("a tick's header is four times and a revision in their order and no ti
   CHECK(header.next_offset_s == 0.75);
   CHECK(header.next_from_s == 1.0);
   CHECK(header.scene_revision == 300);
+  CHECK(header.events == 7);
   for (std::size_t i = 0; i < 4; ++i) {
     Bytes bad = bytes, nan;
     ByteWriter(nan).put(std::nan(""));

@@ -71,6 +71,14 @@ TEST_CASE("a batch of which one command is refused changes nothing, and one that
   CHECK(refused.error().why.what.find("there is no such node") != std::string::npos);
   CHECK(same_content(store, filled()));
 
+  std::vector<std::size_t> refusals, forbidden;
+  try_each(
+      store, bad, [](std::size_t index) { return index == 0; },
+      [&](std::size_t index, const Error* why) { (why ? refusals : forbidden).push_back(index); });
+  CHECK(forbidden == std::vector<std::size_t>{0});
+  CHECK(refusals == std::vector<std::size_t>{1, 4});
+  CHECK(same_content(store, filled()));
+
   const auto undo = apply_whole(store, std::span(bad).first(4));
   REQUIRE(undo.has_value());
   CHECK(store.find(900));
