@@ -1,6 +1,7 @@
 #pragma once
 /// Content of an object node as a picture needs it, read once per change of it (CONVENTIONS.md).
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,6 +15,9 @@ namespace septet::scene {
 
 /// Materials by face material index, rising.
 using FaceMaterials = std::vector<std::pair<std::uint32_t, NodeId>>;
+
+/// Objects above one another from which on those below are not drawn: children may form a loop.
+inline constexpr std::size_t deepest_child = 32;
 
 struct DrawnObject {
   std::optional<std::string> prototype;  ///< Name of the prototype that it is; none: it is placed in the world.

@@ -220,19 +220,19 @@ std::vector<Command> newest_first(Inverses& inverses) {
   return commands;
 }
 
-void undo(Store& store, Inverses& inverses) {
-  for (const Command& command : newest_first(inverses)) {
-    const auto undone = store.apply(command);
-    SEPTET_CHECK(undone.has_value(), "a command cannot be undone: {}", undone ? "" : undone.error().what);
-  }
-}
-
 }  // namespace
 
 std::vector<Command> inverse_of(const Store& store, const Command& command) {
   std::vector<Command> undo;
   std::visit(Inverse{store, undo}, command);
   return undo;
+}
+
+void undo(Store& store, std::span<const Command> commands) {
+  for (const Command& command : commands) {
+    const auto undone = store.apply(command);
+    SEPTET_CHECK(undone.has_value(), "a command cannot be undone: {}", undone ? "" : undone.error().what);
+  }
 }
 
 tl::expected<std::vector<Command>, BatchRefusal> apply_whole(Store& store, std::span<const Command> batch) {
@@ -244,7 +244,7 @@ tl::expected<std::vector<Command>, BatchRefusal> apply_whole(Store& store, std::
       inverses.push_back(std::move(inverse));
       continue;
     }
-    undo(store, inverses);
+    undo(store, newest_first(inverses));
     return tl::unexpected(BatchRefusal{i, std::move(done.error())});
   }
   return newest_first(inverses);
@@ -264,7 +264,7 @@ void try_each(Store& store, std::span<const Command> batch, const std::function<
     else
       failed(i, &done.error());
   }
-  undo(store, inverses);
+  undo(store, newest_first(inverses));
 }
 
 }  // namespace septet::scene

@@ -26,6 +26,9 @@ struct BatchRefusal {
 /// batch.
 tl::expected<std::vector<Command>, BatchRefusal> apply_whole(Store& store, std::span<const Command> batch);
 
+/// Takes back a batch by the commands that apply_whole returned; nothing may have changed the store since.
+void undo(Store& store, std::span<const Command> commands);
+
 /// Tries each command of a batch that is not to be done, and undoes it all: the store's content is what it was.
 /// `is_forbidden(index)`: the command is not tried. `failed(index, why)`: the store has refused it; nullptr: it was
 /// forbidden. The store is then as the commands before it left it.

@@ -6,7 +6,6 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::size_t deepest_child = 32;
 /// Limit of objects placed: children shared again and again multiply.
 constexpr std::size_t most_visits = 1u << 20;
 /// Unused instances from which on all are placed anew, if they are the greater part.

@@ -15,7 +15,6 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::size_t deepest_part = 32;
 constexpr std::size_t most_parts = 256, most_vertices = 1u << 18;
 
 struct Bounds {
@@ -43,7 +42,7 @@ class Parts {
     if (!node || node->type() != NodeType::object) return true;
     if (++parts_ > most_parts || vertices_ > most_vertices) return false;
     const DrawnObject drawn = read_object(*node);
-    if (drawn.hidden || path_.size() >= deepest_part || std::ranges::find(path_, id) != path_.end()) return true;
+    if (drawn.hidden || path_.size() >= deepest_child || std::ranges::find(path_, id) != path_.end()) return true;
     const Vec3 origin_m = parent_m + parent_turn * (parent_scale * drawn.transform.position_m);
     const Quat turn = parent_turn * drawn.transform.rotation;
     const Vec3 scale = parent_scale * Vec3(drawn.transform.scale);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +12,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/car_faults.hpp"
+#include "engine/simulation/command_words.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
@@ -45,18 +45,10 @@ tl::unexpected<Error> no_command(std::string what) {
                  "speed_mps=V\"");
 }
 
-/// The number in a text that holds nothing else.
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
 Expected<OperatorCommand> parse_conditions(std::string_view text) {
   SetConditions set;
   while (!text.empty()) {
-    const auto word = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    const auto word = take_word(text);
     const auto equals = word.find('=');
     if (equals == std::string_view::npos) return no_command("a condition has no value");
     const auto found = std::ranges::find(condition_table, word.substr(0, equals), &Condition::name);
@@ -101,8 +93,7 @@ Expected<OperatorCommand> parse_put(std::string_view text) {
                  {"heading_rad=", &PutCar::heading_rad, -2.0 * pi, 2.0 * pi},
                  {"speed_mps=", &PutCar::speed_mps, 0.0, fastest_put_mps}};
   for (const auto& number : numbers) {
-    const auto word = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    const auto word = take_word(text);
     double& value = put.*number.value;
     if (!word.starts_with(number.name) || !read_number(word.substr(number.name.size()), value) ||
         !(value >= number.least && value <= number.most))
@@ -238,9 +229,7 @@ Expected<void> apply(const Model& model, const PutCar& put, State& state, std::v
                    "choose a place on a road");
   const road::LanePoint point = road::evaluate_lane(model.roads, *lane);
   std::vector<Participant> others;
-  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
-  state.traffic->append_participants(others);
-  append_bodies(state, others);
+  append_others(model, state, others);
   for (const Participant& other : others)
     if (glm::distance(other.world_from_vehicle.position_m, point.road.position_m) < free_around_put_m)
       return failure("somebody stands there", "put", "choose another place, or wait");

@@ -48,9 +48,7 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   participants.clear();
   participants.reserve(256);
   participants.push_back(car);
-  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
-  state.traffic->append_participants(participants);
-  append_bodies(state, participants);
+  append_others(model, state, participants);
   show_thrown(state, participants);
   if (!std::ranges::is_sorted(participants, {}, &Participant::id))
     std::ranges::sort(participants, {}, &Participant::id);

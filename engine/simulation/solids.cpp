@@ -1,11 +1,9 @@
 #include "engine/simulation/solids.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
@@ -13,6 +11,7 @@
 #include "engine/math/rigid_transform.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
+#include "engine/simulation/command_words.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/world/participant_shape.hpp"
@@ -56,15 +55,7 @@ Expected<void> check_values(const StandSolid& stand) {
 template <class Value>
 bool read_value(std::string_view word, std::string_view name, Value& value) {
   if (!word.starts_with(name) || !word.substr(name.size()).starts_with('=')) return false;
-  word.remove_prefix(name.size() + 1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
-
-std::string_view take_word(std::string_view& text) {
-  const std::string_view word = text.substr(0, text.find(' '));
-  text.remove_prefix(std::min(word.size() + 1, text.size()));
-  return word;
+  return read_number(word.substr(name.size() + 1), value);
 }
 
 Participant participant_of(const StandSolid& stand) {
@@ -116,9 +107,7 @@ Expected<void> may_stand(const Model& model, const State& state, const StandSoli
   if (auto sound = check_values(stand); !sound) return sound;
   const Participant box = participant_of(stand);
   std::vector<Participant> others{driven_car(model, state).participant};
-  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
-  if (state.traffic) state.traffic->append_participants(others);
-  append_bodies(state, others);
+  append_others(model, state, others);
   for (const Participant& other : others)
     if (!is_solid(other.id) && !is_box(other) && overlap(box, other))
       return failure(other.id == driver_participant ? "the driver's car is there"

@@ -32,13 +32,12 @@ void SceneEdits::stand(SolidChange change) {
   solids_.take_over(std::move(change));
 }
 
-void SceneEdits::begin_solids() {
-  if (!drive_.live || std::exchange(solids_have_begun_, true)) return;
-  stand(solids_.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_));
+Expected<void> SceneEdits::begin() {
+  if (drive_.live) stand(solids_.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_));
+  return {};
 }
 
 void SceneEdits::before_tick(const Moment& moment) {
-  begin_solids();
   // A world that stands still shows its tick on, with the changes.
   const Tick from = drive_.live ? drive_.live->state().tick + (moment.doing == "driving" ? 1 : 0) : 0;
   for (SceneRequest& request : host_.take_scene_requests()) {

@@ -26,13 +26,13 @@ class SceneEdits final : public Attendant {
   SceneEdits(OpenedDrive& drive, ScreenHost& host, DriveLog* log, std::filesystem::path save)
       : drive_(drive), host_(host), log_(log), save_(std::move(save)) {}
 
+  Expected<void> begin() override;
   void before_tick(const Moment& moment) override;
   void after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double shaking_share) override;
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
   void close(ServeResult& result) override;
 
  private:
-  void begin_solids();
   void make(SceneRequest request, Tick from, double now_s);
   void stand(SolidChange change);
 
@@ -42,7 +42,6 @@ class SceneEdits final : public Attendant {
   std::filesystem::path save_;
   NodeMakers makers_;
   SolidThings solids_;
-  bool solids_have_begun_ = false;
   std::multimap<Tick, SceneRequest> ahead_;  ///< By the tick that is to show them first.
   std::size_t bytes_ahead_ = 0;
   std::vector<std::string> messages_;

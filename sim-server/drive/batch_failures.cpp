@@ -9,6 +9,7 @@
 #include "engine/scene/inverse.hpp"
 
 namespace septet::server {
+
 std::string told_name(const scene::Store& store, scene::NodeId id) {
   if (id == scene::no_node) return {};
   const scene::Node* node = store.find(id);

@@ -4,7 +4,6 @@
 #include <utility>
 #include <variant>
 
-#include "engine/core/check.hpp"
 #include "engine/scene/inverse.hpp"
 #include "sim-server/drive/batch_failures.hpp"
 #include "sim-server/drive/edit_rights.hpp"
@@ -44,8 +43,7 @@ std::optional<replication::Refusal> pass_gate(scene::Store& store, std::span<con
   const auto undo = scene::apply_whole(store, batch);
   if (!undo) return failures_of(store, batch, forbidden);
   if (auto refused = accept ? accept() : std::nullopt) {
-    for (const scene::Command& command : *undo)
-      SEPTET_CHECK(store.apply(command).has_value(), "{} does not undo a refused batch", scene::name_of(command));
+    scene::undo(store, *undo);
     return replication::Refusal{{std::move(*refused)}, 0};
   }
   for (const scene::Command& command : batch) {

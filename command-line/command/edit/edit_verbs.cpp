@@ -340,22 +340,26 @@ class Verbs {
     made.commands.emplace_back(LinkSet{parent, link, {"child", *id, 0}});
     return keep(std::move(made));
   }
-  /// In the group that the node has for it, else in one of an id that models and paint leave free.
+  /// Ids of the group and the tag by which a node is solid: those that it has, else a group that models and paint leave
+  /// free. Null: a node that is still to come.
+  static std::pair<PartId, PartId> solid_ids(const Node* node) {
+    constexpr std::pair<PartId, PartId> free{0xFF00, 0};
+    const auto named = [](std::string_view name) {
+      return [name](const auto& entry) { return entry.second.name == name; };
+    };
+    if (!node) return free;
+    const auto group = std::ranges::find_if(node->tag_groups, named(solid_group));
+    if (group == node->tag_groups.end()) return free;
+    const auto tag = std::ranges::find_if(group->second.tags, named(solid_tag));
+    return {group->first, tag == group->second.tags.end() ? 0 : tag->first};
+  }
   Expected<EditedLine> solid(Words words) {
     constexpr std::string_view usage = "solid NODE [off]";
-    constexpr PartId free_group = 0xFF00;
     const bool off = words.size() == 2 && words[1].text == "off";
     if (words.empty() || (words.size() != 1 && !off)) return wrong("one node is needed, and off at most", usage);
     const auto id = object(words[0]);
     if (!id) return no_node_called(words[0]);
-    PartId group = free_group, tag = 0;
-    if (const Node* node = store_.find(*id))
-      for (const auto& [known_group, held] : node->tag_groups)
-        if (held.name == solid_group) {
-          group = known_group;
-          for (const auto& [known_tag, value] : held.tags)
-            if (value.name == solid_tag) tag = known_tag;
-        }
+    const auto [group, tag] = solid_ids(store_.find(*id));
     return EditedLine{
         {TagGroupSet{*id, group, std::string(solid_group)}, TagSet{*id, group, tag, {std::string(solid_tag), !off}}}};
   }

@@ -149,6 +149,12 @@ void append_bodies(const State& state, std::vector<Participant>& participants) {
   for (const LooseBody& loose : state.bodies.bodies) participants.push_back(participant_of(loose));
 }
 
+void append_others(const Model& model, const State& state, std::vector<Participant>& participants) {
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
+  if (state.traffic) state.traffic->append_participants(participants);
+  append_bodies(state, participants);
+}
+
 void drop_traffic_bodies(State& state) {
   std::erase_if(state.bodies.bodies,
                 [](const LooseBody& loose) { return loose.id >= first_traffic_participant && !is_solid(loose.id); });

@@ -45,6 +45,9 @@ void place_in_storyboard(const Model& model, State& state);
 /// Adds all, in the order in which they left their rails.
 void append_bodies(const State& state, std::vector<Participant>& participants);
 
+/// Adds all but the driver's car, as they move now: the scenario's, traffic's, and those that left their rails.
+void append_others(const Model& model, const State& state, std::vector<Participant>& participants);
+
 /// Drops those that came from traffic: their swarm ends, and another may use their numbers.
 void drop_traffic_bodies(State& state);
 

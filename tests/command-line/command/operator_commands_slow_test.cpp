@@ -85,6 +85,14 @@ std::uint64_t drive_with(const Commands& commands, Tick ticks, const std::filesy
   return (*live)->newest().state_hash;
 }
 
+/// From its start, and from the state that was kept at 10 s.
+void require_verified(const std::filesystem::path& session) {
+  for (const double from_s : {0.0, 10.2}) {
+    const auto verified = run_verify(session, from_s);
+    REQUIRE_MESSAGE(verified.has_value(), why_not(verified));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("a drive with an operator's commands is verified from its start and from a state kept between them") {
@@ -105,10 +113,7 @@ TEST_CASE("a drive with an operator's commands is verified from its start and fr
   const auto hash = drive_with(commands, 1260, changed.path());
   CHECK(hash != drive_with({}, 1260, plain.path()));
   const auto session = changed.path() / "session.sqlite";
-  const auto whole = run_verify(session, 0.0);
-  REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
-  const auto part = run_verify(session, 10.2);
-  REQUIRE_MESSAGE(part.has_value(), why_not(part));
+  require_verified(session);
   const auto reader = logging::SessionReader::open(session);
   REQUIRE(reader.has_value());
   const auto events = reader->events();
@@ -128,10 +133,7 @@ TEST_CASE("a drive with a solid is verified from its start and from a state kept
   const auto hash = drive_with(commands, 1260, changed.path());
   CHECK(hash != drive_with({}, 1260, plain.path()));
   const auto session = changed.path() / "session.sqlite";
-  const auto whole = run_verify(session, 0.0);
-  REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
-  const auto part = run_verify(session, 10.2);
-  REQUIRE_MESSAGE(part.has_value(), why_not(part));
+  require_verified(session);
 }
 
 TEST_CASE(
@@ -152,10 +154,7 @@ TEST_CASE(
   const auto hash = drive_with(commands, 1300, changed.path());
   CHECK(hash != drive_with({}, 1300, plain.path()));
   const auto session = changed.path() / "session.sqlite";
-  const auto whole = run_verify(session, 0.0);
-  REQUIRE_MESSAGE(whole.has_value(), why_not(whole));
-  const auto part = run_verify(session, 10.2);
-  REQUIRE_MESSAGE(part.has_value(), why_not(part));
+  require_verified(session);
   const auto reader = logging::SessionReader::open(session);
   REQUIRE(reader.has_value());
   const auto inputs = reader->inputs();
