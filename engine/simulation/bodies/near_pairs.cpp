@@ -44,11 +44,15 @@ std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const std::vector<Pa
       hitters.push_back({participants[i].world_from_vehicle.position_m.x, i});
       longest_m = std::max(longest_m, reach_of_one_m(participants[i]));
     }
-  std::ranges::sort(hitters, {}, &Hitter::x_m);
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  if (hitters.empty()) return pairs;
+  std::ranges::sort(hitters, {}, &Hitter::x_m);
+  // Most are far from all of them.
+  const double west_m = hitters.front().x_m - 2.0 * longest_m, east_m = hitters.back().x_m + 2.0 * longest_m;
   for (std::size_t i = 0; i < participants.size(); ++i) {
     const Participant& one = participants[i];
     const Vec2 at_m(one.world_from_vehicle.position_m);
+    if (at_m.x < west_m || at_m.x > east_m) continue;
     const double most_m = reach_of_one_m(one) + longest_m;
     for (auto near = std::ranges::lower_bound(hitters, at_m.x - most_m, {}, &Hitter::x_m);
          near != hitters.end() && near->x_m <= at_m.x + most_m; ++near) {
