@@ -7,48 +7,63 @@ namespace septet::traffic {
 namespace {
 
 constexpr double side_clearance_m = 0.3;
+/// Beside wrecks, at walking speed.
+constexpr double slow_clearance_m = 0.15, slow_mps = 3.0;
 constexpr int most_passed = 40;
+constexpr double longest_m = 20.0;  ///< Of all vehicles.
 /// Excess speed of an emergency vehicle over those it passes, and its look-ahead at them.
 constexpr double passing_excess_mps = 11.0;
 constexpr double passing_look_ahead_m = 40.0;
 
-bool apart(const Across& a, const Across& b) {
-  return std::abs(a.middle_m - b.middle_m) > a.half_width_m + b.half_width_m + side_clearance_m;
+bool apart(const Across& a, const Across& b, double clearance_m) {
+  return std::abs(a.middle_m - b.middle_m) > a.half_width_m + b.half_width_m + clearance_m;
 }
 
 /// Room now and at the targets of both: a vehicle that moves in front of another is in its path at once.
-bool has_room_beside(const CorridorTraffic& traffic, const LaneEntry& own, const LaneEntry& other) {
+bool has_room_beside(const CorridorTraffic& traffic, const LaneEntry& own, const LaneEntry& other, double clearance_m) {
   const auto now = [](const LaneEntry& e) { return Across{e.lateral_m, e.half_width_m}; };
   const auto then = [&](const LaneEntry& e) {
     return e.vehicle >= 0 ? across_then(traffic, static_cast<std::size_t>(e.vehicle)) : now(e);
   };
-  return apart(now(own), now(other)) && apart(then(own), now(other)) && apart(now(own), then(other));
+  return apart(now(own), now(other), clearance_m) && apart(then(own), now(other), clearance_m) &&
+         apart(now(own), then(other), clearance_m);
 }
 
 /// The next obstructing vehicle ahead, in a lane where some are not in its middle. Vehicles that an emergency vehicle
-/// passes bound its speed.
+/// passes bound its speed. Beside wrecks everybody is passed as soon as there is room, and so the one whose front is
+/// next may stand beside another's long body: the leader is the one whose rear is nearest.
 const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, int lane_number, std::size_t k,
                                          double& speed_limit_mps) {
   const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
   const LaneEntry& own = lane[k];
   const bool emergency = traffic.emergency[static_cast<std::size_t>(own.vehicle)] != 0;
+  const bool beside_wreck = traffic.order.has_straddlers[static_cast<std::size_t>(lane_number)] == wreck_in_lane;
+  const double clearance_m = beside_wreck && own.speed_mps < slow_mps ? slow_clearance_m : side_clearance_m;
+  const LaneEntry* leader = nullptr;
+  double leader_m = no_leader;
   const std::size_t count = lane.size();
   for (std::size_t step = 1; step < count && step <= most_passed; ++step) {
     std::size_t at = k + step;
     if (at >= count) {
-      if (!traffic.corridor.closed) return nullptr;
+      if (!traffic.corridor.closed) break;
       at -= count;
     }
     const LaneEntry& other = lane[at];
     if (other.vehicle == own.vehicle) continue;
-    const bool passable = (emergency || other.straddles) && has_room_beside(traffic, own, other);
-    if (!passable) return &other;
     const double ahead = gap_to(traffic, lane_number, own.x_m, &other);
+    if (leader != nullptr && ahead + other.length_m > leader_m + longest_m) break;
+    const bool passable =
+        (emergency || beside_wreck || other.straddles) && has_room_beside(traffic, own, other, clearance_m);
+    if (!passable) {
+      if (ahead < leader_m) leader = &other, leader_m = ahead;
+      if (!beside_wreck) break;
+      continue;
+    }
     if (emergency && ahead < passing_look_ahead_m) {
       speed_limit_mps = std::min(speed_limit_mps, other.speed_mps + passing_excess_mps);
     }
   }
-  return nullptr;
+  return leader;
 }
 
 /// Follows with a test of every straddling vehicle, where some are not in the middle of a lane.

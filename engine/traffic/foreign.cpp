@@ -61,13 +61,6 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   }
 }
 
-/// What of a vehicle adrift lies on the lanes of a corridor.
-struct Lying {
-  double from_m = 0.0, to_m = 0.0;  ///< From the first point's x.
-  double right_m = 0.0, left_m = 0.0;
-  std::vector<int> lanes;
-};
-
 /// It stands in the way as it lies, in each lane that it reaches into; as one that stands, wherever it slides to. It is
 /// passed where there is room.
 void place_adrift(const road::RoadNetwork& network, const ForeignVehicle& vehicle, std::int32_t index,
@@ -85,8 +78,8 @@ void place_adrift(const road::RoadNetwork& network, const ForeignVehicle& vehicl
     }
   for (std::size_t c = 0; c < corridors.size(); ++c) {
     const CorridorTraffic& traffic = corridors[c];
-    Lying lying;
-    double first_x_m = 0.0;
+    Wreck lying;
+    double first_x_m = 0.0, from_m = 0.0, to_m = 0.0;
     for (const road::Location& point : points) {
       const auto x = x_of(network, traffic.corridor, point.position, point.lanes.lane);
       if (!x) continue;
@@ -98,20 +91,24 @@ void place_adrift(const road::RoadNetwork& network, const ForeignVehicle& vehicl
         lying.right_m = lying.left_m = lateral_m;
       }
       const double ahead_m = distance_m(traffic.corridor, first_x_m, *x);
-      lying.from_m = std::min(lying.from_m, ahead_m);
-      lying.to_m = std::max(lying.to_m, ahead_m);
+      from_m = std::min(from_m, ahead_m);
+      to_m = std::max(to_m, ahead_m);
       lying.right_m = std::min(lying.right_m, lateral_m);
       lying.left_m = std::max(lying.left_m, lateral_m);
       if (std::ranges::find(lying.lanes, lane) == lying.lanes.end()) lying.lanes.push_back(lane);
     }
+    if (lying.lanes.empty()) continue;
+    lying.rear_x_m = wrap_x(traffic.corridor, first_x_m + from_m);
+    lying.length_m = to_m - from_m;
     LaneEntry entry;
-    entry.x_m = wrap_x(traffic.corridor, first_x_m + lying.to_m);
-    entry.length_m = static_cast<float>(lying.to_m - lying.from_m);
+    entry.x_m = wrap_x(traffic.corridor, first_x_m + to_m);
+    entry.length_m = static_cast<float>(lying.length_m);
     entry.lateral_m = static_cast<float>(0.5 * (lying.right_m + lying.left_m));
     entry.half_width_m = static_cast<float>(0.5 * (lying.left_m - lying.right_m));
     entry.vehicle = -1 - index;
     entry.straddles = true;
     for (const int lane : lying.lanes) found[c].entries.push_back({lane, entry});
+    found[c].wrecks.push_back(std::move(lying));
   }
 }
 

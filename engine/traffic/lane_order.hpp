@@ -20,9 +20,12 @@ struct LaneEntry {
   bool straddles = false;     ///< Not in the middle of the lane: it is passed where there is room.
 };
 
+/// Of `LaneOrder::has_straddlers`, where one of them is a wreck.
+inline constexpr std::uint8_t wreck_in_lane = 2;
+
 struct LaneOrder {
   std::vector<std::vector<LaneEntry>> lanes;  ///< [lane number], ascending x.
-  std::vector<std::uint8_t> has_straddlers;   ///< [lane number]
+  std::vector<std::uint8_t> has_straddlers;   ///< [lane number]; above 0: there are some.
 };
 
 /// Sorts by x, then by vehicle; quick for an almost sorted lane.

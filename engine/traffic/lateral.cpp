@@ -6,9 +6,6 @@
 namespace septet::traffic {
 namespace {
 
-/// A lorry's tail sweeps out as it turns in: it takes more of the road's length.
-constexpr double shortest_change_m = 10.0, shortest_change_by_length = 3.0;
-
 /// Reduces a slope where a whole movement takes as long as before, and so more metres.
 double gains_speed(const CorridorTraffic& traffic, std::size_t i, double slope) {
   const double speed = traffic.speed_mps[i];
@@ -17,13 +14,19 @@ double gains_speed(const CorridorTraffic& traffic, std::size_t i, double slope) 
 
 }  // namespace
 
-double change_length_m(const CorridorTraffic& traffic, std::size_t i, double speed_mps) {
-  return std::max(shortest_change_m + shortest_change_by_length * traffic.length_m[i],
-                  speed_mps * traffic.driver[i].lane_change.duration_s);
+double shortest_change_m(double length_m, Turning turning) {
+  // A lorry's tail sweeps out as it turns in: it takes more of the road's length.
+  const double at_ease_m = 10.0 + 3.0 * length_m;
+  return turning == Turning::at_ease ? at_ease_m : std::max(13.5, 0.7 * at_ease_m);
 }
 
-void begin_change(CorridorTraffic& traffic, std::size_t i, double offset_m, double slope) {
+double change_length_m(const CorridorTraffic& traffic, std::size_t i, double speed_mps) {
+  return std::max(traffic.change_shortest_m[i], speed_mps * traffic.driver[i].lane_change.duration_s);
+}
+
+void begin_change(CorridorTraffic& traffic, std::size_t i, double offset_m, double slope, Turning turning) {
   traffic.change_part[i] = 0.0;
+  traffic.change_shortest_m[i] = shortest_change_m(traffic.length_m[i], turning);
   traffic.change_offset_m[i] = offset_m;
   traffic.change_run_m[i] = slope * change_length_m(traffic, i, traffic.speed_mps[i]);
 }
@@ -48,8 +51,7 @@ Lateral lateral(const CorridorTraffic& traffic, std::size_t i) {
   lateral.offset_m += cube * (begun * (1.0 + u * (3.0 + 6.0 * u)) + run * u * (1.0 + 3.0 * u));
   const double slope = rest * rest * by_way * (run * (1.0 + u * (2.0 - 15.0 * u)) - begun * 30.0 * u * u);
   lateral.slope += slope;
-  if (length > shortest_change_m + shortest_change_by_length * traffic.length_m[i])
-    lateral.curvature_per_m -= gains_speed(traffic, i, slope);
+  if (length > traffic.change_shortest_m[i]) lateral.curvature_per_m -= gains_speed(traffic, i, slope);
   lateral.curvature_per_m += rest * u * by_way * by_way * (run * (60.0 * u - 36.0) - begun * 60.0 * (1.0 - 2.0 * u));
   return lateral;
 }

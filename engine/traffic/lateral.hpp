@@ -5,7 +5,10 @@
 /// its ends, over a distance of speed times the driver's duration, at walking speed no shorter than the vehicle can
 /// steer; making way is a critically damped shift that below `slowest_aside_mps` follows the same path more slowly. The
 /// vehicle points along its path, so that its rear axle never slips sideways. The tightest bend has a radius of about
-/// 10 m (a car that changes lanes at 6 m/s and brakes as hard as it can), the usual one at walking speed 25 m.
+/// 10 m (a car that changes lanes at 6 m/s and brakes as hard as it can), the usual one at walking speed 25 m, and 8 m
+/// where one turns out close behind a wreck.
+
+#include <cstdint>
 
 #include "engine/traffic/traffic.hpp"
 
@@ -20,14 +23,19 @@ inline constexpr double slowest_aside_mps = 8.0;
 /// Time constant of moving aside: 63 % of the shift in about twice of it.
 inline constexpr double aside_time_s = 0.7;
 
-/// Length of a whole change of lane at this speed.
+/// How far one steers who changes lanes at walking speed.
+enum class Turning : std::uint8_t { at_ease, tight };
+/// Length of such a change of a vehicle of this length.
+double shortest_change_m(double length_m, Turning turning);
+/// Length of the vehicle's last change of lane, from end to end, at this speed.
 double change_length_m(const CorridorTraffic& traffic, std::size_t vehicle, double speed_mps);
 inline bool changes_lane(const CorridorTraffic& traffic, std::size_t vehicle) {
   return traffic.change_part[vehicle] < 1.0;
 }
 
 /// Begins a change of lane from the vehicle's offset and heading, relative to the middle of the target lane.
-void begin_change(CorridorTraffic& traffic, std::size_t vehicle, double offset_m, double slope);
+void begin_change(CorridorTraffic& traffic, std::size_t vehicle, double offset_m, double slope,
+                  Turning turning = Turning::at_ease);
 
 Lateral lateral(const CorridorTraffic& traffic, std::size_t vehicle);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/traffic/traffic_stages.hpp"
+#include "engine/traffic/wrecks.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -64,18 +65,19 @@ void move_aside(CorridorTraffic& traffic, double dt_s) {
 
 }  // namespace
 
-void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s) {
+void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, std::span<const Wreck> wrecks,
+              double dt_s) {
   std::vector<EmergencyVehicle> emergencies = foreign;
   const bool emergency_itself = std::ranges::find(traffic.emergency, 1) != traffic.emergency.end();
   for (std::size_t i = 0; emergency_itself && i < traffic.size(); ++i) {
     if (traffic.emergency[i] == 0 || traffic.lane[i] == 0) continue;
     emergencies.push_back({traffic.x_m[i], traffic.length_m[i], lateral_m(traffic, i), traffic.half_width_m[i]});
   }
-  if (emergencies.empty() && !traffic.any_aside) return;
+  if (emergencies.empty() && wrecks.empty() && !traffic.any_aside) return;
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     traffic.making_way[i] = MakingWay::no;
     if (traffic.emergency[i] != 0 || traffic.lane[i] == 0) continue;
-    traffic.aside_target_m[i] = 0.0;
+    traffic.aside_target_m[i] = shift_past_m(traffic, wrecks, i);
     bool near = false;
     for (const EmergencyVehicle& emergency : emergencies) {
       const double ahead = distance_m(traffic.corridor, emergency.front_x_m, traffic.x_m[i]);

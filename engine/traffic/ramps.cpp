@@ -77,6 +77,7 @@ void for_each_array(CorridorTraffic& a, CorridorTraffic& b, Visit visit) {
   visit(a.acceleration_mps2, b.acceleration_mps2), visit(a.rolled_m, b.rolled_m);
   visit(a.lane, b.lane), visit(a.from_lane, b.from_lane), visit(a.change_part, b.change_part);
   visit(a.change_offset_m, b.change_offset_m), visit(a.change_run_m, b.change_run_m);
+  visit(a.change_shortest_m, b.change_shortest_m);
   visit(a.next_decision_s, b.next_decision_s), visit(a.lane_end_m, b.lane_end_m);
   visit(a.length_m, b.length_m), visit(a.half_width_m, b.half_width_m);
   visit(a.aside_m, b.aside_m), visit(a.aside_mps, b.aside_mps);

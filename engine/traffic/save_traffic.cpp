@@ -19,7 +19,7 @@ SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line, ways), has
                      kept(model, paint, driver, law),
                      hashed(x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part, change_offset_m,
                             change_run_m, next_decision_s),
-                     kept(rolled_m, lane_end_m, length_m, half_width_m),
+                     kept(change_shortest_m, rolled_m, lane_end_m, length_m, half_width_m),
                      hashed(aside_m, aside_mps, aside_target_m, heard_s, making_way, emergency),
                      kept(neighbour_hints, any_aside, order, exits))
 // The corridors are taken one by one. Sights are given anew each tick.

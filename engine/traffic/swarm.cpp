@@ -6,6 +6,7 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/traffic/traffic_stages.hpp"
+#include "engine/traffic/wrecks.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -287,10 +288,13 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     const double middle = c < directions ? middle_x(network, traffic, state) : 0.0;
     if (c < directions) show_across_rims(parameters, middle, traffic, placed_foreign[c]);
     refresh_order(traffic, placed_foreign[c]);
+    const std::vector<Wreck> wrecks = with_the_stuck(placed_foreign[c].wrecks, traffic);
+    mark_lanes(wrecks, traffic.order);
     follow(traffic);
+    mind_wrecks(wrecks, traffic);
     keep_within_sight(state.sights, traffic);
-    make_way(traffic, placed_foreign[c].emergencies, dt_s);
-    change_lanes(parameters, network, state.time_s, dt_s, traffic);
+    make_way(traffic, placed_foreign[c].emergencies, wrecks, dt_s);
+    change_lanes(parameters, network, wrecks, state.time_s, dt_s, traffic);
     state.bad_numbers += move(network, traffic, dt_s);
     if (c < directions) recycle(parameters, middle, random, traffic);
   }

@@ -44,6 +44,7 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
     array->push_back(0.0);
   }
   traffic.change_part.push_back(1.0);
+  traffic.change_shortest_m.push_back(shortest_change_m(kind.length_m, Turning::at_ease));
   // Drivers take turns.
   traffic.next_decision_s.back() = 0.1 * static_cast<double>(id % 10);
   traffic.lane.push_back(static_cast<std::int16_t>(lane));

@@ -104,6 +104,7 @@ struct CorridorTraffic {
       from_lane;                    ///< The other lane it stands in; its own unless it changes. 0: waits outside.
   std::vector<double> change_part;  ///< Part of a change of lane that is done; 1: none is going on.
   std::vector<double> change_offset_m, change_run_m;  ///< Its initial offset and slope (lateral.cpp).
+  std::vector<double> change_shortest_m;              ///< Its length at walking speed.
   std::vector<double> next_decision_s;
   std::vector<double> lane_end_m;  ///< x at which the lane ends.
   std::vector<double> length_m, half_width_m;

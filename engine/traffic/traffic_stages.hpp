@@ -17,6 +17,13 @@ struct EmergencyVehicle {
   double lateral_m = 0.0, half_width_m = 0.0;
 };
 
+/// A body that lies on a corridor, a vehicle adrift above all, and the lanes that it reaches into.
+struct Wreck {
+  double rear_x_m = 0.0, length_m = 0.0;
+  double right_m = 0.0, left_m = 0.0;  ///< As lateral_m of traffic.hpp.
+  std::vector<int> lanes;
+};
+
 /// A corridor's view of the vehicles moved by other stages.
 struct ForeignTraffic {
   struct Entry {
@@ -24,6 +31,7 @@ struct ForeignTraffic {
     LaneEntry entry;
   };
   std::vector<Entry> entries;
+  std::vector<Wreck> wrecks;
   std::vector<EmergencyVehicle> emergencies;
 };
 
@@ -96,15 +104,24 @@ inline double acceleration_behind(const FollowingLaw& law, double speed_mps, con
   return law.with_coolness(idm_mps2, speed_mps, ahead->speed_mps, ahead->acceleration_mps2, gap_m);
 }
 
+/// Marks the lanes into which wrecks reach.
+void mark_lanes(std::span<const Wreck> wrecks, LaneOrder& order);
 /// Stage 1: all accelerations.
 void follow(CorridorTraffic& traffic);
+/// The hardest braking to keep room before wrecks, at twice the comfortable one.
+inline double hardest_stop_mps2(const CorridorTraffic& traffic, std::size_t vehicle) {
+  return 2.0 * traffic.law[vehicle].comfortable_braking_mps2;
+}
+/// Stage 1, continued: room to turn out before wrecks, and for those who turn out.
+void mind_wrecks(std::span<const Wreck> wrecks, CorridorTraffic& traffic);
 /// Stage 1, continued: nobody goes faster than he can stop within what he sees.
 void keep_within_sight(std::span<const LimitedSight> sights, CorridorTraffic& traffic);
 /// Stage 2: vehicles that make way for an emergency vehicle, and their shift aside.
-void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s);
+void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, std::span<const Wreck> wrecks,
+              double dt_s);
 /// Stage 3: lane changes of the drivers whose turn it is to decide.
-void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, double time_s, double dt_s,
-                  CorridorTraffic& traffic);
+void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, std::span<const Wreck> wrecks,
+                  double time_s, double dt_s, CorridorTraffic& traffic);
 /// Stage 4: speeds and places.
 std::uint32_t move(const road::RoadNetwork& network, CorridorTraffic& traffic, double dt_s);
 /// Stage 5: vehicles that left the simulation come in again.
