@@ -26,8 +26,11 @@ enum class Part : std::uint8_t { below, bumper, bonnet, windscreen, roof, side, 
 struct Face {
   Plane plane;
   Part part = Part::side;
+  /// Of a flat front's underside: a ball whose middle is above it, and which is no deeper behind the front than this,
+  /// came in through the front and is not pushed down.
+  double behind_front_m = 0.0;
 };
-using Piece = std::vector<Face>;  ///< Convex.
+using Piece = std::vector<Face>;  ///< Convex; the bumper before the underside.
 
 /// Convex pieces of a vehicle of this model.
 std::vector<Piece> vehicle_pieces(const VehicleModel& model);

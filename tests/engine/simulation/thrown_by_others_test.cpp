@@ -18,6 +18,7 @@
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/crash_record.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "tests/engine/physics/person/searle_band.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/engine/simulation/crash_site.hpp"
@@ -62,6 +63,7 @@ State begun(const Model& model) {
 struct Throw {
   double hit_mps = 0.0;   ///< Speed of the vehicle in the tick before.
   double thrown_m = 0.0;  ///< Way of the mass centre in plan.
+  double sinks_m = 0.0;   ///< Its height at the touch less now.
   double uprightness = 1.0;
   bool rests = false;
   std::vector<Event> events;
@@ -79,6 +81,7 @@ Throw thrown_in(const Model& model, State& state) {
     const person::JointedBody& body = state.thrown.front().body;
     if (!from) from = person::mass_centre_m(body);
     result.thrown_m = glm::length(Vec2(person::mass_centre_m(body) - *from));
+    result.sinks_m = from->z - person::mass_centre_m(body).z;
     result.uprightness = person::uprightness(body);
     result.rests = std::ranges::all_of(state.thrown, [](const ThrownBody& b) { return person::lies_still(b.body); });
   }
@@ -86,15 +89,13 @@ Throw thrown_in(const Model& model, State& state) {
   return result;
 }
 
-/// Searle 1983 (SAE 831622), as in tests/engine/physics/person.
 void check_in_searles_band(const Throw& found) {
-  constexpr double mu = 0.66, gravity_mps2 = 9.81;
-  const double most = std::sqrt(2.0 * mu * gravity_mps2 * found.thrown_m), least = most / std::sqrt(1.0 + mu * mu);
-  MESSAGE(found.hit_mps << " m/s: " << found.thrown_m << " m, " << least << " to " << most << " m/s");
+  const searle::Band band = searle::band(found.thrown_m, found.sinks_m);
+  MESSAGE(found.hit_mps << " m/s: " << found.thrown_m << " m, " << band.least_mps << " to " << band.most_mps << " m/s");
   CHECK(found.rests);
   CHECK(found.uprightness < 0.4);
-  CHECK(found.hit_mps > least);
-  CHECK(found.hit_mps < most);
+  CHECK(found.hit_mps > band.least_mps);
+  CHECK(found.hit_mps < band.most_mps);
 }
 
 std::ptrdiff_t count(const std::vector<Event>& events, const std::string& kind) {
@@ -148,6 +149,17 @@ TEST_CASE("a scripted car that runs over a walker throws him within Searle's ban
     CHECK(state.scenario.entities[walker].external);
     REQUIRE(find_loose(state, car_id) != nullptr);
     CHECK(glm::length(shown(found.last, car_id).velocity_mps) == 0.0);
+  }
+}
+
+TEST_CASE("a scripted van throws a walker within Searle's band") {
+  for (const double speed_mps : {5.0, 6.0, 7.0, 9.0, 40.0 / 3.6, 15.0, 20.0}) {
+    Model model = street(speed_mps, "pedestrian", 0.0, 188.0);
+    model.scenario.entities[hitter].model = *find_vehicle_model("van");
+    State state = begun(model);
+    const Throw found = thrown_in(model, state);
+    REQUIRE(state.thrown.size() == 1);
+    check_in_searles_band(found);
   }
 }
 
