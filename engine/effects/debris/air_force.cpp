@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <glm/geometric.hpp>
 
 namespace septet::debris {
 namespace {
@@ -59,6 +60,13 @@ double plate_pressure_offset(double sine_of_attack) {
   const double attack = std::asin(std::clamp(sine_of_attack, 0.0, 1.0));
   if (attack < radians(38.0)) return 0.3 - 0.22 * attack / radians(38.0);
   return attack < radians(82.5) ? 0.08 * std::cos(2.0 * (attack - radians(38.0))) : 0.0;
+}
+
+Vec3 slowed_by_air_mps(const Vec3& past_air_mps, double shade_m2, double mass_kg, double step_s) {
+  if (!(mass_kg > 0.0)) return past_air_mps;
+  // The speed falls as dv/dt = −κv².
+  const double per_m = 0.5 * air_density_kgpm3 * tumbling_coefficient * shade_m2 / mass_kg;
+  return past_air_mps / (1.0 + per_m * glm::length(past_air_mps) * step_s);
 }
 
 void feel_air(Piece& piece, const Eigen::Vector3d& wind_mps) {

@@ -23,6 +23,7 @@ struct Shard {
   Quat orientation{1.0, 0.0, 0.0, 0.0};
   double size_m = 0.03;
   double mass_kg = 0.0;
+  double shade_m2 = 0.0;  ///< Mean area of its shade over all attitudes: a quarter of its surface; 0: no air.
 };
 
 /// Its special members are defined where Piece is complete, so that users of a state need not include it.

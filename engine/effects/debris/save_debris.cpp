@@ -8,7 +8,7 @@
 
 namespace septet::debris {
 
-SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg)
+SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg, shade_m2)
 
 SEPTET_MEMBERS(FaceCrack, first, second, reach)
 // Left out are data of its part, of its picture, and its body, which has a reader of its own; kept is its look; its melting shows in the hashed body.
@@ -82,7 +82,9 @@ void restore_debris(StateReader& reader, State& state) {
   for (const Shard& shard : state.shards) {
     for (const Vec3* vector : {&shard.position_m, &shard.velocity_mps, &shard.angular_velocity_radps})
       reader.require(std::max({std::abs(vector->x), std::abs(vector->y), std::abs(vector->z)}) < 1e7, wrong);
-    reader.require(shard.size_m > 0.0 && shard.size_m < 100.0 && shard.mass_kg >= 0.0 && shard.mass_kg < 1e4, wrong);
+    reader.require(shard.size_m > 0.0 && shard.size_m < 100.0 && shard.mass_kg >= 0.0 && shard.mass_kg < 1e4 &&
+                       shard.shade_m2 >= 0.0 && shard.shade_m2 < 1e4,
+                   wrong);
   }
   const std::size_t pieces = transfer_count(reader);
   state.pieces.clear();

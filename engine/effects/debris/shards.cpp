@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/effects/debris/air_force.hpp"
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/math/gravity.hpp"
@@ -26,11 +27,17 @@ void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, doub
   shard.angular_velocity_radps *= 0.7;
 }
 
+/// Infinitely far below where there is no ground.
+GroundPoint ground_under(const ContactWorld& world, const Shard& shard) {
+  if (!world.ground) return {.height_m = -INFINITY};
+  return world.ground(shard.position_m.x, shard.position_m.y);
+}
+
 bool is_finite(const Shard& shard) {
   const glm::dquat& q = shard.orientation;
   return std::isfinite(glm::dot(shard.position_m, shard.position_m) + glm::dot(shard.velocity_mps, shard.velocity_mps) +
                        glm::dot(shard.angular_velocity_radps, shard.angular_velocity_radps) + shard.mass_kg +
-                       shard.size_m + q.w + q.x + q.y + q.z);
+                       shard.size_m + shard.shade_m2 + q.w + q.x + q.y + q.z);
 }
 
 }  // namespace
@@ -52,6 +59,9 @@ Shard shard_of(const Piece& piece) {
   double volume = 0.0;
   for (const auto& e : piece.body.elements) volume += e.rest_volume_m3;
   shard.size_m = std::cbrt(volume);
+  // A sheet, whose lattice is thicker than itself (breakable_part.hpp): it has two faces, and no edge to speak of.
+  const Vec3& part_m = part_recipe(piece.part).size_m;
+  shard.shade_m2 = 0.5 * volume / std::min({part_m.x, part_m.y, part_m.z});
   return shard;
 }
 
@@ -70,9 +80,13 @@ int advance_shards(State& state, const ContactWorld& world, double step_s) {
     if (rate > 1e-6)
       shard.orientation =
           glm::normalize(glm::angleAxis(rate * step_s, shard.angular_velocity_radps / rate) * shard.orientation);
-    if (!world.ground) continue;
-    const GroundPoint ground = world.ground(shard.position_m.x, shard.position_m.y);
-    if (shard.position_m.z > ground.height_m) continue;
+    const GroundPoint ground = ground_under(world, shard);
+    if (shard.position_m.z > ground.height_m) {
+      shard.velocity_mps = world.wind_mps + slowed_by_air_mps(shard.velocity_mps - world.wind_mps, shard.shade_m2,
+                                                              shard.mass_kg, step_s);
+      continue;
+    }
+    // Close to the road the air hardly moves: what slides or lies there is not blown along.
     shard.position_m.z = ground.height_m;
     bounce(shard, ground.normal, Vec3(0.0), 0.4 * ground.friction_factor);
     if (glm::length(shard.velocity_mps) < 0.2) {

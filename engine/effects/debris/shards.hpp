@@ -1,5 +1,5 @@
 #pragma once
-/// Rigid shards of glass: ballistic flight, inelastic bounces with friction, rest.
+/// Rigid shards of glass: flight through the air (air_force.hpp), inelastic bounces with friction, rest.
 
 #include "engine/effects/debris/debris_state.hpp"
 

@@ -80,6 +80,16 @@ TEST_CASE("air presses a plate along its normal, with 1.15 of the dynamic pressu
   CHECK(load.moment_nm.y() == relative(-normal_n * 2.0 * (0.3 - 0.22 * 20.0 / 38.0), 0.06));
 }
 
+TEST_CASE("a tumbling body's coefficient is the mean of a plate's drag over all attitudes") {
+  constexpr int count = 100'000;
+  double sum = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double sine = (k + 0.5) / count;
+    sum += 2.0 * plate_normal_coefficient(sine) * sine / count;
+  }
+  CHECK(tumbling_coefficient == relative(sum, 0.0005));
+}
+
 TEST_CASE("air that goes along with a piece leaves it alone and a wind pushes what stands") {
   Piece plate = sheet(0.01, quarter_turn, 25.0);
   feel_air(plate, {25, 0, 0});
