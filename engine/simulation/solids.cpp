@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
@@ -37,8 +38,8 @@ constexpr Number stand_numbers[] = {
 
 tl::unexpected<Error> no_solid(std::string what) {
   return failure(std::move(what), "solid",
-                 "write \"stand solid=N x_m=X y_m=Y z_m=Z heading_rad=A length_m=L width_m=W height_m=H\" or \"clear "
-                 "solid=N\"");
+                 "write \"stand solid=N x_m=X y_m=Y z_m=Z heading_rad=A length_m=L width_m=W height_m=H "
+                 "name=\"NAME\"\" or \"clear solid=N\"");
 }
 
 Expected<void> check_values(const StandSolid& stand) {
@@ -48,6 +49,9 @@ Expected<void> check_values(const StandSolid& stand) {
       return failure(
           fmt::format("its {} is {:g}, which is not from {:g} to {:g}", number.name, value, number.least, number.most),
           "solid", "give it another place or size");
+  if (stand.name.size() > longest_solid_name_bytes || stand.name.find('"') != std::string::npos ||
+      !printable_characters(stand.name))
+    return no_solid("its name is too long, or holds what cannot be printed or a quotation mark");
   return {};
 }
 
@@ -79,6 +83,7 @@ void drop_contacts(ParticipantId id, State& state) {
 std::string text_of(const StandSolid& stand) {
   std::string text = fmt::format("stand solid={}", stand.solid);
   for (const Number& number : stand_numbers) text += fmt::format(" {}={}", number.name, stand.*number.value);
+  if (!stand.name.empty()) text += fmt::format(" name=\"{}\"", stand.name);
   return text;
 }
 
@@ -86,12 +91,17 @@ std::string text_of(const ClearSolid& clear) { return fmt::format("clear solid={
 
 Expected<StandSolid> read_stand(std::string_view text) {
   StandSolid stand;
+  const std::string whole = fmt::format("stand {}", text);
+  if (const auto named = named_solid(whole)) {
+    stand.name = named->name;
+    text.remove_suffix(stand.name.size() + std::string_view(" name=\"\"").size());
+  }
   const bool has_more = text.ends_with(' ');
   if (!read_value(take_word(text), "solid", stand.solid)) return no_solid("its number cannot be read");
   for (const Number& number : stand_numbers)
     if (!read_value(take_word(text), number.name, stand.*number.value))
       return no_solid(fmt::format("its {} cannot be read", number.name));
-  if (has_more || !text.empty()) return no_solid("there is more than its place and size");
+  if (has_more || !text.empty()) return no_solid("there is more than its place, size and name");
   if (auto sound = check_values(stand); !sound) return tl::unexpected(sound.error());
   return stand;
 }

@@ -8,6 +8,8 @@
 
 #include <fmt/core.h>
 
+#include "engine/world/solid.hpp"
+
 namespace septet {
 namespace {
 
@@ -141,7 +143,7 @@ double share_missing(const CrashLedger& ledger) {
 std::string text_of(const CrashRecord& crash) {
   std::string text = fmt::format("version={} tick={} ticks={}", crash_record_version, crash.tick, crash.ticks);
   if (crash.second) text += fmt::format(" with={}", *crash.second);
-  if (!crash.stands.empty()) text += fmt::format(" stands={}", in_one_word(crash.stands));
+  if (!crash.second && !crash.stands.empty()) text += fmt::format(" stands={}", in_one_word(crash.stands));
   const Writer write{text};
   write.add("point_x_m", crash.point_m.x);
   write.add("point_y_m", crash.point_m.y);
@@ -154,6 +156,7 @@ std::string text_of(const CrashRecord& crash) {
   for (std::size_t i = 0; i < crash.pulse_ns.size(); ++i)
     text += fmt::format("{}{:.6g}:{:.6g}", i == 0 ? " pulse_ns=" : ",", crash.pulse_ns[i].x, crash.pulse_ns[i].y);
   if (crash.is_unfinished) text += " unfinished=1";
+  if (crash.second && !crash.stands.empty()) text += name_of_struck(crash.stands);
   return text;
 }
 
@@ -170,8 +173,12 @@ std::optional<CrashRecord> read_crash(ParticipantId first, std::string_view deta
   crash.ticks = *ticks;
   crash.first = first;
   crash.second = read.whole<ParticipantId>("with");
-  crash.stands = std::string(read.word("stands").value_or(""));
-  std::ranges::replace(crash.stands, '_', ' ');
+  if (crash.second) {
+    crash.stands = struck_by_name(detail).value_or("");
+  } else {
+    crash.stands = std::string(read.word("stands").value_or(""));
+    std::ranges::replace(crash.stands, '_', ' ');
+  }
   crash.point_m = Vec3(*x, *y, *z);
   crash.normal_rad = *normal;
   crash.closing_speed_mps = *closing;

@@ -47,7 +47,7 @@ struct CrashRecord {
   std::uint32_t ticks = 0;              ///< From it to the last push.
   ParticipantId first = 0;              ///< The lesser number.
   std::optional<ParticipantId> second;  ///< Empty: what stands.
-  std::string stands;                   ///< "guard rail", "tree", …
+  std::string stands;  ///< "guard rail", "tree", …; of a second that is a solid, its name or nothing.
   Vec3 point_m{0.0};
   double normal_rad = 0.0;            ///< Its direction, from the first to the second.
   double closing_speed_mps = 0.0;     ///< Of the surfaces, along the normal.

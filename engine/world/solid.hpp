@@ -3,6 +3,9 @@
 /// the scene. The scene draws the things; as participants they are met, seen by drivers and logged, and never drawn.
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "engine/world/snapshot.hpp"
 
@@ -15,5 +18,19 @@ inline constexpr ParticipantId first_solid_participant = 32768;
 constexpr bool is_solid(ParticipantId id) {
   return id >= first_solid_participant && id - first_solid_participant < most_solids;
 }
+
+/// What the command says that stands a solid (engine/simulation/solids.hpp): its number as a participant, and the name
+/// of the thing in whose place it stands.
+struct NamedSolid {
+  ParticipantId participant = 0;
+  std::string_view name;  ///< Within the command's text.
+};
+/// Empty: the text is of another command, or names nothing (sessions of earlier builds).
+std::optional<NamedSolid> named_solid(std::string_view command);
+
+/// The last pair of a contact's detail in the log, with the blank before it: ` what="NAME"`.
+std::string name_of_struck(std::string_view name);
+/// The name in it; empty: the detail has none.
+std::optional<std::string> struck_by_name(std::string_view detail);
 
 }  // namespace septet

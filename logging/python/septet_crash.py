@@ -47,6 +47,8 @@ def _pulse(text):
 
 def _record(participant, detail):
     """A record's keys, or None for what is none of this version."""
+    # The name of a solid comes last, and may hold blanks.
+    detail, _, name = detail.partition(' what="')
     words = dict(word.split("=", 1) for word in detail.split(" ") if "=" in word)
     if words.get("version") != str(RECORD_VERSION):
         return None
@@ -58,6 +60,8 @@ def _record(participant, detail):
             record[key] = text.replace("_", " ")
         elif key != "version":
             record[key] = _number(text)
+    if name.endswith('"'):
+        record["what"] = name[:-1]
     return record
 
 

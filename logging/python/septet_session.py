@@ -14,6 +14,7 @@ and any fault of it is a SessionError.
 import contextlib
 import functools
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ from septet_untrusted import DAMAGE, UntrustedDatabase
 
 APPLICATION_ID = 0x53535444
 FORMAT_VERSION = 3
+_FIRST_SOLID = 32768
 _TEXTS = ("role", "name", "kind", "detail", "item", "question", "answer", "reason")
 
 
@@ -146,6 +148,7 @@ class Session:
         models = self.vehicle_models() if "vehicle_models" in self.meta else []
         if not isinstance(names, dict):
             raise SessionError(f"{self.path}: its participant_names are not what Septet writes: use an unaltered session")
+        names |= self._solids()
         rows = []
         for number, (index, first_s, last_s) in sorted(seen.times.items()):
             model = models[index] if index < len(models) else {}
@@ -153,6 +156,13 @@ class Session:
                          model.get("length_m"), model.get("width_m"), model.get("height_m"), first_s, last_s))
         return pandas.DataFrame(rows, columns=["participant", "name", "is_driver", "vehicle", "kind", "length_m", "width_m", "height_m",
                                                "first_seen_s", "last_seen_s"])
+
+    def _solids(self):
+        """Names of the things in whose place solids stand, by the participant's number as text; a number's newest name."""
+        events = self.events
+        told = (re.match(r'stand solid=(\d{1,4}) .*? name="([^"]*)"$', detail)
+                for detail in events[events.kind == "operator_command"].detail if isinstance(detail, str))
+        return {str(_FIRST_SOLID + int(found[1])): found[2] for found in told if found}
 
     @property
     @_told

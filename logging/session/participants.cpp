@@ -9,6 +9,7 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/document/json.hpp"
+#include "engine/world/solid.hpp"
 #include "logging/session/shallow_json.hpp"
 
 namespace septet::logging {
@@ -23,9 +24,7 @@ std::optional<ParticipantId> number_in(std::string_view text) {
   return number;
 }
 
-}  // namespace
-
-Expected<ParticipantNames> participant_names(const SessionReader& session) {
+Expected<ParticipantNames> names_of_scenario(const SessionReader& session) {
   ParticipantNames names;
   const auto& other = session.info().other;
   const auto row = other.find("participant_names");
@@ -41,6 +40,20 @@ Expected<ParticipantNames> participant_names(const SessionReader& session) {
   if (!is_written)
     return failure("the meta row participant_names is not what Septet writes", session.path().string(),
                    "it was altered or damaged: use an unaltered copy");
+  return names;
+}
+
+}  // namespace
+
+Expected<ParticipantNames> participant_names(const SessionReader& session) {
+  auto names = names_of_scenario(session);
+  if (!names) return names;
+  const auto events = session.events();
+  if (!events) return tl::unexpected(events.error());
+  for (const Event& event : *events)
+    if (event.kind == operator_command_kind)
+      if (const auto solid = named_solid(event.detail))
+        names->insert_or_assign(solid->participant, std::string(solid->name));
   return names;
 }
 

@@ -14,19 +14,20 @@
 
 namespace septet::logging {
 
-/// Names that the scenario gives, by number. Traffic has none.
+/// Names that the scenario gives, and those of the things in whose place solids stand, by number. Traffic has none.
 using ParticipantNames = std::map<ParticipantId, std::string>;
 
-/// Names of a session (meta row `participant_names`, FORMAT.md); empty for one that keeps none. Error: an altered row.
+/// Names of a session (meta row `participant_names`, and the commands that stand solids: FORMAT.md); of a solid's number
+/// that several things had, the last one's. Empty for one that keeps none. Error: an altered row, or damage.
 Expected<ParticipantNames> participant_names(const SessionReader& session);
 
-/// Number of a participant given as text: a name of the scenario, or a number. Empty: neither.
+/// Number of a participant given as text: a name, or a number. Empty: neither.
 std::optional<ParticipantId> number_of(const ParticipantNames& names, std::string_view text);
 
 /// A participant's stay in a session.
 struct Stay {
   ParticipantId number = 0;
-  std::string name;  ///< Empty: the scenario gives none.
+  std::string name;  ///< Empty: it has none.
   ModelIndex model = 0;
   bool is_driver = false;
   double from_s = 0.0, to_s = 0.0;  ///< Simulated time of the first and the last tick that holds it.

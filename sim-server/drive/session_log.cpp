@@ -13,13 +13,16 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/scene/command_codec.hpp"
+#include "engine/world/crash_record.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/solid.hpp"
 #include "logging/session/input_hash.hpp"
 #include "logging/session/session_reader.hpp"
 #include "logging/session/subject.hpp"
 #include "logging/study/best_list.hpp"
 #include "logging/study/lesson/debrief.hpp"
 #include "logging/study/lesson/lesson.hpp"
+#include "logging/study/measures/collisions.hpp"
 #include "logging/study/report/report.hpp"
 #include "logging/study/report/summary.hpp"
 #include "sim-server/drive/what_if/braking_earlier.hpp"
@@ -202,11 +205,25 @@ void SessionLog::record_message(const std::string& kind, const std::string& text
 
 void SessionLog::record_command(Tick before, const simulation::OperatorCommand& command) {
   if (std::holds_alternative<simulation::PutCar>(command)) logging::break_off(observer_.lane_changes);
-  record(logging::Event{before, simulated_time_s_, std::string(operator_command_event), std::nullopt,
-                        simulation::text_of(command)});
+  const std::string text = simulation::text_of(command);
+  if (const auto solid = named_solid(text)) solids_.insert_or_assign(solid->participant, std::string(solid->name));
+  record(logging::Event{before, simulated_time_s_, std::string(operator_command_event), std::nullopt, text});
+}
+
+/// A contact with a solid tells whose place it stands in: numbers serve again, and a log's reader knows no scene.
+void SessionLog::name_solid(logging::Event& event) const {
+  const bool by_participant = event.kind == "collision";
+  if (!by_participant && event.kind != "crash_of_others" && event.kind != crash_event) return;
+  const auto with = by_participant ? std::nullopt : logging::number_in_detail(event.detail, "with");
+  const auto struck = by_participant ? event.participant
+                      : with         ? std::optional(static_cast<ParticipantId>(*with))
+                                     : std::nullopt;
+  const auto solid = struck ? solids_.find(*struck) : solids_.end();
+  if (solid != solids_.end()) event.detail += name_of_struck(solid->second);
 }
 
 void SessionLog::record(logging::Event event) {
+  name_solid(event);
   if (happened_) happened_(event);
   if (heard_) heard_(event);
   digest_.add(event);

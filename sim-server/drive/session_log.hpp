@@ -91,6 +91,7 @@ class SessionLog {
       : writer_(std::move(writer)), model_(std::move(model)), real_time_(real_time), samples_only_(samples_only) {}
 
   void record(logging::Event event);
+  void name_solid(logging::Event& event) const;
 
   logging::SessionWriter writer_;
   std::function<void(const logging::Sample&)> sampled_;
@@ -100,6 +101,7 @@ class SessionLog {
   bool samples_only_;  ///< True: no snapshots, states or scene.
   double told_waited_s_ = 0.0;
   logging::DriveObserver observer_;
+  std::map<ParticipantId, std::string> solids_;  ///< Names of those that stand or stood, by the newest command.
   StateHash inputs_hash_;
   logging::SessionDigest digest_;
   std::uint32_t bad_numbers_ = 0;  ///< From the last tick's diagnostics.

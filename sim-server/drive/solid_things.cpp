@@ -39,11 +39,12 @@ std::size_t place_in(std::span<const scene::Command> batch, const std::vector<sc
   return batch.empty() ? 0 : batch.size() - 1;
 }
 
-StandSolid stand_of(std::uint32_t solid, const scene::SolidBox& box) {
+StandSolid stand_of(std::uint32_t solid, const scene::SolidBox& box, std::string name) {
   // A board and a sheet are flat; a blow needs some thickness.
   const auto thick_m = [](double size_m) { return std::max(size_m, simulation::thinnest_solid_m); };
   return {solid,           box.foot_m.x,          box.foot_m.y,          box.foot_m.z,
-          box.heading_rad, thick_m(box.size_m.x), thick_m(box.size_m.y), thick_m(box.size_m.z)};
+          box.heading_rad, thick_m(box.size_m.x), thick_m(box.size_m.y), thick_m(box.size_m.z),
+          std::move(name)};
 }
 
 /// Of the solids that nobody has.
@@ -56,6 +57,14 @@ std::optional<std::uint32_t> free_number(const std::map<scene::NodeId, SolidThin
 std::string name_in(const scene::Store& store, scene::NodeId id) {
   const scene::Node* node = store.find(id);
   return node ? printable(node->name) : fmt::format("#{}", id);
+}
+
+/// For the log's readers; of one without a name its number.
+std::string name_in_log(const scene::Store& store, scene::NodeId id) {
+  constexpr std::size_t most_bytes = 400;
+  std::string name = printable(store.find(id)->name, most_bytes);
+  std::ranges::replace(name, '"', '\'');
+  return name.empty() ? fmt::format("#{}", id) : name;
 }
 
 tl::unexpected<Error> hangs_on(const scene::Store& store, scene::NodeId child, scene::NodeId parent) {
@@ -92,7 +101,7 @@ Expected<void> update_thing(const scene::Store& store, scene::NodeId id, const s
   auto read = scene::read_solid(store, id);
   if (!read) return tl::unexpected(read.error());
   std::optional<StandSolid> wanted;
-  if (read->box) wanted = stand_of(thing.solid, *read->box);
+  if (read->box) wanted = stand_of(thing.solid, *read->box, name_in_log(store, id));
   if (wanted != thing.standing) {
     if (wanted) {
       if (auto may = simulation::may_stand(model, state, *wanted); !may)

@@ -118,6 +118,8 @@ TEST_CASE("a wall that an editor tags solid stops the car, and without the tag t
     Site site;
     REQUIRE(site.make(wall_at(site.ahead(30.0), solid)).empty());
     site.drive(3.0);
+    CHECK(site.logged.size() == (solid ? 1 : 0));
+    if (solid) CHECK(site.logged.front().second.ends_with(" name=\"stimuli/wall\""));
     CHECK((site.driven_m() < 30.0) == solid);
     CHECK((glm::length(site.state.car.velocity_mps) < 5.0) == solid);
     CHECK(site.collisions() == (solid ? 1 : 0));

@@ -303,7 +303,8 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
   std::optional<CrashRecord> hardest;
   for (const Event& event : drive.events) {
     if (event.kind != "collision") continue;
-    if (event.detail.ends_with("by=other")) ++by_others;
+    // Behind it a solid's name may follow.
+    if ((event.detail + ' ').find(" by=other ") != std::string::npos) ++by_others;
     if (auto crash = crash_of(event, crashes); crash && delta_v_of(crash) > delta_v_of(hardest))
       hardest = std::move(*crash);
     std::string told = by_others > 0.0 ? fmt::format("{:.0f} of them ran into the pupil's car", by_others) : "";

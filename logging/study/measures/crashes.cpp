@@ -27,7 +27,7 @@ bool is_with_standing(const Event& touch) {
 bool are_those_of(const Event& touch, const CrashRecord& crash) {
   const bool of_others = touch.kind == "crash_of_others";
   if (is_with_standing(touch))
-    return !crash.stands.empty() && touch.detail.starts_with(crash.stands) &&
+    return !crash.second && !crash.stands.empty() && touch.detail.starts_with(crash.stands) &&
            (!of_others || touch.participant == crash.first);
   if (of_others)
     return crash.second && touch.participant == crash.first &&
@@ -79,9 +79,10 @@ std::string_view whence(double principal_direction_rad) {
 }
 
 std::string crash_text(const CrashRecord& crash) {
-  const std::string other = crash.second ? fmt::format("{}", *crash.second) : crash.stands;
-  return fmt::format("{} {} and {} met at {:.0f} km/h{}{}{}", crash.second ? "participants" : "participant",
-                     crash.first, other, kmh_per_mps * crash.closing_speed_mps,
+  const bool by_number = crash.second && crash.stands.empty();
+  const std::string other = by_number ? fmt::format("{}", *crash.second) : crash.stands;
+  return fmt::format("{} {} and {} met at {:.0f} km/h{}{}{}", by_number ? "participants" : "participant", crash.first,
+                     other, kmh_per_mps * crash.closing_speed_mps,
                      body_text(fmt::format("{}", crash.first), crash.of_first), body_text(other, crash.of_second),
                      crash.is_unfinished ? "; the drive ended before its impact was over" : "");
 }

@@ -37,6 +37,11 @@ std::string called(ParticipantId number, const ParticipantNames& names) {
   return name == names.end() ? fmt::format("{}", number) : fmt::format("{} {}", number, name->second);
 }
 
+/// What stands and a solid have their name in the record.
+std::string called_second(const CrashRecord& crash, const ParticipantNames& names) {
+  return crash.second && crash.stands.empty() ? called(*crash.second, names) : crash.stands;
+}
+
 std::string row(const std::string& who, const CrashedBody& body) {
   const auto speed = [](const std::optional<Vec2>& v) { return v ? std::optional(glm::length(*v)) : std::nullopt; };
   return fmt::format("<tr><td class=\"name\">{}</td>{}{}{}<td>{}</td>{}{}{}</tr>\n", escaped(who),
@@ -72,15 +77,14 @@ std::string pulse_chart(const CrashRecord& crash, double ticks_per_second, const
     chart.series.push_back(std::move(line));
   };
   add(called(crash.first, names), crash.of_first, document::Stroke::line);
-  if (crash.second) add(called(*crash.second, names), crash.of_second, document::Stroke::dashed);
+  if (crash.second) add(called_second(crash, names), crash.of_second, document::Stroke::dashed);
   if (crash.pulse_ns.size() < 2 || chart.series.empty()) return "";
   return fmt::format("<figure>{}<figcaption>Means of each tick. Wheels are not in it.</figcaption></figure>\n",
                      document::to_svg(chart));
 }
 
 std::string told(const CrashRecord& crash, double ticks_per_second, const ParticipantNames& names) {
-  const std::string first = called(crash.first, names),
-                    other = crash.second ? called(*crash.second, names) : crash.stands;
+  const std::string first = called(crash.first, names), other = called_second(crash, names);
   std::string html = fmt::format("<h3>{:.2f} s: {} and {}</h3>\n<p>The surfaces met at {:.1f} km/h along their normal",
                                  static_cast<double>(crash.tick) / ticks_per_second, escaped(first), escaped(other),
                                  kmh_per_mps * crash.closing_speed_mps);

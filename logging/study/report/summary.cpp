@@ -47,7 +47,9 @@ void add_measures(const DriveMeasures& m, Json& json) {
 /// The words of a record as they stand in the log (FORMAT.md): numbers as numbers, the pulse as pairs.
 Json crash_json(const CrashRecord& crash) {
   Json json = {{"first", crash.first}};
-  const std::string text = text_of(crash);
+  CrashRecord in_words = crash;
+  if (crash.second) in_words.stands.clear();  // A name may hold blanks.
+  const std::string text = text_of(in_words);
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size()), equals = text.find('=', at);
     const std::string key = text.substr(at, equals - at), value = text.substr(equals + 1, end - equals - 1);
@@ -57,6 +59,7 @@ Json crash_json(const CrashRecord& crash) {
     else if (key != "pulse_ns")
       json[key] = Json::parse(value);
   }
+  if (crash.second && !crash.stands.empty()) json["what"] = crash.stands;
   for (const Vec2& push : crash.pulse_ns) json["pulse_ns"].push_back({number(push.x), number(push.y)});
   return json;
 }

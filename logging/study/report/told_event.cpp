@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/document/table_line.hpp"
+#include "engine/world/solid.hpp"
 #include "logging/study/measures/crashes.hpp"
 
 namespace septet::logging {
@@ -112,7 +113,10 @@ std::string glance_text(const Event& event) {
 }
 
 std::string collision_text(const Event& event) {
-  const std::string whom = event.participant ? fmt::format(" with participant {}", *event.participant) : "";
+  const auto name = struck_by_name(event.detail);
+  const std::string whom = name                ? " with " + *name
+                           : event.participant ? fmt::format(" with participant {}", *event.participant)
+                                               : "";
   const auto closing = value_of(event.detail, "closing_speed_mps");
   const std::string_view before = std::string_view(event.detail).substr(0, event.detail.find(' '));
   const std::string with = before.empty() || before.find('=') != before.npos ? whom : fmt::format(" with {}", before);
@@ -129,9 +133,11 @@ std::string crash_of_others_text(const Event& event) {
                        std::string_view(event.detail).substr(0, event.detail.find(" closing_speed_mps=")),
                        kmh_of(*closing));
   if (!event.participant || !with || !by || !closing) return event.detail;
-  const std::string first = fmt::format("{}", *event.participant);
-  return fmt::format("participant {} ran into {} at a closing speed of {}", *by, *by == first ? *with : first,
-                     kmh_of(*closing));
+  const auto name = struck_by_name(event.detail);
+  const std::string first = fmt::format("{}", *event.participant), second = name.value_or(*with);
+  const bool by_first = *by == first;
+  return fmt::format("{}{} ran into {} at a closing speed of {}", name && !by_first ? "" : "participant ",
+                     by_first ? first : second, by_first ? second : first, kmh_of(*closing));
 }
 
 /// The kind, and its `key=value` pairs verbatim.

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/solid.hpp"
 #include "logging/session/participants.hpp"
 #include "logging/study/measures/collisions.hpp"
 #include "logging/study/measures/crashes.hpp"
@@ -86,6 +87,7 @@ Contact contact_of(const logging::Event& event, ParticipantId driver) {
   const auto with = logging::number_in_detail(event.detail, "with");
   if (event.participant && with && *with >= 0.0 && *with <= std::numeric_limits<ParticipantId>::max())
     contact.first = *event.participant, contact.second = static_cast<ParticipantId>(*with);
+  if (contact.second) contact.stands = struck_by_name(event.detail).value_or("");
   const bool is_wreck = event.kind == "crash_of_others" && event.participant && !with;
   if (is_wreck) contact.first = *event.participant, contact.second = std::nullopt;
   if (!event.participant || is_wreck) {
@@ -156,10 +158,14 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
   for (const ParticipantId number : numbers) {
     const auto name = names->find(number);
     facts.involved.push_back({.number = number, .name = name == names->end() ? std::string() : name->second});
-    facts.involved.back().moved_by = number == *driver
-                                         ? facts.driver.empty() ? MovedBy::person : MovedBy::simulated_driver
-                                     : name != names->end() ? MovedBy::scenario
-                                                            : MovedBy::traffic;
+    Involved& one = facts.involved.back();
+    // A number serves several things; the contact's own name is of its time.
+    if (is_solid(number) && facts.chosen && !facts.contacts[*facts.chosen].stands.empty())
+      one.name = facts.contacts[*facts.chosen].stands;
+    one.moved_by = is_solid(number)       ? MovedBy::editor
+                   : number == *driver    ? facts.driver.empty() ? MovedBy::person : MovedBy::simulated_driver
+                   : name != names->end() ? MovedBy::scenario
+                                          : MovedBy::traffic;
   }
   std::map<ParticipantId, Involved> others;
   const auto read = for_each_world(session, facts.window_s, [&](const Snapshot& world) {

@@ -21,6 +21,7 @@ enum class MovedBy : std::uint8_t {
   simulated_driver,  ///< The driver's car, by a simulated driver.
   scenario,          ///< By what the scenario's storyboard tells it.
   traffic,           ///< By the traffic model.
+  editor,            ///< A solid (engine/world/solid.hpp).
 };
 
 /// A contact, as the log's event `collision` or `crash_of_others` tells it.
@@ -28,7 +29,7 @@ struct Contact {
   double time_s = 0.0;
   ParticipantId first = 0;
   std::optional<ParticipantId> second;             ///< Empty: something that stands, which is `stands`.
-  std::string stands;                              ///< "guard rail", "tree", …
+  std::string stands;                              ///< "guard rail", "tree", …; of a solid its name.
   std::optional<double> closing_mps, delta_v_mps;  ///< The latter of the first. Empty: the event does not tell it.
   std::optional<CrashRecord> crash = {};           ///< What it came to, where the log has that.
 };
@@ -43,7 +44,7 @@ struct WayPoint {
 
 struct Involved {
   ParticipantId number = 0;
-  std::string name;  ///< Of the scenario; empty: it gives none.
+  std::string name;  ///< Of the scenario or the editor's thing; empty: it has none.
   ModelIndex model = 0;
   std::optional<Vec3> box_size_m = {};  ///< Of a box (engine/world/participant_shape.hpp).
   MovedBy moved_by = MovedBy::traffic;

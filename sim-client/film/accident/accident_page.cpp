@@ -27,6 +27,8 @@ std::string_view words_of(MovedBy moved_by) {
       return "the scenario (assumed) until an impact";
     case MovedBy::traffic:
       return "the traffic model (computed)";
+    case MovedBy::editor:
+      return "an editor of the scene (logged)";
   }
   return "";
 }

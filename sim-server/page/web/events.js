@@ -27,7 +27,7 @@ function crash_words(values) {
     return t('event.crash_side', { kmh: kmh_of(Math.hypot(x, y)), whence: t(`whence.${eighth}`) });
   };
   const sides = [side(''), side('its_')];
-  const told = t('event.crash', { kmh: kmh_of(values.closing_speed_mps || 0), other: values.with ? values.with : heard((values.stands || '').replaceAll('_', ' ')) });
+  const told = t('event.crash', { kmh: kmh_of(values.closing_speed_mps || 0), other: values.with ? values.what || values.with : heard((values.stands || '').replaceAll('_', ' ')) });
   return [told, sides[0], sides[1] && `${values.with}: ${sides[1]}`].filter(Boolean).join('; ');
 }
 

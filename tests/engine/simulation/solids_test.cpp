@@ -16,7 +16,7 @@
 namespace septet::simulation {
 namespace {
 
-constexpr StandSolid wall_ahead{.solid = 3, .x_m = 20.0, .length_m = 0.5, .width_m = 6.0, .height_m = 2.0};
+const StandSolid wall_ahead{.solid = 3, .x_m = 20.0, .length_m = 0.5, .width_m = 6.0, .height_m = 2.0};
 
 /// The driver's car, at the origin, drives along x; nobody else is there.
 CrashSite driven_alone(double speed_mps) { return {plane_model(0), {}, speed_mps, {}}; }
@@ -38,7 +38,8 @@ double x_of_car_m(const CrashSite& site) { return site.car.participant.world_fro
 
 TEST_CASE("a solid's commands come back from their texts to the last bit") {
   for (const OperatorCommand& command :
-       {OperatorCommand(StandSolid{63, 1.0 / 3.0, -1e5 / 7.0, 0.1, -0.7, 0.05, 200.0, 2.0 / 3.0}),
+       {OperatorCommand(StandSolid{63, 1.0 / 3.0, -1e5 / 7.0, 0.1, -0.7, 0.05, 200.0, 2.0 / 3.0, {}}),
+        OperatorCommand(StandSolid{.solid = 1, .name = "stimuli/a wall, name='x' solid=5 å"}),
         OperatorCommand(ClearSolid{63})}) {
     const auto read = parse_operator_command(text_of(command));
     REQUIRE_MESSAGE(read.has_value(), why_not(read));
@@ -53,12 +54,28 @@ TEST_CASE("a solid out of its bounds is refused as a text and as a value") {
     std::string text = good;
     return text.replace(text.find(before), before.size(), after);
   };
-  for (const std::string& text :
-       {std::string("stand "), std::string("stand solid=3"), std::string("clear solid=64"), std::string("clear "),
-        good + " ", good + " mass_kg=1", with("solid=3", "solid=64"), with("solid=3", "solid=-1"),
-        with("x_m=20", "x_m=1e300"), with("x_m=20", "x_m=nan"), with("x_m=20", "x_m=inf"), with("x_m=20", "y_m=20"),
-        with("heading_rad=0", "heading_rad=7"), with("length_m=0.5", "length_m=0.01"), with("width_m=6", "width_m=1e4"),
-        with("height_m=2", "height_m=-2")})
+  for (const std::string& text : {std::string("stand "),
+                                  std::string("stand solid=3"),
+                                  std::string("clear solid=64"),
+                                  std::string("clear "),
+                                  good + " ",
+                                  good + " mass_kg=1",
+                                  good + " name=wall",
+                                  good + " name=\"wall",
+                                  good + " name=\"a\"b\"",
+                                  good + " name=\"a\nb\"",
+                                  good + " name=\"" + std::string(1025, 'a') + "\"",
+                                  good + "  name=\"wall\"",
+                                  with("solid=3", "solid=64"),
+                                  with("solid=3", "solid=-1"),
+                                  with("x_m=20", "x_m=1e300"),
+                                  with("x_m=20", "x_m=nan"),
+                                  with("x_m=20", "x_m=inf"),
+                                  with("x_m=20", "y_m=20"),
+                                  with("heading_rad=0", "heading_rad=7"),
+                                  with("length_m=0.5", "length_m=0.01"),
+                                  with("width_m=6", "width_m=1e4"),
+                                  with("height_m=2", "height_m=-2")})
     CHECK_MESSAGE(!parse_operator_command(text).has_value(), text);
 
   CrashSite site = driven_alone(0.0);

@@ -7,6 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/world/solid.hpp"
+
 #include "engine/core/random.hpp"
 #include "tests/relative.hpp"
 
@@ -42,6 +44,26 @@ TEST_CASE("a record that is written as text and read again is the same") {
   const auto again = read_crash(crash.first, text_of(crash));
   REQUIRE(again.has_value());
   CHECK(*again == crash);
+}
+
+TEST_CASE("a record with a solid has its name, blanks and all, and only at its end") {
+  CrashRecord crash = full_record();
+  crash.stands = "stimuli/a wall depth_m=9";
+  const auto again = read_crash(crash.first, text_of(crash));
+  REQUIRE(again.has_value());
+  CHECK(*again == crash);
+  CHECK(read_crash(crash.first, text_of(full_record()) + " what=\"")->stands.empty());
+}
+
+TEST_CASE("a command that stands a solid tells its number and name, and others tell neither") {
+  const auto named = named_solid("stand solid=3 x_m=1 height_m=2 name=\"stimuli/a wall\"");
+  REQUIRE(named.has_value());
+  CHECK(named->participant == first_solid_participant + 3);
+  CHECK(named->name == "stimuli/a wall");
+  for (const char* text : {"stand solid=3 x_m=1", "stand solid=64 x_m=1 name=\"a\"", "stand solid=x name=\"a\"",
+                           "stand solid= name=\"a\"", "stand solid=3 name=\"", "stand solid=3 name=\"a",
+                           "stand solid=3 x_m=1 name=\"\"", "clear solid=3 name=\"a\"", ""})
+    CHECK_MESSAGE(!named_solid(text).has_value(), text);
 }
 
 TEST_CASE("what was not measured has no key, and is missing when it is read") {

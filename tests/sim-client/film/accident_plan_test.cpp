@@ -11,6 +11,7 @@
 
 #include "engine/film_script/film_script.hpp"
 #include "engine/film_script/script_text.hpp"
+#include "engine/world/solid.hpp"
 #include "sim-client/film/accident/read_plan.hpp"
 #include "sim-client/film/film.hpp"
 #include "tests/logging/session_fixture.hpp"
@@ -175,6 +176,31 @@ TEST_CASE("without a contact the nearest approach is planned and said to be one"
   CHECK(one.facts.involved[0].name == "ego");  // 2 and 3 come as near to each other.
   CHECK(one.plan.script.overlay.contact == "the nearest approach");
   CHECK(one.plan.script.overlay.notes[2].find("impact") == std::string::npos);
+}
+
+TEST_CASE("a contact with a solid is labelled by the name that the event has, else by its number") {
+  const TemporaryFolder folder;
+  const auto title_of = [&](const std::string& detail) {
+    const auto file = folder / "session.sqlite";
+    std::filesystem::remove(file);
+    auto writer = logging::SessionWriter::create(file, logging::example_info());
+    REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
+    for (Tick tick = 0; tick <= 1200; ++tick) {
+      Snapshot world = crossing_world(tick, true);
+      world.participants[2].id = first_solid_participant;
+      writer->record(logging::taken(world));
+    }
+    writer->record(logging::Event{1, 0.0, std::string(logging::operator_command_kind), std::nullopt,
+                                  "stand solid=0 x_m=0 name=\"stimuli/later\""});
+    writer->record(collision(6.0, first_solid_participant, detail));
+    REQUIRE(writer->finish().has_value());
+    auto plan = read_plan(logging::must_open(file), std::nullopt, picture_shape);
+    REQUIRE_MESSAGE(plan.has_value(), why_not(plan));
+    CHECK(plan->facts.involved[1].moved_by == MovedBy::editor);
+    return plan->plan.title;
+  };
+  CHECK(title_of("closing_speed_mps=4.00 by=driver what=\"stimuli/wall\"").ends_with("and stimuli/wall meet, 6.00 s"));
+  CHECK(title_of("closing_speed_mps=4.00 by=driver").ends_with("and stimuli/later meet, 6.00 s"));
 }
 
 TEST_CASE("of three contacts the first is planned unless another is asked for by its number") {
