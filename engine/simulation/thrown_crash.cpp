@@ -1,6 +1,7 @@
 #include "engine/simulation/thrown_crash.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/core.h>
@@ -18,6 +19,11 @@ Vec2 way_to_other(const person::Touches& touches) {
   const Vec2 level(touches.normal);
   const double length = glm::length(level);
   return length > 0.1 ? level / length : Vec2(1.0, 0.0);
+}
+
+/// Change of speed by a plastic impact with another one, who may stand fast by an infinite mass.
+double plastic_delta_v_mps(double closing_mps, double own_kg, double other_kg) {
+  return std::isfinite(other_kg) ? closing_mps * other_kg / (own_kg + other_kg) : closing_mps;
 }
 
 }  // namespace
@@ -39,9 +45,8 @@ void tell_touch(const Model& model, const ThrownTouch& touch, State& state, std:
   state.effects.crashes.struck_vehicles.push_back(crash);
 
   // A person is taken along at once: the changes of speed are those of a plastic impact of the two masses.
-  const double both_kg = crash.first.mass_kg + crash.second.mass_kg,
-               delta_v_mps = closing_mps * crash.second.mass_kg / both_kg,
-               its_delta_v_mps = closing_mps * crash.first.mass_kg / both_kg;
+  const double delta_v_mps = plastic_delta_v_mps(closing_mps, crash.first.mass_kg, crash.second.mass_kg),
+               its_delta_v_mps = plastic_delta_v_mps(closing_mps, crash.second.mass_kg, crash.first.mass_kg);
   const bool by_first =
       glm::dot(Vec2(first.velocity_mps), to_second) >= -glm::dot(Vec2(second.velocity_mps), to_second);
   if (first.id == driver_participant) {

@@ -120,6 +120,11 @@ TEST_CASE("who rides against a large box is thrown at its end and not within it"
   const double front_m = vehicle_models()[model.scenario.entities[walker].model].front_m();
   const double reaches_m = shown(now, walker_id).world_from_vehicle.position_m.x + front_m;
   CHECK(std::abs(reaches_m - (middle_m - 0.5 * box_m)) < 0.3);
+  const auto touch = std::ranges::find(events, "crash_of_others", &Event::kind);
+  REQUIRE(touch != events.end());
+  // The box stands fast: the rider loses all of his speed, and it nothing.
+  CHECK(touch->detail.find("delta_v_mps=10.0") != std::string::npos);
+  CHECK(touch->detail.find("its_delta_v_mps=0.00") != std::string::npos);
 }
 
 TEST_CASE("a scripted car that runs over a walker throws him within Searle's band, brakes, and both are named") {
