@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -26,12 +30,30 @@ namespace septet::roadside {
 namespace {
 
 constexpr PlaneCells obstacle_cells{32.0};
-constexpr double most_reach_m = 30.0;
+constexpr double most_reach_m = 30.0, farthest_m = 1e9;
 constexpr std::uint32_t stem_runs = 0x8000'0000u;  // Run numbers of obstacles outside the list.
+
+using Things = std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t>;
+
+Things::key_type millimetres(const Vec2& place_m) {
+  return {std::llround(1e3 * place_m.x), std::llround(1e3 * place_m.y)};
+}
 
 class Builder {
  public:
-  explicit Builder(std::vector<Obstacle>& obstacles) : obstacles_(obstacles) {}
+  Builder(std::vector<Obstacle>& obstacles, Things& things) : obstacles_(obstacles), things_(things) {}
+
+  /// What `add` adds is drawn by the one object of the scene at this place.
+  template <class Add>
+  void thing(const Vec3& place_m, const Add& add) {
+    const auto next = static_cast<std::uint32_t>(things_.size() + 1);
+    const auto [thing, is_new] = things_.try_emplace(millimetres(Vec2(place_m)), next);
+    const std::size_t before = obstacles_.size();
+    thing_ = thing->second;
+    add();
+    thing_ = 0;
+    if (is_new && obstacles_.size() == before) things_.erase(thing);  // Nothing of it can be hit.
+  }
 
   void point(ObstacleKind kind, const Vec3& foot_m, double radius_m) { add(kind, run_++, foot_m, foot_m, radius_m); }
 
@@ -59,11 +81,13 @@ class Builder {
     obstacle.high_m = std::max(from_m.z, to_m.z) + profile.height_m;
     obstacle.friction = profile.friction;
     obstacle.yielding_kg = profile.yielding_kg;
+    obstacle.thing = thing_;
     return obstacles_.emplace_back(obstacle);
   }
 
   std::vector<Obstacle>& obstacles_;
-  std::uint32_t run_ = 0;
+  Things& things_;
+  std::uint32_t run_ = 0, thing_ = 0;
 };
 
 /// Joins a line's pieces from one tile to the next.
@@ -176,9 +200,11 @@ void add_gantries(const RoadShape& roads, Builder& builder) {
       if (object.type != "gantry") continue;
       const road::RoadPoint middle = roads.at(index, object.s_m, object.t_m);
       const Vec3 left(-std::sin(middle.heading_rad), std::cos(middle.heading_rad), 0.0);
-      for (const double y : gantry_legs_m(object.width_m))
-        builder.point(ObstacleKind::gantry_leg, middle.position_m + y * left,
-                      profile_of(ObstacleKind::gantry_leg).radius_m);
+      builder.thing(middle.position_m, [&] {
+        for (const double y : gantry_legs_m(object.width_m))
+          builder.point(ObstacleKind::gantry_leg, middle.position_m + y * left,
+                        profile_of(ObstacleKind::gantry_leg).radius_m);
+      });
     }
 }
 
@@ -186,8 +212,10 @@ void add_signals(const RoadShape& roads, Builder& builder) {
   for (const StandingSignal& standing : standing_signals(roads))
     if (standing.has_post)
       builder.point(ObstacleKind::post, standing.world_from_signal.position_m, profile_of(ObstacleKind::post).radius_m);
-  for (const StreetLamp& lamp : street_lamps(roads))
-    builder.point(ObstacleKind::post, lamp.world_from_lamp.position_m, 0.07);
+  for (const StreetLamp& lamp : street_lamps(roads)) {
+    const Vec3& foot_m = lamp.world_from_lamp.position_m;
+    builder.thing(foot_m, [&] { builder.point(ObstacleKind::post, foot_m, 0.07); });
+  }
 }
 
 void add_house(const RigidTransform& world_from_house, const HouseBlock& block, Builder& builder) {
@@ -201,40 +229,52 @@ void add_house(const RigidTransform& world_from_house, const HouseBlock& block, 
 
 /// Adds objects of the road file, except its trees and lamps, which are among those above and below.
 void add_objects(const RoadShape& roads, Builder& builder) {
-  for (const StandingObject& object : standing_objects(roads)) {
-    if (object.kind == StandingKind::pole)
-      builder.point(ObstacleKind::post, object.world_from_object.position_m, object.radius_m);
-    for (std::size_t i = 0; i < object.footprint_m.size(); ++i) {
-      const auto corner = [&](std::size_t n) {
-        return object.world_from_object * Vec3(object.footprint_m[n % object.footprint_m.size()], 0.0);
-      };
-      builder.line(ObstacleKind::house, {corner(i), corner(i + 1)});
-    }
-  }
+  for (const StandingObject& object : standing_objects(roads))
+    builder.thing(object.world_from_object.position_m, [&] {
+      if (object.kind == StandingKind::pole)
+        builder.point(ObstacleKind::post, object.world_from_object.position_m, object.radius_m);
+      for (std::size_t i = 0; i < object.footprint_m.size(); ++i) {
+        const auto corner = [&](std::size_t n) {
+          return object.world_from_object * Vec3(object.footprint_m[n % object.footprint_m.size()], 0.0);
+        };
+        builder.line(ObstacleKind::house, {corner(i), corner(i + 1)});
+      }
+    });
 }
 
 void add_furniture(const RoadShape& roads, std::uint64_t seed, Builder& builder) {
   for (const Furniture& thing : street_furniture(roads, seed))
-    if (const double radius_m = radius_of(thing.kind); radius_m > 0.0)
-      builder.point(ObstacleKind::post, thing.world_from_thing.position_m, radius_m);
+    if (const double radius_m = radius_of(thing.kind); radius_m > 0.0) {
+      const Vec3& foot_m = thing.world_from_thing.position_m;
+      builder.thing(foot_m, [&] { builder.point(ObstacleKind::post, foot_m, radius_m); });
+    }
 }
 
 void add_parked_cars(const RoadShape& roads, std::uint64_t seed, Builder& builder) {
   for (const ParkedCar& car : parked_cars(roads, seed)) {
     const VehicleModel& model = vehicle_models()[car.model];
-    add_house(car.world_from_vehicle, {model.length_m, model.width_m, model.centre_x_m(), 0.0}, builder);
+    builder.thing(car.world_from_vehicle.position_m, [&] {
+      add_house(car.world_from_vehicle, {model.length_m, model.width_m, model.centre_x_m(), 0.0}, builder);
+    });
   }
 }
 
 void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed, Builder& builder) {
   for (const Tree& tree : planted_trees(roads, terrain, seed))
-    builder.point(tree.kind == TreeKind::bush ? ObstacleKind::bush : ObstacleKind::tree, tree.foot_m,
-                  trunk_radius_m(tree.kind) * tree.size);
+    builder.thing(tree.foot_m, [&] {
+      builder.point(tree.kind == TreeKind::bush ? ObstacleKind::bush : ObstacleKind::tree, tree.foot_m,
+                    trunk_radius_m(tree.kind) * tree.size);
+    });
   for (const Building& building : placed_buildings(roads, terrain, seed))
-    for (const HouseBlock& block : house_blocks(building.kind)) add_house(building.world_from_building, block, builder);
+    builder.thing(building.world_from_building.position_m, [&] {
+      for (const HouseBlock& block : house_blocks(building.kind))
+        add_house(building.world_from_building, block, builder);
+    });
   for (const TownHouse& house : town_houses(roads, seed)) {
     const TownHouseSize size = size_of(house.kind);
-    add_house(house.world_from_house, {size.length_m, size.depth_m, 0.0, 0.0}, builder);
+    builder.thing(house.world_from_house.position_m, [&] {
+      add_house(house.world_from_house, {size.length_m, size.depth_m, 0.0, 0.0}, builder);
+    });
   }
 }
 
@@ -253,7 +293,7 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
     : seed_(seed), terrain_(RoadShape(network, overrun_m), seed) {
   const RoadShape roads(network, overrun_m);
   const std::vector<RoadTile> tiles = roads.tiles(160.0);
-  Builder builder(obstacles_);
+  Builder builder(obstacles_, things_);
   add_barriers(roads, tiles, builder);
   add_walls_and_posts(roads, tiles, builder);
   add_tunnels(roads, tiles, builder);
@@ -306,7 +346,13 @@ void Obstacles::index() {
   }
 }
 
-std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m) const {
+std::uint32_t Obstacles::thing_at(const Vec2& place_m) const {
+  if (!(std::abs(place_m.x) < farthest_m && std::abs(place_m.y) < farthest_m)) return 0;
+  const auto found = things_.find(millimetres(place_m));
+  return found == things_.end() ? 0 : found->second;
+}
+
+std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m, std::span<const std::uint32_t> gone) const {
   std::vector<Obstacle> found;
   if (!(std::abs(p.x) < endless_m && std::abs(p.y) < endless_m && wanted_reach_m >= 0.0)) return found;
   const double reach_m = std::min(wanted_reach_m, most_reach_m);
@@ -317,7 +363,9 @@ std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m) cons
     const auto cell = cells_.find(key);
     if (cell == cells_.end()) return;
     for (const std::uint32_t i : cell->second)
-      if (distance_m(obstacles_[i], p) < reach_m + obstacles_[i].radius_m) numbers.push_back(i);
+      if (distance_m(obstacles_[i], p) < reach_m + obstacles_[i].radius_m &&
+          !std::ranges::binary_search(gone, obstacles_[i].thing))
+        numbers.push_back(i);
   });
   std::ranges::sort(numbers);
   // Uses std::unique, as clang 14 cannot compile std::ranges::unique.

@@ -8,9 +8,11 @@
 /// the land.
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "engine/roadside/road_shape.hpp"
@@ -27,8 +29,13 @@ class Obstacles {
   Obstacles(const road::RoadNetwork& network, std::uint64_t seed, double overrun_m = roadside::usual_overrun_m);
 
   /// Obstacles within `reach_m` (at most 30) of p in plan, in a fixed order, woods' stems too; empty where p is not
-  /// finite.
-  std::vector<Obstacle> near(const Vec2& p, double reach_m) const;
+  /// finite. `gone`: things that are left out, ascending.
+  std::vector<Obstacle> near(const Vec2& p, double reach_m, std::span<const std::uint32_t> gone = {}) const;
+
+  /// Number of the thing (Obstacle::thing) whose object stands at this place, to the millimetre; 0: there is none.
+  std::uint32_t thing_at(const Vec2& place_m) const;
+  /// Numbers go from 1 to this one.
+  std::uint32_t things() const { return static_cast<std::uint32_t>(things_.size()); }
 
   /// Land on which they stand.
   const Terrain& terrain() const { return terrain_; }
@@ -43,8 +50,9 @@ class Obstacles {
   std::uint64_t seed_;
   Terrain terrain_;
   std::vector<Obstacle> obstacles_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;  ///< Ascending indices into the list.
-  std::unordered_set<std::uint64_t> treeless_;                           ///< Cells too near to a road for woods.
+  std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t> things_;  ///< By place, in millimetres.
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;    ///< Ascending indices into the list.
+  std::unordered_set<std::uint64_t> treeless_;                             ///< Cells too near to a road for woods.
 };
 
 }  // namespace septet::roadside

@@ -203,7 +203,7 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   const Vec2 before_mps(state.car.velocity_mps);
   const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
   auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m),
-                                                           vehicle::hull_reach_m(model.car) + on_the_way_m)
+                                                           vehicle::hull_reach_m(model.car) + on_the_way_m, state.gone)
                                    : std::vector<Obstacle>{};
   append_faces(model, state, ground, obstacles);
   vehicle::HullReport met;

@@ -255,6 +255,10 @@ Expected<void> apply(const Model&, const ClearSolid& clear, State& state, std::v
   return clear_solid(clear, state);
 }
 
+Expected<void> apply(const Model& model, const ShowStanding& show, State& state, std::vector<Event>&) {
+  return show_standing(model, show, state);
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -279,6 +283,7 @@ std::string text_of(const OperatorCommand& command) {
     return fmt::format("{} entity={}", show->shown ? "show" : "hide", show->name);
   if (const auto* stand = std::get_if<StandSolid>(&command)) return text_of(*stand);
   if (const auto* clear = std::get_if<ClearSolid>(&command)) return text_of(*clear);
+  if (const auto* show = std::get_if<ShowStanding>(&command)) return text_of(*show);
   std::string text = "conditions";
   for (const auto& [condition, value] : std::get<SetConditions>(command).values)
     text += fmt::format(" {}={}", condition->name, value);
@@ -309,6 +314,10 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
     return read_stand(text.substr(begin.size()));
   if (constexpr std::string_view begin = "clear "; text.starts_with(begin))
     return read_clear(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "gone "; text.starts_with(begin))
+    return read_standing(text.substr(begin.size()), false);
+  if (constexpr std::string_view begin = "back "; text.starts_with(begin))
+    return read_standing(text.substr(begin.size()), true);
   for (const bool failed : {false, true}) {
     const std::string_view begin = failed ? "fault what=" : "repair what=";
     if (!text.starts_with(begin)) continue;

@@ -1,6 +1,6 @@
 #pragma once
 /// An operator's changes of the drive: weather, light, grip, traffic, the storyboard's next event; and the solids that
-/// editors stand in the scene (solids.hpp).
+/// editors stand in the scene (solids.hpp), and what they hide of it (standing.hpp).
 ///
 /// A command is applied between two ticks, and is input like the driver's: it is logged as its text, with the tick that
 /// it came before, and running the drive again applies it there. The text parses to the same command to the last bit:
@@ -16,6 +16,7 @@
 ///     repair what=tyre_front_left
 ///     put x_m=120.5 y_m=-3.25 heading_rad=0.5 speed_mps=13
 ///     clear solid=3
+///     gone x_m=412.5 y_m=-81 name="tree/412.5/-81.0"
 
 #include <cstdint>
 #include <span>
@@ -27,6 +28,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/simulation/solids.hpp"
+#include "engine/simulation/standing.hpp"
 #include "engine/simulation/state.hpp"
 
 namespace septet::simulation {
@@ -87,7 +89,7 @@ struct PutCar {
   bool operator==(const PutCar&) const = default;
 };
 using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity,
-                                     SetFault, PutCar, StandSolid, ClearSolid>;
+                                     SetFault, PutCar, StandSolid, ClearSolid, ShowStanding>;
 
 /// Bounds of PutCar: distance from a road, speed, and distance to other participants.
 inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;

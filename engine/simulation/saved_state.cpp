@@ -92,11 +92,11 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, bodies,
-// thrown ones, limited sights, a given motion, a game, and an examiner are hashed where there are any. Open crashes change
+// thrown ones, things that are gone, limited sights, a given motion, a game, and an examiner are hashed where there are any. Open crashes change
 // nothing.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown, open_crashes),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
-                     left_out(scenario, traffic, effects), kept(sights, motion, game, examiner, input),
+                     left_out(scenario, traffic, effects), kept(gone, sights, motion, game, examiner, input),
                      hashed(diagnostics, touching))
 
 namespace {
@@ -244,6 +244,9 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   for (const OpenCrash& crash : state.open_crashes) reader.require(is_sound(crash, state.tick), wrong);
   require_sound(reader, model.roads, state.thrown);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
+  const std::uint32_t things = model.obstacles ? model.obstacles->things() : 0;
+  reader.require(std::ranges::is_sorted(state.gone, std::ranges::less_equal{}), wrong);
+  for (const std::uint32_t thing : state.gone) reader.require(thing > 0 && thing <= things, wrong);
   reader.require(std::ranges::is_sorted(state.sights, std::ranges::less_equal{}, &LimitedSight::driver), wrong);
   for (const LimitedSight& sight : state.sights)
     reader.require(impact::is_within(sight.seen_m, 0.0, farthest_sight_m), wrong);
@@ -266,6 +269,7 @@ std::uint64_t hash_state(const State& state) {
   scenario::add_to_hash(state.scenario, hash);
   state.traffic->add_to_hash(hash);
   hash_members(hash, state.effects, state.effects.fires);
+  for (const std::uint32_t thing : state.gone) hash.add(thing);
   for (const LimitedSight& sight : state.sights) hash_members(hash, sight);
   if (state.motion) hash_members(hash, *state.motion);
   if (state.game) hash_members(hash, *state.game);

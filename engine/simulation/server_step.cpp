@@ -63,7 +63,7 @@ void run_effects(const Model& model, std::vector<Participant>& participants, Sta
   const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
   const EffectsReport report =
       advance_effects({model.roads, model.obstacles.get(), participants, weather, driver_participant,
-                       friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s},
+                       friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s, state.gone},
                       state.effects);
   PushedByPieces own{.before = vehicle::planar_body(model.car.body, state.car), .after = {}};
   push_car(model, report.impulse_on_driver_ns, state, car);

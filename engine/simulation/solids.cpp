@@ -8,7 +8,6 @@
 
 #include <fmt/core.h>
 
-#include "engine/core/printable.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
@@ -16,6 +15,7 @@
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/solid.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -49,8 +49,7 @@ Expected<void> check_values(const StandSolid& stand) {
       return failure(
           fmt::format("its {} is {:g}, which is not from {:g} to {:g}", number.name, value, number.least, number.most),
           "solid", "give it another place or size");
-  if (stand.name.size() > longest_solid_name_bytes || stand.name.find('"') != std::string::npos ||
-      !printable_characters(stand.name))
+  if (!is_name_of_thing(stand.name))
     return no_solid("its name is too long, or holds what cannot be printed or a quotation mark");
   return {};
 }
@@ -91,11 +90,9 @@ std::string text_of(const ClearSolid& clear) { return fmt::format("clear solid={
 
 Expected<StandSolid> read_stand(std::string_view text) {
   StandSolid stand;
-  const std::string whole = fmt::format("stand {}", text);
-  if (const auto named = named_solid(whole)) {
-    stand.name = named->name;
-    text.remove_suffix(stand.name.size() + std::string_view(" name=\"\"").size());
-  }
+  const NamedText named = split_name(text);
+  stand.name = named.name;
+  text = named.before;
   const bool has_more = text.ends_with(' ');
   if (!read_value(take_word(text), "solid", stand.solid)) return no_solid("its number cannot be read");
   for (const Number& number : stand_numbers)

@@ -11,7 +11,6 @@
 ///     stand solid=3 x_m=120.5 y_m=-3.25 z_m=0 heading_rad=0.5 length_m=4 width_m=0.5 height_m=1.2 name="stimuli/wall"
 ///     clear solid=3
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,7 +27,7 @@ struct StandSolid {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< Middle of its bottom, world.
   double heading_rad = 0.0;                ///< Of its length, counter-clockwise from x.
   double length_m = 1.0, width_m = 1.0, height_m = 1.0;
-  std::string name{};  ///< Of the thing; printable, without a quotation mark. Empty in logs of earlier builds.
+  std::string name{};  ///< Of the thing (is_name_of_thing); empty in logs of earlier builds.
   bool operator==(const StandSolid&) const = default;
 };
 struct ClearSolid {
@@ -38,7 +37,6 @@ struct ClearSolid {
 
 /// Range of each side of a solid.
 inline constexpr double thinnest_solid_m = 0.05, longest_solid_m = 200.0;
-inline constexpr std::size_t longest_solid_name_bytes = 1024;
 /// Farthest place of one, on each axis: within what a snapshot can tell.
 inline constexpr double farthest_solid_m = 5e5;
 

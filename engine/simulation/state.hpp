@@ -65,6 +65,8 @@ struct State {
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
+  /// Things beside the roads that are hidden (standing.hpp), by Obstacle::thing, ascending. Hashed where there is one.
+  std::vector<std::uint32_t> gone;
   std::vector<LimitedSight> sights;       ///< Of the last look, ascending. Hashed where there is one.
   std::optional<MotionState> motion;      ///< Present where the car goes by a table (given_motion.hpp).
   std::optional<GameState> game;          ///< Present where the scenario is played as a game.

@@ -40,6 +40,7 @@ struct Obstacle {
   bool open_from = true, open_to = true;  ///< No obstacle continues straight at this end.
   double friction = 0.4;                  ///< Friction of a car's body that slides along it.
   double yielding_kg = 0.0;               ///< Mass of an obstacle that is knocked over; 0: it stands fast.
+  std::uint32_t thing = 0;                ///< The one object of the scene that shows it; 0: it is drawn with others.
 };
 
 }  // namespace septet

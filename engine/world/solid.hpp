@@ -19,6 +19,14 @@ constexpr bool is_solid(ParticipantId id) {
   return id >= first_solid_participant && id - first_solid_participant < most_solids;
 }
 
+/// A command's text, and the name with which it ends: ` name="NAME"`; empty where it has none.
+struct NamedText {
+  std::string_view before, name;
+};
+NamedText split_name(std::string_view command);
+/// True where a command's text can have it: printable, not too long, without a quotation mark. Empty: it has none.
+bool is_name_of_thing(std::string_view name);
+
 /// What the command says that stands a solid (engine/simulation/solids.hpp): its number as a participant, and the name
 /// of the thing in whose place it stands.
 struct NamedSolid {

@@ -25,15 +25,18 @@ std::size_t bytes_of(const SceneRequest& request) {
 
 }  // namespace
 
-/// What the scene's tags make of the simulation: commands that were found possible, so none is refused.
-void SceneEdits::stand(SolidChange change) {
-  for (const simulation::OperatorCommand& command : change.commands)
+/// What the scene makes of the simulation: commands that were found possible, so none is refused.
+void SceneEdits::execute(const std::vector<simulation::OperatorCommand>& commands) {
+  for (const simulation::OperatorCommand& command : commands)
     if (const auto done = drive_.live->command(command); !done) messages_.push_back(describe(done.error()));
-  solids_.take_over(std::move(change));
 }
 
 Expected<void> SceneEdits::begin() {
-  if (drive_.live) stand(solids_.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_));
+  if (!drive_.live) return {};
+  SolidChange solids = solids_.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_);
+  execute(solids.commands);
+  solids_.take_over(std::move(solids));
+  execute(drive_.standing.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_));
   return {};
 }
 
@@ -69,10 +72,14 @@ void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
   const std::span<const scene::Command> changes = left ? left->commands : request.batch.changes;
   const Editor editor{request.editor.name, *rights, request.editor.own_ids};
   SolidChange solids;
+  std::vector<simulation::OperatorCommand> standing;
   const auto accept = [&]() -> std::optional<replication::Failure> {
     auto change = solids_.change(drive_.store, changes, editor, *drive_.loaded.model, drive_.live->state());
     if (!change) return change.error();
+    auto shown = drive_.standing.change(drive_.store, changes, *drive_.loaded.model, drive_.live->state());
+    if (!shown) return shown.error();
     solids = std::move(*change);
+    standing = std::move(*shown);
     return std::nullopt;
   };
   auto refused = pass_gate(
@@ -83,7 +90,9 @@ void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
       for (replication::Failure& failed : refused->failures) failed.index = left->places[failed.index];
     return host_.refuse_scene(request, std::move(*refused), now_s);
   }
-  stand(std::move(solids));
+  execute(solids.commands);
+  solids_.take_over(std::move(solids));
+  execute(standing);
   host_.scene_done(request, from);
   if (log_) log_->session().record_edits(from, changes);
 }

@@ -34,7 +34,7 @@ class SceneEdits final : public Attendant {
 
  private:
   void make(SceneRequest request, Tick from, double now_s);
-  void stand(SolidChange change);
+  void execute(const std::vector<simulation::OperatorCommand>& commands);
 
   OpenedDrive& drive_;
   ScreenHost& host_;

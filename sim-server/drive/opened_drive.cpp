@@ -91,6 +91,7 @@ Expected<void> build_scene(const ServerOptions& options, OpenedDrive& drive, pro
   scenery::build_road_world(builder, roads, options.seed,
                             {.own = &own.models, .raised = drive.loaded.model->raised.get()});
   add_names(builder, *drive.loaded.model);
+  if (const auto& obstacles = drive.loaded.model->obstacles) drive.standing = StandingThings(drive.store, *obstacles);
   if (!options.save.empty()) drive.generated = drive.store;
   if (options.edits.empty()) return {};
   const auto edits = read_regular_file(options.edits);

@@ -13,6 +13,7 @@
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/server_options.hpp"
+#include "sim-server/drive/standing_things.hpp"
 #include "sim-server/host/remote_car.hpp"
 #include "sim-server/host/tick_source.hpp"
 
@@ -22,6 +23,7 @@ struct OpenedDrive {
   LoadedDrive loaded;  ///< For a replay, the rig alone.
   scene::Store store;
   std::optional<scene::Store> generated;          ///< As it was before any edit, where what differs is to be saved.
+  StandingThings standing;                        ///< Of the generated world.
   std::optional<logging::SessionReader> session;  ///< Set for a replay.
   std::optional<logging::RecordedScene> recorded_scene;  ///< Of a replay: what is still to come of it.
   std::optional<logging::Stay> eyes;      ///< Of a replay: whose eyes the screens show; empty: the driver's.

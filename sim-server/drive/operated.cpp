@@ -12,9 +12,10 @@ Expected<std::string> do_command(std::string_view text, LiveDrive& drive) {
   const auto command = simulation::parse_operator_command(text);
   if (!command) return tl::unexpected(command.error());
   if (std::holds_alternative<simulation::StandSolid>(*command) ||
-      std::holds_alternative<simulation::ClearSolid>(*command))
-    return failure("solids follow the scene: what is met is what is drawn", "operator's command",
-                   "let an editor set the tag body.solid of a thing (docs/editing.md)");
+      std::holds_alternative<simulation::ClearSolid>(*command) ||
+      std::holds_alternative<simulation::ShowStanding>(*command))
+    return failure("what stands follows the scene: what is met is what is drawn", "operator's command",
+                   "let an editor hide a thing, or set its tag body.solid (docs/editing.md)");
   if (auto done = drive.command(*command); !done) return tl::unexpected(done.error());
   return simulation::text_of(*command);
 }

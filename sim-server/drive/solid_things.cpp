@@ -12,6 +12,7 @@
 #include "engine/scene/command_validation.hpp"
 #include "engine/simulation/solids.hpp"
 #include "sim-server/drive/batch_failures.hpp"
+#include "sim-server/drive/name_in_log.hpp"
 
 namespace septet::server {
 namespace {
@@ -57,14 +58,6 @@ std::optional<std::uint32_t> free_number(const std::map<scene::NodeId, SolidThin
 std::string name_in(const scene::Store& store, scene::NodeId id) {
   const scene::Node* node = store.find(id);
   return node ? printable(node->name) : fmt::format("#{}", id);
-}
-
-/// For the log's readers; of one without a name its number.
-std::string name_in_log(const scene::Store& store, scene::NodeId id) {
-  constexpr std::size_t most_bytes = 400;
-  std::string name = printable(store.find(id)->name, most_bytes);
-  std::ranges::replace(name, '"', '\'');
-  return name.empty() ? fmt::format("#{}", id) : name;
 }
 
 tl::unexpected<Error> hangs_on(const scene::Store& store, scene::NodeId child, scene::NodeId parent) {

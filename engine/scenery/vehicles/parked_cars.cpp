@@ -95,12 +95,15 @@ void build_parked_cars(scene::SceneBuilder& builder, const Palette& palette,
       paint.clear_coat = 1.0f;
       paints[colour] = builder.add_material("parked car", paint);
     }
+    scene::NodeId car_object = scene::no_node;  // One name moves and hides the car: its other levels are children.
     for (const ParkedShape& one : known) {
       Shape shape = one.shape;
       std::ranges::replace(shape.materials, palette[index_of(Finish::paint)], paints[colour]);
       Placement placement = one.range;
-      placement.parent_from_object = car.world_from_vehicle;
-      place(builder, "parked car", shape, placement);
+      const bool is_first = car_object == scene::no_node;
+      placement.parent_from_object = is_first ? car.world_from_vehicle : RigidTransform{};
+      const scene::NodeId object = place(builder, "parked car", shape, placement, car_object);
+      if (is_first) car_object = object;
     }
   }
 }

@@ -110,16 +110,18 @@ class TownPen {
     if (shape.geometry == scene::no_node)
       shape = add_shape(world_.builder, "town building", town_building(building), world_.palette);
     placement.visible_to_m = 2500.0f;
-    place(world_.builder, "town building", shape, placement);
+    const scene::NodeId standing = place(world_.builder, "town building", shape, placement);
     if (building.use == roadside::BuildingUse::tower || building.use == roadside::BuildingUse::church) return;
     TownBuilding lit = building;
     lit.variant = choices_.below(lit_choices);
     Shape& windows = lit_[lit];
     if (windows.geometry == scene::no_node)
       windows = add_shape(world_.builder, "lit windows", lit_windows(lit), world_.palette);
+    // A child: one name moves and hides the building.
+    placement.parent_from_object = {};
     placement.visible_to_m = 900.0f;
     placement.casts_shadow = false;
-    place(world_.builder, "lit windows", windows, placement);
+    place(world_.builder, "lit windows", windows, placement, standing);
   }
 
  private:

@@ -66,7 +66,7 @@ std::array<double, vehicle::wheel_count> stand_on_ground(const Model& model, con
 void slide_on(const Model& model, LooseBody& loose, State& state, std::vector<Event>& events) {
   const Vec2 before_mps = loose.body.velocity_mps;
   const auto wheels = locked_wheels(loose, stand_on_ground(model, state, loose));
-  const std::vector<Obstacle> obstacles = obstacles_near(model, loose);
+  const std::vector<Obstacle> obstacles = obstacles_near(model, state.gone, loose);
   if (obstacles.empty() && loose.hull.touches.empty()) {
     vehicle::advance_sliding(wheels, tick_s, loose.body);
   } else {

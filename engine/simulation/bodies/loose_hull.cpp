@@ -39,10 +39,10 @@ bool is_engaged(const LooseBody& loose) {
   });
 }
 
-std::vector<Obstacle> obstacles_near(const Model& model, const LooseBody& loose) {
+std::vector<Obstacle> obstacles_near(const Model& model, std::span<const std::uint32_t> gone, const LooseBody& loose) {
   if (!model.obstacles) return {};
   const double reach_m = glm::length(side_of(loose).outline.half_m);
-  return model.obstacles->near(loose.body.mass_centre_m, reach_m + glm::length(loose.body.velocity_mps) * tick_s);
+  return model.obstacles->near(loose.body.mass_centre_m, reach_m + glm::length(loose.body.velocity_mps) * tick_s, gone);
 }
 
 void meet_obstacles(std::span<const Obstacle> obstacles, double dt_s, const impact::Due& due, LooseBody& loose,

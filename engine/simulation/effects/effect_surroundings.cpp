@@ -93,11 +93,12 @@ std::vector<Vec3> moving_places(const debris::State& debris) {
   return places;
 }
 
-std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, const std::vector<Vec3>& places) {
+std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, std::span<const std::uint32_t> gone,
+                                        const std::vector<Vec3>& places) {
   if (!obstacles) return {};
   std::vector<std::pair<Obstacle, double>> standing;
   for (const Vec3& place : places)
-    for (const Obstacle& obstacle : obstacles->near(Vec2(place), standing_reach_m))
+    for (const Obstacle& obstacle : obstacles->near(Vec2(place), standing_reach_m, gone))
       standing.emplace_back(obstacle, place.z);
   const auto key = [](const auto& entry) {
     return std::tuple(entry.first.run, entry.first.from_m.x, entry.first.from_m.y);

@@ -1,6 +1,8 @@
 #pragma once
 /// Surroundings of debris: the road's surface, vehicles, and obstacles beside the road, as planes and boxes.
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/effects/debris/debris_state.hpp"
@@ -18,7 +20,8 @@ std::vector<debris::Box> vehicle_boxes(const EffectsWorld& world, const debris::
 /// Places of moving debris, near which barriers matter.
 std::vector<Vec3> moving_places(const debris::State& debris);
 
-/// Obstacles beside the road within seven metres of any of the places; empty without `obstacles`.
-std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, const std::vector<Vec3>& places);
+/// Obstacles beside the road within seven metres of any of the places; empty without `obstacles`. `gone` as of Obstacles::near.
+std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, std::span<const std::uint32_t> gone,
+                                        const std::vector<Vec3>& places);
 
 }  // namespace septet::simulation

@@ -128,7 +128,7 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   report.crashes =
       advance_crashes(world.participants, world.driver, contacts, state.crashes, state.debris, state.random);
   contacts.boxes = vehicle_boxes(world, state.debris, driver_box);
-  const std::vector<debris::Box> standing = standing_boxes(world.obstacles, moving_places(state.debris));
+  const std::vector<debris::Box> standing = standing_boxes(world.obstacles, world.gone, moving_places(state.debris));
   contacts.boxes.insert(contacts.boxes.end(), standing.begin(), standing.end());
   const debris::StepReport stepped = debris::advance_debris(state.debris, contacts, step_s);
   report.fractures = stepped.fractures;

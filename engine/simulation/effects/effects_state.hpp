@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -48,6 +49,7 @@ struct EffectsWorld {
   double ground_friction = 1.0;  ///< Multiplies a material's friction on the road: less than 1 on ice and snow.
   Tick tick = 0;                 ///< A multiple of effects_step_ticks.
   double tick_s = 0.0;
+  std::span<const std::uint32_t> gone{};  ///< Of the obstacles those that are left out, ascending.
 };
 
 }  // namespace septet::simulation

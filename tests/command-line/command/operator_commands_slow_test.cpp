@@ -136,6 +136,22 @@ TEST_CASE("a drive with a solid is verified from its start and from a state kept
   require_verified(session);
 }
 
+TEST_CASE("a drive in which a tree is gone for a while is verified from its start and from a state kept meanwhile") {
+  const septet::TemporaryFolder plain, hidden, changed;
+  const LoadedDrive loaded = shipped_drive("behind-ambulance", "seven-screens");
+  const auto listed = loaded.model->obstacles->listed();
+  const auto tree = std::ranges::find(listed, ObstacleKind::tree, &Obstacle::kind);
+  REQUIRE(tree != listed.end());
+  simulation::ShowStanding show{tree->from_m.x, tree->from_m.y, false, "tree/of a test"};
+  const std::string gone = simulation::text_of(show);
+  show.shown = true;
+  const Commands commands{{1000, gone}, {1230, simulation::text_of(show)}};
+  const auto hash = drive_with({}, 1260, plain.path());
+  CHECK(drive_with({commands.front()}, 1260, hidden.path()) != hash);
+  CHECK(drive_with(commands, 1260, changed.path()) == hash);  // Nobody was near it.
+  require_verified(changed.path() / "session.sqlite");
+}
+
 TEST_CASE(
     "a drive with faults, the instructor's brake and a car that was put back is verified from its start and from a "
     "kept state") {

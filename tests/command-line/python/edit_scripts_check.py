@@ -331,4 +331,7 @@ with tempfile.TemporaryDirectory() as name:
     told = sqlite3.connect(session).execute("SELECT detail FROM events WHERE kind = 'operator_command'").fetchall()
     solids = [row[0].split()[:2] for row in told if "solid=" in row[0]]
     assert solids == [["stand", "solid=0"], ["clear", "solid=0"]] * 2, told
+    assert all(row[0].endswith(' name="stimuli/wall"') for row in told if row[0].startswith("stand ")), told
+    # What is hidden of the generated world is met no more.
+    assert any(row[0].startswith("gone x_m=") and ' name="tree/' in row[0] for row in told), told
     assert "stimuli/sign" in (folder / "saved.edits").read_text()

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -330,6 +333,27 @@ TEST_CASE("a rail that goes on as another one has no end to run into") {
     for (std::size_t k = i + 1; k < open.size(); ++k)
       CHECK_FALSE(
           (glm::distance(open[i].at, open[k].at) < 0.75 && glm::dot(open[i].outwards, open[k].outwards) < -0.9));
+}
+
+TEST_CASE("a thing that is gone is left out of what is near, and what stands beside it is not") {
+  const Obstacles& obstacles = motorway_obstacles();
+  std::size_t things = 0;
+  for (const Obstacle& obstacle : obstacles.listed()) {
+    if (obstacle.kind != ObstacleKind::gantry_leg && obstacle.kind != ObstacleKind::tree) continue;
+    REQUIRE(obstacle.thing > 0);
+    REQUIRE(obstacle.thing <= obstacles.things());
+    if (obstacle.kind == ObstacleKind::tree) CHECK(obstacles.thing_at(obstacle.from_m) == obstacle.thing);
+    if (++things % 40 != 0) continue;
+    const std::vector<std::uint32_t> gone{obstacle.thing};
+    const auto all = obstacles.near(obstacle.from_m, 30.0), left = obstacles.near(obstacle.from_m, 30.0, gone);
+    const auto is_it = [&](const Obstacle& one) { return one.thing == obstacle.thing; };
+    const auto its = std::ranges::count_if(all, is_it);
+    CHECK(its == (obstacle.kind == ObstacleKind::tree ? 1 : 3));
+    CHECK(std::ranges::count_if(left, is_it) == 0);
+    CHECK(all.size() - left.size() == static_cast<std::size_t>(its));
+  }
+  CHECK(things > 100);
+  for (const double x_m : {std::nan(""), 1e300, 0.5}) CHECK(obstacles.thing_at({x_m, 1e6}) == 0);
 }
 
 }  // namespace septet::roadside
