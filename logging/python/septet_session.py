@@ -144,11 +144,8 @@ class Session:
         return self._who(_Seen().of(self.snapshots()))
 
     def _who(self, seen):
-        names = json.loads(self.meta.get("participant_names", "{}"))
+        names = self.names()
         models = self.vehicle_models() if "vehicle_models" in self.meta else []
-        if not isinstance(names, dict):
-            raise SessionError(f"{self.path}: its participant_names are not what Septet writes: use an unaltered session")
-        names |= self._solids()
         rows = []
         for number, (index, first_s, last_s) in sorted(seen.times.items()):
             model = models[index] if index < len(models) else {}
@@ -157,12 +154,16 @@ class Session:
         return pandas.DataFrame(rows, columns=["participant", "name", "is_driver", "vehicle", "kind", "length_m", "width_m", "height_m",
                                                "first_seen_s", "last_seen_s"])
 
-    def _solids(self):
-        """Names of the things in whose place solids stand, by the participant's number as text; a number's newest name."""
+    @_told
+    def names(self):
+        """Names by the participant's number as text: of the scenario, and of things in whose place solids stand, the newest of a number."""
+        names = json.loads(self.meta.get("participant_names", "{}"))
+        if not isinstance(names, dict):
+            raise SessionError(f"{self.path}: its participant_names are not what Septet writes: use an unaltered session")
         events = self.events
         told = (re.match(r'stand solid=(\d{1,4}) .*? name="([^"]*)"$', detail)
                 for detail in events[events.kind == "operator_command"].detail if isinstance(detail, str))
-        return {str(_FIRST_SOLID + int(found[1])): found[2] for found in told if found}
+        return names | {str(_FIRST_SOLID + int(found[1])): found[2] for found in told if found}
 
     @property
     @_told

@@ -47,6 +47,10 @@ TEST_CASE("the Python reader has everybody at every tick where the C++ reader ha
       writer.record(taken(snapshot));
       if (is_sample_due(tick, 120.0)) writer.record(take_sample(snapshot, std::nullopt));
     }
+    // A participant whose number a solid has, in two places one after the other.
+    for (const char* const command : {"stand solid=1 x_m=1 height_m=2 name=\"stimuli/gate\"",
+                                      "stand solid=1 x_m=2 height_m=2 name=\"stimuli/a wall\"", "clear solid=1"})
+      writer.record(Event{0, 0.0, std::string(operator_command_kind), std::nullopt, command});
     REQUIRE(writer.finish().has_value());
   }
   std::ofstream out(csv);
