@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
@@ -27,5 +28,11 @@ RigidMotion motion_about(const ElasticBody& body, const Pivot& pivot);
 /// The spin of this angular momentum about the pivot.
 Eigen::Vector3d spin_of(const Pivot& pivot, const Eigen::Matrix3d& inertia_kgm2,
                         const Eigen::Vector3d& angular_momentum_nms);
+
+/// Of what turns with the motion, at a place.
+inline Eigen::Vector3d centrifugal_mps2(const RigidMotion& motion, const Eigen::Vector3d& place_m) {
+  const Eigen::Vector3d& spin_radps = motion.angular_velocity_radps;
+  return -spin_radps.cross(spin_radps.cross(place_m - motion.centre_m));
+}
 
 }  // namespace septet::elastic

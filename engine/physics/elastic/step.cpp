@@ -33,11 +33,8 @@ constexpr int most_contact_passes = 4;
 constexpr double most_release_mps = 2.0;
 
 void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double dt) {
-  const Eigen::Vector3d& spin = motion.angular_velocity_radps;
-  for (int i = 0; i < body.node_count(); ++i) {
-    const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
-    body.workspace.right_side[i] -= padded(dt * body.mass_kg[i] * spin.cross(spin.cross(arm)));
-  }
+  for (int i = 0; i < body.node_count(); ++i)
+    body.workspace.right_side[i] += padded(dt * body.mass_kg[i] * centrifugal_mps2(motion, body.position_m[i]));
 }
 
 /// Angular momentum about the pivot after the forces and contacts of this step.
