@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "engine/effects/debris/blow.hpp"
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/energy_bound.hpp"
+#include "engine/effects/debris/energy_ledger.hpp"
 #include "engine/effects/debris/fracture.hpp"
 #include "engine/effects/debris/melt.hpp"
 #include "engine/effects/debris/piece.hpp"
@@ -18,6 +20,7 @@
 #include "engine/math/gravity.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/step.hpp"
+#include "engine/physics/elastic/step_energy.hpp"
 
 namespace septet::debris {
 namespace {
@@ -25,12 +28,13 @@ namespace {
 /// A piece rests when its nodes' root mean square speed stays below this for a second.
 constexpr double calm_speed_mps = 0.03, calm_time_s = 1.0;
 
-void update_sleep(Piece& piece, double step_s) {
+void update_sleep(Piece& piece, double step_s, EnergyLedger* ledger) {
   const double speed = std::sqrt(2.0 * elastic::kinetic_energy_j(piece.body) / elastic::total_mass_kg(piece.body));
   piece.calm_s = speed < calm_speed_mps ? piece.calm_s + step_s : 0.0;
   if (piece.calm_s < calm_time_s) return;
   piece.asleep = true;
-  std::ranges::fill(piece.body.velocity_mps, Eigen::Vector3d::Zero());
+  rewrite(ledger, &EnergyLedger::settling_loss_j, piece,
+          [&] { std::ranges::fill(piece.body.velocity_mps, Eigen::Vector3d::Zero()); });
 }
 
 /// A step is linear in the motion; where contact would move a node by much of an element's size in one, the piece makes
@@ -67,9 +71,19 @@ void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic:
   for (const auto& [box, impulse_ns] : given_ns) world.boxes[static_cast<std::size_t>(box)].impulse_ns += impulse_ns;
 }
 
+/// Books a step that began with `before`, against the surfaces as they are: the rebound is the contact's.
+void book_step(EnergyLedger& ledger, const Piece& piece, const elastic::ElasticBody& before,
+               const elastic::StepSettings& settings, std::vector<elastic::NodeContact> contacts,
+               std::span<const double> closing_mps, double share) {
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    contacts[i].surface_velocity_mps -= piece.material.restitution * closing_mps[i] * contacts[i].normal;
+  book(ledger, elastic::step_energy(before, piece.body, settings, contacts, share));
+}
+
 /// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds the impulses
 /// on the boxes, and returns the contacts' effect on the piece.
-Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s, StepReport& report) {
+Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s, StepReport& report,
+                     EnergyLedger* ledger) {
   auto found = find_contacts(piece, world, step_s, ahead_s);
   const Frame frame = frame_of(piece, found, step_s);
   const auto closing_mps = add_restitution(piece, found, step_s);
@@ -81,14 +95,22 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
   settings.solver = elastic::Solver::direct;
   settings.keep_stress = true;
   const auto position_m = piece.body.position_m, velocity_mps = piece.body.velocity_mps;
+  std::optional<elastic::ElasticBody> before;
+  if (ledger) before = piece.body;
   report.bad_numbers += elastic::step_elastic(piece.body, settings, contacts).bad_numbers;
-  bound_blow(piece, frame, step_s, position_m, velocity_mps, contacts);
-  bound_energy(piece, frame);
+  const double share = bound_blow(piece, frame, step_s, position_m, velocity_mps, contacts);
+  if (ledger) book_step(*ledger, piece, *before, settings, contacts, closing_mps, share);
+  const auto bound = [&] { bound_energy(piece, frame); };
+  rewrite(ledger, &EnergyLedger::bound_loss_j, piece, bound);
   give_to_boxes(found, contacts, world);
   Blow blow = blow_of(piece, contacts, closing_mps, step_s);
   blow.lost_j = std::min(blow.lost_j, lost_j(piece, frame));
-  flow(piece, blow);
-  bound_energy(piece, frame);
+  const Flow flowed = flow(piece, blow);
+  if (ledger) {
+    ledger->plastic_loss_j += flowed.plastic_j;
+    ledger->pressing_loss_j -= flowed.paid_j;
+  }
+  rewrite(ledger, &EnergyLedger::bound_loss_j, piece, bound);
   blow.lost_j = std::min(blow.lost_j, lost_j(piece, frame));
   return blow;
 }
@@ -96,10 +118,14 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
 /// Steps a piece from substep `first` of a tick of `count`. Fragments continue by themselves for the rest of the tick;
 /// all remaining pieces at its end are appended to `done`.
 void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s, StepReport& report,
-                std::vector<Piece>& done) {
+                std::vector<Piece>& done, EnergyLedger* ledger) {
   for (int k = first; k < count; ++k) {
-    const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report);
+    const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report, ledger);
     FractureResult result = fracture(piece, blow, substep_s);
+    if (ledger) {
+      ledger->fracture_loss_j += result.cracked_j;
+      ledger->pressing_loss_j -= result.paid_j + result.scattered_j;
+    }
     if (result.opened_faces == 0) {
       piece.cracks = std::move(result.cracks);
       continue;
@@ -109,7 +135,7 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
     std::ranges::stable_sort(result.pieces, std::ranges::greater{},
                              [](const Piece& p) { return p.body.elements.size(); });
     result.pieces.front().id = piece.id;
-    for (Piece& part : result.pieces) step_piece(std::move(part), world, k + 1, count, substep_s, report, done);
+    for (Piece& part : result.pieces) step_piece(std::move(part), world, k + 1, count, substep_s, report, done, ledger);
     return;
   }
   done.push_back(std::move(piece));
@@ -125,11 +151,13 @@ std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_fr
   return state.pieces.back().id;
 }
 
-StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
+StepReport advance_debris(State& state, ContactWorld& world, double step_s, EnergyLedger* ledger) {
   StepReport report;
   for (Box& box : world.boxes) box.impulse_ns = Vec3(0.0);
+  const double before_melting_j = ledger && world.melted_m > 0.0 ? stored_energy(state).sum_j() : 0.0;
   melt_ice(state, world.melted_m);
-  exchange_impulses(state.pieces, step_s);
+  if (ledger && world.melted_m > 0.0) ledger->melting_loss_j += before_melting_j - stored_energy(state).sum_j();
+  exchange_impulses(state.pieces, step_s, ledger);
   std::vector<Piece> kept, broken_off, done;
   for (Piece& piece : state.pieces) {
     if (piece.asleep && box_near(piece, world, step_s)) {
@@ -143,14 +171,16 @@ StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
     done.clear();
     feel_air(piece, to_eigen(world.wind_mps));
     const int substeps = substeps_for(piece, find_contacts(piece, world, step_s), step_s);
-    step_piece(std::move(piece), world, 0, substeps, step_s / substeps, report, done);
+    step_piece(std::move(piece), world, 0, substeps, step_s / substeps, report, done, ledger);
     ++report.awake;
     for (Piece& part : done) {
       if (is_shard(part)) {
         state.shards.push_back(shard_of(part));
+        if (ledger)
+          ledger->stiffening_loss_j += stored_energy(part).sum_j() - stored_energy(state.shards.back()).sum_j();
         continue;
       }
-      update_sleep(part, step_s);
+      update_sleep(part, step_s, ledger);
       (part.id != 0 ? kept : broken_off).push_back(std::move(part));
     }
   }
@@ -160,7 +190,7 @@ StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
   }
   state.pieces = std::move(kept);
   for (Piece& piece : state.pieces) report.bad_numbers += elastic::reset_bad_nodes(piece.body);
-  report.bad_numbers += advance_shards(state, world, step_s);
+  report.bad_numbers += advance_shards(state, world, step_s, ledger);
   state.bad_numbers += static_cast<std::uint32_t>(report.bad_numbers);
   return report;
 }

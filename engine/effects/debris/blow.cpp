@@ -57,8 +57,8 @@ Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts,
   return blow;
 }
 
-void scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, double energy_j) {
-  if (fragments.size() < 2 || !(energy_j > 0.0)) return;
+double scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, double energy_j) {
+  if (fragments.size() < 2 || !(energy_j > 0.0)) return 0.0;
   double mass = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const Piece& p : fragments) {
@@ -94,11 +94,12 @@ void scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, doubl
       linear += fragments[k].body.mass_kg[i] * u.dot(fragments[k].body.velocity_mps[i]);
       square += 0.5 * fragments[k].body.mass_kg[i] * u.squaredNorm();
     }
-  if (!(square > 0.0)) return;
+  if (!(square > 0.0)) return 0.0;
   const double root = std::sqrt(linear * linear + 4.0 * square * energy_j);
   const double speed = linear > 0.0 ? 2.0 * energy_j / (root + linear) : (root - linear) / (2.0 * square);
   for (std::size_t k = 0; k < fragments.size(); ++k)
     for (int i = 0; i < fragments[k].body.node_count(); ++i) fragments[k].body.velocity_mps[i] += speed * field(k, i);
+  return energy_j;
 }
 
 }  // namespace septet::debris

@@ -42,7 +42,7 @@ Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts,
              double step_s);
 
 /// Scatters fragments across the impact's normal with an additional `energy_j`. Momentum and angular momentum of all
-/// together stay.
-void scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, double energy_j);
+/// together stay. Returns the energy that they got: 0 where they cannot part.
+double scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, double energy_j);
 
 }  // namespace septet::debris

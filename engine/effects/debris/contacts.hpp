@@ -30,7 +30,7 @@ Eigen::AlignedBox3d bounds_of(const Piece& piece);
 
 /// Inelastic impulses with friction between nodes of one piece inside elements of another; equal
 /// and opposite, so that momentum stays. Wakes a sleeper that is hit.
-void exchange_impulses(std::vector<Piece>& pieces, double step_s);
+void exchange_impulses(std::vector<Piece>& pieces, double step_s, EnergyLedger* ledger = nullptr);
 
 /// A point against a box and its cuts: the gap and the outward normal, world frame. Beyond an edge between a cut and a
 /// face the gap is that to the further of their planes, which is never more than the distance.

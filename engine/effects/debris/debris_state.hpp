@@ -15,7 +15,8 @@
 
 namespace septet::debris {
 
-struct Piece;  ///< An elastic piece: defined in piece.hpp.
+struct Piece;         ///< An elastic piece: defined in piece.hpp.
+struct EnergyLedger;  ///< Where energy came from and went to: defined in energy_ledger.hpp.
 
 /// A rigid splinter of glass, drawn as one triangle.
 struct Shard {
@@ -86,7 +87,8 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
 std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                          const Vec3& angular_velocity_radps, Random& random, double height_left = 1.0);
 
-StepReport advance_debris(State& state, ContactWorld& world, double step_s);
+/// `ledger`, where there is one, gets what the tick came to.
+StepReport advance_debris(State& state, ContactWorld& world, double step_s, EnergyLedger* ledger = nullptr);
 
 /// Height of the highest debris within `radius_m` of a place, for wheels that meet it; pieces thinner than a centimetre
 /// and shards are no obstacle.

@@ -118,10 +118,10 @@ void bound_energy(Piece& piece, const Frame& frame) {
   for (int i = 0; i < body.node_count(); ++i) body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
 }
 
-void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
-                std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts) {
+double bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
+                  std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts) {
   auto& body = piece.body;
-  if (kinetic_energy_j(piece, frame.velocity_mps) <= frame.allowed_j) return;
+  if (kinetic_energy_j(piece, frame.velocity_mps) <= frame.allowed_j) return 1.0;
   // K(s) = K₀ + bs + as² of v₀ + s Δv.
   double a = 0.0, b = 0.0, k0 = 0.0;
   for (int i = 0; i < body.node_count(); ++i) {
@@ -137,6 +137,7 @@ void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const
     body.position_m[i] = position_m[i] + step_s * body.velocity_mps[i];
   }
   for (auto& contact : contacts) contact.impulse_ns *= share;
+  return share;
 }
 
 double lost_j(const Piece& piece, const Frame& frame) {

@@ -30,8 +30,9 @@ Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double s
 void bound_energy(Piece& piece, const Frame& frame);
 
 /// Where surfaces made the piece faster than the frame allows, the step's change of velocity, and with it the surfaces'
-/// impulses, is taken only as far as that. `position_m` and `velocity_mps` are those before the step.
-void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
+/// impulses, is taken only as far as that. `position_m` and `velocity_mps` are those before the step. Returns the share
+/// that was taken.
+double bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
                 std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts);
 
 /// Energy lost in the surfaces' frame: it pays for flow, cracks and scatter.

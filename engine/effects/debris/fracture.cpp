@@ -132,6 +132,8 @@ struct FaceFates {
   std::vector<bool> opened;
   std::vector<double> reach;  ///< Reach of its crack.
   double left_j = 0.0;        ///< Energy lost in the impact that the cracks leave.
+  double cracked_j = 0.0;     ///< In the surfaces that have parted.
+  double paid_j = 0.0;        ///< By the impact.
 };
 
 /// Reach of each face's earlier crack.
@@ -148,6 +150,8 @@ std::vector<double> reach_before(const Piece& piece, const std::vector<InnerFace
 FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, const Blow& blow, double step_s) {
   const auto& x = piece.body.position_m;
   FaceFates fates{std::vector<bool>(faces.size(), false), reach_before(piece, faces), 0.0};
+  const auto before = fates.reach;
+  std::vector<double> whole_j(faces.size(), 0.0);
   struct Candidate {
     double overload, cost_j;
     std::size_t face;
@@ -160,13 +164,14 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
     const InnerFace& face = faces[k];
     if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
     const Eigen::Vector3d normal = (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
-    const double area = 0.5 * normal.norm(), whole = 1.0 - fates.reach[k];
+    const double whole = 1.0 - fates.reach[k];
+    whole_j[k] = 0.5 * normal.norm() * piece.material.fracture_energy_jpm2;
     Overload overload = overload_of(piece, face, blow, at_nodes_pa, normal.normalized());
     overload.lasting /= whole, overload.blow /= whole;
     fates.opened[k] = overload.lasting >= 1.0;
     if (fates.opened[k]) continue;
     if (overload.blow >= 1.0)
-      candidates.push_back({overload.blow, whole * area * piece.material.fracture_energy_jpm2, k});
+      candidates.push_back({overload.blow, whole * whole_j[k], k});
     if (slowly && overload.lasting >= least_cracking_share) {
       fates.reach[k] += step_s / crack_time_s * std::pow(overload.lasting, crack_exponent);
       fates.opened[k] = fates.reach[k] >= 1.0;
@@ -178,13 +183,17 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
     if (c.cost_j > fates.left_j) {
       if (!slowly || fates.opened[c.face]) break;
       fates.reach[c.face] += (1.0 - fates.reach[c.face]) * fates.left_j / c.cost_j;
+      fates.paid_j += fates.left_j;
       fates.left_j = 0.0;
       break;
     }
     fates.left_j -= c.cost_j;
+    fates.paid_j += c.cost_j;
     fates.opened[c.face] = true;
   }
   fates.left_j = std::min(fates.left_j, blow.lost_j);
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    fates.cracked_j += whole_j[k] * ((fates.opened[k] ? 1.0 : fates.reach[k]) - before[k]);
   return fates;
 }
 
@@ -201,6 +210,12 @@ Eigen::Matrix3d inverse_flow(const elastic::ElasticBody& body, const Element& e)
   Eigen::Matrix3d edges;
   for (int a = 0; a < 3; ++a) edges.col(a) = body.rest_position_m[e.nodes[a + 1]] - body.rest_position_m[e.nodes[0]];
   return edges * e.rest_inverse;
+}
+
+/// Work of the mean stress as the elastic strain falls from `first` to `last`.
+double mean_stress_work_jpm3(const Eigen::Matrix3d& first, const Eigen::Matrix3d& last,
+                             const elastic::LameConstants& lame) {
+  return elastic::second_piola_stress(0.5 * (first + last), lame).cwiseProduct(first - last).sum();
 }
 
 /// Cuts out the elements of one island as a separate piece.
@@ -276,6 +291,8 @@ FractureResult fracture(const Piece& piece, const Blow& blow, double step_s) {
   DisjointSets islands(count), corners(4 * count);
   const FaceFates fates = fates_of(piece, faces, blow, step_s);
   result.cracks = cracks_of(faces, fates);
+  result.cracked_j = fates.cracked_j;
+  result.paid_j = fates.paid_j;
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
     if (fates.opened[k]) {
@@ -300,19 +317,19 @@ FractureResult fracture(const Piece& piece, const Blow& blow, double step_s) {
   }
   for (const auto& [representative, elements] : members)
     result.pieces.push_back(cut_out(piece, elements, result.cracks, group));
-  scatter(result.pieces, blow.normal, scatter_share * fates.left_j);
+  result.scattered_j = scatter(result.pieces, blow.normal, scatter_share * fates.left_j);
   return result;
 }
 
-int flow(Piece& piece, const Blow& blow) {
+Flow flow(Piece& piece, const Blow& blow) {
   constexpr double most_plastic_strain = 0.5, most_per_step = 0.1;
   const double yield = piece.material.yield_pa;
-  if (yield <= 0.0) return 0;
+  Flow result;
+  if (yield <= 0.0) return result;
   const auto lame = elastic::lame_constants(piece.body.material);
   const auto deviator_of = [](const Eigen::Matrix3d& m) -> Eigen::Matrix3d {
     return m - m.trace() / 3.0 * Eigen::Matrix3d::Identity();
   };
-  int count = 0;
   std::vector<std::size_t> struck;
   double struck_volume_m3 = 0.0;
   for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
@@ -324,7 +341,7 @@ int flow(Piece& piece, const Blow& blow) {
       struck.push_back(k);
       struck_volume_m3 += e.rest_volume_m3;
     }
-    const Eigen::Matrix3d deviator = deviator_of(elastic::green_strain(f));
+    const Eigen::Matrix3d strain = elastic::green_strain(f), deviator = deviator_of(strain);
     const double von_mises = 2.0 * lame.mu_pa * std::sqrt(1.5) * deviator.norm();
     if (von_mises <= yield) continue;
     const double share = 1.0 - yield / von_mises;
@@ -334,7 +351,9 @@ int flow(Piece& piece, const Blow& blow) {
     const Eigen::Vector3d undone = (stretch / volume_root).array().pow(-share);
     e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() * eigen.eigenvectors().transpose();
     piece.plastic_strain[k] += share * deviator.norm();
-    ++count;
+    ++result.elements;
+    const Eigen::Matrix3d left = elastic::green_strain(elastic::deformation_gradient(e, piece.body.position_m));
+    result.plastic_j += e.rest_volume_m3 * mean_stress_work_jpm3(strain, left, lame);
   }
   // An impact's work is the yield stress times the strain over the overloaded elements. The shape takes the strain as
   // well, for the stress has come and gone within the step; the energy that this stores springs back later and is no
@@ -352,10 +371,15 @@ int flow(Piece& piece, const Blow& blow) {
     const Eigen::Vector3d undone = (-strain * way).array().exp();
     e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() * eigen.eigenvectors().transpose();
     piece.plastic_strain[k] += strain;
-    ++count;
+    ++result.elements;
+    const Eigen::Matrix3d first = elastic::green_strain(f);
+    const Eigen::Matrix3d last = elastic::green_strain(elastic::deformation_gradient(e, piece.body.position_m));
+    const double work_j = e.rest_volume_m3 * yield * strain;
+    result.plastic_j += work_j;
+    result.paid_j += work_j + e.rest_volume_m3 * mean_stress_work_jpm3(last, first, lame);
   }
-  if (count > 0) elastic::invalidate_rest_factor(piece.body);
-  return count;
+  if (result.elements > 0) elastic::invalidate_rest_factor(piece.body);
+  return result;
 }
 
 }  // namespace septet::debris

@@ -33,6 +33,9 @@ struct FractureResult {
   int opened_faces = 0;
   std::vector<Piece> pieces;      ///< Pieces after the fracture; empty where no face opened.
   std::vector<FaceCrack> cracks;  ///< Cracks of the piece where no face opened.
+  double cracked_j = 0.0;         ///< Area that has parted times the material's fracture energy.
+  double paid_j = 0.0;            ///< As much of it as an impact's lost energy has paid.
+  double scattered_j = 0.0;       ///< Energy that the scatter gave the pieces.
 };
 
 /// n and τ. Both assumed: published exponents of ice's damage are from 3 to 5; a pull of 0.9 f_t parts it within half a
@@ -44,8 +47,14 @@ inline constexpr double least_cracking_share = 0.4;
 /// Opens the overloaded faces and lets cracks grow for `step_s`. The pieces' ids are zero.
 FractureResult fracture(const Piece& piece, const Blow& blow = {}, double step_s = 0.0);
 
-/// Lets the overloaded elements flow; returns their number. Elements overloaded by an impact flow as far as its lost
-/// energy reaches.
-int flow(Piece& piece, const Blow& blow = {});
+/// What flow came to.
+struct Flow {
+  int elements = 0;        ///< That have flowed.
+  double plastic_j = 0.0;  ///< Work of flow: stress times strain.
+  double paid_j = 0.0;     ///< Taken from an impact's lost energy, for work and for what its strain stores.
+};
+
+/// Lets the overloaded elements flow. Elements overloaded by an impact flow as far as its lost energy reaches.
+Flow flow(Piece& piece, const Blow& blow = {});
 
 }  // namespace septet::debris

@@ -20,6 +20,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/effects/debris/contacts.hpp"
+#include "engine/effects/debris/energy_ledger.hpp"
 #include "engine/physics/elastic/element.hpp"
 
 namespace septet::debris {
@@ -71,7 +72,8 @@ std::optional<Penetration> penetration(const ElasticBody& body, const Element& e
 }
 
 /// The impulse on node `i` of the hitter and its opposite on the corners of `e`, by the derivation above.
-void respond(Piece& hitter, int i, Piece& target, const Element& e, const Penetration& at, double step_s) {
+void respond(Piece& hitter, int i, Piece& target, const Element& e, const Penetration& at, double step_s,
+             EnergyLedger* ledger) {
   auto& a = hitter.body;
   auto& b = target.body;
   Eigen::Vector3d surface_velocity = Eigen::Vector3d::Zero();
@@ -95,11 +97,16 @@ void respond(Piece& hitter, int i, Piece& target, const Element& e, const Penetr
   if (!a.fixed[i]) a.velocity_mps[i] += impulse_ns / a.mass_kg[i];
   for (int c = 0; c < 4; ++c)
     if (!b.fixed[e.nodes[c]]) b.velocity_mps[e.nodes[c]] -= at.weight[c] * impulse_ns / b.mass_kg[e.nodes[c]];
+  if (ledger) {
+    ledger->meeting_loss_j -= pressing_ns * (relative.dot(at.normal) + 0.5 * missing_mps);
+    ledger->rubbing_loss_j += friction_ns * (slide.norm() - 0.5 * friction_ns * inverse_mass);
+  }
   if (missing_mps > waking_mps) hitter.asleep = target.asleep = false;
 }
 
 /// Each node of the hitter against the first element of the target's skin that it lies in.
-void exchange(Piece& hitter, Piece& target, const Eigen::AlignedBox3d& target_bounds, double step_s) {
+void exchange(Piece& hitter, Piece& target, const Eigen::AlignedBox3d& target_bounds, double step_s,
+              EnergyLedger* ledger) {
   const auto outer = outer_faces(target);
   for (int i = 0; i < hitter.body.node_count(); ++i) {
     const Eigen::Vector3d point_m = hitter.body.position_m[i];
@@ -109,7 +116,7 @@ void exchange(Piece& hitter, Piece& target, const Eigen::AlignedBox3d& target_bo
       const Element& e = target.body.elements[k];
       const auto inside = penetration(target.body, e, outer[k], point_m);
       if (!inside) continue;
-      respond(hitter, i, target, e, *inside, step_s);
+      respond(hitter, i, target, e, *inside, step_s, ledger);
       break;
     }
   }
@@ -117,7 +124,7 @@ void exchange(Piece& hitter, Piece& target, const Eigen::AlignedBox3d& target_bo
 
 }  // namespace
 
-void exchange_impulses(std::vector<Piece>& pieces, double step_s) {
+void exchange_impulses(std::vector<Piece>& pieces, double step_s, EnergyLedger* ledger) {
   std::vector<Eigen::AlignedBox3d> bounds;
   bounds.reserve(pieces.size());
   for (const Piece& piece : pieces) bounds.push_back(bounds_of(piece));
@@ -125,8 +132,8 @@ void exchange_impulses(std::vector<Piece>& pieces, double step_s) {
     for (std::size_t j = i + 1; j < pieces.size(); ++j) {
       if (pieces[i].asleep && pieces[j].asleep) continue;
       if (!bounds[i].intersects(bounds[j])) continue;
-      exchange(pieces[i], pieces[j], bounds[j], step_s);
-      exchange(pieces[j], pieces[i], bounds[i], step_s);
+      exchange(pieces[i], pieces[j], bounds[j], step_s, ledger);
+      exchange(pieces[j], pieces[i], bounds[i], step_s, ledger);
     }
 }
 

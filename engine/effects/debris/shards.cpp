@@ -7,6 +7,7 @@
 
 #include "engine/effects/debris/air_force.hpp"
 #include "engine/effects/debris/contacts.hpp"
+#include "engine/effects/debris/energy_ledger.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/math/gravity.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
@@ -15,7 +16,7 @@ namespace septet::debris {
 namespace {
 
 /// Removes the closing speed, with a fifth of it returned, and Coulomb's share of the sliding.
-void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, double friction) {
+void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, double friction, EnergyLedger* ledger) {
   const Vec3 relative = shard.velocity_mps - surface_velocity;
   const double closing = -glm::dot(relative, normal);
   if (closing <= 0.0) return;
@@ -25,6 +26,11 @@ void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, doub
   shard.velocity_mps += gain * normal;
   if (speed > 0.0) shard.velocity_mps -= std::min(1.0, friction * gain / speed) * slide;
   shard.angular_velocity_radps *= 0.7;
+  if (!ledger) return;
+  const double slowed = speed > 0.0 ? std::min(1.0, friction * gain / speed) : 0.0, mass = shard.mass_kg;
+  ledger->pressing_loss_j += mass * gain * (closing - 0.5 * gain);
+  ledger->friction_loss_j += mass * slowed * speed * speed * (1.0 - 0.5 * slowed);
+  ledger->box_work_j += mass * glm::dot(gain * normal - slowed * slide, surface_velocity);
 }
 
 /// Infinitely far below where there is no ground.
@@ -65,31 +71,44 @@ Shard shard_of(const Piece& piece) {
   return shard;
 }
 
-int advance_shards(State& state, const ContactWorld& world, double step_s) {
+int advance_shards(State& state, const ContactWorld& world, double step_s, EnergyLedger* ledger) {
   for (Shard& shard : state.shards) {
+    const double weight_n = shard.mass_kg * gravity_mps2, rising_mps = shard.velocity_mps.z;
+    double lifted_m = 0.0;  // Out of boxes and ground.
     shard.velocity_mps.z -= gravity_mps2 * step_s;
     for (const Box& box : world.boxes) {
       const BoxGap gap = gap_to_box(box, shard.position_m);
       if (gap.gap_m > 0.0) continue;
       const Vec3 arm = shard.position_m - box.world_from_box.position_m;
-      bounce(shard, gap.normal, box.velocity_mps + glm::cross(box.angular_velocity_radps, arm), box.friction);
+      bounce(shard, gap.normal, box.velocity_mps + glm::cross(box.angular_velocity_radps, arm), box.friction, ledger);
       shard.position_m -= std::max(gap.gap_m, -0.5) * gap.normal;
+      lifted_m -= std::max(gap.gap_m, -0.5) * gap.normal.z;
     }
     shard.position_m += step_s * shard.velocity_mps;
+    if (ledger) {
+      // Weight worked at the mean velocity of its step, and the way is that of the last.
+      const double mean_mps = rising_mps - 0.5 * gravity_mps2 * step_s;
+      ledger->numerical_loss_j += step_s * weight_n * (mean_mps - shard.velocity_mps.z);
+      ledger->pressing_loss_j -= weight_n * lifted_m;
+    }
     const double rate = glm::length(shard.angular_velocity_radps);
     if (rate > 1e-6)
       shard.orientation =
           glm::normalize(glm::angleAxis(rate * step_s, shard.angular_velocity_radps / rate) * shard.orientation);
     const GroundPoint ground = ground_under(world, shard);
     if (shard.position_m.z > ground.height_m) {
+      const double before_j = ledger ? stored_energy(shard).kinetic_j : 0.0;
       shard.velocity_mps = world.wind_mps + slowed_by_air_mps(shard.velocity_mps - world.wind_mps, shard.shade_m2,
                                                               shard.mass_kg, step_s);
+      if (ledger) ledger->air_work_j += stored_energy(shard).kinetic_j - before_j;
       continue;
     }
+    if (ledger) ledger->pressing_loss_j -= weight_n * (ground.height_m - shard.position_m.z);
     // Close to the road the air hardly moves: what slides or lies there is not blown along.
     shard.position_m.z = ground.height_m;
-    bounce(shard, ground.normal, Vec3(0.0), 0.4 * ground.friction_factor);
+    bounce(shard, ground.normal, Vec3(0.0), 0.4 * ground.friction_factor, ledger);
     if (glm::length(shard.velocity_mps) < 0.2) {
+      if (ledger) ledger->settling_loss_j += stored_energy(shard).kinetic_j;
       shard.velocity_mps = Vec3(0.0);
       shard.angular_velocity_radps = Vec3(0.0);
     }

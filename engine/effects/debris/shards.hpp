@@ -12,6 +12,6 @@ bool is_shard(const Piece& piece);
 Shard shard_of(const Piece& piece);
 
 /// Returns the number of shards removed because of a non-finite number.
-int advance_shards(State& state, const ContactWorld& world, double step_s);
+int advance_shards(State& state, const ContactWorld& world, double step_s, EnergyLedger* ledger = nullptr);
 
 }  // namespace septet::debris
