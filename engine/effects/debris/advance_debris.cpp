@@ -111,7 +111,7 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
     ledger->pressing_loss_j -= flowed.paid_j;
   }
   rewrite(ledger, &EnergyLedger::bound_loss_j, piece, bound);
-  blow.lost_j = std::min(blow.lost_j, lost_j(piece, frame));
+  blow.lost_j = std::max(0.0, std::min(blow.lost_j - flowed.paid_j, lost_j(piece, frame)));
   return blow;
 }
 

@@ -84,7 +84,7 @@ std::vector<Piece> crushed(Piece piece, const Vec3& push, double crush_m, double
   blow.lost_j =
       0.5 * elastic::total_mass_kg(piece.body) * closing_mps * closing_mps * (1.0 - m.restitution * m.restitution);
   blow.pressed_j = strain * volume_m3 * (m.yield_pa > 0.0 ? m.yield_pa : m.compressive_strength_pa);
-  flow(piece, blow);
+  blow.lost_j = std::max(0.0, blow.lost_j - flow(piece, blow).paid_j);  // The rest is for cracks and scatter.
   FractureResult result = fracture(piece, blow);
   if (result.opened_faces == 0) result.pieces.push_back(std::move(piece));
   return std::move(result.pieces);

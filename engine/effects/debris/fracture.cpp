@@ -75,6 +75,9 @@ double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa, con
   return along * along < 0.5 ? -eigen.eigenvalues()[0] / strength_pa : 0.0;
 }
 
+/// True where there is energy for cracks.
+bool strikes(const Blow& blow) { return blow.lost_j + blow.pressed_j > 0.0; }
+
 struct Overload {
   double lasting = 0.0;  ///< Overload by the shape and by the step's own stress.
   double blow = 0.0;     ///< Overload by the impact's peak.
@@ -117,9 +120,9 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
     if (piece.body.step_stress_pa.empty()) continue;
     const Eigen::Matrix3d& carried = piece.body.step_stress_pa[element];
     most.lasting = std::max(most.lasting, tensile_overload(carried, m.strength_pa, normal, least));
-    if (blow.lost_j > 0.0) struck(blow.stress_factor * carried);
+    if (strikes(blow)) struck(blow.stress_factor * carried);
   }
-  if (blow.lost_j > 0.0) {
+  if (strikes(blow)) {
     Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
     for (const int node : face.nodes) mean += at_nodes_pa[static_cast<std::size_t>(node)] / 3.0;
     struck(blow.stress_factor * mean);
@@ -159,7 +162,7 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
   std::vector<Candidate> candidates;
   const bool slowly = cracks_slowly(piece);
   // Only an impact is judged by the mean around a face, and most steps have none.
-  const auto at_nodes_pa = blow.lost_j > 0.0 ? stress_at_nodes_pa(piece.body) : std::vector<Eigen::Matrix3d>{};
+  const auto at_nodes_pa = strikes(blow) ? stress_at_nodes_pa(piece.body) : std::vector<Eigen::Matrix3d>{};
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
     if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
@@ -216,6 +219,15 @@ Eigen::Matrix3d inverse_flow(const elastic::ElasticBody& body, const Element& e)
 double mean_stress_work_jpm3(const Eigen::Matrix3d& first, const Eigen::Matrix3d& last,
                              const elastic::LameConstants& lame) {
   return elastic::second_piola_stress(0.5 * (first + last), lame).cwiseProduct(first - last).sum();
+}
+
+/// The strain that an impact's lost energy pays: the stress of flow times it over the overloaded elements. The shape
+/// takes the strain as well, for the stress has come and gone within the step; what this stores, and gives back later, is
+/// paid too: μ s² + σ s = energy a volume.
+double strain_paid_by(double energy_j, double flow_stress_pa, double mu_pa, double volume_m3) {
+  const double energy_jpm3 = energy_j / volume_m3;
+  return 2.0 * energy_jpm3 /
+         (flow_stress_pa + std::sqrt(flow_stress_pa * flow_stress_pa + 4.0 * mu_pa * energy_jpm3));
 }
 
 /// Cuts out the elements of one island as a separate piece.
@@ -355,12 +367,10 @@ Flow flow(Piece& piece, const Blow& blow) {
     const Eigen::Matrix3d left = elastic::green_strain(elastic::deformation_gradient(e, piece.body.position_m));
     result.plastic_j += e.rest_volume_m3 * mean_stress_work_jpm3(strain, left, lame);
   }
-  // An impact's work is the yield stress times the strain over the overloaded elements. The shape takes the strain as
-  // well, for the stress has come and gone within the step; the energy that this stores springs back later and is no
-  // more than half of the impact's loss.
+  const double flow_stress_pa = std::sqrt(2.0 / 3.0) * yield;  // At yield, the norm of the deviator.
   const double strain = struck.empty() ? 0.0
-                                       : std::min({most_per_step, blow.lost_j / (yield * struck_volume_m3),
-                                                   std::sqrt(0.5 * blow.lost_j / (lame.mu_pa * struck_volume_m3))});
+                                       : std::min(most_per_step, strain_paid_by(blow.lost_j, flow_stress_pa,
+                                                                                lame.mu_pa, struck_volume_m3));
   for (const std::size_t k : struck) {
     Element& e = piece.body.elements[k];
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
@@ -374,7 +384,7 @@ Flow flow(Piece& piece, const Blow& blow) {
     ++result.elements;
     const Eigen::Matrix3d first = elastic::green_strain(f);
     const Eigen::Matrix3d last = elastic::green_strain(elastic::deformation_gradient(e, piece.body.position_m));
-    const double work_j = e.rest_volume_m3 * yield * strain;
+    const double work_j = e.rest_volume_m3 * flow_stress_pa * strain;
     result.plastic_j += work_j;
     result.paid_j += work_j + e.rest_volume_m3 * mean_stress_work_jpm3(last, first, lame);
   }
