@@ -80,6 +80,17 @@ void book_step(EnergyLedger& ledger, const Piece& piece, const elastic::ElasticB
   book(ledger, elastic::step_energy(before, piece.body, settings, contacts, share));
 }
 
+/// What an impact had lost pays for flow, cracks and scatter.
+void book_flow(EnergyLedger& ledger, const Flow& flowed) {
+  ledger.plastic_loss_j += flowed.plastic_j;
+  ledger.pressing_loss_j -= flowed.paid_j;
+}
+
+void book_fracture(EnergyLedger& ledger, const FractureResult& result) {
+  ledger.fracture_loss_j += result.cracked_j;
+  ledger.pressing_loss_j -= result.paid_j + result.scattered_j;
+}
+
 /// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds the impulses
 /// on the boxes, and returns the contacts' effect on the piece.
 Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s, StepReport& report,
@@ -106,10 +117,7 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
   Blow blow = blow_of(piece, contacts, closing_mps, step_s);
   blow.lost_j = std::min(blow.lost_j, lost_j(piece, frame));
   const Flow flowed = flow(piece, blow);
-  if (ledger) {
-    ledger->plastic_loss_j += flowed.plastic_j;
-    ledger->pressing_loss_j -= flowed.paid_j;
-  }
+  if (ledger) book_flow(*ledger, flowed);
   rewrite(ledger, &EnergyLedger::bound_loss_j, piece, bound);
   blow.lost_j = std::max(0.0, std::min(blow.lost_j - flowed.paid_j, lost_j(piece, frame)));
   return blow;
@@ -122,15 +130,13 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
   for (int k = first; k < count; ++k) {
     const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report, ledger);
     FractureResult result = fracture(piece, blow, substep_s);
-    if (ledger) {
-      ledger->fracture_loss_j += result.cracked_j;
-      ledger->pressing_loss_j -= result.paid_j + result.scattered_j;
-    }
+    if (ledger) book_fracture(*ledger, result);
     if (result.opened_faces == 0) {
       piece.cracks = std::move(result.cracks);
       continue;
     }
     report.fractures += result.opened_faces;
+    take_from_deformation(result.pieces, result.cracked_j - result.paid_j);
     // The largest part keeps the id, so that a screen continues with the piece it shows.
     std::ranges::stable_sort(result.pieces, std::ranges::greater{},
                              [](const Piece& p) { return p.body.elements.size(); });

@@ -118,6 +118,26 @@ void bound_energy(Piece& piece, const Frame& frame) {
   for (int i = 0; i < body.node_count(); ++i) body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
 }
 
+void take_from_deformation(std::vector<Piece>& pieces, double energy_j) {
+  std::vector<double> has_j, rigid_j;
+  double sum_j = 0.0;
+  for (const Piece& piece : pieces) {
+    const auto motion = elastic::rigid_motion(piece.body);
+    rigid_j.push_back(0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps));
+    has_j.push_back(std::max(0.0, kinetic_energy_j(piece, motion.velocity_mps) - rigid_j.back()) +
+                    elastic::elastic_energy_j(piece.body));
+    sum_j += has_j.back();
+  }
+  if (!(energy_j > 0.0) || !(sum_j > 0.0)) return;
+  const double kept = std::max(0.0, 1.0 - energy_j / sum_j);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    Frame frame;
+    frame.velocity_mps = elastic::rigid_motion(pieces[k].body).velocity_mps;
+    frame.allowed_j = rigid_j[k] + kept * has_j[k];
+    bound_energy(pieces[k], frame);
+  }
+}
+
 double bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
                   std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts) {
   auto& body = piece.body;

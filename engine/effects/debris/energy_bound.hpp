@@ -29,6 +29,9 @@ Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double s
 /// natural one, which holds what has flowed. Mass, momentum and angular momentum stay; energy never grows.
 void bound_energy(Piece& piece, const Frame& frame);
 
+/// Takes energy out of the deformation of pieces, in proportion to what each has, as far as they have so much.
+void take_from_deformation(std::vector<Piece>& pieces, double energy_j);
+
 /// Where surfaces made the piece faster than the frame allows, the step's change of velocity, and with it the surfaces'
 /// impulses, is taken only as far as that. `position_m` and `velocity_mps` are those before the step. Returns the share
 /// that was taken.
