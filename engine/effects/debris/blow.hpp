@@ -8,7 +8,8 @@
 /// element of length h there has only the share 1 − h/2L of it, by which the factor is divided.
 ///
 /// Of the energy with which contact points closed, e² is returned as rebound (Newton's coefficient of restitution). The
-/// lost energy pays for the surfaces of cracks, for plastic flow, and a share of it for the scatter of the fragments.
+/// lost energy pays once: for plastic flow and what that stores, then for the surfaces of cracks, and a share of the rest
+/// for the scatter of the fragments.
 
 #include <span>
 

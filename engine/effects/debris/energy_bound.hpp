@@ -36,7 +36,7 @@ void take_from_deformation(std::vector<Piece>& pieces, double energy_j);
 /// impulses, is taken only as far as that. `position_m` and `velocity_mps` are those before the step. Returns the share
 /// that was taken.
 double bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
-                std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts);
+                  std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts);
 
 /// Energy lost in the surfaces' frame: it pays for flow, cracks and scatter.
 double lost_j(const Piece& piece, const Frame& frame);

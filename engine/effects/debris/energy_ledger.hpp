@@ -9,7 +9,10 @@
 /// state, the work of forces and contacts from their own impulses and the mean velocities of a step (step_energy.hpp),
 /// flow from its stress and strain, cracks from their area. None is what the others leave. Where the debris rewrites a
 /// state and moves nothing by a force (a bound takes energy out, a sleeper is stopped, a splinter becomes a shard), the
-/// account is what the pieces that were rewritten stored before and after.
+/// account is the difference of what the pieces that were rewritten stored before and after.
+///
+/// What it does not explain: cracks whose energy the pieces' deformation could not pay, and a crack of ice that grows
+/// without opening, whose energy nothing pays yet.
 ///
 /// What an impact loses is booked as pressing first. What flow, cracks and scatter are then paid from it moves to their
 /// accounts, or back into the pieces.
@@ -25,7 +28,7 @@ namespace septet::debris {
 
 /// What a state stores at an instant.
 struct StoredEnergy {
-  double kinetic_j = 0.0;    ///< Of all nodes; of shards that of their flight: a shard's spin is drawn and weighs nothing.
+  double kinetic_j = 0.0;    ///< Of all nodes, and of the flight of shards: their spin is drawn and weighs nothing.
   double elastic_j = 0.0;    ///< Of stretch and shear since the natural shape, which holds all that has flowed.
   double potential_j = 0.0;  ///< Of weight. Gravity's work is what it has lost.
   double sum_j() const { return kinetic_j + elastic_j + potential_j; }
@@ -37,21 +40,25 @@ StoredEnergy stored_energy(const State& state);
 struct EnergyLedger {
   // Given from outside; below zero where the pieces gave it away.
   double air_work_j = 0.0;  ///< Of the air's force on the nodes' ways.
-  double box_work_j = 0.0;  ///< Of vehicles, wheels and all that moves: impulse times velocity of its surface.
+  /// Of vehicles, wheels and all that moves: impulse times velocity of its surface. The press of two boxes on each other
+  /// through a piece is in it, though Box::impulse_ns leaves that out: on the piece it works.
+  double box_work_j = 0.0;
 
-  // Lost for good, except as said; a loss below zero is energy that was made.
-  double pressing_loss_j = 0.0;   ///< In contacts with ground and boxes, along the normal, less what an impact has paid.
-  double friction_loss_j = 0.0;   ///< In contacts with ground and boxes, across the normal.
-  double meeting_loss_j = 0.0;    ///< Between two pieces, along the normal.
-  double rubbing_loss_j = 0.0;    ///< Between two pieces, across the normal.
-  double plastic_loss_j = 0.0;    ///< By flow: stress times the strain that has moved into the natural shape.
-  double fracture_loss_j = 0.0;   ///< In the surfaces of cracks: their area times the material's fracture energy.
-  double viscous_loss_j = 0.0;    ///< By the material's damping β.
-  double numerical_loss_j = 0.0;  ///< By the implicit step; below zero where it makes energy.
-  double bound_loss_j = 0.0;      ///< Taken out again by the bound of energy (energy_bound.hpp).
-  double settling_loss_j = 0.0;   ///< Of pieces that were stopped to sleep, and of shards that were stopped.
-  double stiffening_loss_j = 0.0; ///< Spin and stretch of splinters that fly on as rigid shards.
-  double melting_loss_j = 0.0;    ///< Gone with what melted.
+  // Lost; below zero it is energy that was made, or given back.
+  /// In contacts with ground and boxes, along the normal, less what an impact has paid. What the soft gap of a contact
+  /// stores is a loss until the contact gives it back: its stiffness is by the step, so that it keeps nothing for the next.
+  double pressing_loss_j = 0.0;
+  double friction_loss_j = 0.0;    ///< In contacts with ground and boxes, across the normal.
+  double meeting_loss_j = 0.0;     ///< Between two pieces, along the normal.
+  double rubbing_loss_j = 0.0;     ///< Between two pieces, across the normal.
+  double plastic_loss_j = 0.0;     ///< By flow: stress times the strain that has moved into the natural shape.
+  double fracture_loss_j = 0.0;    ///< In the surfaces of cracks: their area times the material's fracture energy.
+  double viscous_loss_j = 0.0;     ///< By the material's damping β.
+  double numerical_loss_j = 0.0;   ///< By the implicit step; below zero where it makes energy.
+  double bound_loss_j = 0.0;       ///< Taken out again by the bound of energy (energy_bound.hpp).
+  double settling_loss_j = 0.0;    ///< Of pieces that were stopped to sleep, and of shards that were stopped.
+  double stiffening_loss_j = 0.0;  ///< Spin and stretch of splinters that fly on as rigid shards.
+  double melting_loss_j = 0.0;     ///< Gone with what melted.
 
   double given_j() const;
   double lost_j() const;

@@ -154,7 +154,8 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
   const auto& x = piece.body.position_m;
   FaceFates fates{std::vector<bool>(faces.size(), false), reach_before(piece, faces), 0.0};
   const auto before = fates.reach;
-  std::vector<double> whole_j(faces.size(), 0.0);
+  std::vector<double> area_m2(faces.size(), 0.0);
+  const double energy_jpm2 = piece.material.fracture_energy_jpm2;
   struct Candidate {
     double overload, cost_j;
     std::size_t face;
@@ -168,13 +169,12 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
     if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
     const Eigen::Vector3d normal = (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
     const double whole = 1.0 - fates.reach[k];
-    whole_j[k] = 0.5 * normal.norm() * piece.material.fracture_energy_jpm2;
+    area_m2[k] = 0.5 * normal.norm();
     Overload overload = overload_of(piece, face, blow, at_nodes_pa, normal.normalized());
     overload.lasting /= whole, overload.blow /= whole;
     fates.opened[k] = overload.lasting >= 1.0;
     if (fates.opened[k]) continue;
-    if (overload.blow >= 1.0)
-      candidates.push_back({overload.blow, whole * whole_j[k], k});
+    if (overload.blow >= 1.0) candidates.push_back({overload.blow, whole * area_m2[k] * energy_jpm2, k});
     if (slowly && overload.lasting >= least_cracking_share) {
       fates.reach[k] += step_s / crack_time_s * std::pow(overload.lasting, crack_exponent);
       fates.opened[k] = fates.reach[k] >= 1.0;
@@ -196,7 +196,7 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
   }
   fates.left_j = std::min(fates.left_j, blow.lost_j);
   for (std::size_t k = 0; k < faces.size(); ++k)
-    fates.cracked_j += whole_j[k] * ((fates.opened[k] ? 1.0 : fates.reach[k]) - before[k]);
+    fates.cracked_j += energy_jpm2 * area_m2[k] * ((fates.opened[k] ? 1.0 : fates.reach[k]) - before[k]);
   return fates;
 }
 
@@ -226,8 +226,7 @@ double mean_stress_work_jpm3(const Eigen::Matrix3d& first, const Eigen::Matrix3d
 /// paid too: μ s² + σ s = energy a volume.
 double strain_paid_by(double energy_j, double flow_stress_pa, double mu_pa, double volume_m3) {
   const double energy_jpm3 = energy_j / volume_m3;
-  return 2.0 * energy_jpm3 /
-         (flow_stress_pa + std::sqrt(flow_stress_pa * flow_stress_pa + 4.0 * mu_pa * energy_jpm3));
+  return 2.0 * energy_jpm3 / (flow_stress_pa + std::sqrt(flow_stress_pa * flow_stress_pa + 4.0 * mu_pa * energy_jpm3));
 }
 
 /// Cuts out the elements of one island as a separate piece.
@@ -368,9 +367,10 @@ Flow flow(Piece& piece, const Blow& blow) {
     result.plastic_j += e.rest_volume_m3 * mean_stress_work_jpm3(strain, left, lame);
   }
   const double flow_stress_pa = std::sqrt(2.0 / 3.0) * yield;  // At yield, the norm of the deviator.
-  const double strain = struck.empty() ? 0.0
-                                       : std::min(most_per_step, strain_paid_by(blow.lost_j, flow_stress_pa,
-                                                                                lame.mu_pa, struck_volume_m3));
+  const double strain =
+      struck.empty()
+          ? 0.0
+          : std::min(most_per_step, strain_paid_by(blow.lost_j, flow_stress_pa, lame.mu_pa, struck_volume_m3));
   for (const std::size_t k : struck) {
     Element& e = piece.body.elements[k];
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);

@@ -11,7 +11,8 @@
 /// splitting does, beyond the compressive strength or, in brittle materials, where the sides bulge by more than the
 /// strength allows (f_t/ν): within a wave's time they are free. Faces that only the impact opens cost their fracture
 /// energy, the most overloaded first, until the energy lost in the impact is used up; a share of the rest scatters the
-/// fragments.
+/// fragments. A face that a lasting pull opens takes its fracture energy from the deformation of the pieces
+/// (energy_bound.hpp).
 ///
 /// In ice a face cracks before it opens. Under a lasting pull σ a crack of reach a grows as damage does after Kachanov
 /// (1958), in which the rest of a section carries all of its load: ȧ = (σ/((1 − a) f_t))ⁿ/τ, so that after t of a
