@@ -58,6 +58,12 @@ class SumoClient {
   virtual Expected<void> remove_vehicle(ParticipantId id) = 0;
   /// Place of a vehicle moved by others after the next step, independent of its route; off every road it is ignored.
   virtual Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double heading_rad) = 0;
+  /// The distance at which a vehicle stops behind another, and in which SUMO lets nobody change lanes.
+  virtual Expected<void> set_standstill_gap(ParticipantId id, double gap_m) = 0;
+  /// Held: it does not drive on; it may still move aside.
+  virtual Expected<void> hold_vehicle(ParticipantId id, bool held) = 0;
+  /// Asks a vehicle to move sideways in the next step, to the left if positive, where its gaps allow it.
+  virtual Expected<void> move_aside(ParticipantId id, double left_m) = 0;
   /// Advances SUMO by one step; returns the watched vehicles on the road, ascending id.
   virtual Expected<std::vector<SumoVehicle>> step() = 0;
 };

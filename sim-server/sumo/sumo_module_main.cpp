@@ -110,6 +110,19 @@ class TraciClient final : public SumoClient {
     });
   }
 
+  Expected<void> set_standstill_gap(ParticipantId id, double gap_m) override {
+    return asked([&] { libtraci::Vehicle::setMinGap(name_of(id), gap_m); });
+  }
+
+  Expected<void> hold_vehicle(ParticipantId id, bool held) override {
+    constexpr double as_it_likes = -1.0;
+    return asked([&] { libtraci::Vehicle::setSpeed(name_of(id), held ? 0.0 : as_it_likes); });
+  }
+
+  Expected<void> move_aside(ParticipantId id, double left_m) override {
+    return asked([&] { libtraci::Vehicle::changeSublane(name_of(id), left_m); });
+  }
+
   Expected<std::vector<SumoVehicle>> step() override {
     return asked([&] {
       libtraci::Simulation::step();

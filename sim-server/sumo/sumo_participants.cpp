@@ -11,6 +11,8 @@ namespace {
 constexpr double turn = 6.283185307179586477;
 constexpr double drift_time_s = 0.3;
 constexpr double slip_time_s = 2.0, most_slip_m = 6.0;
+/// At walking pace SUMO moves vehicles sideways without driving: they turn no further than at this speed.
+constexpr double least_way_mps = 8.0;
 constexpr double brake_lamp_mps2 = 0.7;
 
 }  // namespace
@@ -54,7 +56,7 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
   member.speed_mps = vehicle.speed_mps;
 
   const double heading = line.heading_rad + (direction > 0.0 ? 0.0 : 0.5 * turn) +
-                         std::atan2(member.lateral_mps, std::max(vehicle.speed_mps, 1.0));
+                         std::atan2(member.lateral_mps, std::max(vehicle.speed_mps, least_way_mps));
   const Vec2 rear = vehicle.front_m + (member.slip_m - model.front_m()) * Vec2(std::cos(heading), std::sin(heading));
   const double speed = vehicle.speed_mps - member.slip_m / slip_time_s;
   const auto place = road::locate(roads_, rear, &*member.place);

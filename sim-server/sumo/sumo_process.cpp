@@ -84,6 +84,15 @@ class ExplainingClient final : public SumoClient {
   Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double heading_rad) override {
     return explained(client_->place_vehicle(id, front_m, heading_rad));
   }
+  Expected<void> set_standstill_gap(ParticipantId id, double gap_m) override {
+    return explained(client_->set_standstill_gap(id, gap_m));
+  }
+  Expected<void> hold_vehicle(ParticipantId id, bool held) override {
+    return explained(client_->hold_vehicle(id, held));
+  }
+  Expected<void> move_aside(ParticipantId id, double left_m) override {
+    return explained(client_->move_aside(id, left_m));
+  }
   Expected<std::vector<SumoVehicle>> step() override { return explained(client_->step()); }
 
  private:

@@ -62,6 +62,7 @@ void SumoTraffic::start(const traffic::TrafficParameters& parameters, std::span<
                           .paint = corridor.paint[i],
                           .corridor = c,
                           .desired_speed_mps = corridor.driver[i].following.desired_speed_mps,
+                          .standstill_gap_m = corridor.driver[i].following.standstill_gap_m,
                           .place = std::nullopt});
       ok(client_->define_type({type_name(corridor.id[i]), "driver", model.length_m, model.width_m, model.height_m,
                                corridor.driver[i].following}));
@@ -97,6 +98,7 @@ void SumoTraffic::enter(Member& member, int lane, double x_m) {
   if (place.route.empty()) return;
   member.stay = Member::Stay::asked_for;
   member.steps_waiting = 0;
+  member.standing = {};
   member.place.reset();
   ok(client_->add_vehicle({.id = member.id,
                            .type = type_name(member.id),
@@ -224,6 +226,7 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
     if (middle) recycle(member, middle->position, glm::length(foreign.front().velocity_mps));
     if (!running_) return;
   }
+  free_those_who_stand(foreign);
   make_remark();
 }
 

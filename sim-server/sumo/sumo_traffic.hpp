@@ -6,7 +6,8 @@
 /// vehicles that fall out of its radius enter at the other rim. A vehicle that SUMO cannot place where Septet would is
 /// placed elsewhere in the swarm during the first second, at its rims later on; until then it is absent. Positions are
 /// mapped by x and y; height and tilt are those of Septet's road, heading is that of the road with the vehicle's drift
-/// across it, because SUMO's own turns in steps. Vehicles moved by others are sent to SUMO at each of its steps, with
+/// across it, because SUMO's own turns in steps. Who stands behind another that does not move is helped round it, since
+/// SUMO leaves him there (sumo_standing.cpp). Vehicles moved by others are sent to SUMO at each of its steps, with
 /// their place after the step.
 
 #include <memory>
@@ -42,9 +43,14 @@ class SumoTraffic final : public traffic::TrafficEngine {
     ModelIndex model = 0;
     std::uint8_t paint = 0;
     std::size_t corridor = 0;
-    double desired_speed_mps = 0.0;
+    double desired_speed_mps = 0.0, standstill_gap_m = 0.0;
     enum class Stay { outside, asked_for, on_road } stay = Stay::outside;
     int steps_waiting = 0;  ///< Since its request.
+    /// How it gets away from behind one that does not move (sumo_standing.cpp).
+    struct Standing {
+      int steps = 0, steps_held = 0;
+      bool held = false, close_up = false;  ///< Close up: it has the small gap of those who stand.
+    } standing;
     std::optional<road::RoadPosition> place;
     double speed_mps = 0.0, lateral_mps = 0.0, rolled_m = 0.0;
     double slip_m = 0.0;  ///< Distance ahead of SUMO's place at which it is shown.
@@ -57,6 +63,8 @@ class SumoTraffic final : public traffic::TrafficEngine {
   void recycle(Member& member, const road::RoadPosition& middle, double middle_speed_mps);
   void place_foreign(std::span<const traffic::ForeignVehicle> foreign, double ahead_s);
   void step(std::span<const traffic::ForeignVehicle> foreign);
+  void free_those_who_stand(std::span<const traffic::ForeignVehicle> foreign);
+  void hold_standing(Member& member, bool hold);
   void make_remark();
   std::optional<Participant> participant_of(Member& member, const SumoVehicle& vehicle, bool is_new) const;
   Participant shown(const Participant& participant) const;

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "engine/road/road_locate.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/effects/crashes.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "program/resources.hpp"
 #include "program/temporary_folder.hpp"
@@ -221,35 +223,85 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("one of SUMO's own that has left its rails stays as a wreck, is passed, and none of SUMO's touches it") {
-  if (!has_sumo()) return;
-  Ride ride("sumo");
-  ride.input.accelerator = 0.0, ride.input.brake = 0.4;
-  Snapshot now;
-  for (int tick = 0; tick < 15 * 120; ++tick) now = ride.step();
-  // The nearest in the driver's own direction from 150 m ahead on.
-  const Participant& car = now.participants.front();
-  const Participant* chosen = nullptr;
-  const auto ahead_m = [&](const Participant& p) {
-    return (glm::conjugate(car.world_from_vehicle.orientation) *
-            (p.world_from_vehicle.position_m - car.world_from_vehicle.position_m))
-        .x;
-  };
-  const auto traffic = traffic_of(now);
+namespace {
+
+/// The nearest in the driver's own direction from 150 m ahead on; null: there is none.
+const Participant* one_ahead(const std::vector<Participant>& traffic, const Participant& car) {
   const Vec3 forward = car.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
+  const auto ahead_m = [&](const Participant& p) {
+    return glm::dot(p.world_from_vehicle.position_m - car.world_from_vehicle.position_m, forward);
+  };
+  const Participant* chosen = nullptr;
   for (const Participant& p : traffic)
     if (glm::dot(p.velocity_mps, forward) > 10.0 && ahead_m(p) > 150.0 &&
         (chosen == nullptr || ahead_m(p) < ahead_m(*chosen)))
       chosen = &p;
+  return chosen;
+}
+
+/// What becomes of traffic that comes to a wreck.
+struct AtWreck {
+  std::size_t passed = 0;
+  double longest_stand_s = 0.0;                               ///< Of one within 200 m behind it.
+  std::size_t standing_at_end = 0;                            ///< Of those for longer than 20 s.
+  std::set<std::pair<ParticipantId, ParticipantId>> touched;  ///< Pairs whose outlines overlapped.
+  std::map<ParticipantId, double> along_m;                    ///< Of those near it that go its way.
+  std::map<ParticipantId, double> stands_s;
+
+  void see(const Snapshot& now, const Participant& wreck, const Vec3& forward, double dt_s);
+};
+
+void AtWreck::see(const Snapshot& now, const Participant& wreck, const Vec3& forward, double dt_s) {
+  std::vector<const Participant*> near;
+  standing_at_end = 0;
+  for (const Participant& p : now.participants) {
+    const Vec3 off = p.world_from_vehicle.position_m - wreck.world_from_vehicle.position_m;
+    const double x = glm::dot(off, forward);
+    if (glm::length(off) > 200.0 || glm::dot(p.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0), forward) < 0.0) {
+      along_m.erase(p.id), stands_s.erase(p.id);
+      continue;
+    }
+    near.push_back(&p);
+    if (p.id < simulation::first_traffic_participant || p.id == wreck.id) continue;
+    const auto [known, is_new] = along_m.try_emplace(p.id, x);
+    passed += known->second < 0.0 && x >= 0.0;
+    known->second = x;
+    double& stands = stands_s[p.id];
+    stands = x < 0.0 && glm::length(p.velocity_mps) < 0.3 ? stands + dt_s : 0.0;
+    longest_stand_s = std::max(longest_stand_s, stands);
+    standing_at_end += stands > 20.0;
+  }
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (std::size_t k = i + 1; k < near.size(); ++k)
+      if (simulation::overlap(*near[i], *near[k])) touched.emplace(near[i]->id, near[k]->id);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "one of SUMO's own that has left its rails stays as a wreck, is passed, and nobody stands behind it for good") {
+  if (!has_sumo()) return;
+  Ride ride("sumo");
+  ride.input.accelerator = 0.0, ride.input.brake = 0.4;
+  Snapshot now;
+  int begins_s = 0;
+  SUBCASE("after 12 s, in the second lane from the right") { begins_s = 12; }
+  SUBCASE("after 15 s, in the left-most lane") { begins_s = 15; }
+  SUBCASE("after 20 s, in the right-most lane") { begins_s = 20; }
+  for (int tick = 0; tick < begins_s * 120; ++tick) now = ride.step();
+  const Participant car = now.participants.front();
+  const Vec3 forward = car.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
+  const auto traffic = traffic_of(now);
+  const Participant* chosen = one_ahead(traffic, car);
   REQUIRE(chosen != nullptr);
   const ParticipantId wreck = chosen->id;
   REQUIRE(simulation::leave_rails(*ride.model, *chosen, car, ride.state, ride.events));
 
-  std::map<ParticipantId, double> behind_m;  // Along the wreck, of those that go its way.
-  std::size_t passed = 0, hits = 0, lost = 0;
+  AtWreck seen;
+  std::size_t lost = 0;
   double travelled_m = 0.0;
   Vec3 stood{0.0};
-  for (int tick = 0; tick < 90 * 120; ++tick) {
+  for (int tick = 0; tick < 100 * 120; ++tick) {
     now = ride.step();
     const auto error = ride.state.traffic->take_error();
     REQUIRE_MESSAGE(!error, describe(*error));
@@ -261,26 +313,20 @@ TEST_CASE("one of SUMO's own that has left its rails stays as a wreck, is passed
     if (tick == 20 * 120) stood = there->world_from_vehicle.position_m;
     if (tick > 20 * 120)
       travelled_m = std::max(travelled_m, glm::distance(stood, there->world_from_vehicle.position_m));
-    for (const Participant& p : traffic_of(now)) {
-      const Vec3 at = glm::conjugate(there->world_from_vehicle.orientation) *
-                      (p.world_from_vehicle.position_m - there->world_from_vehicle.position_m);
-      if (p.id == wreck || std::abs(at.x) > 60.0 || std::abs(at.y) > 15.0 ||
-          glm::dot(p.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0), forward) < 0.0) {
-        behind_m.erase(p.id);
-        continue;
-      }
-      const auto [known, is_new] = behind_m.try_emplace(p.id, at.x);
-      passed += known->second < 0.0 && at.x >= 0.0;
-      known->second = at.x;
-    }
+    if (tick % 12 == 0) seen.see(now, *there, forward, 12.0 / simulation::tick_rate_hz);
   }
-  for (const auto& event : ride.events) hits += event.kind.find("crash") != std::string::npos;
-  MESSAGE(passed << " passed it, " << hits << " crashes, lost in " << lost << " ticks, moved by " << travelled_m
-                 << " m");
+  const auto hits = std::ranges::count_if(
+      ride.events, [](const simulation::Event& event) { return event.kind.find("crash") != std::string::npos; });
+  MESSAGE(seen.passed << " passed it, the longest stood " << seen.longest_stand_s << " s, " << seen.standing_at_end
+                      << " stand at the end; " << seen.touched.size() << " pairs touched, " << hits
+                      << " crashes, lost in " << lost << " ticks, moved by " << travelled_m << " m");
   CHECK(lost == 0);
   CHECK(hits == 0);
+  CHECK(seen.touched.empty());
   CHECK(travelled_m < 0.01);
-  CHECK(passed > 15);
+  CHECK(seen.passed > 15);
+  CHECK(seen.standing_at_end == 0);
+  CHECK(seen.longest_stand_s < 60.0);
 }
 
 }  // namespace septet::server

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -18,6 +19,8 @@ class StraightSumo final : public SumoClient {
  public:
   std::map<ParticipantId, SumoVehicle> vehicles;
   std::map<ParticipantId, Vec2> foreign;
+  std::set<ParticipantId> held;
+  std::map<ParticipantId, double> standstill_gap_m, asked_aside_m;
   int steps = 0, steps_until_gone = 1000;
   ParticipantId refused_from = 1'000'000;  ///< From this id on vehicles find no room.
   int refusals = 0;
@@ -40,11 +43,24 @@ class StraightSumo final : public SumoClient {
     foreign[id] = front_m;
     return {};
   }
+  Expected<void> set_standstill_gap(ParticipantId id, double gap_m) override {
+    standstill_gap_m[id] = gap_m;
+    return {};
+  }
+  Expected<void> hold_vehicle(ParticipantId id, bool is_held) override {
+    if (is_held) held.insert(id);
+    if (!is_held) held.erase(id);
+    return {};
+  }
+  Expected<void> move_aside(ParticipantId id, double left_m) override {
+    asked_aside_m[id] = left_m;
+    return {};
+  }
   Expected<std::vector<SumoVehicle>> step() override {
     if (++steps > steps_until_gone) return failure("SUMO has gone: closed", "--traffic sumo", "start again");
     std::vector<SumoVehicle> seen;
     for (auto& [id, vehicle] : vehicles) {
-      vehicle.front_m.x += 20.0 * sumo_step_s;
+      vehicle.front_m.x += vehicle.speed_mps * sumo_step_s;
       seen.push_back(vehicle);
     }
     return seen;
@@ -191,6 +207,39 @@ TEST_CASE("a road becomes one edge a direction whose lanes begin with the right-
   CHECK(place.along_m == doctest::Approx(250.0));
   CHECK(network.connections_xml.find("fromLane=\"0\" toLane=\"0\"") != std::string::npos);
   CHECK(place_in_sumo(network, roads, corridor, 4, 250.0).route.empty());
+}
+
+TEST_CASE(
+    "who stands behind one that does not move is held there with a small gap, presses to both sides in turn, and has "
+    "his "
+    "own gap again when he drives") {
+  Scene scene;
+  const VehicleModel car = scene.foreign[0].shape();
+  const ParticipantId id = scene.sumo->vehicles.begin()->first;
+  SumoVehicle& behind = scene.sumo->vehicles.at(id);
+  const auto drive = [&](double time_s) {
+    for (int tick = 0; tick < time_s * 120.0; ++tick) scene.tick();
+  };
+  behind.speed_mps = 0.0;
+  behind.front_m.x = 2500.0 - car.rear_overhang_m - 1.5;
+  drive(0.8);
+  CHECK_FALSE(scene.sumo->held.contains(id));
+  drive(0.8);
+  CHECK(scene.sumo->held.contains(id));
+  CHECK(scene.sumo->standstill_gap_m[id] == 0.1);
+  CHECK_FALSE(scene.sumo->asked_aside_m.contains(id));
+  drive(10.0);
+  CHECK(scene.sumo->asked_aside_m[id] > 0.0);
+  drive(10.0);
+  CHECK(scene.sumo->asked_aside_m[id] < 0.0);
+
+  scene.foreign[0].world_from_vehicle.position_m.x += 10.0;
+  drive(0.2);
+  CHECK_FALSE(scene.sumo->held.contains(id));
+  CHECK(scene.sumo->standstill_gap_m[id] == 0.5);
+  behind.speed_mps = 5.0;
+  drive(0.2);
+  CHECK(scene.sumo->standstill_gap_m[id] > 1.0);
 }
 
 }  // namespace septet::server
