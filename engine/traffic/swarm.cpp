@@ -13,6 +13,7 @@ namespace {
 
 constexpr int outside = 0;
 constexpr double from_end_m = 30.0;
+constexpr double standing_mps = 0.5;
 
 /// Gap from bumper to bumper, if all of the corridor's vehicles stood evenly in the lanes that continue.
 double mean_gap_m(const TrafficParameters& parameters, const CorridorTraffic& traffic) {
@@ -242,7 +243,8 @@ void show_across_rims(const TrafficParameters& parameters, double middle_m, cons
   }
 }
 
-void recycle(const TrafficParameters& parameters, double middle, Random& random, CorridorTraffic& traffic) {
+void recycle(const TrafficParameters& parameters, double middle, bool middle_stands, Random& random,
+             CorridorTraffic& traffic) {
   if (traffic.corridor.closed) return;
   const double mean_gap = mean_gap_m(parameters, traffic);
   for (std::size_t i = 0; i < traffic.size(); ++i) {
@@ -270,8 +272,11 @@ void recycle(const TrafficParameters& parameters, double middle, Random& random,
       }
     }
     for (int attempt = 0; attempt < 4; ++attempt) {
-      const double side = attempt % 2 == 0 ? 1.0 : -1.0;
-      const double x = middle + side * (parameters.radius_m - random.uniform(20.0, 60.0));
+      // Everybody drives away from one who stands: they come from behind him, at the road's beginning if that is nearer.
+      const double side = attempt % 2 == 0 && !middle_stands ? 1.0 : -1.0;
+      const double within_m = random.uniform(20.0, 60.0);
+      double x = middle + side * (parameters.radius_m - within_m);
+      if (middle_stands) x = std::max(x, from_end_m + within_m);
       if (try_place(traffic, i, x, mean_gap, random)) break;
     }
   }
@@ -283,6 +288,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
   auto placed_foreign = place_foreign(network, foreign, dt_s, state);
   show_across_mouths(state, placed_foreign);
   const std::size_t directions = state.corridors.size() - state.ramps.size();
+  const bool middle_stands = !foreign.empty() && glm::length(foreign.front().velocity_mps) < standing_mps;
   for (std::size_t c = 0; c < state.corridors.size(); ++c) {
     CorridorTraffic& traffic = state.corridors[c];
     const double middle = c < directions ? middle_x(network, traffic, state) : 0.0;
@@ -296,7 +302,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     make_way(traffic, placed_foreign[c].emergencies, wrecks, dt_s);
     change_lanes(parameters, network, wrecks, state.time_s, dt_s, traffic);
     state.bad_numbers += move(network, traffic, dt_s);
-    if (c < directions) recycle(parameters, middle, random, traffic);
+    if (c < directions) recycle(parameters, middle, middle_stands, random, traffic);
   }
   take_ramps(state);
 }

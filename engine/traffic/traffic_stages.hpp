@@ -124,8 +124,9 @@ void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& 
                   double time_s, double dt_s, CorridorTraffic& traffic);
 /// Stage 4: speeds and places.
 std::uint32_t move(const road::RoadNetwork& network, CorridorTraffic& traffic, double dt_s);
-/// Stage 5: vehicles that left the simulation come in again.
-void recycle(const TrafficParameters& parameters, double middle_x_m, Random& random, CorridorTraffic& traffic);
+/// Stage 5: vehicles that left the simulation come in again; from behind, if the middle stands.
+void recycle(const TrafficParameters& parameters, double middle_x_m, bool middle_stands, Random& random,
+             CorridorTraffic& traffic);
 /// A swarm is a ring that travels with its middle: beyond each rim continues the other one, so that its density lasts.
 /// A vehicle there sees the other rim's nearest vehicle.
 void show_across_rims(const TrafficParameters& parameters, double middle_x_m, const CorridorTraffic& traffic,
