@@ -5,15 +5,18 @@
 
 #include <glm/common.hpp>
 
+#include "engine/instant/mean_emission.hpp"
+
 namespace septet::instant {
 namespace {
 
-MeshSummary summary_of(const scene::SurfaceMesh& mesh, const std::vector<scene::SurfaceMaterial>& materials) {
+MeshSummary summary_of(const scene::SurfaceMesh& mesh, const std::vector<scene::SurfaceMaterial>& materials,
+                       const std::vector<glm::vec3>& emissions) {
   MeshSummary summary{{mesh.bounds_min_m, mesh.bounds_max_m}};
   for (const scene::MeshPart& part : mesh.parts) {
     if (part.material >= materials.size()) continue;
     if (summary.first_material == no_material && part.index_count > 0) summary.first_material = part.material;
-    const glm::vec3 emission = materials[part.material].emission;
+    const glm::vec3 emission = emissions[part.material];
     if (emission.r + emission.g + emission.b > summary.emission.r + summary.emission.g + summary.emission.b)
       summary.emission = emission;
     summary.has_light =
@@ -72,7 +75,9 @@ void summarise_prototypes(SceneSummary& summary, const scene::ResolvedScene& sce
 
 SceneSummary summarise(const scene::ResolvedScene& scene) {
   SceneSummary summary;
-  for (const scene::SurfaceMesh& mesh : scene.meshes) summary.meshes.push_back(summary_of(mesh, scene.materials));
+  const std::vector<glm::vec3> emissions = mean_emissions(scene);
+  for (const scene::SurfaceMesh& mesh : scene.meshes)
+    summary.meshes.push_back(summary_of(mesh, scene.materials, emissions));
   summarise_lights(summary, scene);
   summarise_prototypes(summary, scene);
   return summary;
@@ -83,12 +88,13 @@ bool renew(SceneSummary& summary, const scene::ResolvedScene& scene,
   using Kind = scene::SceneChange::Kind;
   bool lights = false, bodies = false;
   std::vector<bool> new_materials;
+  const std::vector<glm::vec3> emissions = mean_emissions(scene);
   const auto has_light = [&](std::uint32_t mesh) {
     return mesh < summary.meshes.size() && summary.meshes[mesh].has_light;
   };
   const auto renew_mesh = [&](std::uint32_t index) {
     const bool before = has_light(index);
-    summary.meshes[index] = summary_of(scene.meshes[index], scene.materials);
+    summary.meshes[index] = summary_of(scene.meshes[index], scene.materials, emissions);
     lights = lights || before || has_light(index);
   };
   summary.meshes.resize(scene.meshes.size());

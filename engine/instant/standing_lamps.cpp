@@ -7,8 +7,11 @@
 #include <cstdint>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
+
+#include "engine/instant/mean_emission.hpp"
 
 namespace septet::instant {
 namespace {
@@ -83,13 +86,15 @@ void find_walls(std::vector<StandingLamp>& lamps, const std::vector<WallPiece>& 
 std::vector<StandingLamp> standing_lamps(const scene::ResolvedScene& scene) {
   std::vector<StandingLamp> lamps;
   std::vector<WallPiece> walls;
+  const std::vector<glm::vec3> emissions = mean_emissions(scene);
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size()) continue;
     const scene::SurfaceMesh& mesh = scene.meshes[instance.mesh];
     for (const scene::MeshPart& part : mesh.parts) {
       if (part.material >= scene.materials.size()) continue;
       const scene::SurfaceMaterial& material = scene.materials[part.material];
-      const bool shines = material.emission.r + material.emission.g + material.emission.b > 0.0f;
+      const glm::vec3 emission = emissions[part.material];
+      const bool shines = emission.r + emission.g + emission.b > 0.0f;
       const bool roofed = material.share_of_sky < 0.5f;
       if (!shines && !roofed) continue;
       const std::size_t end =
@@ -109,7 +114,7 @@ std::vector<StandingLamp> standing_lamps(const scene::ResolvedScene& scene) {
         if (!(area_m2 > 1e-4f)) continue;
         if (!shines && std::abs(across.z) < 0.1f * area_m2) add_wall(walls, at, Vec2(across));
         if (shines && looks_down(across / area_m2))
-          add_triangle(lamps, (at[0] + at[1] + at[2]) / 3.0, height_m, material.emission * area_m2, roofed);
+          add_triangle(lamps, (at[0] + at[1] + at[2]) / 3.0, height_m, emission * area_m2, roofed);
       }
     }
   }

@@ -16,7 +16,7 @@ void Path::meet_sky(const glm::vec3& direction) {
   if (pdf_ <= 0.0f) {
     // The sun through a clear body onto a rough surface is met so seldom that it would be a spark, not a caustic.
     if (scattered_) {
-      light_ += throughput_ * sky_light;
+      light_ += throughput_ * around_ * sky_light;
       return;
     }
     const instant::CloudSeen cloud = world_.cloud(direction);
@@ -24,7 +24,7 @@ void Path::meet_sky(const glm::vec3& direction) {
         throughput_ * (glm::mix(sky_light, cloud.radiance, cloud.cover) + sun_light * (1.0f - 0.97f * cloud.cover));
     return;
   }
-  light_ += throughput_ * sky_light * mis_weight(pdf_, chance(Kind::sky) * sky.pdf(direction));
+  light_ += throughput_ * around_ * sky_light * mis_weight(pdf_, chance(Kind::sky) * sky.pdf(direction));
   if (sun_light != glm::vec3(0.0f))
     light_ += throughput_ * sun_light * mis_weight(pdf_, chance(Kind::sun) * sky.sun_pdf(direction));
 }
@@ -58,6 +58,7 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
       scattered.value += point.retroreflection * light::beam_returned(1.0f - glm::dot(light.direction, to_viewer));
   }
   if (scattered.value == glm::vec3(0.0f)) return;
+  if (kind == Kind::sky) scattered.value *= point.from_around;
   const float pdf = light.pdf * chance(kind);
   const bool also_by_chance = kind != Kind::headlight && !looks_alone_;
   const float share = also_by_chance ? pdf / std::max(pdf * pdf + scattered.pdf * scattered.pdf, 1e-37f) : 1.0f / pdf;
@@ -219,6 +220,8 @@ bool Path::arrive(bool met, Hit& hit, FirstSeen* first) {
   from_share_of_sky_ = point_.share_of_sky;
   if (point_.dielectric && !point_.from_front) throughput_ *= glm::exp(-point_.absorption_per_m * edge_m);
   meet_lamp(ray_, point_);
+  throughput_ *= around_;
+  around_ = point_.from_around;
   if (edge_ == settings_.longest) return false;
   is_clear_ = point_.dielectric;
   if (is_clear_) {

@@ -72,6 +72,7 @@ class Path {
   bool looks_ = false;
   bool is_clear_ = false;  ///< True if the point is a clear body's, and ray_ goes on from there.
   glm::vec3 light_{0.0f}, throughput_{1.0f};
+  float around_ = 1.0f;             ///< Share of what the edge brings that arrives, lights themselves excepted.
   float time_;                      ///< Time while the shutter is open.
   float from_share_of_sky_;         ///< Share of sky at the edge's beginning.
   float pdf_ = 0.0f;                ///< Density with which the last direction was drawn; 0: it was not drawn at random.

@@ -5,6 +5,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/instant/mean_emission.hpp"
+
 namespace septet::raytrace {
 namespace {
 
@@ -22,13 +24,14 @@ bool is_cut(const scene::SurfaceMaterial& material, const scene::ResolvedScene& 
 
 }  // namespace
 
-SceneIndex::SceneIndex(const scene::ResolvedScene& scene) {
+SceneIndex::SceneIndex(const scene::ResolvedScene& scene) : lamp_emission(instant::mean_emissions(scene)) {
   for (const scene::SurfaceMaterial& material : scene.materials) {
     cut.push_back(is_cut(material, scene));
     shows_back.push_back(material.two_sided || cut.back() || material.stripe || material.opacity < opaque_from);
-    plain.push_back(material.base_color_image < 0 && material.opacity >= opaque_from && material.metallic == 0.0f &&
-                    material.roughness >= rough_from && material.clear_coat <= 0.0f && !material.wettable &&
-                    material.retroreflection == 0.0f && material.emission == glm::vec3(0.0f));
+    plain.push_back(material.base_color_image < 0 && material.maps == scene::no_surface_maps &&
+                    material.opacity >= opaque_from && material.metallic == 0.0f && material.roughness >= rough_from &&
+                    material.clear_coat <= 0.0f && !material.wettable && material.retroreflection == 0.0f &&
+                    material.emission == glm::vec3(0.0f));
   }
   const auto is_open = [&](const scene::MeshPart& part) {
     return part.material < cut.size() && (cut[part.material] || scene.materials[part.material].opacity < opaque_from);

@@ -19,6 +19,7 @@
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
 #include "engine/light/wet_road.hpp"
+#include "engine/raytrace/facing_viewer.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -31,12 +32,6 @@ const std::array<float, 256>& linear_codes() {
     return table;
   }();
   return codes;
-}
-
-/// Turns a smoothed normal back to the silhouette where it faces away from the viewer and the triangle does not.
-glm::vec3 facing_viewer(const glm::vec3& normal, const glm::vec3& ray_direction) {
-  const float facing = -glm::dot(normal, ray_direction);
-  return facing < 1e-3f ? glm::normalize(normal - (1e-3f - facing) * ray_direction * 1.01f) : normal;
 }
 
 }  // namespace
@@ -95,12 +90,16 @@ glm::vec2 World::in_image(const PlacedSurface& placed, const scene::SurfaceMater
   return (uv + glm::vec2(picture % columns, picture / columns)) / glm::vec2(columns, rows);
 }
 
+const scene::TextureImage* World::image_at(std::int32_t index) const {
+  if (index < 0 || static_cast<std::size_t>(index) >= scene_.images.size()) return nullptr;
+  const scene::TextureImage& image = scene_.images[static_cast<std::size_t>(index)];
+  return image.width > 0 && image.height > 0 ? &image : nullptr;
+}
+
 /// Interpolates between four texels; the image repeats.
-glm::vec4 World::texel(const scene::SurfaceMaterial& material, const glm::vec2& uv) const {
-  if (material.base_color_image < 0 || static_cast<std::size_t>(material.base_color_image) >= scene_.images.size())
-    return glm::vec4(1.0f);
-  const scene::TextureImage& image = scene_.images[static_cast<std::size_t>(material.base_color_image)];
-  if (image.width == 0 || image.height == 0) return glm::vec4(1.0f);
+glm::vec4 World::texel(const scene::TextureImage* source, const glm::vec2& uv) const {
+  if (!source) return glm::vec4(1.0f);
+  const scene::TextureImage& image = *source;
   const glm::vec2 at = (uv - glm::floor(uv)) * glm::vec2(image.width, image.height) - 0.5f;
   const glm::vec2 low = glm::floor(at), share = at - low;
   const auto wrapped = [](float x, std::uint32_t size) {
@@ -212,21 +211,27 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   point.opacity = material.opacity;
   const bool textured = material.base_color_image >= 0;
   if (textured) {
-    const glm::vec4 read = texel(material, uv);
+    const glm::vec4 read = texel(image_at(material.base_color_image), uv);
     base *= glm::vec3(read);
     if (material.opacity < opaque_from) point.opacity *= read.a;
   }
   if (material.opacity >= opaque_from) point.opacity = 1.0f;
   const glm::vec3 seen = -ray.direction;
-  lay_weather(placed, material, uv, base, seen, point);
-  if ((point.from_front || material.two_sided) && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f))
-    give_off(placed, material, textured ? base : glm::vec3(1.0f), hit, seen, point);
+  Finish finish{material.roughness, material.metallic,
+                material.roughness < rough_from || material.metallic > 0.2f || point.opacity < 1.0f};
+  if (material.maps != scene::no_surface_maps) apply_maps(placed, material, ray, hit, uv, point, finish);
+  lay_weather(placed, material, finish, uv, base, seen, point);
+  if ((point.from_front || material.two_sided) && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
+    const scene::TextureImage* shining = image_at(material.maps[scene::SurfaceMap::emission]);
+    const glm::vec3 color = shining ? glm::vec3(texel(shining, uv)) : textured ? base : glm::vec3(1.0f);
+    give_off(placed, material, color, hit, seen, point);
+  }
   if (!instant_.soot.cover.empty()) blacken(1.0f - soot(point.position_m), point);
 }
 
 /// Applies snow, water and gloss to a surface of the colour `base`, seen along −`seen`.
-void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
-                        const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const {
+void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const Finish& finish,
+                        const glm::vec2& uv, const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const {
   const Environment& weather = instant_.environment;
   Surface& surface = point.surface;
   const glm::vec3 normal = surface.normal;
@@ -241,7 +246,7 @@ void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMateria
   albedo = light::wet_albedo(albedo, wet, under_water);
 
   point.retroreflection = base * (material.retroreflection * (material.stripe ? light::wet_beads_return(wet) : 1.0f));
-  surface.diffuse = albedo * (1.0f - material.metallic);
+  surface.diffuse = albedo * (1.0f - finish.metallic);
   if (material.wettable) {
     // Water covers a share of a wet road, as in the rasteriser; the dry road between is rough.
     surface.coat = light::water_covers(wet, under_water);
@@ -251,10 +256,10 @@ void World::lay_weather(const PlacedSurface& placed, const scene::SurfaceMateria
     if (under_water > 0.0f && !ripples_.empty())
       surface.normal = facing_viewer(
           glm::normalize(surface.normal - glm::vec3(under_water * ripple(point.position_m), 0.0f)), -seen);
-  } else if (material.roughness < rough_from || material.metallic > 0.2f || point.opacity < 1.0f) {
+  } else if (finish.mirrors) {
     const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
-    surface.alpha = std::max(1e-3f, material.roughness * material.roughness);
-    surface.f0 = glm::mix(glm::vec3(index * index), albedo, material.metallic);
+    surface.alpha = std::max(1e-3f, finish.roughness * finish.roughness);
+    surface.f0 = glm::mix(glm::vec3(index * index), albedo, finish.metallic);
   }
   if (material.clear_coat > 0.0f && !material.wettable) {
     surface.coat = material.clear_coat;
@@ -360,7 +365,9 @@ bool World::is_hole(std::uint32_t place, std::uint32_t triangle, float u, float 
   const scene::SurfaceMaterial& material = material_of(placed, triangle);
   if (material.base_color_image < 0 || material.opacity < opaque_from) return false;
   const Corners at = corners(placed, triangle);
-  return texel(material, in_image(placed, material, (1.0f - u - v) * at.a->uv + u * at.b->uv + v * at.c->uv)).a < 0.5f;
+  return texel(image_at(material.base_color_image),
+               in_image(placed, material, (1.0f - u - v) * at.a->uv + u * at.b->uv + v * at.c->uv))
+             .a < 0.5f;
 }
 
 float World::share_let_through(std::uint32_t place, std::uint32_t triangle, float u, float v,

@@ -36,7 +36,10 @@ struct SurfacePoint {
   glm::vec3 emission{0.0f};         ///< Emitted radiance towards the viewer.
   float lights_up = 1.0f;           ///< Factor of its emission for the surfaces that it lights.
   glm::vec3 retroreflection{0.0f};  ///< Coefficient of retroreflection, cd/(lx m²), towards the light.
-  float opacity = 1.0f;             ///< Share of the rays that it stops; the others go straight on.
+  /// Share of the light from around, of sky and surfaces, that its own unevenness lets through (scene::SurfaceMap): not
+  /// of sun, lamps and headlights.
+  float from_around = 1.0f;
+  float opacity = 1.0f;  ///< Share of the rays that it stops; the others go straight on.
   /// True: a point in the air, not a surface, that scatters isotropically with the albedo surface.diffuse.
   bool in_smoke = false;
   /// True for a sheet that scatters light from either side to both alike: `surface.diffuse` is the share of both.
@@ -167,10 +170,23 @@ class World : public Openings {
   const scene::SurfaceMaterial& material_of(const PlacedSurface& placed, std::uint32_t triangle) const;
   /// Texture coordinate: of several pictures in an image, that of the participant.
   static glm::vec2 in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv);
-  glm::vec4 texel(const scene::SurfaceMaterial& material, const glm::vec2& at) const;
+  /// An image of the scene, or null where there is none or it is empty.
+  const scene::TextureImage* image_at(std::int32_t index) const;
+  /// White where there is no image.
+  glm::vec4 texel(const scene::TextureImage* image, const glm::vec2& at) const;
+  /// Roughness and metallic of a point, and whether a layer mirrors there.
+  struct Finish {
+    float roughness = 1.0f, metallic = 0.0f;
+    bool mirrors = false;
+  };
+  /// Applies the images of properties and normals.
+  void apply_maps(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const Ray& ray, const Hit& hit,
+                  const glm::vec2& uv, SurfacePoint& point, Finish& finish) const;
+  glm::vec3 mapped_normal(const PlacedSurface& placed, const Ray& ray, const Hit& hit, const glm::vec3& texel,
+                          const glm::vec3& front) const;
   glm::vec3 stand(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const;
-  void lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv,
-                   const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const;
+  void lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const Finish& finish,
+                   const glm::vec2& uv, const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const;
   void give_off(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec3& color,
                 const Hit& hit, const glm::vec3& seen, SurfacePoint& point) const;
   static void blacken(float share, SurfacePoint& point);

@@ -208,7 +208,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
   const PlacedSurface& placed = placed_[place];
   if (part.material >= scene_.materials.size() || part.index_count < 3) return;
   const scene::SurfaceMaterial& material = scene_.materials[part.material];
-  const glm::vec3 emission = material.emission * (placed.tint.w * instant_.emission_share);
+  const glm::vec3 emission = index_.lamp_emission[part.material] * (placed.tint.w * instant_.emission_share);
   if (!(luminance(emission) > 0.0f) || material.lit_by_night) return;
   Lamp lamp;
   glm::vec3 low(0.0f), high(0.0f);
@@ -233,7 +233,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
       if (lamp.triangle_count > 0) finish();
       lamp = {};
       lamp.place = place, lamp.first_triangle = t;
-      lamp.textured = material.base_color_image >= 0;
+      lamp.textured = material.base_color_image >= 0 || material.maps[scene::SurfaceMap::emission] >= 0;
       if (placed.motion) lamp.way_m = placed.motion->keys()[1].origin_m - placed.motion->keys()[0].origin_m;
       low = lower, high = upper;
     }

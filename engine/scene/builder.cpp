@@ -215,6 +215,9 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
     apply(TagSet{id, surface_group, tag++, {"ambient_share", double{parameters.ambient_share}}});
   if (parameters.lit_by_night) apply(TagSet{id, surface_group, tag++, {"lit_by_night", true}});
   if (parameters.in_street) apply(TagSet{id, surface_group, tag++, {"in_street", true}});
+  for (std::size_t map = 0; map < surface_map_count; ++map)
+    if (const NodeId bitmap = parameters.maps.values[map]; bitmap != no_node)
+      apply(TagSet{id, surface_group, tag++, {surface_map_tags[map], NodeReference{bitmap}}});
   return id;
 }
 

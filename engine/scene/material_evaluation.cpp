@@ -1,6 +1,7 @@
 #include "engine/scene/material_evaluation.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -220,6 +221,9 @@ SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int
   material.ambient_share = static_cast<float>(std::clamp(tag_or(node, "ambient_share", 1.0), 0.0, 1.0));
   material.lit_by_night = tag_or(node, "lit_by_night", false);
   material.in_street = tag_or(node, "in_street", false);
+  for (std::size_t map = 0; map < surface_map_count; ++map)
+    if (const NodeId bitmap = tag_or(node, surface_map_tags[map], NodeReference{}).node; bitmap != no_node)
+      material.maps.values[map] = image_of(bitmap);
   return material;
 }
 

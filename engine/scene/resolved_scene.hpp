@@ -17,6 +17,7 @@
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/change_list.hpp"
 #include "engine/scene/motion.hpp"
+#include "engine/scene/surface_map.hpp"
 
 namespace septet::scene {
 
@@ -55,6 +56,7 @@ struct SurfaceMaterial {
   glm::vec3 base_color{0.8f};
   /// Indexes ResolvedScene::images; multiplies base_color; alpha cuts out below ½.
   std::int32_t base_color_image = -1;
+  SurfaceMapImages maps = no_surface_maps;  ///< Indices of ResolvedScene::images.
   float roughness = 0.7f;
   float metallic = 0.0f;
   float opacity = 1.0f;

@@ -65,13 +65,25 @@ void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, std::span<const De
 
 DeviceMaterial device_material(const SurfaceMaterial& material, std::span<const DeviceTexture> textures) {
   DeviceMaterial result;
-  const bool textured = material.base_color_image >= 0 &&
-                        static_cast<std::size_t>(material.base_color_image) < textures.size() &&
-                        textures[static_cast<std::size_t>(material.base_color_image)].image.image;
+  const auto texture_at = [&](std::int32_t image) -> const DeviceTexture* {
+    if (image < 0 || static_cast<std::size_t>(image) >= textures.size()) return nullptr;
+    const DeviceTexture& texture = textures[static_cast<std::size_t>(image)];
+    return texture.image.image ? &texture : nullptr;
+  };
+  const DeviceTexture* base = texture_at(material.base_color_image);
+  const bool textured = base != nullptr;
   result.image = textured ? material.base_color_image : -1;
+  result.square_root_bits = !base || base->square_roots ? 1u : 0u;
+  for (std::uint32_t map = 0; map < scene::surface_map_count; ++map)
+    if (const DeviceTexture* texture = texture_at(material.maps.values[map])) {
+      result.maps.values[map] = material.maps.values[map];
+      result.map_bits |= 1u << map;
+      result.square_root_bits |= std::uint32_t{texture->square_roots} << (map + 1);
+    }
   result.blended = material.opacity < 0.999f;
-  result.cut = textured && !result.blended && textures[static_cast<std::size_t>(material.base_color_image)].holes;
-  result.glossy = !result.cut && (material.roughness < 0.6f || material.metallic > 0.2f || result.blended);
+  result.cut = textured && !result.blended && base->holes;
+  const bool mapped = result.maps[scene::SurfaceMap::properties] >= 0;
+  result.glossy = !result.cut && (material.roughness < 0.6f || material.metallic > 0.2f || result.blended || mapped);
   result.wettable = material.wettable && !result.cut;
   result.coated = material.clear_coat > 0.0f && !result.cut && !result.blended && !result.wettable;
   result.stripe = material.stripe;

@@ -10,16 +10,26 @@
 namespace septet::render {
 namespace {
 
+using Code = std::array<std::uint8_t, 256>;
+
 /// Table from 8-bit codes to the square root of linear light: the shader decodes it by a square, whereas decoding sRGB
 /// texels costs a software rasteriser more than all other shading.
-std::array<std::uint8_t, 256> square_root_code(bool srgb) {
-  std::array<std::uint8_t, 256> code;
+Code square_root_code(bool srgb) {
+  Code code;
   for (std::size_t i = 0; i < code.size(); ++i)
     code[i] = static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(linear_of_code(i, srgb))));
   return code;
 }
 
-void encode(std::span<std::uint8_t> rgba, const std::array<std::uint8_t, 256>& code) {
+/// The same for a scene's images, of which linear ones, such as those of normals, keep their codes.
+Code device_code(bool srgb) {
+  if (srgb) return square_root_code(true);
+  Code same;
+  for (std::size_t i = 0; i < same.size(); ++i) same[i] = static_cast<std::uint8_t>(i);
+  return same;
+}
+
+void encode(std::span<std::uint8_t> rgba, const Code& code) {
   for (std::size_t i = 0; i < rgba.size(); i += 4)
     for (std::size_t c = i; c < i + 3; ++c) rgba[c] = code[rgba[c]];
 }
@@ -29,7 +39,7 @@ void encode(std::span<std::uint8_t> rgba, const std::array<std::uint8_t, 256>& c
 std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                                      bool srgb) {
   std::vector<MipLevel> levels = mip_chain(width, height, rgba, srgb);
-  const std::array<std::uint8_t, 256> code = square_root_code(srgb);
+  const Code code = square_root_code(srgb);
   for (MipLevel& level : levels) encode(level.rgba, code);
   return levels;
 }
@@ -88,14 +98,14 @@ void upload_textures(std::vector<DeviceTexture>& textures, std::span<const scene
   for (std::size_t i = 0; i < changed.size(); ++i) {
     DeviceTexture& texture = textures[changed[i]];
     destroy_image(upload.memory(), texture.image);
-    texture = {images[changed[i]].revision, false, {}, {}};
+    texture = {images[changed[i]].revision, false, images[changed[i]].srgb, {}, {}};
     if (levels[i].empty()) continue;
     texture.holes = has_holes(images[changed[i]].rgba);
     if (!texture.holes) {
       texture.levels = levels[i];
       texture.levels.front().rgba = {};
     }
-    const std::array<std::uint8_t, 256> code = square_root_code(images[changed[i]].srgb);
+    const Code code = device_code(images[changed[i]].srgb);
     for (MipLevel& level : levels[i]) encode(level.rgba, code);
     texture.image = create_texture(upload, levels[i]);
   }
@@ -114,7 +124,7 @@ bool renew_texture(DeviceTexture& texture, const scene::TextureImage& image, con
   std::uint64_t bytes = 0;
   for (const MipRect& rect : rects) bytes += std::uint64_t{4} * rect.width * rect.height;
   const vulkan::HostArena::Slice staged = upload.stage(bytes);
-  const std::array<std::uint8_t, 256> code = square_root_code(image.srgb);
+  const Code code = device_code(image.srgb);
   std::vector<VkBufferImageCopy> regions;
   std::uint64_t at = 0;
   for (std::size_t i = 0; i < rects.size(); ++i) {

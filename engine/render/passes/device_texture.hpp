@@ -1,5 +1,5 @@
 #pragma once
-/// Images of a scene on the device, with mip levels, as the square root of linear light.
+/// Images of a scene on the device, with mip levels: of sRGB images the square root of linear light, others as they are.
 
 #include <cstdint>
 #include <span>
@@ -14,12 +14,13 @@ namespace septet::render {
 struct DeviceTexture {
   std::uint64_t revision = 0;
   bool holes = false;
+  bool square_roots = true;  ///< Holds square roots of linear light.
   vulkan::DeviceImage image;
   /// Levels of an image without holes, the full one without its pixels, so that a part of it can be renewed.
   std::vector<MipLevel> levels;
 };
 
-/// All levels of a texture as the device keeps them: the square root of linear light.
+/// All levels of a texture, as the square root of linear light.
 std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                                      bool srgb);
 

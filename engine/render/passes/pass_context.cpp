@@ -66,7 +66,7 @@ void push_view(PassContext& context, const ViewBindings& bindings) {
   const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
   // A null view is replaced by the noise, since every binding must be bound.
   const auto or_noise = [&](VkImageView view) { return view ? view : bindings.noise; };
-  const VkDescriptorImageInfo images[10] = {
+  const VkDescriptorImageInfo images[13] = {
       {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
@@ -76,8 +76,11 @@ void push_view(PassContext& context, const ViewBindings& bindings) {
       {context.samplers.table, or_noise(bindings.road_mirror_spread), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.texel, or_noise(bindings.road_mirror_depth), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, or_noise(bindings.ripples), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-      {context.samplers.texel, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[12] = {
+      {context.samplers.texel, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
+  VkWriteDescriptorSet writes[15] = {
       write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
       write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
@@ -89,12 +92,15 @@ void push_view(PassContext& context, const ViewBindings& bindings) {
       write(vulkan::binding_road_mirror_depth, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_ripples, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_shadow_depths, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+      write(vulkan::binding_emission_map, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+      write(vulkan::binding_properties_map, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+      write(vulkan::binding_normal_map, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_light_clusters, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
   writes[0].pBufferInfo = &uniforms;
-  for (int i = 0; i < 10; ++i) writes[1 + i].pImageInfo = &images[i];
+  for (int i = 0; i < 13; ++i) writes[1 + i].pImageInfo = &images[i];
   const FrameData& lights = bindings.light_clusters.buffer ? bindings.light_clusters : bindings.uniforms;
   const VkDescriptorBufferInfo clusters{lights.buffer, lights.offset, lights.size};
-  writes[11].pBufferInfo = &clusters;
+  writes[14].pBufferInfo = &clusters;
   push(context, writes);
 }
 

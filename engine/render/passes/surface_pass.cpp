@@ -14,12 +14,13 @@ struct Variant {
   std::uint32_t glossy;    ///< See shaders/surface.frag.
   bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving, two_sided, in_street;
   SurfaceKind kind;
+  std::uint32_t maps, square_roots;  ///< Of its material.
   std::uint32_t key() const {
     return textured | (lamps & 7u) << 2 | (lamps >> 3) << 18 | glossy << 5 | std::uint32_t{snowy} << 7 |
            std::uint32_t{sooty} << 8 | static_cast<std::uint32_t>(kind) << 9 | std::uint32_t{road} << 11 |
            std::uint32_t{mirror} << 12 | std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 |
            std::uint32_t{moving} << 15 | std::uint32_t{unshaded} << 16 | std::uint32_t{two_sided} << 17 |
-           std::uint32_t{in_street} << 19;
+           std::uint32_t{in_street} << 19 | maps << 20 | square_roots << 23;
   }
 };
 
@@ -65,6 +66,8 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.constants[shaders::unshaded_constant] = variant.unshaded;
   description.constants[shaders::two_sided_constant] = variant.two_sided;
   description.constants[shaders::in_street_constant] = variant.in_street;
+  description.constants[shaders::maps_constant] = variant.maps;
+  description.constants[shaders::square_roots_constant] = variant.square_roots;
   description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
@@ -85,6 +88,7 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
   vkCmdSetCullMode(commands, culls ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
   VkPipeline bound_pipeline = VK_NULL_HANDLE;
   std::int32_t bound_image = -1;
+  scene::SurfaceMapImages bound_maps = scene::no_surface_maps;
   std::uint32_t bound_material = no_group;
   SurfaceDraw bound;
   const auto draw_one = [&](const SurfaceDraw& draw) {
@@ -96,10 +100,11 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
         std::uint32_t{material.glossy || (light.wet && material.wettable)} | std::uint32_t{material.coated} << 1;
     const bool moving = context.formats.marks && !draw.still;
     const bool retroreflective = material.constants.light.y > 0.0f;
-    const VkPipeline pipeline = pipeline_of(
-        pass, context,
-        {texturing, light.lamps(), glossy, light.unshaded, light.snowy, light.sooty, material.wettable,
-         light.mirror_of_road, draw.fading, retroreflective, moving, material.two_sided, material.in_street, kind});
+    const VkPipeline pipeline =
+        pipeline_of(pass, context,
+                    {texturing, light.lamps(), glossy, light.unshaded, light.snowy, light.sooty, material.wettable,
+                     light.mirror_of_road, draw.fading, retroreflective, moving, material.two_sided, material.in_street,
+                     kind, material.map_bits, material.square_root_bits});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (const bool culled = kind == SurfaceKind::opaque && !material.two_sided; culled != culls)
@@ -109,6 +114,12 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
                  material.wettable ? context.samplers.road : context.samplers.surface);
       bound_image = material.image;
     }
+    for (std::uint32_t map = 0; material.map_bits >> map != 0; ++map)
+      if (const std::int32_t image = material.maps.values[map]; image >= 0 && image != bound_maps.values[map]) {
+        push_image(context, scene.textures[static_cast<std::size_t>(image)].image.view, context.samplers.surface,
+                   vulkan::binding_emission_map + map);
+        bound_maps.values[map] = image;
+      }
     if (draw.material != bound_material) push_constants(context, std::as_bytes(std::span(&material.constants, 1)));
     bound_material = draw.material;
     record_draw(context, draw, bound);

@@ -12,6 +12,7 @@
 #include "engine/light/ruts.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
+#include "engine/light/surface_maps.hpp"
 
 // Rare cases are specialised away: a software rasteriser runs both sides of a branch.
 //
@@ -35,6 +36,15 @@ layout(constant_id = 11) const uint retroreflective = 0;
 layout(constant_id = 16) const uint two_sided = 0;  // Opaque, and drawn from both sides.
 layout(constant_id = 17) const uint in_street = 0;  // A wall along a street, between houses.
 layout(constant_id = 12) const uint over_frames = 0;  // See surface.vert.
+// Images of the material beside that of its base colour (scene::SurfaceMap). Bits: 1 emission, 2 properties, 4 normal.
+layout(constant_id = 18) const uint maps = 0;
+// Images that hold square roots of linear light, others hold linear numbers. Bits: 1 base colour, 2, 4, 8 the maps.
+layout(constant_id = 19) const uint square_roots = 1;
+layout(set = 0, binding = 21) uniform sampler2D emission_map;
+layout(set = 0, binding = 22) uniform sampler2D properties_map;
+layout(set = 0, binding = 23) uniform sampler2D normal_map;
+
+vec4 in_linear(vec4 texel, uint bit) { return (square_roots & bit) != 0 ? decoded(texel) : texel; }
 
 const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of the surroundings reflected in tunnels.
 
@@ -143,14 +153,23 @@ vec3 layer_reflectance(float cosine, vec3 f0, float roughness) {
   return f0 * (1.0 - 0.15 * roughness) + (1.0 - f0) * (fifth_power(1.0 - cosine) / (1.0 + 20.0 * roughness * roughness * roughness));
 }
 
+// Normal of the material's map; how the place moves along u and v follows from neighbouring pixels.
+vec3 normal_in_map(vec3 n) {
+  vec3 across = dFdx(relative), down = dFdy(relative);
+  vec2 uv_across = dFdx(uv), uv_down = dFdy(uv);
+  float side = uv_across.x * uv_down.y < uv_down.x * uv_across.y ? -1.0 : 1.0;
+  return mapped_normal(in_linear(texture(normal_map, uv), 8).rgb, n, side * (across * uv_down.y - down * uv_across.y),
+                       side * (down * uv_across.x - across * uv_down.x));
+}
+
 void main() {
   if (fading != 0 && !is_shown(shown, gl_FragCoord.xy)) discard;
   // Static surfaces below the road are not mirrored by it.
   if (mirror_of_road != 0 && snowed > 0.5 && dot(view.road.xyz, relative) < view.road.w) discard;
   vec4 base = color;
   // Signs and plates take a finer mip level for sharper writing; their plain pictures do not flicker by it.
-  if (textured == 1) base *= decoded(texture(image, uv, retroreflective != 0 ? -0.7 : 0.0));
-  if (textured == 2) base *= decoded(along_footprint(uv));
+  if (textured == 1) base *= in_linear(texture(image, uv, retroreflective != 0 ? -0.7 : 0.0), 1);
+  if (textured == 2) base *= in_linear(along_footprint(uv), 1);
   float alpha = base.a;
   if (stripe != 0) alpha *= on_stripe(uv.x, uv.y);
   if (cut == 2 && alpha < 0.5) discard;
@@ -160,11 +179,18 @@ void main() {
     if (alpha < 0.05) discard;
   }
   vec3 n = normalize(normal);
+  if ((maps & 4) != 0) n = normal_in_map(n);
   if ((cut != 0 || two_sided != 0) && !gl_FrontFacing) n = -n;
   float distance_m = length(relative);
   vec3 to_eye = -relative / distance_m;
   vec3 albedo = base.rgb;
-  float roughness = material.emission.w;
+  float roughness = material.emission.w, metallic = material.surface.x, from_around = material.more.x;
+  if ((maps & 2) != 0) {
+    vec3 properties = in_linear(texture(properties_map, uv), 4).rgb;
+    from_around *= properties.r;
+    roughness = max(least_mapped_roughness, roughness * properties.g);
+    metallic *= properties.b;
+  }
   float share_of_sky = emission.w;
 
   float snow_lies = 0.0;
@@ -194,21 +220,21 @@ void main() {
   float diffuse = max(facing, 0.0);
   if (cut != 0) diffuse = 0.75 * diffuse + 0.25 * abs(facing) + 0.1;  // Leaves let light through.
   vec3 sunlight = view.light_irradiance.rgb * lit;
-  vec3 from_around = in_street != 0 ? street_irradiance_on(n) : irradiance_on(n);
+  vec3 surroundings = in_street != 0 ? street_irradiance_on(n) : irradiance_on(n);
   // Roads lie level, in the open.
-  vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : from_around * (share_of_sky * material.more.x);
+  vec3 ambient = road != 0 ? view.sky_irradiance.rgb * share_of_sky : surroundings * (share_of_sky * from_around);
   // Light of the lamps of a roofed place: from all sides, and near the eye their pools as well.
   float between_pools = 1.0 - share_of_sky;
   if ((lamps & 2) != 0) {
     vec4 thrown = standing_lamps(relative, n, share_of_sky);
     // Ceilings above the lamps get only the light that the road returns.
     between_pools *= (1.0 - 0.7 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
-    ambient += thrown.rgb * material.more.x;
+    ambient += thrown.rgb * from_around;
   }
   ambient += irradiance_between_pools * between_pools;
   if ((lamps & 8) != 0) ambient += beacons(n);
   vec3 irradiance = sunlight * diffuse + ambient;
-  vec3 radiance = albedo * (1.0 - material.surface.x) / pi;
+  vec3 radiance = albedo * (1.0 - metallic) / pi;
   if ((lamps & 1) != 0) {
     vec4 beams = headlights(n);
     irradiance += beams.rgb;
@@ -235,9 +261,9 @@ void main() {
     // Light reflected by a layer does not reach the one below it, on its way in as on its way out.
     float cosine = clamp(dot(n, to_eye), 0.0, 1.0);
     vec3 mirrored = reflect(-to_eye, n), beam = sunlight * max(facing, 0.0), roof = under_roof * (1.0 - share_of_sky);
-    share_of_sky *= material.more.x;
+    share_of_sky *= from_around;
     if ((glossy & 1) != 0) {
-      vec3 f0 = mix(vec3(material.surface.y), albedo, material.surface.x), fresnel = layer_reflectance(cosine, f0, roughness);
+      vec3 f0 = mix(vec3(material.surface.y), albedo, metallic), fresnel = layer_reflectance(cosine, f0, roughness);
       radiance = radiance * (1.0 - fresnel) * 0.92 + fresnel * (mirrored_sky(mirrored, roughness) * share_of_sky + roof) +
                  shine(n, to_eye, f0, roughness) * beam;
       if (blended != 0 && stripe == 0) alpha = clamp(alpha + dot(fresnel, vec3(0.33)), 0.0, 1.0);
@@ -248,7 +274,9 @@ void main() {
                  coat * shine(n, to_eye, vec3(coat_reflectance), coat_roughness) * beam;
     }
   }
-  radiance += emission.rgb * (textured != 0 ? base.rgb : vec3(1.0)) * view.light_irradiance.w;
+  vec3 shining = textured != 0 ? base.rgb : vec3(1.0);
+  if ((maps & 1) != 0) shining = in_linear(texture(emission_map, uv), 2).rgb;
+  radiance += emission.rgb * shining * view.light_irradiance.w;
   if (sooty != 0) radiance *= 1.0 - soot_cover();
 
   float fog = 1.0 - exp2(-distance_m * view.sky_irradiance.w);

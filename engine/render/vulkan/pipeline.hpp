@@ -37,7 +37,11 @@ enum Binding : std::uint32_t {
   /// Mirror image in a wet road, spread by its roughness, and its depth.
   binding_road_mirror_spread = 19,
   binding_road_mirror_depth = 20,
-  binding_count = 21,
+  /// Images of the draw's material beside binding_image, in the order of scene::SurfaceMap.
+  binding_emission_map = 21,
+  binding_properties_map = 22,
+  binding_normal_map = 23,
+  binding_count = 24,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;
@@ -70,7 +74,7 @@ struct PipelineDescription {
   bool marks = false;  ///< Alpha is stored, too: blended by itself, whatever the blending of the colours.
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 18> constants{};  ///< Specialization constants 0 to 17 of both stages.
+  std::array<std::uint32_t, 20> constants{};  ///< Specialization constants 0 to 19 of both stages.
 };
 
 /// Creates a pipeline. Viewport, scissor, cull mode and front face are dynamic.

@@ -19,12 +19,13 @@
 #include "engine/light/sky_tables.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
+#include "engine/light/surface_maps.hpp"
 #include "engine/light/tone_curve.hpp"
 #include "engine/light/wet_road.hpp"
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 54u;
+LIGHT_CONST uint function_count = 55u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -159,6 +160,8 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
     case 53u:
       return vec4(puff_passes(a.x, a.y), puff_half_side(a.z), puff_shown(3.0f * a.w),
                   puff_scatters(vec3(b.x), vec3(b.y)).x);
+    case 54u:
+      return vec4(mapped_normal(vec3(b.x, b.y, b.z), one, other, direction_of(b.w, a.x)), 0.0f);
     default:
       return vec4(0.0f);
   }

@@ -39,7 +39,7 @@ std::ptrdiff_t instances_drawn(const ResolvedScene& scene) {
 
 TEST_CASE("whatever of a material changes is shown and what does not change it makes nothing anew") {
   const MaterialParameters before{.opacity = 0.5f};
-  std::vector<MaterialParameters> changes(15, before);
+  std::vector<MaterialParameters> changes(18, before);
   changes[0].base_color = {0.1f, 0.8f, 0.8f};
   const DrawnWorld any;
   changes[1].base_color_bitmap = any.bitmap;
@@ -56,6 +56,9 @@ TEST_CASE("whatever of a material changes is shown and what does not change it m
   changes[12].picture_columns = 4;
   changes[13].picture_rows = 8;
   changes[14].in_street = true;
+  changes[15].maps[SurfaceMap::emission] = any.bitmap;
+  changes[16].maps[SurfaceMap::properties] = any.bitmap;
+  changes[17].maps[SurfaceMap::normal] = any.bitmap;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     CAPTURE(i);
     DrawnWorld world, changed;

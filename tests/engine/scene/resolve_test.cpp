@@ -139,6 +139,21 @@ TEST_CASE("a bitmap becomes the image of the material that shows it") {
   CHECK_FALSE(scene.images[0].srgb);
 }
 
+TEST_CASE("a material's images of emission, properties and normals are those of its bitmaps, and it may have none") {
+  World w;
+  const std::vector<std::uint8_t> grey(4, 128);
+  BySurfaceMap<NodeId> maps{{no_node, no_node, no_node}};
+  for (NodeId& map : maps.values) map = w.build.add_bitmap("", 1, 1, grey, false);
+  const NodeId with = w.build.add_material("", {.maps = maps}), without = w.build.add_material("", {});
+  for (const NodeId material : {with, without})
+    w.build.add_object("", {.geometry = w.build.add_mesh("", cube()), .materials = {material}});
+  const ResolvedScene scene = resolve(w.store);
+  const auto shown = [&](std::size_t mesh) { return scene.materials[scene.meshes[mesh].parts[0].material].maps; };
+  CHECK(scene.images.size() == 3);
+  CHECK(shown(0) == SurfaceMapImages{{0, 1, 2}});
+  CHECK(shown(1) == no_surface_maps);
+}
+
 TEST_CASE("children are placed by their parents and prototypes are kept apart") {
   World w;
   const NodeId mesh = w.build.add_mesh("", cube());
