@@ -103,6 +103,17 @@ const Json& list_of(const Json& json, const char* name) {
   return found != json.end() && found->is_array() ? *found : none;
 }
 
+const Json& member_of(const Json& object, const char* name) {
+  static const Json none = Json::object();
+  if (!object.is_object()) return none;
+  const auto found = object.find(name);
+  return found != object.end() && found->is_object() ? *found : none;
+}
+
+const Json& extension_in(const Json& object, const char* name) {
+  return member_of(member_of(object, "extensions"), name);
+}
+
 std::int64_t index_in(const Json& object, const char* name, std::int64_t otherwise) {
   if (!object.is_object()) return otherwise;
   const auto found = object.find(name);

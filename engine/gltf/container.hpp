@@ -29,6 +29,10 @@ Expected<Container> open_container(std::string_view bytes, std::string_view wher
 /// The elements of a list of the file's root, or of `json`'s; empty where there is no such list.
 const Json& list_of(const Json& json, const char* name);
 
+/// An object that is an object's member, or one of its extensions; an empty one where there is none.
+const Json& member_of(const Json& object, const char* name);
+const Json& extension_in(const Json& object, const char* name);
+
 /// A whole number ≥ 0 of an object; `otherwise` where it is absent. Any other value is −1, an index to nothing.
 std::int64_t index_in(const Json& object, const char* name, std::int64_t otherwise = -1);
 

@@ -186,7 +186,7 @@ class Reader {
     const std::string uv_set = fmt::format("TEXCOORD_{}", look.mapping.uv_set);
     const auto uvs = optional_rows(uv_set.c_str(), 2, 2);
     if (!uvs) return tl::unexpected(uvs.error());
-    if (look.picture >= 0 && !triangles.empty() && !attributes.contains(uv_set)) unmapped_[material].insert(mesh);
+    if (look.has_picture() && !triangles.empty() && !attributes.contains(uv_set)) unmapped_[material].insert(mesh);
     return add_triangles(triangles, *positions, *normals, *uvs, look_of(static_cast<std::size_t>(material), *colours),
                          node, model_from_node, growing);
   }

@@ -3,10 +3,10 @@
 ///
 /// Read from a file: the default scene's nodes with their transforms; triangles, strips and fans with positions,
 /// normals, texture coordinates and the mean of the first vertex colours, sparse accessors too; of materials base
-/// colour (factor and PNG or JPEG texture, which may name its set of coordinates and transform them), metallic,
-/// roughness, emissive (with KHR_materials_emissive_strength), alpha, and transmission as transparency. Skinned
-/// meshes stand as their joints do, morph targets stay as they were modelled; cameras, lights, animations and other
-/// textures are skipped. A file is self-contained: a .glb, or a .gltf whose buffers are data: URIs. External files
+/// colour, metallic, roughness, emissive (with KHR_materials_emissive_strength), normals, occlusion, by factor and PNG
+/// or JPEG texture, which may name its set of coordinates and transform them, the same for all of a material; alpha,
+/// and transmission as transparency. Skinned meshes stand as their joints do, morph targets stay as they were
+/// modelled; cameras, lights and animations are skipped, and tangents, which follow from coordinates. A file is self-contained: a .glb, or a .gltf whose buffers are data: URIs. External files
 /// that it names are never opened.
 ///
 /// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres.
@@ -48,18 +48,32 @@ struct PictureMapping {
   glm::dvec2 share{1.0};
 
   glm::dvec2 operator()(const glm::dvec2& uv) const;
+  bool operator==(const PictureMapping&) const = default;
 };
 
-/// A material. Colours are linear Rec. 709.
+/// A picture of a material; others than colours, of normals and the like, are not sRGB but linear.
+struct Picture : image::Image {
+  bool is_linear = false;
+};
+
+/// A material. Colours are linear Rec. 709. Pictures are indices of Model::pictures, −1 where there is none; all of a
+/// look lie by the same coordinates. They are those of scene::SurfaceMap, the strengths of a file worked in.
 struct Look {
   std::string name;
   glm::vec3 base_color{1.0f};
-  std::int32_t picture = -1;  ///< Indexes Model::pictures; multiplies base_color.
-  PictureMapping mapping;     ///< Mapping of the picture's coordinates.
-  bool clamps = false;        ///< The file's picture ends at its edges; the held one repeats.
+  std::int32_t picture = -1;             ///< Indexes Model::pictures; multiplies base_color.
+  std::int32_t emission_picture = -1;    ///< Multiplies emission.
+  std::int32_t properties_picture = -1;  ///< Red: share of the light from around; green, blue: times the two below.
+  std::int32_t normal_picture = -1;
+  PictureMapping mapping;  ///< Mapping of the pictures' coordinates.
+  bool clamps = false;     ///< The file's picture ends at its edges; the held one repeats.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
-  glm::vec3 emission{0.0f};
-  bool two_sided = false;  ///< The file's `doubleSided`.
+  glm::vec3 emission{0.0f};  ///< A picture of the base colour does not colour it.
+  bool two_sided = false;    ///< The file's `doubleSided`.
+
+  bool has_picture() const {
+    return picture >= 0 || emission_picture >= 0 || properties_picture >= 0 || normal_picture >= 0;
+  }
 };
 
 /// A part that moves or shines as one, or the rest.
@@ -81,7 +95,7 @@ struct Extra {
 struct Model {
   std::vector<Part> parts;  ///< Empty without a triangle.
   std::vector<Look> looks;
-  std::vector<image::Image> pictures;
+  std::vector<Picture> pictures;
   glm::vec3 least_m{0.0f}, most_m{0.0f};  ///< Bounds of all parts.
   std::vector<Extra> extras;              ///< Of all nodes, by name; of equal names the first that is read.
   std::vector<std::string> left_out;      ///< Skipped contents that may be missed, each a sentence.

@@ -5,35 +5,23 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
-#include "engine/image/jpeg.hpp"
-#include "engine/image/png.hpp"
+#include "engine/gltf/pictures.hpp"
 
 namespace septet::gltf {
 namespace {
 
 using image::Image;
-
-const Json& member(const Json& object, const char* name) {
-  static const Json none = Json::object();
-  if (!object.is_object()) return none;
-  const auto found = object.find(name);
-  return found != object.end() && found->is_object() ? *found : none;
-}
-
-const Json& extension(const Json& object, const char* name) { return member(member(object, "extensions"), name); }
+using Use = PictureKey::Use;
 
 /// A colour's factor, each number from 0 to `most`.
 glm::vec3 factor_of(const Json& object, const char* name, const glm::vec3& otherwise, float most) {
@@ -49,206 +37,222 @@ glm::vec3 factor_of(const Json& object, const char* name, const glm::vec3& other
 
 float share(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
-/// Half the size, each pixel the mean of four; the last row and column of odd sizes are dropped.
-Image halved(const Image& picture) {
-  Image half(std::max(picture.width / 2, 1u), std::max(picture.height / 2, 1u));
-  for (std::uint32_t y = 0; y < half.height; ++y)
-    for (std::uint32_t x = 0; x < half.width; ++x)
-      for (std::size_t c = 0; c < 4; ++c) {
-        std::uint32_t sum = 2;
-        for (const std::uint32_t dy : {0u, 1u})
-          for (const std::uint32_t dx : {0u, 1u}) {
-            const std::size_t column = std::min(2 * x + dx, picture.width - 1),
-                              row = std::min(2 * y + dy, picture.height - 1);
-            sum += picture.rgba[(row * picture.width + column) * 4 + c];
-          }
-        half.rgba[(std::size_t{y} * half.width + x) * 4 + c] = static_cast<std::uint8_t>(sum / 4);
+std::uint8_t code_of(float value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
+}
+
+/// Red: of `dark` its red, as strong as that; green and blue: of `rough` (3.9.2, 3.9.3). Either may be null: white. As
+/// large as the larger.
+Image properties_of(const Image* rough, const Image* dark, float strength) {
+  const Image& larger = !rough || (dark && dark->width > rough->width) ? *dark : *rough;
+  Image packed(larger.width, larger.height, {255, 255, 255, 255});
+  const auto at = [&](const Image& picture, std::uint32_t x, std::uint32_t y) {
+    const auto nearest = [](std::uint32_t n, std::uint32_t size, std::uint32_t of) {
+      return static_cast<std::uint32_t>(std::uint64_t{n} * size / of);
+    };
+    return picture.at(nearest(x, picture.width, packed.width), nearest(y, picture.height, packed.height));
+  };
+  for (std::uint32_t y = 0; y < packed.height; ++y)
+    for (std::uint32_t x = 0; x < packed.width; ++x) {
+      image::Color color{255, 255, 255, 255};
+      if (dark) color.red = code_of(1.0f + strength * (static_cast<float>(at(*dark, x, y).red) / 255.0f - 1.0f));
+      if (rough) {
+        const image::Color read = at(*rough, x, y);
+        color.green = read.green;
+        color.blue = read.blue;
       }
-  return half;
+      packed.set(x, y, color);
+    }
+  return packed;
 }
 
-/// The picture followed by its mirror image on the right, below, or both.
-Image with_mirror_image(const Image& picture, bool right, bool below) {
-  if (!right && !below) return picture;
-  Image whole(right ? 2 * picture.width : picture.width, below ? 2 * picture.height : picture.height);
-  for (std::uint32_t y = 0; y < whole.height; ++y)
-    for (std::uint32_t x = 0; x < whole.width; ++x)
-      whole.set(x, y,
-                picture.at(x < picture.width ? x : whole.width - 1 - x, y < picture.height ? y : whole.height - 1 - y));
-  return whole;
-}
-
-/// Ways in which a picture goes on beyond its edges (3.8.4.5); any other repeats.
-constexpr std::int64_t clamped = 33071, mirrored = 33648;
-
-struct Wrapping {
-  std::int64_t u = 0, v = 0;
-};
-
-std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
+/// Normals whose lean along both axes of the picture is scaled (3.9.3).
+void scale_normals(Image& normals, float scale) {
+  for (std::size_t i = 0; i + 3 < normals.rgba.size(); i += 4) {
+    glm::vec3 n;
+    for (int k = 0; k < 3; ++k)
+      n[k] = static_cast<float>(normals.rgba[i + static_cast<std::size_t>(k)]) / 127.5f - 1.0f;
+    n.x *= scale;
+    n.y *= scale;
+    const float length = glm::length(n);
+    if (!(length > 0.0f)) continue;
+    for (int k = 0; k < 3; ++k) normals.rgba[i + static_cast<std::size_t>(k)] = code_of(0.5f + 0.5f * n[k] / length);
+  }
 }
 
 class Looks {
  public:
-  Looks(const Container& container, Model& model) : container_(container), model_(model) {}
+  Looks(const Container& container, Model& model) : container_(container), model_(model), pictures_(container, model) {}
 
   Expected<Look> look(const Json& material, std::size_t index) {
     Look look;
     look.name = printable(text_in(material, "name"), 80);
     if (look.name.empty()) look.name = fmt::format("material {}", index);
-    const Json& metallic_roughness = member(material, "pbrMetallicRoughness");
+    const Json& metallic_roughness = member_of(material, "pbrMetallicRoughness");
     look.base_color = factor_of(metallic_roughness, "baseColorFactor", glm::vec3(1.0f), 1.0f);
     const Json& factors = list_of(metallic_roughness, "baseColorFactor");
     const std::string mode = text_in(material, "alphaMode");
     if (mode == "BLEND" && factors.size() > 3 && factors[3].is_number()) look.opacity = share(factors[3].get<double>());
-    const Json& through = extension(material, "KHR_materials_transmission");
+    const Json& through = extension_in(material, "KHR_materials_transmission");
     look.opacity *= 1.0f - 0.9f * share(number_in(through, "transmissionFactor", 0.0));
     look.metallic = share(number_in(metallic_roughness, "metallicFactor", 1.0));
     look.roughness = share(number_in(metallic_roughness, "roughnessFactor", 1.0));
-    if (metallic_roughness.contains("metallicRoughnessTexture")) {
-      auto picture = picture_of(member(metallic_roughness, "metallicRoughnessTexture"), look.name);
-      if (!picture) return tl::unexpected(picture.error());
-      const glm::vec3 mean = *picture ? mean_of(**picture) : glm::vec3(0.0f, 0.6f, 0.0f);
-      look.roughness *= mean.g;
-      look.metallic *= mean.b;
-    }
     look.two_sided = is_true_in(material, "doubleSided");
-    const double strength = number_in(extension(material, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
+    const double strength =
+        number_in(extension_in(material, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
     constexpr double most_strength = 100.0;
     look.emission = factor_of(material, "emissiveFactor", glm::vec3(0.0f), 1.0f) *
                     static_cast<float>(std::clamp(strength, 0.0, most_strength));
-    if (material.is_object() && material.contains("emissiveTexture") && look.emission != glm::vec3(0.0f)) {
-      look.emission = glm::vec3(0.0f);
-      model_.left_out.push_back(fmt::format("material \"{}\" shines by a texture, which is not read", look.name));
-    }
-    if (metallic_roughness.contains("baseColorTexture")) {
-      auto picture = picture_of(member(metallic_roughness, "baseColorTexture"), look.name);
-      if (!picture) return tl::unexpected(picture.error());
-      const Json& texture = metallic_roughness["baseColorTexture"];
-      if (*picture) {
-        const Wrapping wrapping = wrapping_of(texture, look.name);
-        look.picture = drawn(std::move(**picture), *source_of(texture), mode, wrapping);
-        look.mapping = mapping_of(texture);
-        look.mapping.share = {wrapping.u == mirrored ? 0.5 : 1.0, wrapping.v == mirrored ? 0.5 : 1.0};
-        look.clamps = wrapping.u == clamped || wrapping.v == clamped;
-      }
+    laying_.reset();
+    if (auto added = add_base_color(metallic_roughness, mode, look); !added) return tl::unexpected(added.error());
+    if (auto added = add_emission(material, look); !added) return tl::unexpected(added.error());
+    if (auto added = add_properties(material, look); !added) return tl::unexpected(added.error());
+    if (auto added = add_normal(material, look); !added) return tl::unexpected(added.error());
+    if (laying_) {
+      look.mapping = laying_->mapping;
+      look.clamps = laying_->wrapping.u == clamped || laying_->wrapping.v == clamped;
     }
     return look;
   }
 
  private:
-  static PictureMapping mapping_of(const Json& texture) {
-    const Json& transform = extension(texture, "KHR_texture_transform");
-    const std::int64_t set = index_in(transform, "texCoord", index_in(texture, "texCoord", 0));
-    constexpr double furthest = 1e6;
-    const auto pair = [&](const char* name, const glm::dvec2& otherwise) {
-      const Json& list = list_of(transform, name);
-      if (list.size() != 2 || !list[0].is_number() || !list[1].is_number()) return otherwise;
-      return glm::clamp(glm::dvec2(list[0].get<double>(), list[1].get<double>()), -furthest, furthest);
-    };
-    return {.uv_set = static_cast<std::uint32_t>(std::clamp<std::int64_t>(set, 0, 999)),
-            .scale = pair("scale", glm::dvec2(1.0)),
-            .offset = pair("offset", glm::dvec2(0.0)),
-            .rotation_rad = number_in(transform, "rotation", 0.0)};
+  /// Lays the first texture of a material; others have to lie like it, for a triangle has one set of coordinates.
+  bool lies_alike(const Json& texture, const Look& look, const char* what) {
+    const Laying laying = pictures_.laying_of(texture);
+    if (!laying_) {
+      laying_ = laying;
+      if (pictures_.is_sharp(texture))
+        model_.left_out.push_back(
+            fmt::format("material \"{}\" asks for sharp pixels (magFilter NEAREST), which are smoothed", look.name));
+    }
+    if (*laying_ == laying) return true;
+    model_.left_out.push_back(fmt::format(
+        "material \"{}\" lays its {} texture otherwise than its first, which is not done: it is drawn without it",
+        look.name, what));
+    return false;
   }
 
-  /// A texture's sampler (3.8.4); what is unknown repeats. Pixels that should stay sharp are reported.
-  Wrapping wrapping_of(const Json& texture, const std::string& material) {
-    const Json& textures = list_of(*container_.json, "textures");
-    const Json& samplers = list_of(*container_.json, "samplers");
-    const std::int64_t index = index_in(textures[static_cast<std::size_t>(index_in(texture, "index"))], "sampler");
-    if (index < 0 || static_cast<std::uint64_t>(index) >= samplers.size()) return {};
-    const Json& sampler = samplers[static_cast<std::size_t>(index)];
-    constexpr std::int64_t nearest = 9728;
-    if (index_in(sampler, "magFilter") == nearest)
+  /// The image of a texture that is used; empty, and told, where it is not.
+  std::optional<std::int64_t> image_of(const Json& owner, const char* name, const Look& look, const char* what) {
+    if (!owner.is_object() || !owner.contains(name)) return std::nullopt;
+    const Json& texture = member_of(owner, name);
+    const auto image = pictures_.image_of(texture);
+    if (!image)
       model_.left_out.push_back(
-          fmt::format("material \"{}\" asks for sharp pixels (magFilter NEAREST), which are smoothed", material));
-    return {index_in(sampler, "wrapS"), index_in(sampler, "wrapT")};
+          fmt::format("material \"{}\" has {} {} texture without an image that is read: it is drawn without it",
+                      look.name, what[0] == 'e' || what[0] == 'o' ? "an" : "a", what));
+    return image && lies_alike(texture, look, what) ? image : std::nullopt;
   }
 
-  /// Index of a texture's image.
-  std::optional<std::int64_t> source_of(const Json& texture) const {
-    const std::int64_t index = index_in(texture, "index");
-    const Json& textures = list_of(*container_.json, "textures");
-    if (index < 0 || static_cast<std::uint64_t>(index) >= textures.size()) return std::nullopt;
-    const std::int64_t source = index_in(textures[static_cast<std::size_t>(index)], "source");
-    if (source < 0 || static_cast<std::uint64_t>(source) >= list_of(*container_.json, "images").size())
-      return std::nullopt;
-    return source;
+  Expected<std::optional<Image>> read(std::int64_t image, const Look& look, const char* what) {
+    return pictures_.read(image, fmt::format("material \"{}\" is drawn without its {} texture", look.name, what));
   }
 
-  /// Empty where the picture is of an unsupported kind, which is then reported.
-  Expected<std::optional<Image>> picture_of(const Json& texture, const std::string& material) {
-    const auto source = source_of(texture);
-    if (!source)
-      return failure(fmt::format("material \"{}\" has a texture without an image", material), container_.where,
+  Expected<void> add_base_color(const Json& metallic_roughness, const std::string& mode, Look& look) {
+    if (!metallic_roughness.contains("baseColorTexture")) return {};
+    const Json& texture = member_of(metallic_roughness, "baseColorTexture");
+    const auto image = pictures_.image_of(texture);
+    if (!image)
+      return failure(fmt::format("material \"{}\" has a texture without an image", look.name), container_.where,
                      export_anew);
-    const std::string where = fmt::format("{}, image {}", container_.where, *source);
-    const Json& json = list_of(*container_.json, "images")[static_cast<std::size_t>(*source)];
-    std::string decoded;
-    std::string_view bytes;
-    if (json.is_object() && json.contains("uri")) {
-      auto read = bytes_of_uri(text_in(json, "uri"), where);
-      if (!read) return tl::unexpected(read.error());
-      decoded = std::move(*read);
-      bytes = decoded;
-    } else {
-      auto read = view_bytes(container_, index_in(json, "bufferView"), where);
-      if (!read) return tl::unexpected(read.error());
-      bytes = *read;
-    }
-    const auto file = std::as_bytes(std::span(bytes.data(), bytes.size()));
-    const bool is_jpeg = image::begins_as_jpeg(file);
-    if (!is_jpeg && (bytes.size() < 24 || !bytes.starts_with("\x89PNG"))) {
-      model_.left_out.push_back(
-          fmt::format("image {} is neither PNG nor JPEG: material \"{}\" has its plain colour", *source, material));
-      return std::optional<Image>();
-    }
-    if (!is_jpeg) {
-      const std::uint32_t width = big_endian(bytes, 16), height = big_endian(bytes, 20);
-      if (width > largest_picture_px || height > largest_picture_px)
-        return failure(fmt::format("it is of {} × {} pixels, more than {} a side", width, height, largest_picture_px),
-                       where, "make it smaller");
-    }
-    auto picture = is_jpeg ? image::decode_jpeg(file, where, largest_picture_px) : image::decode_png(file, where);
-    if (!picture) return tl::unexpected(picture.error());
-    pixels_ += std::size_t{picture->width} * picture->height;
-    if (pixels_ > 16 * std::size_t{largest_picture_px} * largest_picture_px / 4)
-      return failure("its images hold too many pixels", container_.where, "make them smaller");
-    return std::optional<Image>(std::move(*picture));
-  }
-
-  static glm::vec3 mean_of(const Image& picture) {
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4)
-      sum += glm::dvec3(picture.rgba[i], picture.rgba[i + 1], picture.rgba[i + 2]);
-    const std::size_t pixels = std::max<std::size_t>(picture.rgba.size() / 4, 1);
-    return glm::vec3(sum / (255.0 * static_cast<double>(pixels)));
-  }
-
-  /// The picture's index among the model's; alpha cuts out only where the material asks for it.
-  std::int32_t drawn(Image picture, std::int64_t source, const std::string& mode, const Wrapping& wrapping) {
+    // Alpha cuts out only where the material asks for it.
     const bool cut = mode == "MASK" || mode == "BLEND";
-    const auto [known, is_new] = drawn_.try_emplace({source, cut, wrapping.u == mirrored, wrapping.v == mirrored},
-                                                    static_cast<std::int32_t>(model_.pictures.size()));
-    if (!is_new) return known->second;
-    while (std::max(picture.width, picture.height) > drawn_picture_px) picture = halved(picture);
-    picture = with_mirror_image(picture, wrapping.u == mirrored, wrapping.v == mirrored);
-    while (std::max(picture.width, picture.height) > drawn_picture_px) picture = halved(picture);
-    if (!cut)
-      for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
-    model_.pictures.push_back(std::move(picture));
-    return known->second;
+    const PictureKey key{.use = cut ? Use::cut_out : Use::base_color,
+                         .image = *image,
+                         .wrapping = pictures_.laying_of(texture).wrapping};
+    if (const auto known = pictures_.find(key)) {
+      look.picture = *known;
+    } else {
+      auto picture = pictures_.read(*image, fmt::format("material \"{}\" has its plain colour", look.name));
+      if (!picture) return tl::unexpected(picture.error());
+      if (!*picture) return {};
+      look.picture = pictures_.keep(key, std::move(**picture));
+    }
+    lies_alike(texture, look, "base colour");
+    return {};
+  }
+
+  /// Emission by a texture, times the factor (3.9.3); a picture of the base colour alone does not colour it.
+  Expected<void> add_emission(const Json& material, Look& look) {
+    if (look.emission == glm::vec3(0.0f)) return {};
+    const auto image = image_of(material, "emissiveTexture", look, "emission");
+    if (!image) {
+      if (look.picture >= 0) look.emission_picture = kept({.use = Use::white}, Image(1, 1, {255, 255, 255, 255}));
+      return {};
+    }
+    const PictureKey key{.use = Use::emission, .image = *image, .wrapping = laying_->wrapping};
+    return add(key, look, "emission", look.emission_picture, [](Image&) {});
+  }
+
+  /// Roughness and metallic in green and blue of one texture, occlusion in red of another, often of the same image.
+  Expected<void> add_properties(const Json& material, Look& look) {
+    const auto rough_image =
+        image_of(member_of(material, "pbrMetallicRoughness"), "metallicRoughnessTexture", look, "metallic-roughness");
+    const auto dark_image = image_of(material, "occlusionTexture", look, "occlusion");
+    if (!rough_image && !dark_image) return {};
+    const float strength = share(number_in(member_of(material, "occlusionTexture"), "strength", 1.0));
+    const PictureKey key{.use = Use::properties,
+                         .image = rough_image.value_or(-1),
+                         .second_image = dark_image.value_or(-1),
+                         .strength = dark_image ? strength : 0.0f,
+                         .wrapping = laying_->wrapping};
+    if (const auto known = pictures_.find(key)) {
+      look.properties_picture = *known;
+      return {};
+    }
+    std::optional<Image> rough, dark;
+    if (rough_image) {
+      auto picture = read(*rough_image, look, "metallic-roughness");
+      if (!picture) return tl::unexpected(picture.error());
+      rough = std::move(*picture);
+    }
+    if (dark_image && dark_image != rough_image) {
+      auto picture = read(*dark_image, look, "occlusion");
+      if (!picture) return tl::unexpected(picture.error());
+      dark = std::move(*picture);
+    }
+    const Image* darkening = dark_image == rough_image ? (rough ? &*rough : nullptr) : (dark ? &*dark : nullptr);
+    if (rough || darkening)
+      look.properties_picture = pictures_.keep(key, properties_of(rough ? &*rough : nullptr, darkening, strength));
+    return {};
+  }
+
+  Expected<void> add_normal(const Json& material, Look& look) {
+    const auto image = image_of(material, "normalTexture", look, "normal");
+    if (!image) return {};
+    constexpr double most_scale = 100.0;
+    const auto scale = static_cast<float>(
+        std::clamp(number_in(member_of(material, "normalTexture"), "scale", 1.0), -most_scale, most_scale));
+    const PictureKey key{.use = Use::normal, .image = *image, .strength = scale, .wrapping = laying_->wrapping};
+    return add(key, look, "normal", look.normal_picture, [&](Image& picture) {
+      if (scale != 1.0f) scale_normals(picture, scale);
+    });
+  }
+
+  /// The picture of one image, changed by `change`, as the look's `index`.
+  template <class Change>
+  Expected<void> add(const PictureKey& key, const Look& look, const char* what, std::int32_t& index, Change change) {
+    if (const auto known = pictures_.find(key)) {
+      index = *known;
+      return {};
+    }
+    auto picture = read(key.image, look, what);
+    if (!picture) return tl::unexpected(picture.error());
+    if (!*picture) return {};
+    change(**picture);
+    index = pictures_.keep(key, std::move(**picture));
+    return {};
+  }
+
+  std::int32_t kept(const PictureKey& key, Image picture) {
+    const auto known = pictures_.find(key);
+    return known ? *known : pictures_.keep(key, std::move(picture));
   }
 
   const Container& container_;
   Model& model_;
-  std::size_t pixels_ = 0;
-  /// By image, cut out or not, mirrored along u and along v.
-  std::map<std::tuple<std::int64_t, bool, bool, bool>, std::int32_t> drawn_;
+  Pictures pictures_;
+  std::optional<Laying> laying_;  ///< Of the material that is read.
 };
 
 }  // namespace

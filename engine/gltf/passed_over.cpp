@@ -65,17 +65,6 @@ std::vector<std::string> passed_over(const Container& container) {
   const auto tell = [&](const std::string& which, const char* what) {
     if (!which.empty()) sentences.push_back(fmt::format("{} {}", which, what));
   };
-  const auto materials_with = [&](const char* texture) {
-    return those(file, "materials", "material", [&](const Json& material) { return has(material, texture); });
-  };
-  tell(materials_with("normalTexture"), "has a normal texture, which is not read: its surface is drawn even");
-  tell(materials_with("occlusionTexture"), "has an occlusion texture, which is not read: nothing is darkened by it");
-  tell(those(file, "materials", "material",
-             [](const Json& material) {
-               return has(material, "pbrMetallicRoughness") &&
-                      has(material["pbrMetallicRoughness"], "metallicRoughnessTexture");
-             }),
-       "has a metallic-roughness texture, of which the mean is drawn");
   const auto meshes_with = [&](const std::function<bool(const Json&)>& is_one) {
     return those(file, "meshes", "mesh", [&](const Json& mesh) { return any_primitive(mesh, is_one); });
   };

@@ -13,7 +13,7 @@ namespace septet::gltf {
 Expected<void> check_required_extensions(const Container& container);
 
 /// One sentence a kind of contents, with the first that has it and how many there are: extensions used and not
-/// applied, textures that are not read or taken at their mean, points and lines, morph targets, animations, cameras,
+/// applied, points and lines, morph targets, animations, cameras,
 /// other scenes.
 std::vector<std::string> passed_over(const Container& container);
 

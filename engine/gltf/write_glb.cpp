@@ -112,6 +112,12 @@ Json written_look(const Look& look, const std::vector<image::Image>& pictures, J
     if (look.opacity >= 1.0f && has_holes(pictures[static_cast<std::size_t>(look.picture)]))
       material["alphaMode"] = "MASK";
   }
+  if (look.properties_picture >= 0) {
+    base["metallicRoughnessTexture"] = {{"index", look.properties_picture}};
+    material["occlusionTexture"] = {{"index", look.properties_picture}};
+  }
+  if (look.emission_picture >= 0) material["emissiveTexture"] = {{"index", look.emission_picture}};
+  if (look.normal_picture >= 0) material["normalTexture"] = {{"index", look.normal_picture}};
   material["pbrMetallicRoughness"] = std::move(base);
   const float strength = std::max({look.emission.r, look.emission.g, look.emission.b});
   if (strength > 0.0f) material["emissiveFactor"] = list(look.emission / std::max(strength, 1.0f));

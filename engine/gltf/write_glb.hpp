@@ -1,5 +1,5 @@
 #pragma once
-/// A drawing as a glTF 2.0 binary file (.glb): meshes placed by nodes, materials with their base colour's pictures.
+/// A drawing as a glTF 2.0 binary file (.glb): meshes placed by nodes, materials with their pictures.
 ///
 /// Axes as in gltf.hpp: here x is forward, y left, z up, metres; the file has y up, z forward and x left (3.4).
 /// Pictures are embedded as PNG. What read_gltf reads of the file is what was written, to the bits of a float.

@@ -24,14 +24,21 @@ std::string_view without_number(std::string_view name) { return name.substr(0, n
 
 Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const gltf::Model& model) {
   std::vector<scene::NodeId> pictures;
-  for (const image::Image& picture : model.pictures)
-    pictures.push_back(
-        builder.add_bitmap(fmt::format("{} picture", name), picture.width, picture.height, picture.rgba));
+  for (const gltf::Picture& picture : model.pictures)
+    pictures.push_back(builder.add_bitmap(fmt::format("{} picture", name), picture.width, picture.height, picture.rgba,
+                                          !picture.is_linear));
+  const auto bitmap = [&](std::int32_t picture) {
+    return picture >= 0 ? pictures[static_cast<std::size_t>(picture)] : scene::no_node;
+  };
   Palette palette;
   for (const gltf::Look& look : model.looks) {
     scene::MaterialParameters material;
     material.base_color = look.base_color;
-    if (look.picture >= 0) material.base_color_bitmap = pictures[static_cast<std::size_t>(look.picture)];
+    material.base_color_bitmap = bitmap(look.picture);
+    using scene::SurfaceMap;
+    material.maps[SurfaceMap::emission] = bitmap(look.emission_picture);
+    material.maps[SurfaceMap::properties] = bitmap(look.properties_picture);
+    material.maps[SurfaceMap::normal] = bitmap(look.normal_picture);
     material.roughness = std::max(look.roughness, 0.05f);
     material.metallic = look.metallic;
     material.opacity = look.opacity;

@@ -35,6 +35,9 @@ scene::Store store_of(const scene::Store& store, scene::NodeId object) {
     if (const auto* of_material = std::get_if<scene::MaterialData>(&node->data))
       for (const auto& [fragment_id, fragment] : of_material->fragments)
         if (const auto* texture = std::get_if<scene::TextureFragment>(&fragment)) reach(texture->bitmap);
+    for (const char* map : scene::surface_map_tags)
+      if (const scene::TagValue* value = scene::find_tag(*node, "surface", map))
+        if (const auto* bitmap = std::get_if<scene::NodeReference>(value)) reach(bitmap->node);
   }
   (void)part.apply(scene::TransformSet{object, {}});
   (void)part.apply(scene::HideSet{object, false});
@@ -77,6 +80,10 @@ class DrawingOf {
       const scene::SurfaceMaterial& material = scene_.materials[index];
       look.base_color = material.base_color;
       look.picture = picture(material.base_color_image);
+      using scene::SurfaceMap;
+      look.emission_picture = picture(material.maps[SurfaceMap::emission]);
+      look.properties_picture = picture(material.maps[SurfaceMap::properties]);
+      look.normal_picture = picture(material.maps[SurfaceMap::normal]);
       look.roughness = material.roughness;
       look.metallic = material.metallic;
       look.opacity = material.opacity;

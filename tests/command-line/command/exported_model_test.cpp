@@ -75,6 +75,34 @@ TEST_CASE("an object is exported with what hangs on it, about its own origin, an
   CHECK(back.pictures == model.pictures);
 }
 
+TEST_CASE("a material's images of emission, properties and normals are exported with it") {
+  scene::Store store;
+  scene::SceneBuilder build(store);
+  geometry::PolygonMesh sheet;
+  sheet.vertices_m = {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}};
+  sheet.polygons.push_back({0, 1, 2, geometry::no_vertex});
+  sheet.corner_uvs.push_back({glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(1, 0), glm::vec2(0)});
+  scene::MaterialParameters look{.emission = {0.5f, 0.25f, 0.125f}};
+  std::uint8_t code = 100;
+  for (scene::NodeId& map : look.maps.values) {
+    const std::vector<std::uint8_t> pixel{code, 200, 220, 255};
+    map = build.add_bitmap("", 1, 1, pixel, code == 100);
+    ++code;
+  }
+  const scene::NodeId object = build.add_object(
+      "sheet", {.geometry = build.add_mesh("sheet", sheet), .materials = {build.add_material("", look)}});
+  const auto bytes = exported_model(store, object, "sheet");
+  REQUIRE(bytes.has_value());
+  const gltf::Model model = model_of(*bytes);
+  CHECK(model.left_out.empty());
+  const gltf::Look& back = model.looks.at(0);
+  CHECK(back.emission == glm::vec3(0.5f, 0.25f, 0.125f));
+  const auto red_of = [&](std::int32_t picture) { return int(model.pictures.at(std::size_t(picture)).rgba[0]); };
+  CHECK(red_of(back.emission_picture) == 100);
+  CHECK(red_of(back.properties_picture) == 101);
+  CHECK(red_of(back.normal_picture) == 102);
+}
+
 TEST_CASE("a wheel of an exported vehicle is a wheel to the reader of models") {
   scene::Store store;
   scene::SceneBuilder build(store);

@@ -1,0 +1,128 @@
+// Textures of a material beside its base colour's.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "engine/gltf/gltf.hpp"
+#include "engine/image/png.hpp"
+#include "tests/engine/gltf/file_text.hpp"
+#include "tests/why_not.hpp"
+
+namespace septet::gltf {
+namespace {
+
+using Sentences = std::vector<std::string>;
+using image::Color;
+using image::Image;
+
+/// A triangle with this material, and textures by these pictures in their order.
+Model with_material(const std::string& material, const std::vector<Image>& pictures) {
+  std::string textures, images;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const Bytes png = image::encode_png(pictures[i]);
+    const char* comma = i > 0 ? "," : "";
+    textures += fmt::format(R"({}{{"source":{}}})", comma, i);
+    images += fmt::format(R"({}{{"uri":"data:image/png;base64,{}"}})", comma,
+                          base64({reinterpret_cast<const char*>(png.data()), png.size()}));
+  }
+  const File file{
+      .positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1}),
+      .primitives = R"([{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}])",
+      .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                   R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC2"}])",
+      .more = fmt::format(R"("materials":[{}],"textures":[{}],"images":[{}],)", material, textures, images)};
+  auto model = read_gltf(file.text(), "own.glb", [](std::string_view) { return false; });
+  REQUIRE_MESSAGE(model.has_value(), why_not(model));
+  return std::move(*model);
+}
+
+constexpr Color some{200, 100, 50, 255}, other{10, 60, 240, 255};
+
+}  // namespace
+
+TEST_CASE("a texture of the emission arrives with its factor, and without a factor nothing shines") {
+  const Model model = with_material(R"({"emissiveFactor":[1,0.5,0],"emissiveTexture":{"index":0},)"
+                                    R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}})",
+                                    {Image(2, 2, some)});
+  const Look& look = model.looks.at(0);
+  CHECK(look.emission == glm::vec3(4, 2, 0));
+  CHECK(look.picture == -1);
+  REQUIRE(look.emission_picture == 0);
+  CHECK(model.pictures.at(0) == Image(2, 2, some));
+  CHECK_FALSE(model.pictures[0].is_linear);
+  CHECK(model.left_out.empty());
+  CHECK(with_material(R"({"emissiveTexture":{"index":0}})", {Image(2, 2, some)}).pictures.empty());
+}
+
+TEST_CASE("a picture of the base colour does not colour an emission") {
+  const Model model = with_material(
+      R"({"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})", {Image(2, 2, some)});
+  const Look& look = model.looks.at(0);
+  REQUIRE(look.emission_picture == 1);
+  CHECK(model.pictures.at(1) == Image(1, 1, {255, 255, 255, 255}));
+  CHECK(with_material(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})", {Image(2, 2, some)})
+            .looks.at(0)
+            .emission_picture == -1);
+}
+
+TEST_CASE("roughness is green and metallic blue of one texture, and occlusion red of another, as strong as it says") {
+  const char* rough = R"("pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}})";
+  const auto packed = [&](const std::string& material, const std::vector<Image>& pictures) {
+    const Model model = with_material("{" + material + "}", pictures);
+    CHECK(model.left_out.empty());
+    const Look& look = model.looks.at(0);
+    CHECK(look.roughness == 1.0f);
+    CHECK(look.metallic == 1.0f);
+    REQUIRE(look.properties_picture == 0);
+    REQUIRE(model.pictures.size() == 1);
+    CHECK(model.pictures[0].is_linear);
+    return model.pictures[0];
+  };
+  CHECK(packed(rough, {Image(2, 2, some)}) == Image(2, 2, {255, 100, 50, 255}));
+  CHECK(packed(R"("occlusionTexture":{"index":0})", {Image(2, 2, some)}) == Image(2, 2, {200, 255, 255, 255}));
+  CHECK(packed(fmt::format(R"({},"occlusionTexture":{{"index":0}})", rough), {Image(2, 2, some)}) ==
+        Image(2, 2, {200, 100, 50, 255}));
+  // Of the larger size; half as strong: half way from white.
+  Image halves(4, 2, other);
+  halves.set(3, 1, some);
+  Image expected(4, 2, {133, 100, 50, 255});
+  expected.set(3, 1, {228, 100, 50, 255});
+  CHECK(packed(fmt::format(R"({},"occlusionTexture":{{"index":1,"strength":0.5}})", rough),
+               {Image(2, 1, some), halves}) == expected);
+}
+
+TEST_CASE("normals of a texture keep their codes, or lean as much more as its scale says") {
+  const Image leaning(2, 2, {219, 128, 218, 255});  // 45° along u.
+  const auto read = [&](const char* scale) {
+    const Model model = with_material(fmt::format(R"({{"normalTexture":{{"index":0{}}}}})", scale), {leaning});
+    REQUIRE(model.looks.at(0).normal_picture == 0);
+    CHECK(model.pictures.at(0).is_linear);
+    CHECK(model.left_out.empty());
+    return model.pictures[0];
+  };
+  CHECK(read("") == leaning);
+  // atan ½ = 26.6°: (1 + sin) / 2 and (1 + cos) / 2.
+  const Color half = read(R"(,"scale":0.5)").at(0, 0);
+  CHECK(int(half.red) == doctest::Approx(184.5).epsilon(0.01));
+  CHECK(int(half.blue) == doctest::Approx(241.5).epsilon(0.01));
+  CHECK(int(read(R"(,"scale":-1)").at(0, 0).red) == doctest::Approx(36).epsilon(0.05));
+}
+
+TEST_CASE("a texture that lies otherwise than its material's first is told, and the material is drawn without it") {
+  const Model model = with_material(R"({"name":"door","pbrMetallicRoughness":{"baseColorTexture":{"index":0}},)"
+                                    R"("normalTexture":{"index":0},"occlusionTexture":{"index":0,"texCoord":1}})",
+                                    {Image(2, 2, some)});
+  CHECK(
+      model.left_out ==
+      Sentences{"material \"door\" lays its occlusion texture otherwise than its first, which is not done: it is drawn "
+                "without it"});
+  CHECK(model.looks.at(0).properties_picture == -1);
+  CHECK(model.looks.at(0).normal_picture == 1);
+}
+
+}  // namespace septet::gltf
