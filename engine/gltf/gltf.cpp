@@ -255,28 +255,19 @@ class Reader {
       if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
       mesh.polygons.push_back(corners);
       mesh.polygon_materials.push_back(look);
-      mesh.corner_uvs.push_back(near_origin(file_uvs));
-      if (uvs.count > 0 && model_.looks[look].clamps && reaches_beyond(file_uvs))
-        beyond_edges_.insert(model_.looks[look].name);
+      mesh.corner_uvs.push_back(near_origin(file_uvs, model_.looks[look]));
       growing.has_uvs |= uvs.count > 0;
     }
     return {};
   }
 
-  /// Texture coordinates repeat; far ones would lose their digits, so the whole triangle is moved by whole pictures.
-  static std::array<glm::vec2, 4> near_origin(const std::array<glm::dvec2, 3>& uvs) {
+  /// Where pictures repeat, far coordinates would lose their digits, so the whole triangle is moved by whole pictures.
+  static std::array<glm::vec2, 4> near_origin(const std::array<glm::dvec2, 3>& uvs, const Look& look) {
     constexpr double far = 64.0;
     const bool is_far = glm::any(glm::greaterThan(glm::abs(uvs[0]), glm::dvec2(far)));
-    const glm::dvec2 whole = is_far ? glm::floor(uvs[0]) : glm::dvec2(0.0);
+    const glm::dvec2 moved = is_far ? glm::floor(uvs[0]) : glm::dvec2(0.0);
+    const glm::dvec2 whole(look.ends_u ? 0.0 : moved.x, look.ends_v ? 0.0 : moved.y);
     return {uvs[0] - whole, uvs[1] - whole, uvs[2] - whole, glm::vec2(0.0f)};
-  }
-
-  /// True beyond the picture's edges, by more than rounding makes.
-  static bool reaches_beyond(const std::array<glm::dvec2, 3>& uvs) {
-    constexpr double rounding = 1e-3;
-    return std::ranges::any_of(uvs, [](const glm::dvec2& uv) {
-      return glm::any(glm::greaterThan(glm::abs(uv - 0.5), glm::dvec2(0.5 + rounding)));
-    });
   }
 
   /// The mesh's name, or its number where it has none.
@@ -304,9 +295,6 @@ class Reader {
     for (const std::string& material : many_coloured_)
       model_.left_out.push_back(
           fmt::format("material \"{}\" lies on vertices of several colours, of which the mean is drawn", material));
-    for (const std::string& material : beyond_edges_)
-      model_.left_out.push_back(fmt::format(
-          "material \"{}\" goes beyond its picture's edges, where the picture repeats instead of ending", material));
     for (Growing& growing : growing_) {
       Part& part = growing.part;
       if (part.mesh.polygons.empty()) continue;
@@ -330,7 +318,6 @@ class Reader {
   std::map<std::array<int, 4>, std::uint32_t> coloured_;
   std::map<std::int64_t, std::set<std::int64_t>> unmapped_;  ///< Meshes without their material's texture coordinates.
   std::set<std::string> many_coloured_;                      ///< Materials on vertices of several colours.
-  std::set<std::string> beyond_edges_;                       ///< Materials whose picture should end and repeats.
   std::size_t triangles_ = 0, vertices_ = 0;
   bool bounded_ = false;
 };

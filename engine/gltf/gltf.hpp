@@ -54,6 +54,9 @@ struct PictureMapping {
 /// A picture of a material; others than colours, of normals and the like, are not sRGB but linear.
 struct Picture : image::Image {
   bool is_linear = false;
+  bool ends_u = false,
+       ends_v = false;    ///< Goes on as its edges' pixels are beyond them; otherwise it repeats (3.8.4.5).
+  bool is_sharp = false;  ///< Near to, a place has the colour of one pixel (3.8.4.4).
 };
 
 /// A material. Colours are linear Rec. 709. Pictures are indices of Model::pictures, −1 where there is none; all of a
@@ -65,8 +68,8 @@ struct Look {
   std::int32_t emission_picture = -1;    ///< Multiplies emission.
   std::int32_t properties_picture = -1;  ///< Red: share of the light from around; green, blue: times the two below.
   std::int32_t normal_picture = -1;
-  PictureMapping mapping;  ///< Mapping of the pictures' coordinates.
-  bool clamps = false;     ///< The file's picture ends at its edges; the held one repeats.
+  PictureMapping mapping;               ///< Mapping of the pictures' coordinates.
+  bool ends_u = false, ends_v = false;  ///< One of its pictures does.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
   glm::vec3 emission{0.0f};  ///< A picture of the base colour does not colour it.
   bool two_sided = false;    ///< The file's `doubleSided`.

@@ -103,14 +103,17 @@ class Looks {
     constexpr double most_strength = 100.0;
     look.emission = factor_of(material, "emissiveFactor", glm::vec3(0.0f), 1.0f) *
                     static_cast<float>(std::clamp(strength, 0.0, most_strength));
-    laying_.reset();
+    mapping_.reset();
     if (auto added = add_base_color(metallic_roughness, mode, look); !added) return tl::unexpected(added.error());
     if (auto added = add_emission(material, look); !added) return tl::unexpected(added.error());
     if (auto added = add_properties(material, look); !added) return tl::unexpected(added.error());
     if (auto added = add_normal(material, look); !added) return tl::unexpected(added.error());
-    if (laying_) {
-      look.mapping = laying_->mapping;
-      look.clamps = laying_->wrapping.u == clamped || laying_->wrapping.v == clamped;
+    look.mapping = mapping_.value_or(PictureMapping{});
+    for (const std::int32_t shown :
+         {look.picture, look.emission_picture, look.properties_picture, look.normal_picture}) {
+      if (shown < 0) continue;
+      look.ends_u |= model_.pictures[static_cast<std::size_t>(shown)].ends_u;
+      look.ends_v |= model_.pictures[static_cast<std::size_t>(shown)].ends_v;
     }
     return look;
   }
@@ -118,14 +121,9 @@ class Looks {
  private:
   /// Lays the first texture of a material; others have to lie like it, for a triangle has one set of coordinates.
   bool lies_alike(const Json& texture, const Look& look, const char* what) {
-    const Laying laying = pictures_.laying_of(texture);
-    if (!laying_) {
-      laying_ = laying;
-      if (pictures_.is_sharp(texture))
-        model_.left_out.push_back(
-            fmt::format("material \"{}\" asks for sharp pixels (magFilter NEAREST), which are smoothed", look.name));
-    }
-    if (*laying_ == laying) return true;
+    const PictureMapping mapping = pictures_.mapping_of(texture);
+    if (!mapping_) mapping_ = mapping;
+    if (*mapping_ == mapping) return true;
     model_.left_out.push_back(fmt::format(
         "material \"{}\" lays its {} texture otherwise than its first, which is not done: it is drawn without it",
         look.name, what));
@@ -144,6 +142,13 @@ class Looks {
     return image && lies_alike(texture, look, what) ? image : std::nullopt;
   }
 
+  PictureKey key_of(const Json& texture, Use use, std::int64_t image) const {
+    return {.use = use,
+            .image = image,
+            .wrapping = pictures_.wrapping_of(texture),
+            .is_sharp = pictures_.is_sharp(texture)};
+  }
+
   Expected<std::optional<Image>> read(std::int64_t image, const Look& look, const char* what) {
     return pictures_.read(image, fmt::format("material \"{}\" is drawn without its {} texture", look.name, what));
   }
@@ -157,9 +162,7 @@ class Looks {
                      export_anew);
     // Alpha cuts out only where the material asks for it.
     const bool cut = mode == "MASK" || mode == "BLEND";
-    const PictureKey key{.use = cut ? Use::cut_out : Use::base_color,
-                         .image = *image,
-                         .wrapping = pictures_.laying_of(texture).wrapping};
+    const PictureKey key = key_of(texture, cut ? Use::cut_out : Use::base_color, *image);
     if (const auto known = pictures_.find(key)) {
       look.picture = *known;
     } else {
@@ -180,7 +183,7 @@ class Looks {
       if (look.picture >= 0) look.emission_picture = kept({.use = Use::white}, Image(1, 1, {255, 255, 255, 255}));
       return {};
     }
-    const PictureKey key{.use = Use::emission, .image = *image, .wrapping = laying_->wrapping};
+    const PictureKey key = key_of(member_of(material, "emissiveTexture"), Use::emission, *image);
     return add(key, look, "emission", look.emission_picture, [](Image&) {});
   }
 
@@ -190,12 +193,13 @@ class Looks {
         image_of(member_of(material, "pbrMetallicRoughness"), "metallicRoughnessTexture", look, "metallic-roughness");
     const auto dark_image = image_of(material, "occlusionTexture", look, "occlusion");
     if (!rough_image && !dark_image) return {};
-    const float strength = share(number_in(member_of(material, "occlusionTexture"), "strength", 1.0));
-    const PictureKey key{.use = Use::properties,
-                         .image = rough_image.value_or(-1),
-                         .second_image = dark_image.value_or(-1),
-                         .strength = dark_image ? strength : 0.0f,
-                         .wrapping = laying_->wrapping};
+    const Json& dark_texture = member_of(material, "occlusionTexture");
+    const Json& texture =
+        rough_image ? member_of(member_of(material, "pbrMetallicRoughness"), "metallicRoughnessTexture") : dark_texture;
+    const float strength = share(number_in(dark_texture, "strength", 1.0));
+    PictureKey key = key_of(texture, Use::properties, rough_image.value_or(-1));
+    key.second_image = dark_image.value_or(-1);
+    key.strength = dark_image ? strength : 0.0f;
     if (const auto known = pictures_.find(key)) {
       look.properties_picture = *known;
       return {};
@@ -221,9 +225,10 @@ class Looks {
     const auto image = image_of(material, "normalTexture", look, "normal");
     if (!image) return {};
     constexpr double most_scale = 100.0;
-    const auto scale = static_cast<float>(
-        std::clamp(number_in(member_of(material, "normalTexture"), "scale", 1.0), -most_scale, most_scale));
-    const PictureKey key{.use = Use::normal, .image = *image, .strength = scale, .wrapping = laying_->wrapping};
+    const Json& texture = member_of(material, "normalTexture");
+    const auto scale = static_cast<float>(std::clamp(number_in(texture, "scale", 1.0), -most_scale, most_scale));
+    PictureKey key = key_of(texture, Use::normal, *image);
+    key.strength = scale;
     return add(key, look, "normal", look.normal_picture, [&](Image& picture) {
       if (scale != 1.0f) scale_normals(picture, scale);
     });
@@ -252,7 +257,7 @@ class Looks {
   const Container& container_;
   Model& model_;
   Pictures pictures_;
-  std::optional<Laying> laying_;  ///< Of the material that is read.
+  std::optional<PictureMapping> mapping_;  ///< Of the material that is read.
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-PictureMapping mapping_of(const Json& texture) {
+PictureMapping transform_of(const Json& texture) {
   const Json& transform = extension_in(texture, "KHR_texture_transform");
   const std::int64_t set = index_in(transform, "texCoord", index_in(texture, "texCoord", 0));
   constexpr double furthest = 1e6;
@@ -91,15 +91,20 @@ const Json& Pictures::sampler_of(const Json& texture) const {
   return samplers[static_cast<std::size_t>(index)];
 }
 
-Laying Pictures::laying_of(const Json& texture) const {
+Wrapping Pictures::wrapping_of(const Json& texture) const {
   const Json& sampler = sampler_of(texture);
   const auto known = [&](const char* name) {
     const std::int64_t way = index_in(sampler, name);
     return way == clamped || way == mirrored ? way : 0;
   };
-  Laying laying{mapping_of(texture), {known("wrapS"), known("wrapT")}};
-  laying.mapping.share = {laying.wrapping.u == mirrored ? 0.5 : 1.0, laying.wrapping.v == mirrored ? 0.5 : 1.0};
-  return laying;
+  return {known("wrapS"), known("wrapT")};
+}
+
+PictureMapping Pictures::mapping_of(const Json& texture) const {
+  const Wrapping wrapping = wrapping_of(texture);
+  PictureMapping mapping = transform_of(texture);
+  mapping.share = {wrapping.u == mirrored ? 0.5 : 1.0, wrapping.v == mirrored ? 0.5 : 1.0};
+  return mapping;
 }
 
 bool Pictures::is_sharp(const Json& texture) const {
@@ -156,7 +161,9 @@ std::int32_t Pictures::keep(const PictureKey& key, Image picture) {
   if (key.use != Use::cut_out)
     for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
   const auto index = static_cast<std::int32_t>(model_.pictures.size());
-  model_.pictures.push_back({std::move(picture), key.use == Use::properties || key.use == Use::normal});
+  const bool is_linear = key.use == Use::properties || key.use == Use::normal;
+  model_.pictures.push_back(
+      {std::move(picture), is_linear, key.wrapping.u == clamped, key.wrapping.v == clamped, key.is_sharp});
   kept_.emplace(key, index);
   return index;
 }

@@ -22,13 +22,6 @@ struct Wrapping {
   bool operator==(const Wrapping&) const = default;
 };
 
-/// How a texture lies: textures that lie alike can share a triangle's coordinates.
-struct Laying {
-  PictureMapping mapping;
-  Wrapping wrapping;
-  bool operator==(const Laying&) const = default;
-};
-
 /// What a picture is made of: its purpose, its images, their strength and which way it is mirrored.
 struct PictureKey {
   enum class Use : std::uint8_t { base_color, cut_out, emission, properties, normal, white };
@@ -36,9 +29,11 @@ struct PictureKey {
   std::int64_t image = -1, second_image = -1;
   float strength = 1.0f;
   Wrapping wrapping{};
+  bool is_sharp = false;
   auto operator<=>(const PictureKey& other) const {
     const auto all = [](const PictureKey& key) {
-      return std::tuple(key.use, key.image, key.second_image, key.strength, key.wrapping.u, key.wrapping.v);
+      return std::tuple(key.use, key.image, key.second_image, key.strength, key.wrapping.u, key.wrapping.v,
+                        key.is_sharp);
     };
     return all(*this) <=> all(other);
   }
@@ -52,7 +47,9 @@ class Pictures {
 
   /// Index of a texture's image in the file; empty where it names none.
   std::optional<std::int64_t> image_of(const Json& texture) const;
-  Laying laying_of(const Json& texture) const;
+  /// How it lies: textures that lie alike can share a triangle's coordinates.
+  PictureMapping mapping_of(const Json& texture) const;
+  Wrapping wrapping_of(const Json& texture) const;
   /// True where its sampler asks for the nearest pixel instead of a mean of four.
   bool is_sharp(const Json& texture) const;
 

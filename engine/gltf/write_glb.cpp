@@ -101,7 +101,7 @@ bool has_holes(const image::Image& picture) {
   return false;
 }
 
-Json written_look(const Look& look, const std::vector<image::Image>& pictures, Json& extensions_used) {
+Json written_look(const Look& look, const std::vector<Picture>& pictures, Json& extensions_used) {
   Json base = {{"baseColorFactor", {look.base_color.r, look.base_color.g, look.base_color.b, look.opacity}},
                {"metallicFactor", look.metallic},
                {"roughnessFactor", look.roughness}};
@@ -127,6 +127,14 @@ Json written_look(const Look& look, const std::vector<image::Image>& pictures, J
     extensions_used = {extension};
   }
   return material;
+}
+
+Json written_sampler(const Picture& picture) {
+  constexpr int nearest = 9728, linear = 9729, linear_of_two_levels = 9987, repeats = 10497, ends = 33071;
+  return {{"magFilter", picture.is_sharp ? nearest : linear},
+          {"minFilter", linear_of_two_levels},
+          {"wrapS", picture.ends_u ? ends : repeats},
+          {"wrapT", picture.ends_v ? ends : repeats}};
 }
 
 }  // namespace
@@ -155,7 +163,8 @@ Expected<Bytes> write_glb(const Drawing& drawing, const std::string& where) {
   for (std::size_t i = 0; i < drawing.pictures.size(); ++i) {
     const auto png = image::encode_png(drawing.pictures[i]);
     file["images"].push_back({{"bufferView", buffer.view(std::as_bytes(std::span(png)))}, {"mimeType", "image/png"}});
-    file["textures"].push_back({{"source", i}});
+    file["textures"].push_back({{"source", i}, {"sampler", i}});
+    file["samplers"].push_back(written_sampler(drawing.pictures[i]));
   }
   const Bytes binary = buffer.finish(file);
   std::string text = file.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -45,7 +45,7 @@ struct Drawing {
   std::vector<DrawnMesh> meshes;
   std::vector<DrawnNode> nodes;
   std::vector<Look> looks;  ///< Of their mapping nothing is written.
-  std::vector<image::Image> pictures;
+  std::vector<Picture> pictures;
 };
 
 /// Bytes of the file. Error: nothing is drawn, or more than a file holds. `where` names the drawing in errors.

@@ -13,8 +13,9 @@ glm::vec3 mean_of(const scene::TextureImage& image) {
   std::array<std::array<std::uint64_t, 256>, 3> counts{};
   for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4)
     for (std::size_t c = 0; c < 3; ++c) ++counts[c][image.rgba[i + c]];
-  const double pixels = static_cast<double>(image.rgba.size() / 4);
-  if (!(pixels > 0.0)) return glm::vec3(1.0f);
+  const std::size_t count = image.rgba.size() / 4;
+  if (count == 0) return glm::vec3(1.0f);
+  const auto pixels = static_cast<double>(count);
   std::array<double, 3> sums{};
   for (std::size_t code = 0; code < 256; ++code) {
     const double share = static_cast<double>(code) / 255.0;

@@ -96,23 +96,28 @@ const scene::TextureImage* World::image_at(std::int32_t index) const {
   return image.width > 0 && image.height > 0 ? &image : nullptr;
 }
 
-/// Interpolates between four texels; the image repeats.
+/// Interpolates between four texels, or takes the nearest of a sharp image.
 glm::vec4 World::texel(const scene::TextureImage* source, const glm::vec2& uv) const {
   if (!source) return glm::vec4(1.0f);
   const scene::TextureImage& image = *source;
-  const glm::vec2 at = (uv - glm::floor(uv)) * glm::vec2(image.width, image.height) - 0.5f;
-  const glm::vec2 low = glm::floor(at), share = at - low;
-  const auto wrapped = [](float x, std::uint32_t size) {
+  const scene::ImageSampling& sampling = image.sampling;
+  const glm::vec2 within(sampling.clamps_u ? glm::clamp(uv.x, 0.0f, 1.0f) : uv.x - std::floor(uv.x),
+                         sampling.clamps_v ? glm::clamp(uv.y, 0.0f, 1.0f) : uv.y - std::floor(uv.y));
+  const glm::vec2 at = within * glm::vec2(image.width, image.height) - 0.5f;
+  const glm::vec2 low = sampling.sharp ? glm::floor(at + 0.5f) : glm::floor(at), share = at - low;
+  const auto wrapped = [](float x, std::uint32_t size, bool clamps) {
     const auto i = static_cast<std::int64_t>(x);
+    if (clamps) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, std::int64_t{size} - 1));
     return static_cast<std::uint32_t>((i + size) % size);
   };
   const std::array<float, 256>& codes = linear_codes();
   const auto read = [&](float x, float y) {
-    const std::uint8_t* p =
-        &image.rgba[4 * (std::size_t{wrapped(y, image.height)} * image.width + wrapped(x, image.width))];
+    const std::uint8_t* p = &image.rgba[4 * (std::size_t{wrapped(y, image.height, sampling.clamps_v)} * image.width +
+                                             wrapped(x, image.width, sampling.clamps_u))];
     if (!image.srgb) return glm::vec4(p[0], p[1], p[2], p[3]) / 255.0f;
     return glm::vec4(codes[p[0]], codes[p[1]], codes[p[2]], static_cast<float>(p[3]) / 255.0f);
   };
+  if (sampling.sharp) return read(low.x, low.y);
   return glm::mix(glm::mix(read(low.x, low.y), read(low.x + 1, low.y), share.x),
                   glm::mix(read(low.x, low.y + 1), read(low.x + 1, low.y + 1), share.x), share.y);
 }

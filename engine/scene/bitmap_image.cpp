@@ -51,6 +51,12 @@ void fill_channel(TextureImage& image, std::size_t channel, const BitmapLayer& l
     }
 }
 
+bool is_tagged(const Node& node, const char* name, bool otherwise) {
+  const TagValue* tag = find_tag(node, "image", name);
+  const bool* value = tag ? std::get_if<bool>(tag) : nullptr;
+  return value ? *value : otherwise;
+}
+
 using Channels = std::array<const BitmapLayer*, 4>;
 Channels channels_of(const BitmapData& bitmap) {
   return {find_layer(bitmap, "color_r"), find_layer(bitmap, "color_g"), find_layer(bitmap, "color_b"),
@@ -89,8 +95,9 @@ TextureImage image_of_bitmap(const Node& node) {
   TextureImage image;
   const auto* bitmap = std::get_if<BitmapData>(&node.data);
   if (!bitmap) return image;
-  if (const TagValue* srgb = find_tag(node, "image", "srgb"))
-    if (const bool* value = std::get_if<bool>(srgb)) image.srgb = *value;
+  image.srgb = is_tagged(node, "srgb", true);
+  image.sampling = {is_tagged(node, "clamps_u", false), is_tagged(node, "clamps_v", false),
+                    is_tagged(node, "sharp", false)};
   const Channels channels = channels_of(*bitmap);
   if ((!channels[0] && !channels[1] && !channels[2]) || bitmap->depth == 0) return image;
   image.width = bitmap->width;

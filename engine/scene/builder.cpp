@@ -132,14 +132,15 @@ NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh
 }
 
 NodeId SceneBuilder::add_bitmap(std::string_view name, std::uint32_t width, std::uint32_t height,
-                                std::span<const std::uint8_t> rgba, bool srgb) {
+                                std::span<const std::uint8_t> rgba, bool srgb, const ImageSampling& sampling) {
   SEPTET_CHECK(rgba.size() == std::size_t{width} * height * 4, "bitmap {}: {} bytes for {} x {}", name, rgba.size(),
                width, height);
   const NodeId id = create(NodeType::bitmap, name);
-  if (!srgb) {
-    apply(TagGroupSet{id, image_group, "image"});
-    apply(TagSet{id, image_group, 0, {"srgb", false}});
-  }
+  if (!srgb || sampling != ImageSampling{}) apply(TagGroupSet{id, image_group, "image"});
+  if (!srgb) apply(TagSet{id, image_group, 0, {"srgb", false}});
+  if (sampling.clamps_u) apply(TagSet{id, image_group, 1, {"clamps_u", true}});
+  if (sampling.clamps_v) apply(TagSet{id, image_group, 2, {"clamps_v", true}});
+  if (sampling.sharp) apply(TagSet{id, image_group, 3, {"sharp", true}});
   apply(BitmapSizeSet{id, width, height, 1});
   bool opaque = true;
   for (std::size_t i = 3; i < rgba.size(); i += 4) opaque = opaque && rgba[i] == 255;

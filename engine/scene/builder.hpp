@@ -68,7 +68,7 @@ class SceneBuilder {
   NodeId add_mesh(std::string_view name, const geometry::PolygonMesh& mesh, const MeshOptions& options = {});
   /// `rgba`: width × height × 4 bytes, rows from the top. Alpha is sent only where it is not opaque throughout.
   NodeId add_bitmap(std::string_view name, std::uint32_t width, std::uint32_t height,
-                    std::span<const std::uint8_t> rgba, bool srgb = true);
+                    std::span<const std::uint8_t> rgba, bool srgb = true, const ImageSampling& sampling = {});
   NodeId add_material(std::string_view name, const MaterialParameters& parameters);
   NodeId add_object(std::string_view name, const ObjectParameters& parameters);
   /// An object that is not drawn itself: the root of the drawing of every participant of model `model_name`. Give it

@@ -16,6 +16,7 @@
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/change_list.hpp"
+#include "engine/scene/image_sampling.hpp"
 #include "engine/scene/motion.hpp"
 #include "engine/scene/surface_map.hpp"
 
@@ -48,6 +49,7 @@ struct TextureImage {
   std::uint32_t width = 0, height = 0;
   bool srgb = true;
   std::vector<std::uint8_t> rgba;
+  ImageSampling sampling{};
 };
 
 /// Colours are linear Rec. 709.

@@ -26,7 +26,7 @@ Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const glt
   std::vector<scene::NodeId> pictures;
   for (const gltf::Picture& picture : model.pictures)
     pictures.push_back(builder.add_bitmap(fmt::format("{} picture", name), picture.width, picture.height, picture.rgba,
-                                          !picture.is_linear));
+                                          !picture.is_linear, {picture.ends_u, picture.ends_v, picture.is_sharp}));
   const auto bitmap = [&](std::int32_t picture) {
     return picture >= 0 ? pictures[static_cast<std::size_t>(picture)] : scene::no_node;
   };

@@ -33,6 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) std::abort();
   }
   for (const gltf::Look& look : model->looks)
-    if (look.picture >= static_cast<std::int32_t>(model->pictures.size())) std::abort();
+    for (const std::int32_t picture :
+         {look.picture, look.emission_picture, look.properties_picture, look.normal_picture})
+      if (picture >= static_cast<std::int32_t>(model->pictures.size())) std::abort();
   return 0;
 }

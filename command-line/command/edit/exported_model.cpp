@@ -98,10 +98,13 @@ class DrawingOf {
     const auto [known, is_new] = pictures_.try_emplace(index, static_cast<std::int32_t>(drawing_.pictures.size()));
     if (is_new) {
       const scene::TextureImage& image = scene_.images[static_cast<std::size_t>(index)];
-      image::Image picture;
+      gltf::Picture picture;
       picture.width = image.width;
       picture.height = image.height;
       picture.rgba = image.rgba;
+      picture.ends_u = image.sampling.clamps_u;
+      picture.ends_v = image.sampling.clamps_v;
+      picture.is_sharp = image.sampling.sharp;
       drawing_.pictures.push_back(std::move(picture));
     }
     return known->second;

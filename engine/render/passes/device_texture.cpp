@@ -98,7 +98,7 @@ void upload_textures(std::vector<DeviceTexture>& textures, std::span<const scene
   for (std::size_t i = 0; i < changed.size(); ++i) {
     DeviceTexture& texture = textures[changed[i]];
     destroy_image(upload.memory(), texture.image);
-    texture = {images[changed[i]].revision, false, images[changed[i]].srgb, {}, {}};
+    texture = {images[changed[i]].revision, false, images[changed[i]].srgb, images[changed[i]].sampling, {}, {}};
     if (levels[i].empty()) continue;
     texture.holes = has_holes(images[changed[i]].rgba);
     if (!texture.holes) {

@@ -1,10 +1,34 @@
 #include "engine/render/passes/pass_context.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 namespace septet::render {
 namespace {
+
+VkSampler create_sampler(const vulkan::Device& device, const VkSamplerCreateInfo& info) {
+  VkSampler sampler = VK_NULL_HANDLE;
+  vulkan::require(vkCreateSampler(device.device, &info, nullptr, &sampler), "vkCreateSampler");
+  return sampler;
+}
+
+VkSampler create_image_sampler(const vulkan::Device& device, const scene::ImageSampling& sampling,
+                               VkSamplerMipmapMode mip_levels) {
+  const auto address = [](bool clamps) {
+    return clamps ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE : VK_SAMPLER_ADDRESS_MODE_REPEAT;
+  };
+  VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  info.magFilter = sampling.sharp ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+  info.minFilter = VK_FILTER_LINEAR;
+  info.mipmapMode = mip_levels;
+  info.addressModeU = address(sampling.clamps_u);
+  info.addressModeV = address(sampling.clamps_v);
+  info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+  info.maxLod = VK_LOD_CLAMP_NONE;
+  info.maxAnisotropy = 1.0f;
+  return create_sampler(device, info);
+}
 
 VkSampler create_sampler(const vulkan::Device& device, VkSamplerAddressMode address, VkSamplerMipmapMode mip_levels,
                          float anisotropy, bool compare, VkFilter filter = VK_FILTER_LINEAR) {
@@ -17,9 +41,7 @@ VkSampler create_sampler(const vulkan::Device& device, VkSamplerAddressMode addr
   info.maxAnisotropy = std::min(anisotropy, device.properties.limits.maxSamplerAnisotropy);
   info.compareEnable = compare;
   info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  VkSampler sampler = VK_NULL_HANDLE;
-  vulkan::require(vkCreateSampler(device.device, &info, nullptr, &sampler), "vkCreateSampler");
-  return sampler;
+  return create_sampler(device, info);
 }
 
 VkWriteDescriptorSet write(std::uint32_t binding, VkDescriptorType type) {
@@ -41,7 +63,10 @@ void create_samplers(Samplers& samplers, const vulkan::Device& device) {
   samplers.anisotropic = device.properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
   constexpr VkSamplerAddressMode repeat = VK_SAMPLER_ADDRESS_MODE_REPEAT, clamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   constexpr VkSamplerMipmapMode nearest = VK_SAMPLER_MIPMAP_MODE_NEAREST, linear = VK_SAMPLER_MIPMAP_MODE_LINEAR;
-  samplers.surface = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest, 1.0f, false);
+  for (std::size_t way = 0; way < samplers.images.size(); ++way)
+    samplers.images[way] = create_image_sampler(device, {(way & 1) != 0, (way & 2) != 0, (way & 4) != 0},
+                                                samplers.anisotropic ? linear : nearest);
+  samplers.surface = samplers.images[0];
   samplers.road = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest,
                                  samplers.anisotropic ? 16.0f : 1.0f, false);
   samplers.table = create_sampler(device, clamp, nearest, 1.0f, false);
@@ -50,7 +75,9 @@ void create_samplers(Samplers& samplers, const vulkan::Device& device) {
 }
 
 void destroy_samplers(Samplers& samplers, const vulkan::Device& device) {
-  for (const VkSampler sampler : {samplers.surface, samplers.road, samplers.table, samplers.shadow, samplers.texel})
+  for (const VkSampler sampler : samplers.images)
+    if (sampler) vkDestroySampler(device.device, sampler, nullptr);
+  for (const VkSampler sampler : {samplers.road, samplers.table, samplers.shadow, samplers.texel})
     if (sampler) vkDestroySampler(device.device, sampler, nullptr);
   samplers = {};
 }

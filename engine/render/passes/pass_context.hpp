@@ -1,6 +1,8 @@
 #pragma once
 /// Context that every pass needs to record itself, and the few calls that passes share.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -11,17 +13,24 @@
 #include "engine/render/vulkan/commands.hpp"
 #include "engine/render/vulkan/memory.hpp"
 #include "engine/render/vulkan/pipeline.hpp"
+#include "engine/scene/image_sampling.hpp"
 
 namespace septet::render {
 
 struct Samplers {
   VkSampler surface = VK_NULL_HANDLE;  ///< Repeats; trilinear, bilinear in the nearest level on a software device.
+  std::array<VkSampler, 8> images{};   ///< The same for each way to read an image; the first is `surface`.
   /// Repeats; trilinear and anisotropic on a graphics card: markings stay sharp at grazing angles.
   VkSampler road = VK_NULL_HANDLE;
   bool anisotropic = false;           ///< False on a software device, where shaders do it at a tenth of the cost.
   VkSampler table = VK_NULL_HANDLE;   ///< Clamps, bilinear.
   VkSampler shadow = VK_NULL_HANDLE;  ///< Compares: 1 where nothing is nearer to the light.
   VkSampler texel = VK_NULL_HANDLE;   ///< Clamps, nearest texel: for depths, which a device need not filter.
+
+  VkSampler of(const scene::ImageSampling& sampling) const {
+    return images[std::size_t{sampling.clamps_u} + 2 * std::size_t{sampling.clamps_v} +
+                  4 * std::size_t{sampling.sharp}];
+  }
 };
 
 void create_samplers(Samplers& samplers, const vulkan::Device& device);

@@ -73,9 +73,10 @@ void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScen
     const VkPipeline pipeline = pass.pipelines[(material.cut ? cut_bit : 0u) | (draw.fading ? fading_bit : 0u)];
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
-    if (material.cut)
-      push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view,
-                 context.samplers.surface);
+    if (material.cut) {
+      const DeviceTexture& texture = scene.textures[static_cast<std::size_t>(material.image)];
+      push_image(context, texture.image.view, context.samplers.of(texture.sampling));
+    }
     record_draw(context, draw, bound);
   }
   context.statistics.shadow_triangles += context.statistics.triangles - triangles_before;

@@ -110,13 +110,15 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     if (const bool culled = kind == SurfaceKind::opaque && !material.two_sided; culled != culls)
       vkCmdSetCullMode(commands, (culls = culled) ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
     if (textured && material.image != bound_image) {
-      push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view,
-                 material.wettable ? context.samplers.road : context.samplers.surface);
+      const DeviceTexture& texture = scene.textures[static_cast<std::size_t>(material.image)];
+      push_image(context, texture.image.view,
+                 material.wettable ? context.samplers.road : context.samplers.of(texture.sampling));
       bound_image = material.image;
     }
     for (std::uint32_t map = 0; material.map_bits >> map != 0; ++map)
       if (const std::int32_t image = material.maps.values[map]; image >= 0 && image != bound_maps.values[map]) {
-        push_image(context, scene.textures[static_cast<std::size_t>(image)].image.view, context.samplers.surface,
+        const DeviceTexture& texture = scene.textures[static_cast<std::size_t>(image)];
+        push_image(context, texture.image.view, context.samplers.of(texture.sampling),
                    vulkan::binding_emission_map + map);
         bound_maps.values[map] = image;
       }

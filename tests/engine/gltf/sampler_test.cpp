@@ -1,6 +1,6 @@
+#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -58,19 +58,26 @@ TEST_CASE("a picture that repeats mirrored is held with its mirror image, over t
   CHECK(one.pictures.at(0).height == 2);
 }
 
-TEST_CASE("a picture that should end at its edges is told where coordinates go beyond them") {
-  using Sentences = std::vector<std::string>;
-  CHECK(with_sampler(R"({"wrapS":33071})", 1.0f).left_out == Sentences{});
-  CHECK(with_sampler(R"({"wrapS":10497})", 3.0f).left_out == Sentences{});
-  CHECK(with_sampler(R"({"wrapS":33071})", 3.0f).left_out ==
-        Sentences{"material \"sign\" goes beyond its picture's edges, where the picture repeats instead of ending"});
+TEST_CASE("a picture that ends at its edges says so, and its coordinates stay where they are, however far") {
+  const Model model = with_sampler(R"({"wrapS":33071})", 300.0f);
+  const Picture& picture = model.pictures.at(0);
+  CHECK(picture.ends_u);
+  CHECK_FALSE(picture.ends_v);
+  CHECK(picture.width == 2);
+  CHECK(model.parts.at(0).mesh.corner_uvs.at(0)[1] == glm::vec2(300.0f, 0.0f));
+  CHECK(model.left_out.empty());
+  CHECK_FALSE(with_sampler(R"({"wrapS":10497})", 3.0f).pictures.at(0).ends_u);
+  CHECK(with_sampler(R"({"wrapT":33071})").pictures.at(0).ends_v);
 }
 
-TEST_CASE("a sampler that asks for sharp pixels is told, and one that says nothing repeats") {
-  CHECK(with_sampler(R"({"magFilter":9728})").left_out ==
-        std::vector<std::string>{"material \"sign\" asks for sharp pixels (magFilter NEAREST), which are smoothed"});
-  for (const char* nothing : {"{}", "7", "[]", R"({"wrapS":"MIRRORED","magFilter":-1})"})
-    CHECK(with_sampler(nothing, 3.0f).left_out.empty());
+TEST_CASE("a sampler that asks for sharp pixels gets them, and one that says nothing smooths and repeats") {
+  CHECK(with_sampler(R"({"magFilter":9728})").pictures.at(0).is_sharp);
+  for (const char* nothing : {"{}", "7", "[]", R"({"wrapS":"MIRRORED","magFilter":-1})"}) {
+    const Model model = with_sampler(nothing, 3.0f);
+    CHECK_FALSE(model.pictures.at(0).is_sharp);
+    CHECK_FALSE(model.pictures[0].ends_u);
+    CHECK(model.left_out.empty());
+  }
 }
 
 }  // namespace septet::gltf

@@ -46,7 +46,7 @@ TEST_CASE("a drawing that is written is read again with its shape, its place, it
   lamp.name = "lamp";
   lamp.emission = {8.0f, 4.0f, 2.0f};
   lamp.opacity = 0.5f;
-  Drawing drawing{{square()}, {}, {painted, lamp}, {image::Image(2, 1, {10, 20, 30, 255})}};
+  Drawing drawing{{square()}, {}, {painted, lamp}, {Picture{image::Image(2, 1, {10, 20, 30, 255})}}};
   drawing.pictures[0].set(1, 0, {200, 100, 50, 0});
   DrawnNode node{"sign", 0, {}, {1.0f, 2.0f, 3.0f}};
   node.model_from_node.position_m = {5.0, 6.0, 7.0};

@@ -216,4 +216,29 @@ TEST_CASE("normals of an image lean along u and up in the picture, in both rende
   }
 }
 
+TEST_CASE("an image that ends goes on as its edge is, and a sharp one has even pixels, in both renderers") {
+  scene::SurfaceMaterial look = grey(0.0f);
+  look.emission = glm::vec3(4.0f);
+  scene::ResolvedScene scene = plate(look);
+  // The image takes the upper left sixteenth of the plate; to the right its right column goes on.
+  for (scene::SurfaceVertex& vertex : scene.meshes[0].vertices) vertex.uv *= 4.0f;
+  scene::TextureImage image = quarters_image({{{255, 0, 0}, {0, 255, 0}, {255, 0, 0}, {0, 255, 0}}}, true);
+  image.sampling.clamps_u = true;
+  set_map(scene, SurfaceMap::emission, image);
+  const Both ends = both(scene, "maps clamped");
+  // Two pixels: smoothed, the middle of a quarter would be a mixture.
+  for (scene::SurfaceVertex& vertex : scene.meshes[0].vertices) vertex.uv /= 4.0f;
+  scene.images[0] = {.revision = 1, .width = 2, .height = 1, .rgba = {255, 0, 0, 255, 0, 255, 0, 255}};
+  scene.images[0].sampling.sharp = true;
+  const Both sharp = both(scene, "maps sharp");
+  for (const Quarters& quarters : {ends.rasterised, ends.traced}) {
+    CHECK(quarters[1].r < 0.1f * quarters[1].g);
+    CHECK(quarters[3].r < 0.1f * quarters[3].g);
+  }
+  for (const Quarters& quarters : {sharp.rasterised, sharp.traced}) {
+    CHECK(quarters[0].g < 0.1f * quarters[0].r);
+    CHECK(quarters[1].r < 0.1f * quarters[1].g);
+  }
+}
+
 }  // namespace septet::render::maps
