@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/core/printable.hpp"
+#include "engine/scenery/model_size.hpp"
 #include "engine/world/vehicle_model.hpp"
 
 namespace septet::server {
@@ -63,6 +64,8 @@ Expected<OwnModelsFolder> read_own_models(const fs::path& folder) {
     auto model = scenery::read_own_model(file);
     if (!model) return tl::unexpected(model.error());
     for (const std::string& left_out : model->left_out) read.messages.push_back(fmt::format("{}: {}", where, left_out));
+    if (const auto doubt = scenery::doubted_size(*model))
+      read.messages.push_back(fmt::format("{}: {}; {}", where, doubt->what, doubt->remedy));
     if (const auto index = find_vehicle_model(name))
       if (const auto differs = scenery::size_differs(*model, vehicle_models()[*index]))
         read.messages.push_back(fmt::format("{}: {}", where, *differs));

@@ -9,8 +9,11 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "engine/image/font.hpp"
 #include "engine/scene/builder.hpp"
+#include "engine/scenery/model_size.hpp"
 #include "engine/scenery/own_models.hpp"
 
 namespace septet::server {
@@ -79,7 +82,10 @@ Expected<Made> make_model(const std::string& name, const std::filesystem::path& 
                           scene::NodeId first) {
   auto model = scenery::read_own_model(file);
   if (!model) return tl::unexpected(model.error());
-  std::vector<std::string> left_out = std::move(model->left_out);
+  std::vector<std::string> told{scenery::told_size(*model)};
+  if (const auto doubt = scenery::doubted_size(*model))
+    told.push_back(fmt::format("{}; {}", doubt->what, doubt->remedy));
+  told.insert(told.end(), model->left_out.begin(), model->left_out.end());
   const std::vector<gltf::Extra> extras = std::move(model->extras);
   // A name of the scene holds both this one and the look's.
   for (gltf::Look& look : model->looks) look.name.resize(std::min<std::size_t>(look.name.size(), 50));
@@ -93,7 +99,7 @@ Expected<Made> make_model(const std::string& name, const std::filesystem::path& 
     add_tags(builder, root, extras);
     scenery::OwnShapes(builder, &models).place(part, {}, root);
   });
-  made.messages = std::move(left_out);
+  made.messages = std::move(told);
   return made;
 }
 

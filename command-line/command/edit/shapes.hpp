@@ -16,7 +16,7 @@ namespace septet::server {
 struct Made {
   std::vector<scene::Command> commands;
   scene::NodeId next = 0;               ///< First id that is still free.
-  std::vector<std::string> messages{};  ///< What of a file is left out.
+  std::vector<std::string> messages{};  ///< Of a file: its size by axes, and what is left out.
 };
 
 /// An object of that name, below which the file's parts lie. Error: as of read_gltf, or a file that cannot be read.

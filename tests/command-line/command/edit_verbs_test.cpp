@@ -190,7 +190,11 @@ TEST_CASE("an imported model's properties are tags of its object, by which it is
   const auto made = editor.take(fmt::format("import deer \"{}\" 1 2 3", file.string()));
   std::filesystem::remove(file);
   REQUIRE(made.has_value());
-  CHECK(made->messages.size() == 1);
+  REQUIRE(made->messages.size() == 2);
+  CHECK(
+      made->messages[0] ==
+      "1 triangles; 4.00 m long (glTF's z, forward), 4.00 m wide (x, left), 0.00 m high (y, up), from 0.00 m above its "
+      "origin on");
   CHECK(editor.find("tag extras.mass_kg") == Names{"deer"});
   const scene::Node& deer = *editor.store.find(own_ids);
   REQUIRE(scene::find_tag(deer, "extras", "kind") != nullptr);
