@@ -11,6 +11,7 @@
 #include "engine/gltf/gltf.hpp"
 #include "engine/image/png.hpp"
 #include "tests/engine/gltf/file_text.hpp"
+#include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
 namespace septet::gltf {
@@ -108,9 +109,9 @@ TEST_CASE("normals of a texture keep their codes, or lean as much more as its sc
   CHECK(read("") == leaning);
   // atan ½ = 26.6°: (1 + sin) / 2 and (1 + cos) / 2.
   const Color half = read(R"(,"scale":0.5)").at(0, 0);
-  CHECK(int(half.red) == doctest::Approx(184.5).epsilon(0.01));
-  CHECK(int(half.blue) == doctest::Approx(241.5).epsilon(0.01));
-  CHECK(int(read(R"(,"scale":-1)").at(0, 0).red) == doctest::Approx(36).epsilon(0.05));
+  CHECK(int(half.red) == relative(184.5, 0.01));
+  CHECK(int(half.blue) == relative(241.5, 0.01));
+  CHECK(int(read(R"(,"scale":-1)").at(0, 0).red) == relative(36.0, 0.05));
 }
 
 TEST_CASE("a texture that lies otherwise than its material's first is told, and the material is drawn without it") {
