@@ -154,6 +154,23 @@ TEST_CASE("a material's images of emission, properties and normals are those of 
   CHECK(shown(1) == no_surface_maps);
 }
 
+TEST_CASE("an image is read as its bitmap says: each edge for itself, and sharp or not") {
+  World w;
+  const std::vector<std::uint8_t> grey(4, 128);
+  std::vector<ImageSampling> ways{{}, {.clamps_u = true}, {.clamps_v = true}, {.sharp = true}};
+  for (const ImageSampling& way : ways) {
+    const NodeId bitmap = w.build.add_bitmap("", 1, 1, grey, true, way);
+    w.build.add_object("", {.geometry = w.build.add_mesh("", cube()),
+                            .materials = {w.build.add_material("", {.base_color_bitmap = bitmap})}});
+  }
+  const ResolvedScene scene = resolve(w.store);
+  REQUIRE(scene.images.size() == ways.size());
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    CHECK(scene.images[i].sampling == ways[i]);
+    CHECK(scene.images[i].srgb);
+  }
+}
+
 TEST_CASE("children are placed by their parents and prototypes are kept apart") {
   World w;
   const NodeId mesh = w.build.add_mesh("", cube());
