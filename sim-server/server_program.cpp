@@ -74,7 +74,7 @@ ServeOptions serve_options(const ServerOptions& options, const OpenedDrive& driv
 Expected<std::unique_ptr<OperatorDesk>> open_desk(const ServerOptions& options, const OpenedDrive& drive,
                                                   program::ProgressLine& line) {
   if (!drive.live) return failure("a session that is shown again has no operator", "--page", "leave --page away");
-  auto desk = OperatorDesk::open(options, drive.loaded, *drive.live);
+  auto desk = OperatorDesk::open(options, drive.loaded, drive.store, *drive.live);
   if (!desk) return desk;
   line.message("operator's page: " + (*desk)->url());
   if (!(*desk)->speaks()) line.message("espeak-ng is not installed: a word to the student is text alone");

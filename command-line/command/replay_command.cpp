@@ -62,6 +62,8 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   if (!state) return tl::unexpected(state.error());
   const auto scene = logging::is_scene_as_driven(*session);
   if (!scene) return tl::unexpected(scene.error());
+  if (const auto commands = logging::are_commands_as_driven(*session); !commands)
+    return tl::unexpected(commands.error());
   Verified verified{.first = state->tick, .scene_agrees = scene->has_value()};
   auto recorded = state->tick == 0 ? session->snapshots() : session->snapshots_from(state->time_s());
   if (!recorded) return tl::unexpected(recorded.error());

@@ -18,14 +18,17 @@ import json
 import math
 import os
 import pathlib
+import queue
+import re
 import shutil
 import subprocess
 import tempfile
 import threading
+import traceback
 from concurrent.futures import Future
 from typing import Any, AsyncIterator, Callable, Iterable, Iterator, Optional, Sequence, Union
 
-__all__ = ["connect", "World", "Handle", "Batch", "Tick", "Event", "Car", "Participant", "Refused", "Failure", "Ended"]
+__all__ = ["connect", "World", "Handle", "Batch", "Tick", "Event", "Call", "Car", "Participant", "Refused", "Failure", "Ended"]
 
 Vector = Sequence[float]
 Path = Union[str, "os.PathLike[str]"]
@@ -131,6 +134,28 @@ class Event:
 
 
 @dataclasses.dataclass(frozen=True)
+class Call:
+    """A message from the storyboard, the operator's page or a script to all who listen; those do what it asks for.
+
+    `node` is the name of the thing that it is about, if any; `parameters` are texts; `by` says who calls: a key's or an operator's
+    name, or "storyboard".
+    """
+
+    name: str
+    node: Optional[str]
+    parameters: dict[str, str]
+    by: str
+    tick: int
+    time_s: float
+
+
+def _call(event: Event) -> Call:
+    words = dict(event.fields)
+    name, node, by = words.pop("name"), words.pop("node", None), words.pop("by", "")
+    return Call(name, node, words, by, event.tick, event.time_s)
+
+
+@dataclasses.dataclass(frozen=True)
 class Tick:
     tick: int
     time_s: float
@@ -143,6 +168,11 @@ class Tick:
     """What has happened since the tick before this one that the script was given; an event has its own tick."""
     dropped_events: int = 0
     """Events of that time that were lost because somebody was too slow."""
+
+    @property
+    def calls(self) -> tuple[Call, ...]:
+        """Those of its events that are calls."""
+        return tuple(_call(event) for event in self.events if event.name == "call")
 
     @property
     def driver(self) -> Participant:
@@ -196,6 +226,14 @@ def _word(text: str) -> str:
     return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
 
 
+def _unquoted(word: str) -> str:
+    return re.sub(r"\\x([0-9a-f]{2})|\\(.)", _unescaped, word[1:-1]) if word.startswith('"') else word
+
+
+def _unescaped(sign: "re.Match[str]") -> str:
+    return chr(int(sign[1], 16)) if sign[1] else {"n": "\n"}.get(sign[2], sign[2])
+
+
 def _who(participant: Parent) -> str:
     if isinstance(participant, Handle):
         return participant.node
@@ -224,6 +262,11 @@ class Handle:
         self._world, self.node = world, node
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
         self._is_moving = self._is_solid = False
+
+    @property
+    def name(self) -> str:
+        """As events and calls name it; #NUMBER where it has no name of its own."""
+        return _unquoted(self.node)
 
     def __repr__(self) -> str:
         return f"<septet.Handle {self.node} at {self._position}>"
@@ -352,17 +395,20 @@ class Batch:
 
 
 class World:
-    """A connection to a running drive; `connect` makes it. One thread, or the batches of several must not overlap."""
+    """A connection to a running drive; `connect` makes it. Threads may share it: each has batches of its own."""
 
     def __init__(self, command: list[str]) -> None:
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8")
-        self._batch: Optional[list[str]] = None
+        self._batches = threading.local()
         self._asked: dict[int, Future[Any]] = {}
         self._requests = 0
         self._news = threading.Condition()
         self._ticks: collections.deque[Tick] = collections.deque()
         self._stepped: Optional[Tick] = None
         self._handlers: dict[str, list[Callable[..., Any]]] = {"tick": [], "end": [], "message": []}
+        self._call_handlers: list[tuple[Optional[str], Optional[str], Callable[[Call], Any]]] = []
+        self._calls: Optional[queue.SimpleQueue[Optional[Call]]] = None
+        self._caller: Optional[threading.Thread] = None
         self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
         self._files = 0
         self._tells_ticks = False
@@ -453,6 +499,15 @@ class World:
             raise ValueError("a line has no end within")
         return self._ask([f"operate {line}"]).result(60.0)
 
+    def call(self, name: str, node: Optional[Union["Handle", str]] = None, **parameters: Any) -> int:
+        """One message to all who listen to the drive, about a thing or none: call("lift", node="stimuli/barrier", seconds=3).
+
+        Logged with the tick after which it was made, which is returned. Parameters are sent as texts.
+        """
+        about = "none" if node is None else node.node if isinstance(node, Handle) else _word(node)
+        words = [_word(f"{key}={value}") for key, value in parameters.items()]
+        return self._ask([" ".join(["call", about, _word(name), *words])]).result(60.0)
+
     def mark(self, text: str) -> int:
         """A mark in the log, at this tick."""
         return self.operate(f"mark {text}")
@@ -522,6 +577,23 @@ class World:
             return handler
         return register
 
+    def on_call(self, name: Optional[str] = None, node: Optional[Union["Handle", str]] = None) -> Callable[[Callable[[Call], Any]], Callable[[Call], Any]]:
+        """`@world.on_call("lift", node=barrier)`: each call of this name about this thing; without them, of any name, about anything.
+
+        Such handlers run in a thread of their own, one after another, and may change the world and call. What one raises is printed.
+        """
+        about = node.name if isinstance(node, Handle) else node
+        def register(handler: Callable[[Call], Any]) -> Callable[[Call], Any]:
+            self._want_ticks()
+            with self._news:
+                if self._calls is None:
+                    self._calls = queue.SimpleQueue()
+                    self._caller = threading.Thread(target=self._hear_calls, args=(self._calls,), daemon=True)
+                    self._caller.start()
+                self._call_handlers.append((name, about, handler))
+            return handler
+        return register
+
     # ---- life
 
     def __enter__(self) -> World:
@@ -531,7 +603,11 @@ class World:
         self.close()
 
     def close(self) -> None:
-        """Waits until all that was asked for is answered, and leaves. What was made stays until the drive ends."""
+        """Waits until the calls that were heard are handled and all that was asked for is answered, and leaves. What was made stays
+        until the drive ends."""
+        if self._calls is not None and self._caller is not None and self._caller is not threading.current_thread():
+            self._calls.put(None)
+            self._caller.join(60.0)
         if self._process.stdin and not self._process.stdin.closed:
             try:
                 self._process.stdin.close()
@@ -547,6 +623,25 @@ class World:
             self._folder.cleanup()
 
     # ---- within
+
+    @property
+    def _batch(self) -> Optional[list[str]]:
+        """Lines of this thread's batch."""
+        return getattr(self._batches, "lines", None)
+
+    @_batch.setter
+    def _batch(self, lines: Optional[list[str]]) -> None:
+        self._batches.lines = lines
+
+    def _hear_calls(self, calls: queue.SimpleQueue[Optional[Call]]) -> None:
+        while (call := calls.get()) is not None:
+            for name, node, handler in list(self._call_handlers):
+                if name not in (None, call.name) or node not in (None, call.node):
+                    continue
+                try:
+                    handler(call)
+                except Exception:
+                    traceback.print_exc()
 
     def _made(
         self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent], solid: bool
@@ -573,10 +668,11 @@ class World:
     def _file(self, content: Union[Path, bytes], ending: str) -> str:
         if not isinstance(content, bytes):
             return os.path.abspath(content)
-        if self._folder is None:
-            self._folder = tempfile.TemporaryDirectory(prefix="septet")
-        self._files += 1
-        path = pathlib.Path(self._folder.name) / f"{self._files}{ending}"
+        with self._news:
+            if self._folder is None:
+                self._folder = tempfile.TemporaryDirectory(prefix="septet")
+            self._files += 1
+            path = pathlib.Path(self._folder.name) / f"{self._files}{ending}"
         path.write_bytes(content)
         return str(path)
 
@@ -640,6 +736,9 @@ class World:
                     self.missed_ticks += 1
                 self._ticks.append(tick)
                 self._news.notify_all()
+            if self._calls is not None:
+                for call in tick.calls:
+                    self._calls.put(call)
             for handler in self._handlers["tick"]:
                 handler(tick)
         elif kind == "message":

@@ -41,8 +41,8 @@ tl::unexpected<Error> no_command(std::string what) {
   return failure(std::move(what), "operator's command",
                  "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\", \"trigger element=NAME\", \"place x_m=X "
                  "y_m=Y part=NAME\", \"remove thing=N\" "
-                 "\"hide entity=NAME\", \"fault what=NAME\", \"repair what=NAME\" or \"put x_m=X y_m=Y heading_rad=A "
-                 "speed_mps=V\"");
+                 "\"hide entity=NAME\", \"fault what=NAME\", \"repair what=NAME\", \"put x_m=X y_m=Y heading_rad=A "
+                 "speed_mps=V\" or \"call name=NAME node=NODE PARAMETER=VALUE …\"");
 }
 
 Expected<OperatorCommand> parse_conditions(std::string_view text) {
@@ -259,6 +259,11 @@ Expected<void> apply(const Model& model, const ShowStanding& show, State& state,
   return show_standing(model, show, state);
 }
 
+Expected<void> apply(const Model&, const Call& call, State&, std::vector<Event>& events) {
+  events.push_back(event_of(call));
+  return {};
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -284,6 +289,7 @@ std::string text_of(const OperatorCommand& command) {
   if (const auto* stand = std::get_if<StandSolid>(&command)) return text_of(*stand);
   if (const auto* clear = std::get_if<ClearSolid>(&command)) return text_of(*clear);
   if (const auto* show = std::get_if<ShowStanding>(&command)) return text_of(*show);
+  if (const auto* call = std::get_if<Call>(&command)) return "call " + septet::text_of(*call);
   std::string text = "conditions";
   for (const auto& [condition, value] : std::get<SetConditions>(command).values)
     text += fmt::format(" {}={}", condition->name, value);
@@ -318,6 +324,7 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
     return read_standing(text.substr(begin.size()), false);
   if (constexpr std::string_view begin = "back "; text.starts_with(begin))
     return read_standing(text.substr(begin.size()), true);
+  if (constexpr std::string_view begin = "call "; text.starts_with(begin)) return read_call(text.substr(begin.size()));
   for (const bool failed : {false, true}) {
     const std::string_view begin = failed ? "fault what=" : "repair what=";
     if (!text.starts_with(begin)) continue;

@@ -1,6 +1,7 @@
 #pragma once
 /// An operator's changes of the drive: weather, light, grip, traffic, the storyboard's next event; and the solids that
-/// editors stand in the scene (solids.hpp), and what they hide of it (standing.hpp).
+/// editors stand in the scene (solids.hpp), what they hide of it (standing.hpp), and calls to all who listen
+/// (engine/world/call.hpp).
 ///
 /// A command is applied between two ticks, and is input like the driver's: it is logged as its text, with the tick that
 /// it came before, and running the drive again applies it there. The text parses to the same command to the last bit:
@@ -17,6 +18,7 @@
 ///     put x_m=120.5 y_m=-3.25 heading_rad=0.5 speed_mps=13
 ///     clear solid=3
 ///     gone x_m=412.5 y_m=-81 name="tree/412.5/-81.0"
+///     call name=lift node=stimuli/barrier seconds=3 by=lab
 
 #include <cstdint>
 #include <span>
@@ -30,6 +32,7 @@
 #include "engine/simulation/solids.hpp"
 #include "engine/simulation/standing.hpp"
 #include "engine/simulation/state.hpp"
+#include "engine/world/call.hpp"
 
 namespace septet::simulation {
 
@@ -89,7 +92,7 @@ struct PutCar {
   bool operator==(const PutCar&) const = default;
 };
 using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity,
-                                     SetFault, PutCar, StandSolid, ClearSolid, ShowStanding>;
+                                     SetFault, PutCar, StandSolid, ClearSolid, ShowStanding, Call>;
 
 /// Bounds of PutCar: distance from a road, speed, and distance to other participants.
 inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;

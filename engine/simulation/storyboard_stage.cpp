@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/core.h>
@@ -27,6 +28,8 @@ const char* name_of(scenario::ElementStatus status) {
 }
 
 }  // namespace
+
+Event event_of(const Call& call) { return {std::string(call_event), std::nullopt, text_of(call)}; }
 
 std::vector<traffic::ForeignVehicle> foreign_vehicles(const Model& model, const State& state, const Participant& car) {
   std::vector<Participant> others{car};
@@ -106,6 +109,7 @@ void carry_out(const Model& model, const scenario::StepResult& step, const Parti
                       fmt::format("entity={} state=left_at_road_end", model.scenario.entities[entity].name)});
   for (const scenario::EntityIndex entity : step.reset)
     note_bad_numbers(1, first_scripted_participant + entity, "entity", state, events);
+  for (const Call& call : step.calls) events.push_back(event_of(call));
   apply_swarms(model, step, car, state);
   apply_effects(model, step, car, state);
 }

@@ -5,6 +5,7 @@
 
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/state.hpp"
+#include "engine/world/call.hpp"
 
 namespace septet::simulation {
 
@@ -14,6 +15,9 @@ void advance_storyboard(const Model& model, const DrivenCar& car, State& state, 
 /// Carries out the requests of the storyboard, or of an operator who triggers a part of it. Events are appended.
 void carry_out(const Model& model, const scenario::StepResult& step, const Participant& car, State& state,
                std::vector<Event>& events);
+
+/// The event by which all who listen hear a call.
+Event event_of(const Call& call);
 
 /// A swarm's parameters in the traffic engine's terms.
 traffic::TrafficParameters swarm_parameters(const scenario::TrafficSwarmAction& swarm);

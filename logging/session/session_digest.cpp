@@ -111,19 +111,38 @@ Expected<std::optional<std::string>> altered_part(const SessionDigest& found, co
   return std::optional<std::string>();
 }
 
-Expected<std::optional<bool>> is_scene_as_driven(const SessionReader& session) {
+namespace {
+
+/// True if the part of the session's digest is that of `found`; empty: the session has no digest.
+Expected<std::optional<bool>> is_as_driven(const SessionReader& session, const SessionDigest& found, const char* key,
+                                           StateHash SessionDigest::*part, const char* what) {
   const auto row = session.info().other.find(digest_row);
   if (row == session.info().other.end()) return std::optional<bool>();
   const std::string where = session.path().string();
   const auto json = read_row(row->second, where);
   if (!json) return tl::unexpected(json.error());
+  if (json->at(key).get<std::string>() == hash_digits((found.*part).value())) return std::optional(true);
+  return failure(what, where, "it was altered or damaged: use an unaltered copy");
+}
+
+}  // namespace
+
+Expected<std::optional<bool>> is_scene_as_driven(const SessionReader& session) {
   const auto edits = session.scene_edits();
   if (!edits) return tl::unexpected(edits.error());
   SessionDigest found;
   for (const SceneEdit& edit : *edits) found.add(edit);
-  if (json->at("scene").get<std::string>() == hash_digits(found.scene.value())) return std::optional(true);
-  return failure("the session's scene is not the one that was driven in", where,
-                 "it was altered or damaged: use an unaltered copy");
+  return is_as_driven(session, found, "scene", &SessionDigest::scene,
+                      "the session's scene is not the one that was driven in");
+}
+
+Expected<std::optional<bool>> are_commands_as_driven(const SessionReader& session) {
+  const auto events = session.events();
+  if (!events) return tl::unexpected(events.error());
+  SessionDigest found;
+  for (const Event& event : *events) found.add(event);
+  return is_as_driven(session, found, "commands", &SessionDigest::commands,
+                      "the session's operator's commands and calls are not those that were made");
 }
 
 }  // namespace septet::logging

@@ -47,5 +47,7 @@ Expected<std::optional<std::string>> altered_part(const SessionDigest& found, co
 /// True if the scene is the driven one; empty if the session has no digest: it is of an earlier build, or its drive was
 /// killed. Error: it is another scene, or cannot be read.
 Expected<std::optional<bool>> is_scene_as_driven(const SessionReader& session);
+/// The same of the operator's commands and the calls: a call leaves no trace in a state's hash.
+Expected<std::optional<bool>> are_commands_as_driven(const SessionReader& session);
 
 }  // namespace septet::logging

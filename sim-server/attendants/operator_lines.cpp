@@ -49,9 +49,9 @@ std::optional<std::string> OperatorLines::fulfil(const OperatorRequest& request)
     if (!pauser_) return "no line has paused the drive";
     go_on(request.name);
   } else {
-    const auto done = do_command(line, *drive_.live);
+    const auto done = do_command(line, request.name, drive_.store, *drive_.live);
     if (!done) return done.error().what;
-    note(request.name, "operator", *done);
+    if (!done->empty()) note(request.name, "operator", *done);
   }
   return std::nullopt;
 }

@@ -80,7 +80,7 @@ std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) 
 }  // namespace
 
 Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& options, const LoadedDrive& loaded,
-                                                           LiveDrive& drive) {
+                                                           const scene::Store& scene, LiveDrive& drive) {
   page::PageOptions page_options{.port = static_cast<std::uint16_t>(options.page_port.value_or(0)),
                                  .allowed_hosts = options.page_hosts};
   if (options.page_handover) {
@@ -99,8 +99,8 @@ Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& 
   if (!no_restart) facts.kept_states = {drive.state().time_s(), state_kept_every_s};
   auto page = page::OperatorPage::open(std::move(page_options), std::move(facts), loaded.model->roads);
   if (!page) return tl::unexpected(page.error());
-  std::unique_ptr<OperatorDesk> desk(
-      new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson), std::move(speaker), loaded, drive));
+  std::unique_ptr<OperatorDesk> desk(new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson),
+                                                      std::move(speaker), loaded, scene, drive));
   desk->no_restart_ = std::move(no_restart);
   return desk;
 }
@@ -287,9 +287,9 @@ std::optional<std::string> OperatorDesk::rate(const page::OperatorWish& wish, in
 }
 
 std::optional<std::string> OperatorDesk::change(const page::OperatorWish& wish, const std::string& text) {
-  const auto done = do_command(text, drive_);
+  const auto done = do_command(text, wish.name, scene_, drive_);
   if (!done) return done.error().what;
-  note(wish, "operator", *done);
+  if (!done->empty()) note(wish, "operator", *done);
   return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/scene/store.hpp"
 #include "logging/session/drive_end.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_rating.hpp"
@@ -25,9 +26,9 @@ namespace septet::server {
 
 class OperatorDesk {
  public:
-  /// Opens the page. `loaded` and `drive` outlive the desk. Error: the port is not available.
+  /// Opens the page. `loaded`, `scene` and `drive` outlive the desk. Error: the port is not available.
   static Expected<std::unique_ptr<OperatorDesk>> open(const ServerOptions& options, const LoadedDrive& loaded,
-                                                      LiveDrive& drive);
+                                                      const scene::Store& scene, LiveDrive& drive);
 
   const std::string& url() const { return page_->url(); }
   /// `log` outlives the desk; its events are shown on the page.
@@ -55,12 +56,14 @@ class OperatorDesk {
 
  private:
   OperatorDesk(std::unique_ptr<page::OperatorPage> page, std::optional<DriverRating> rating,
-               std::unique_ptr<LessonWatch> lesson, Speaker speaker, const LoadedDrive& loaded, LiveDrive& drive)
+               std::unique_ptr<LessonWatch> lesson, Speaker speaker, const LoadedDrive& loaded,
+               const scene::Store& scene, LiveDrive& drive)
       : page_(std::move(page)),
         rating_(std::move(rating)),
         speaker_(std::move(speaker)),
         lesson_(std::move(lesson)),
         loaded_(loaded),
+        scene_(scene),
         drive_(drive),
         begun_s_(drive.state().time_s()) {}
   std::optional<std::string> fulfil(const page::OperatorWish& wish);
@@ -88,6 +91,7 @@ class OperatorDesk {
   std::shared_ptr<const std::string> seen_ahead_;  ///< Newest picture of the screen ahead, handed to the lesson.
   std::vector<std::shared_ptr<const std::string>> large_pictures_;  ///< Newest one of each screen.
   const LoadedDrive& loaded_;
+  const scene::Store& scene_;
   LiveDrive& drive_;
   double begun_s_;                         ///< Simulated; not 0 where the drive began at a kept state.
   std::optional<std::string> no_restart_;  ///< Reason for the refusal of a restart (why_no_restart).

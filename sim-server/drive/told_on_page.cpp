@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/world/call.hpp"
+
 namespace septet::server {
 namespace {
 
@@ -62,13 +64,21 @@ std::vector<std::pair<std::string, std::string>> values_of(std::string_view deta
   return values;
 }
 
+std::vector<std::pair<std::string, std::string>> values_of(std::string_view kind, std::string_view detail) {
+  if (kind == call_event)
+    if (const auto call = read_call(detail)) return words_of(*call);
+  return values_of(detail);
+}
+
 std::optional<page::PageEvent> told_on_page(const logging::Event& event) {
   if (std::ranges::find(unheard, event.kind) != unheard.end()) return std::nullopt;
   if (auto sound = event.kind == "screen" ? told_of_sound(event) : std::nullopt) return sound;
   if (std::ranges::find(sentences, event.kind) != sentences.end())
     return page::PageEvent{event.simulated_time_s, "message", {}, event.detail};
-  page::PageEvent told{
-      .simulated_s = event.simulated_time_s, .kind = event.kind, .values = values_of(event.detail), .text = event.kind};
+  page::PageEvent told{.simulated_s = event.simulated_time_s,
+                       .kind = event.kind,
+                       .values = values_of(event.kind, event.detail),
+                       .text = event.kind};
   std::ranges::replace(told.text, '_', ' ');
   std::string separator = ": ";
   for (const auto& [name, value] : told.values) {

@@ -19,5 +19,7 @@ std::optional<page::PageEvent> told_on_page(const logging::Event& event);
 /// The pairs of a detail: "tree speed_mps=4 note=has sneezed" is what=tree, speed_mps=4, note="has sneezed". A word
 /// without a name belongs to the value before it.
 std::vector<std::pair<std::string, std::string>> values_of(std::string_view detail);
+/// The same of an event of this kind: a call's words are told as it was made (engine/world/call.hpp).
+std::vector<std::pair<std::string, std::string>> values_of(std::string_view kind, std::string_view detail);
 
 }  // namespace septet::server

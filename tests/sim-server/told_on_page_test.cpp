@@ -1,5 +1,10 @@
+#include <string>
+#include <utility>
+
 #include <doctest/doctest.h>
 
+#include "engine/control/control_message.hpp"
+#include "engine/world/call.hpp"
 #include "sim-server/drive/told_on_page.hpp"
 
 namespace septet::server {
@@ -37,6 +42,25 @@ TEST_CASE("what is no news to a person is not told, and an event nobody has word
   CHECK(silent->values == Values{{"device", "hw:0"}, {"why", "busy"}, {"remedy", "wait; or not"}});
   CHECK(told_on_page({.kind = "screen", .participant = {}, .detail = "no sound: x"})->kind == "message");
   CHECK(said->text == "screen ahead connected");
+}
+
+TEST_CASE("a call is told by its own words, and the longest one fits into an event on the wire") {
+  Call call{.name = "say", .node = "town house/1/2", .parameters = {{"text", "a b=c"}, {"x", ""}}, .by = "lab"};
+  CHECK(values_of(call_event, text_of(call)) ==
+        Values{{"name", "say"}, {"node", "town house/1/2"}, {"text", "a b=c"}, {"x", ""}, {"by", "lab"}});
+  const auto told = told_on_page({.kind = std::string(call_event), .participant = {}, .detail = text_of(call)});
+  REQUIRE(told.has_value());
+  CHECK(told->text == "call: name say, node town house/1/2, text a b=c, x , by lab");
+  const std::string longest(longest_call_value, 'v');
+  call = {.name = std::string(longest_call_name, 'n'), .node = longest, .parameters = {}, .by = {}};
+  for (std::size_t i = 0; i < most_call_parameters; ++i) {
+    call.parameters.emplace_back("parameter_" + std::to_string(i), std::string(longest_call_value, 'v'));
+    if (!read_call(text_of(call)).has_value()) call.parameters.back().second.resize(20);
+  }
+  REQUIRE(read_call(text_of(call)).has_value());
+  call.by = longest;
+  CHECK(text_of(call).size() > control::most_event_detail_bytes - 600);
+  CHECK(text_of(call).size() <= control::most_event_detail_bytes);
 }
 
 }  // namespace septet::server

@@ -20,7 +20,7 @@ Json of(const Quat& q) { return {q.w, q.x, q.y, q.z}; }
 
 Json of(const control::DriveEvent& event) {
   Json fields = Json::object();
-  for (const auto& [name, value] : values_of(event.detail)) fields[name] = value;
+  for (const auto& [name, value] : values_of(event.kind, event.detail)) fields[name] = value;
   return {{"tick", event.tick},
           {"time_s", event.simulated_time_s},
           {"name", event.kind},

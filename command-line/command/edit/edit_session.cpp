@@ -17,6 +17,7 @@
 #include "engine/scene/command_validation.hpp"
 #include "engine/scene/edit_file.hpp"
 #include "engine/scene/inverse.hpp"
+#include "engine/world/call.hpp"
 
 namespace septet::server {
 namespace {
@@ -73,8 +74,8 @@ EditSession::EditSession(EditClient& client, const EditOutput& output)
     : client_(client), output_(output), names_{client.own_ids(), client.own_ids()}, before_(client.store()) {}
 
 bool EditSession::reads_scene(std::string_view line) {
-  constexpr std::array<std::string_view, 10> verbs{"find",   "read", "save",    "undo",  "wait",
-                                                   "remove", "text", "picture", "color", "export"};
+  constexpr std::array<std::string_view, 11> verbs{"find", "read",    "save",  "undo",   "wait", "remove",
+                                                   "text", "picture", "color", "export", "call"};
   return std::ranges::find(verbs, first_word(line)) != verbs.end();
 }
 
@@ -267,6 +268,8 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
     undo();
   } else if (verb == "operate") {
     operate(line);
+  } else if (verb == "call") {
+    call(line, words);
   } else if (verb == "watch") {
     watch(line, words);
   } else {
@@ -323,8 +326,38 @@ void EditSession::operate(const std::string& line) {
   const std::string text = begin == std::string::npos ? std::string() : line.substr(begin);
   if (text.empty() || text.size() > control::most_operator_line_bytes)
     return refuse(request, line.substr(0, 80), "write operate and a line of an operator's: docs/editing.md");
+  operate(request, line, text);
+}
+
+void EditSession::operate(std::uint64_t request, const std::string& line, const std::string& text) {
   operating_[++operated_] = {request, line};
   client_.operate(operated_, text);
+}
+
+/// A node by any of its words: its name goes out where it has one that is its own, else its number.
+void EditSession::call(const std::string& line, const std::vector<scene::TextWord>& words) {
+  const std::uint64_t request = ++requests_;
+  const auto wrong = [&](const std::string& why) { refuse(request, line.substr(0, 200), why); };
+  const auto node = words.size() < 3 ? std::nullopt : scene::node_of(names(), words[1]);
+  if (!node) return wrong("write call NODE NAME [PARAMETER=VALUE …], NODE being a node that exists, or none");
+  Call call{.name = words[2].text, .node = *node == scene::no_node ? std::string() : called(*node)};
+  for (const scene::TextWord& word : std::span(words).subspan(3)) {
+    const auto equals = word.text.find('=');
+    if (equals == std::string::npos) return wrong(word.text + " has no value: write PARAMETER=VALUE");
+    call.parameters.emplace_back(word.text.substr(0, equals), word.text.substr(equals + 1));
+  }
+  // What a value may not hold is told by the same rule as to all who call.
+  const std::string text = text_of(call);
+  const auto read = read_call(text);
+  if (!read) return wrong(describe(read.error()));
+  if (*read != call) return wrong("name, node and by are no names of parameters");
+  operate(request, line, "call " + text);
+}
+
+/// The name that means this node alone, or its number.
+std::string EditSession::called(scene::NodeId id) const {
+  const scene::Node* node = client_.store().find(id);
+  return node && scene::node_of(names(), {node->name}) == id ? node->name : fmt::format("#{}", id);
 }
 
 void EditSession::watch(const std::string& line, const std::vector<scene::TextWord>& words) {

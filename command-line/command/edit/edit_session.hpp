@@ -86,6 +86,9 @@ class EditSession {
   void export_model(std::uint64_t request, const std::string& line, const std::vector<scene::TextWord>& words);
   void undo();
   void operate(const std::string& line);
+  void operate(std::uint64_t request, const std::string& line, const std::string& text);
+  std::string called(scene::NodeId id) const;
+  void call(const std::string& line, const std::vector<scene::TextWord>& words);
   void watch(const std::string& line, const std::vector<scene::TextWord>& words);
 
   EditClient& client_;

@@ -12,6 +12,7 @@
 #include "engine/scenario/model/condition.hpp"
 #include "engine/scenario/model/position.hpp"
 #include "engine/scenario/model/trajectory.hpp"
+#include "engine/world/call.hpp"
 #include "engine/world/lamps.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -188,11 +189,14 @@ struct TrafficStopAction {
   std::string name;
 };
 
+/// Call (engine/world/call.hpp): a UserDefinedAction with type "septet:call" and the call's text as content, without
+/// its author.
+///
 /// Empty: the file used an action that is not supported yet, which was reported when it was read. It ends at once.
 using ActionVariant =
     std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction, SynchronizeAction,
                  LaneChangeAction, LaneOffsetAction, TeleportAction, FollowTrajectoryAction, AssignRouteAction,
                  AcquirePositionAction, EnvironmentAction, LightStateAction, SirenAction, EffectAction, ValueAction,
-                 TrafficSwarmAction, TrafficStopAction>;
+                 TrafficSwarmAction, TrafficStopAction, Call>;
 
 }  // namespace septet::scenario

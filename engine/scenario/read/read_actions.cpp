@@ -279,6 +279,16 @@ ActionVariant read_black_ice(const Element& element) {
   return effect;
 }
 
+ActionVariant read_call_command(const Element& element) {
+  auto call = read_call(element.content());
+  if (!call) {
+    element.error(call.error().what, call.error().remedy);
+    return {};
+  }
+  call->by = storyboard_calls;
+  return std::move(*call);
+}
+
 }  // namespace
 
 ActionVariant read_user_defined_action(Reading& reading, const Element& action) {
@@ -289,6 +299,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (type == "septet:black-ice") return read_black_ice(command);
   if (type == "septet:ignite") return read_effect_command(reading, command, EffectAction::Kind::ignite);
   if (type == "septet:extinguish") return read_effect_command(reading, command, EffectAction::Kind::extinguish);
+  if (type == "septet:call") return read_call_command(command);
   if (type == "septet:game") {
     read_game(reading, command);
     return {};
@@ -296,7 +307,8 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (type != "septet:siren") {
     command.warning(
         "this command is not known and has no effect",
-        "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish, septet:game");
+        "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish, septet:call, "
+        "septet:game");
     return {};
   }
   const std::string content = command.content();

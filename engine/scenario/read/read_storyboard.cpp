@@ -1,4 +1,6 @@
 #include <array>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -117,8 +119,12 @@ void read_init(Reading& reading, const Element& actions) {
   };
   for (const Element& global : actions.children("GlobalAction"))
     add(no_entity, read_global_action(reading, global), global);
-  for (const Element& user : actions.children("UserDefinedAction"))
-    add(no_entity, read_user_defined_action(reading, user), user);
+  for (const Element& user : actions.children("UserDefinedAction")) {
+    ActionVariant what = read_user_defined_action(reading, user);
+    if (std::holds_alternative<Call>(what))
+      user.error("nobody listens yet when Init is carried out", "call from an event of the storyboard");
+    add(no_entity, std::move(what), user);
+  }
   for (const Element& entry : actions.children("Private")) {
     const EntityIndex entity = read_entity_reference(reading, entry);
     for (const Element& action : entry.children("PrivateAction")) {

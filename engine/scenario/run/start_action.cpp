@@ -167,6 +167,8 @@ StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& ne
     change_value(*value, state);
   } else if (const auto* effect = std::get_if<EffectAction>(&what)) {
     result.effects.push_back(*effect);
+  } else if (const auto* call = std::get_if<Call>(&what)) {
+    result.calls.push_back(*call);
   }
   for (const EntityIndex actor : actors) {
     const StartPrivate start{scenario, network, action, actor, state, result, started.replaced};

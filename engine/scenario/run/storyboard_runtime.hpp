@@ -17,6 +17,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/scenario/run/scenario_state.hpp"
+#include "engine/world/call.hpp"
 
 namespace septet::scenario {
 
@@ -33,6 +34,7 @@ struct StepResult {
   std::vector<StoryboardEvent> events;
   std::vector<TrafficSwarmAction> swarms;    ///< Swarms to be started.
   std::vector<EffectAction> effects;         ///< Effects to be spilled, ignited, extinguished.
+  std::vector<Call> calls;                   ///< Messages to all who listen.
   std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.

@@ -37,6 +37,7 @@ function event_words({ kind, values = {}, text }) {
   if (kind === 'operator') return wish_words(values) + by;
   if (kind === 'mark') return t('event.mark', { note: values.note || '' }) + by;
   if (kind === 'word') return t('event.word', { text: values.text || '' }) + by;
+  if (kind === 'call') return t('event.call', { what: [values.name, values.node, ...Object.entries(values).filter(([name]) => !['name', 'node', 'by'].includes(name)).map((pair) => pair.join(' '))].filter(Boolean).join(' ') }) + by;
   if (kind === 'rating') return t('event.rating', { value: values.value || '' }) + by;
   if (kind === 'collision') return t(values.what ? 'event.collision' : 'event.collision_somebody', { what: heard(values.what || ''), kmh: kmh_of(values.closing_speed_mps || 0) });
   if (kind === 'crash') return crash_words(values);
@@ -60,7 +61,7 @@ function log(event, is_mine) {
   const line = document.createElement('li'), time = document.createElement('time'), words = document.createElement('span');
   time.textContent = event.sim_s === undefined || event.sim_s === null ? t('shell.now') : `${figure(event.sim_s, 1)} s`;
   words.textContent = event.kind ? event_words(event) : event.text;
-  if (is_mine || ['mark', 'operator', 'word', 'rating'].includes(event.kind)) words.className = 'mine';
+  if (is_mine || ['mark', 'operator', 'call', 'word', 'rating'].includes(event.kind)) words.className = 'mine';
   line.append(time, words);
   $('events').prepend(line);
   while ($('events').children.length > 300) $('events').lastChild.remove();

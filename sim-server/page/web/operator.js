@@ -40,6 +40,10 @@ $('wordform').onsubmit = (event) => {
   command({ do: 'say', text: $('word').value, language, aloud: $('aloud').checked && hello.speaks });
   $('word').value = '';
 };
+$('commandform').onsubmit = (event) => {
+  event.preventDefault();
+  if ($('command').value.trim()) change($('command').value.trim());
+};
 $('trafficform').onsubmit = (event) => {
   event.preventDefault();
   change(`traffic vehicles=${Math.max(0, Math.min(3000, Math.round(+$('vehicles').value || 0)))}`);

@@ -6,7 +6,9 @@
 
 #include "command-line/command/replay_command.hpp"
 #include "engine/simulation/operator_command.hpp"
+#include "engine/world/call.hpp"
 #include "logging/session/session_reader.hpp"
+#include "logging/session/sqlite_database.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/session_log.hpp"
@@ -125,6 +127,31 @@ TEST_CASE("a drive with an operator's commands is verified from its start and fr
   for (std::size_t i = 0; i < commands.size(); ++i)
     CHECK(logged[i].starts_with(fmt::format("{} {}", commands[i].first + 1,
                                             commands[i].second == place_ahead ? "place x_m=" : commands[i].second)));
+}
+
+TEST_CASE("a call changes no hash, is told as an event of its tick, is verified, and one that was altered is found") {
+  const septet::TemporaryFolder plain, called;
+  const auto hash = drive_with({{60, "call name=lift node=stimuli/barrier seconds=3 by=lab"}}, 90, called.path());
+  CHECK(hash == drive_with({}, 90, plain.path()));
+  const auto session = called.path() / "session.sqlite";
+  const auto verified = run_verify(session, 0.0);
+  REQUIRE_MESSAGE(verified.has_value(), why_not(verified));
+  const auto events = logging::SessionReader::open(session)->events();
+  REQUIRE(events.has_value());
+  const auto told = std::ranges::find(*events, call_event, &logging::Event::kind);
+  REQUIRE(told != events->end());
+  CHECK(told->tick == 61);
+  CHECK(told->detail == "name=lift node=stimuli/barrier seconds=3 by=lab");
+  {
+    auto database = logging::Database::open(session, logging::OpenMode::change);
+    REQUIRE(database.has_value());
+    auto statement = database->prepare("UPDATE events SET detail = replace(detail, 'seconds=3', 'seconds=4')");
+    REQUIRE(statement.has_value());
+    REQUIRE(statement->run().has_value());
+  }
+  const auto altered = run_verify(session, 0.0);
+  REQUIRE_FALSE(altered.has_value());
+  CHECK(altered.error().what.find("calls are not those that were made") != std::string::npos);
 }
 
 TEST_CASE("a drive with a solid is verified from its start and from a state kept while it stands") {

@@ -270,6 +270,52 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         assert "may look, not edit" in refused(lambda: reader.get("stimuli/ball").remove()).why
 
 
+def call_and_listen(host: str, port: int, keys: pathlib.Path) -> None:
+    """Who listens hears each call that is meant, in a thread that may change the world; who may not operate may not call."""
+    heard: queue.Queue = queue.Queue()
+    with septet.connect(host, port, keys / "desk/desk.key") as desk:
+        gate = desk.add("stimuli/gate")
+        tree = desk.find("tree/*")[0]
+        @desk.on_call("open", node=gate)
+        def open_gate(call: septet.Call) -> None:
+            with desk.batch():
+                gate.visible = False
+            heard.put((call, gate.visible))
+            desk.call("opened", gate)
+        desk.on_call()(lambda call: heard.put((call, None)))
+        with septet.connect(host, port, keys / "lab/lab.key") as lab:
+            at = lab.call("open", node="stimuli/gate", words="a b=c", seconds=3)
+            lab.call("close")
+            lab.call("open", node=tree)
+            assert "no node" in (why := refused(lambda: lab.operate("call name=open node=nowhere")).why), why
+            assert "a node that exists" in (why := refused(lambda: lab.call("open", node="nowhere")).why), why
+            assert "not printed" in (why := refused(lambda: lab.call("open", words="\n")).why), why
+            assert "names of parameters" in (why := refused(lambda: lab.call("open", by="somebody")).why), why
+        told = [heard.get(timeout=60) for _ in range(5)]
+        assert [(call.name, call.node, call.by) for call, seen in told if seen is None] == [
+            ("open", "stimuli/gate", "lab"), ("close", None, "lab"), ("open", tree.name, "lab"), ("opened", "stimuli/gate", "desk")], told
+        ((first, seen),) = [one for one in told if one[1] is not None]
+        assert not seen and first.parameters == {"words": "a b=c", "seconds": "3"} and first.tick == at + 1, (first, at)
+        gate.remove()
+    with septet.connect(host, port, keys / "guest/guest.key") as guest:
+        assert "may not operate" in refused(lambda: guest.call("open")).why
+
+
+def lift_the_barrier(host: str, port: int, keys: pathlib.Path) -> None:
+    """The barrier of the samples is lifted by another script's call."""
+    script = subprocess.Popen([sys.executable, str(root / "samples/scripts/barrier.py"), str(keys / "lab"), "8"], stdout=subprocess.PIPE, text=True)
+    with septet.connect(host, port, keys / "desk/desk.key") as desk:
+        while not desk.find("stimuli/arm"):
+            time.sleep(0.1)
+        hinge = desk.get("stimuli/hinge")
+        assert hinge.wxyz == (1, 0, 0, 0), hinge.wxyz
+        desk.call("lift", "stimuli/barrier", degrees=90)
+        assert script.stdout.readline().startswith("lifted for desk at "), script.poll()
+        while abs(desk.get("stimuli/hinge").wxyz[1] - 0.5**0.5) > 1e-9:
+            time.sleep(0.1)
+    assert script.wait(120) == 0
+
+
 every_tick_that_is_missed_is_stood_in_for()
 events_of_ticks_that_a_slow_script_misses_go_to_the_next_and_are_bounded()
 heard_by: list = []
@@ -290,9 +336,11 @@ with tempfile.TemporaryDirectory() as name:
         assert ready.startswith("ready "), (ready, (folder / "server.log").read_text())
         port = ready.split()[1]
         use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
+        call_and_listen("127.0.0.1", int(port), keys)
         ended_at = end_lifetimes("127.0.0.1", int(port), keys, folder / "ball.glb")
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
         glb = str(folder / "ball.glb")
+        lift_the_barrier("127.0.0.1", int(port), keys)
         said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
         for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["9"]), ("repaint_traffic.py", []),
                              ("log_gaze.py", [str(folder / "gaze.csv"), "4"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),

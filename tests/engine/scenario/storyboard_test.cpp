@@ -306,4 +306,22 @@ TEST_CASE("the road's condition brings wetness and lying snow and a scale of all
   CHECK(std::get<EnvironmentAction>(drive.scenario.init.front().what).frost == 1.0);
 }
 
+TEST_CASE("an event of the storyboard calls, in its own name, and Init may not") {
+  const auto calling = [](const std::string& text) {
+    return "<UserDefinedAction><CustomCommandAction type=\"septet:call\">" + text +
+           "</CustomCommandAction></UserDefinedAction>";
+  };
+  Drive drive(scenario_text(
+      two_cars, story_text(event_text("e", calling("name=lift node=stimuli/barrier seconds=3"), at_time(0.5)))));
+  std::vector<Call> calls;
+  while (drive.state.time_s < 2.0) {
+    const StepResult result = advance_scenario(drive.scenario, drive.network, 0.01, drive.state);
+    calls.insert(calls.end(), result.calls.begin(), result.calls.end());
+  }
+  CHECK(calls == std::vector{Call{"lift", "stimuli/barrier", {{"seconds", "3"}}, "storyboard"}});
+  for (const std::string& text : {scenario_text(two_cars + calling("name=lift"), ""),
+                                  scenario_text(two_cars, story_text(event_text("e", calling("lift"), at_time(0.5))))})
+    CHECK_FALSE(read_scenario(text, "test.xosc", files_in(".")).has_value());
+}
+
 }  // namespace septet::scenario

@@ -18,7 +18,8 @@ TEST_CASE("an operator's command comes back from its text to the last bit") {
         OperatorCommand(PlacePart{"traffic-cone", 1.0 / 3.0, -1e6 / 7.0}), OperatorCommand(RemovePiece{4294967295u}),
         OperatorCommand(ShowEntity{"a b = c", false}), OperatorCommand(ShowEntity{"place", true}),
         OperatorCommand(SetFault{0, true}), OperatorCommand(SetFault{fault_names().size() - 1, false}),
-        OperatorCommand(PutCar{1.0 / 3.0, -1e6 / 7.0, -0.1, 13.7})}) {
+        OperatorCommand(PutCar{1.0 / 3.0, -1e6 / 7.0, -0.1, 13.7}),
+        OperatorCommand(Call{"lift", "a b = c", {{"words", "please wait"}}, "lab"})}) {
     const auto read = parse_operator_command(text_of(command));
     REQUIRE(read.has_value());
     CHECK(*read == command);
@@ -71,6 +72,10 @@ TEST_CASE("what is no command, or asks for what is out of range, is refused") {
                            "put x_m=1 y_m=2 heading_rad=0 speed_mps=0 x",
                            "put x_m=inf y_m=2 heading_rad=0 speed_mps=0",
                            "put y_m=1 x_m=2 heading_rad=0 speed_mps=0",
+                           "call",
+                           "call ",
+                           "call lift",
+                           "call node=x",
                            "conditions friction_scale=0"})
     CHECK_MESSAGE(!parse_operator_command(text).has_value(), text);
 }
