@@ -27,6 +27,7 @@
 #include "sim-server/drive/driver_word.hpp"
 #include "sim-server/drive/opened_drive.hpp"
 #include "sim-server/drive/operator_desk.hpp"
+#include "sim-server/drive/world_gate.hpp"
 #include "sim-server/host/serve.hpp"
 
 namespace septet::server {
@@ -72,9 +73,9 @@ ServeOptions serve_options(const ServerOptions& options, const OpenedDrive& driv
 }
 
 Expected<std::unique_ptr<OperatorDesk>> open_desk(const ServerOptions& options, const OpenedDrive& drive,
-                                                  program::ProgressLine& line) {
-  if (!drive.live) return failure("a session that is shown again has no operator", "--page", "leave --page away");
-  auto desk = OperatorDesk::open(options, drive.loaded, drive.store, *drive.live);
+                                                  WorldGate* gate, program::ProgressLine& line) {
+  if (!gate) return failure("a session that is shown again has no operator", "--page", "leave --page away");
+  auto desk = OperatorDesk::open(options, drive.loaded, *gate);
   if (!desk) return desk;
   line.message("operator's page: " + (*desk)->url());
   if (!(*desk)->speaks()) line.message("espeak-ng is not installed: a word to the student is text alone");
@@ -83,6 +84,7 @@ Expected<std::unique_ptr<OperatorDesk>> open_desk(const ServerOptions& options, 
 
 /// The list of attendants, in the order in which they begin, and the two that the program uses directly.
 struct Attendance {
+  std::unique_ptr<WorldGate> gate;  ///< Outlives the attendants; null: a replay.
   Attendants list;
   Screens* screens = nullptr;  ///< Null: no screens.
   DriveLog* log = nullptr;     ///< Null: a replay.
@@ -101,22 +103,24 @@ Expected<Attendance> gather(const ServerOptions& options, const ServeOptions& se
   ScreenHost* host = screens ? &screens->host() : nullptr;
   const rig::Rig& rig = drive.loaded.rig;
   if (drive.live) {
+    all.gate = std::make_unique<WorldGate>(drive);
     auto log = std::make_unique<DriveLog>(options, drive.loaded, drive.store, *drive.live, host, line);
     all.log = log.get();
     all.list.push_back(std::move(log));
   }
   all.list.push_back(std::make_unique<Console>(line, drive.live, host != nullptr));
   if (options.page_port) {
-    auto desk = open_desk(options, drive, line);
+    auto desk = open_desk(options, drive, all.gate.get(), line);
     if (!desk) return tl::unexpected(desk.error());
     all.list.push_back(std::make_unique<Desk>(std::move(*desk), *all.log, host));
   }
   if (rig.sound && !options.no_sound && !options.lockstep && host)
     all.list.push_back(std::make_unique<Sound>(
         SoundSources{rig, drive.loaded.model, drive.session ? &*drive.session : nullptr, drive.store}, drive.live));
+  if (screens) all.list.push_back(std::make_unique<OperatorLines>(drive, *host, all.log, all.gate.get()));
+  if (screens || drive.live)
+    all.list.push_back(std::make_unique<SceneEdits>(drive, host, all.log, all.gate.get(), options.save));
   if (screens) {
-    all.list.push_back(std::make_unique<OperatorLines>(drive, *host, all.log));
-    all.list.push_back(std::make_unique<SceneEdits>(drive, *host, all.log, options.save));
     all.list.push_back(std::make_unique<AllowedList>(options.keys / "allowed-clients", *host));
     all.screens = screens.get();
     all.list.push_back(std::move(screens));

@@ -487,6 +487,13 @@ class World:
         """`with world.batch():` makes the changes within together; with a tick, from that one on, and waits for no answer."""
         return Batch(self, at_tick)
 
+    def undo(self) -> int:
+        """Takes back this key's newest batch that is not undone, of an earlier connection too; the first tick that shows it.
+
+        Raises Refused where there is none, or somebody else has changed one of its things since. Handles do not notice it.
+        """
+        return self._ask(["undo"]).result(60.0)
+
     def save(self, file: Path) -> None:
         """Writes what differs from the world as it was when this script came, for `septet drive --edits`."""
         self._ask([f"save {_word(os.path.abspath(file))}"]).result(60.0)

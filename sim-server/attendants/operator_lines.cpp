@@ -21,19 +21,24 @@ std::optional<std::string_view> behind(std::string_view line, std::string_view w
 
 }  // namespace
 
-void OperatorLines::before_tick(const Moment&) {
+void OperatorLines::before_tick(const Moment& moment) {
   if (pauser_ && !host_.has(pauser_->client)) go_on(pauser_->name);
-  for (const OperatorRequest& request : host_.take_operator_requests())
-    host_.answer(request, fulfil(request), drive_.live ? drive_.live->state().tick : 0);
+  const Tick from = gate_ ? gate_->shown_from(moment.doing) : 0;
+  for (const OperatorRequest& request : host_.take_operator_requests()) {
+    const auto why_not = fulfil(request, from);
+    host_.answer(request, why_not, request.line == "undo" ? from : drive_.live ? drive_.live->state().tick : 0);
+  }
 }
 
 void OperatorLines::after_tick(const std::shared_ptr<const TakenSnapshot>&, double) {
   if (ticks_to_go_ > 0) --ticks_to_go_;
 }
 
-std::optional<std::string> OperatorLines::fulfil(const OperatorRequest& request) {
-  if (!drive_.live || !log_) return "a session that is shown again cannot be operated";
-  if (!host_.rights_of(request.name).may_operate) return "the right to operate was taken from this key";
+std::optional<std::string> OperatorLines::fulfil(const OperatorRequest& request, Tick from) {
+  if (!gate_ || !log_) return "a session that is shown again cannot be operated";
+  const net::Rights rights = host_.rights_of(request.name);
+  if (!rights.may_operate && !(request.line == "undo" && rights.edit))
+    return "the right to do this was taken from this key";
   const std::string_view line = request.line;
   if (const auto text = behind(line, "mark")) {
     note(request.name, "mark", *text);
@@ -49,7 +54,9 @@ std::optional<std::string> OperatorLines::fulfil(const OperatorRequest& request)
     if (!pauser_) return "no line has paused the drive";
     go_on(request.name);
   } else {
-    const auto done = do_command(line, request.name, drive_.store, *drive_.live);
+    Author author{request.name, std::nullopt};
+    if (rights.edit) author.editor = Editor{request.name, *rights.edit, 0};
+    const auto done = do_command(line, author, from, *gate_);
     if (!done) return done.error().what;
     if (!done->empty()) note(request.name, "operator", *done);
   }

@@ -1,17 +1,16 @@
 #include "sim-server/attendants/scene_edits.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <span>
 #include <utility>
+#include <variant>
 
 #include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/document/text_file.hpp"
 #include "engine/scene/edit_file.hpp"
-#include "engine/simulation/model.hpp"
 #include "program/console.hpp"
-#include "sim-server/drive/motion_times.hpp"
+#include "sim-server/drive/operated.hpp"
 
 namespace septet::server {
 namespace {
@@ -23,32 +22,49 @@ std::size_t bytes_of(const SceneRequest& request) {
   return request.batch.bytes + request.batch.changes.size() * sizeof(scene::Command);
 }
 
-}  // namespace
-
-/// What the scene makes of the simulation: commands that were found possible, so none is refused.
-void SceneEdits::execute(const std::vector<simulation::OperatorCommand>& commands) {
-  for (const simulation::OperatorCommand& command : commands)
-    if (const auto done = drive_.live->command(command); !done) messages_.push_back(describe(done.error()));
+/// Things whose time is over are removed at a tick that was named ahead; that is not the newest thing an editor did.
+bool is_end_of_lifetime(const SceneRequest& request) {
+  return request.batch.tick > 0 && std::ranges::all_of(request.batch.changes, [](const scene::Command& command) {
+           return std::holds_alternative<scene::NodeDestroy>(command);
+         });
 }
 
+}  // namespace
+
 Expected<void> SceneEdits::begin() {
-  if (!drive_.live) return {};
-  SolidChange solids = solids_.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_);
-  execute(solids.commands);
-  solids_.take_over(std::move(solids));
-  execute(drive_.standing.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_));
+  if (!gate_) return {};
+  if (log_) gate_->log_to(log_->session());
+  if (host_) gate_->tell([this](const scene::Command& command, Tick from) { host_->scene_changed(command, from); });
+  gate_->begin();
   return {};
 }
 
+std::vector<std::string> SceneEdits::take_messages() {
+  auto messages = std::exchange(messages_, {});
+  if (gate_)
+    for (std::string& message : gate_->take_messages()) messages.push_back(std::move(message));
+  return messages;
+}
+
 void SceneEdits::before_tick(const Moment& moment) {
-  // A world that stands still shows its tick on, with the changes.
-  const Tick from = drive_.live ? drive_.live->state().tick + (moment.doing == "driving" ? 1 : 0) : 0;
-  for (SceneRequest& request : host_.take_scene_requests()) {
-    if (!drive_.live) {
-      host_.refuse_scene(request, "a session that is shown again cannot be changed: edit a drive", moment.now_s);
+  if (gate_) carry_out_storyboard(gate_->shown_from(moment.doing));
+  if (host_) take_requests(gate_ ? gate_->shown_from(moment.doing) : 0, moment.now_s);
+}
+
+void SceneEdits::carry_out_storyboard(Tick from) {
+  for (const std::string& line : drive_.live->take_scene_lines())
+    if (const auto done = gate_->make_line(the_storyboard(), line, from); !done)
+      messages_.push_back(fmt::format("the storyboard's change of the scene is refused ({}): {}", printable(line, 200),
+                                      describe(done.error())));
+}
+
+void SceneEdits::take_requests(Tick from, double now_s) {
+  for (SceneRequest& request : host_->take_scene_requests()) {
+    if (!gate_) {
+      host_->refuse_scene(request, "a session that is shown again cannot be changed: edit a drive", now_s);
     } else if (bytes_ahead_ + bytes_of(request) > most_bytes_ahead) {
-      host_.refuse_scene(request, "the changes of later ticks fill their queue: send these when it is their time",
-                         moment.now_s);
+      host_->refuse_scene(request, "the changes of later ticks fill their queue: send these when it is their time",
+                          now_s);
     } else {
       bytes_ahead_ += bytes_of(request);
       const Tick tick = std::max(request.batch.tick, from);
@@ -59,42 +75,18 @@ void SceneEdits::before_tick(const Moment& moment) {
     SceneRequest request = std::move(ahead_.begin()->second);
     ahead_.erase(ahead_.begin());
     bytes_ahead_ -= bytes_of(request);
-    make(std::move(request), from, moment.now_s);
+    make(std::move(request), from, now_s);
   }
 }
 
 void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
   // The list may have changed since it was asked for.
-  const auto rights = host_.rights_of(request.editor.name).edit;
-  if (!rights) return host_.refuse_scene(request, "the right to edit was taken from this key", now_s);
-  put_true_times(drive_.store, request.batch.changes, static_cast<double>(from) / simulation::tick_rate_hz);
-  const auto left = without_gone(drive_.store, request.batch.changes, request.editor.own_ids);
-  const std::span<const scene::Command> changes = left ? left->commands : request.batch.changes;
+  const auto rights = host_->rights_of(request.editor.name).edit;
+  if (!rights) return host_->refuse_scene(request, "the right to edit was taken from this key", now_s);
   const Editor editor{request.editor.name, *rights, request.editor.own_ids};
-  SolidChange solids;
-  std::vector<simulation::OperatorCommand> standing;
-  const auto accept = [&]() -> std::optional<replication::Failure> {
-    auto change = solids_.change(drive_.store, changes, editor, *drive_.loaded.model, drive_.live->state());
-    if (!change) return change.error();
-    auto shown = drive_.standing.change(drive_.store, changes, *drive_.loaded.model, drive_.live->state());
-    if (!shown) return shown.error();
-    solids = std::move(*change);
-    standing = std::move(*shown);
-    return std::nullopt;
-  };
-  auto refused = pass_gate(
-      drive_.store, changes, editor, makers_,
-      [&](const scene::Command& command) { host_.scene_changed(command, from); }, accept);
-  if (refused) {
-    if (left)
-      for (replication::Failure& failed : refused->failures) failed.index = left->places[failed.index];
-    return host_.refuse_scene(request, std::move(*refused), now_s);
-  }
-  execute(solids.commands);
-  solids_.take_over(std::move(solids));
-  execute(standing);
-  host_.scene_done(request, from);
-  if (log_) log_->session().record_edits(from, changes);
+  if (auto refused = gate_->make(editor, request.batch.changes, from, !is_end_of_lifetime(request)))
+    return host_->refuse_scene(request, std::move(*refused), now_s);
+  host_->scene_done(request, from);
 }
 
 void SceneEdits::close(ServeResult&) {
@@ -107,8 +99,9 @@ void SceneEdits::close(ServeResult&) {
 void SceneEdits::after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double) {
   if (!drive_.recorded_scene) return;
   const Tick now = tick->snapshot().tick;
-  const auto shown = drive_.recorded_scene->advance(
-      now, drive_.store, [&](const scene::Command& command) { host_.scene_changed(command, now); });
+  const auto shown = drive_.recorded_scene->advance(now, drive_.store, [&](const scene::Command& command) {
+    if (host_) host_->scene_changed(command, now);
+  });
   if (shown) return;
   messages_.push_back(describe(shown.error()));
   drive_.recorded_scene.reset();

@@ -1,7 +1,7 @@
 #pragma once
-/// Changes of the scene that clients with the right to edit ask for: passed through the gate before each tick, sent to all
-/// screens and logged; or kept until the tick that a client named, in a queue of bounded size. A session that is shown
-/// again shows its own changes at their ticks, and takes none.
+/// Changes of the scene that clients with the right to edit, or the storyboard, ask for: passed through the drive's gate
+/// (drive/world_gate.hpp) before each tick and sent to all screens; or kept until the tick that a client named, in a queue
+/// of bounded size. A session that is shown again shows its own changes at their ticks, and takes none.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,8 +13,7 @@
 
 #include "sim-server/attendants/drive_log.hpp"
 #include "sim-server/drive/opened_drive.hpp"
-#include "sim-server/drive/scene_gate.hpp"
-#include "sim-server/drive/solid_things.hpp"
+#include "sim-server/drive/world_gate.hpp"
 #include "sim-server/host/attendant.hpp"
 #include "sim-server/host/screen_host.hpp"
 
@@ -22,26 +21,27 @@ namespace septet::server {
 
 class SceneEdits final : public Attendant {
  public:
-  /// All arguments outlive it. `log`: null in a replay. `save`: file for what differs from the generated world; empty: none.
-  SceneEdits(OpenedDrive& drive, ScreenHost& host, DriveLog* log, std::filesystem::path save)
-      : drive_(drive), host_(host), log_(log), save_(std::move(save)) {}
+  /// All arguments outlive it. `host`: null without screens. `log` and `gate`: null in a replay. `save`: file for what differs
+  /// from the generated world; empty: none.
+  SceneEdits(OpenedDrive& drive, ScreenHost* host, DriveLog* log, WorldGate* gate, std::filesystem::path save)
+      : drive_(drive), host_(host), log_(log), gate_(gate), save_(std::move(save)) {}
 
   Expected<void> begin() override;
   void before_tick(const Moment& moment) override;
   void after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double shaking_share) override;
-  std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
+  std::vector<std::string> take_messages() override;
   void close(ServeResult& result) override;
 
  private:
   void make(SceneRequest request, Tick from, double now_s);
-  void execute(const std::vector<simulation::OperatorCommand>& commands);
+  void carry_out_storyboard(Tick from);
+  void take_requests(Tick from, double now_s);
 
   OpenedDrive& drive_;
-  ScreenHost& host_;
+  ScreenHost* host_;
   DriveLog* log_;
+  WorldGate* gate_;
   std::filesystem::path save_;
-  NodeMakers makers_;
-  SolidThings solids_;
   std::multimap<Tick, SceneRequest> ahead_;  ///< By the tick that is to show them first.
   std::size_t bytes_ahead_ = 0;
   std::vector<std::string> messages_;

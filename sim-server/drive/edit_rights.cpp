@@ -42,8 +42,12 @@ bool BatchRights::is_own(scene::NodeId node) const {
 std::optional<std::string> BatchRights::refusal(const scene::NodeCreate& create) {
   if (!editor_.rights.includes(EditKind::create))
     return fmt::format("the key of {} may not create: its line in allowed-clients needs the word create", editor_.name);
-  if (editor_.own_ids == 0 || create.node < editor_.own_ids ||
-      create.node - editor_.own_ids >= replication::ids_per_session)
+  if (returned_ && returned_->contains(create.node)) {
+    created_.insert(create.node);
+    return std::nullopt;
+  }
+  if (editor_.own_ids == 0) return "nothing can be created from here: let `septet edit` or a script create it";
+  if (create.node < editor_.own_ids || create.node - editor_.own_ids >= replication::ids_per_session)
     return fmt::format("node {} is not one of this editor's ids: use {} to {}", create.node, editor_.own_ids,
                        editor_.own_ids + replication::ids_per_session - 1);
   created_.insert(create.node);

@@ -14,9 +14,9 @@ namespace septet::server {
 /// Reads the commands of one batch in their order, before any is applied.
 class BatchRights {
  public:
-  /// All arguments outlive it.
-  BatchRights(const scene::Store& store, const Editor& editor, const NodeMakers& makers)
-      : store_(store), editor_(editor), makers_(makers) {}
+  /// All arguments outlive it. `returned`: nodes that may be created again; null: none.
+  BatchRights(const scene::Store& store, const Editor& editor, const NodeMakers& makers, const NodeMakers* returned)
+      : store_(store), editor_(editor), makers_(makers), returned_(returned) {}
 
   /// The reason why the next command may not be done. A node that is not there is the store's to refuse.
   std::optional<std::string> refusal(const scene::Command& command);
@@ -30,6 +30,7 @@ class BatchRights {
   const scene::Store& store_;
   const Editor& editor_;
   const NodeMakers& makers_;
+  const NodeMakers* returned_;
   std::set<scene::NodeId> created_;  ///< By earlier commands of the batch.
 };
 

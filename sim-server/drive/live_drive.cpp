@@ -12,6 +12,7 @@
 #include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/examiner.hpp"
 #include "engine/simulation/saved_state.hpp"
+#include "engine/world/scene_call.hpp"
 #include "sim-server/drive/car_motion.hpp"
 #include "sim-server/drive/kept_state.hpp"
 #include "sim-server/drive/natural_end.hpp"
@@ -297,6 +298,8 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   for (const auto& event : events)
     if (event.kind == "traffic")
       messages_.push_back("the road holds another number of vehicles than the swarm was asked for: " + event.detail);
+  for (const auto& event : events)
+    if (auto line = scene_line_of(event.kind, event.detail)) scene_lines_.push_back(std::move(*line));
   word_.take(newest_->snapshot(), events);
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));

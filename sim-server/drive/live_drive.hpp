@@ -64,6 +64,8 @@ class LiveDrive final : public TickSource {
   /// Instructor's brake, 0 to 1, until the next call: from the next tick on, the driver's input brakes at least that
   /// much and does not accelerate. The log has the resulting input.
   void brake(double share) { instructor_brake_ = share; }
+  /// Changes of the scene that the storyboard has asked for since the last call, each a line of engine/scene/command_text.hpp.
+  std::vector<std::string> take_scene_lines() { return std::exchange(scene_lines_, {}); }
   const simulation::State& state() const { return state_; }
   /// Reports a fault outside the ticks (the sound has stopped): fan, shaker and wheel force fall to 0 until somebody
   /// re-arms them.
@@ -125,7 +127,7 @@ class LiveDrive final : public TickSource {
   std::optional<DriverInput> found_;  ///< The device's controls before anybody touched them.
   double device_from_drive_s_;  ///< Device clock, which starts with the wait for the driver, minus simulated time.
   std::optional<logging::DriveEnd> end_;
-  std::vector<std::string> messages_;
+  std::vector<std::string> messages_, scene_lines_;
   MessageLimit limit_;  ///< For messages caused by the device.
 };
 

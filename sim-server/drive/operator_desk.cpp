@@ -80,7 +80,8 @@ std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) 
 }  // namespace
 
 Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& options, const LoadedDrive& loaded,
-                                                           const scene::Store& scene, LiveDrive& drive) {
+                                                           WorldGate& gate) {
+  const LiveDrive& drive = gate.drive();
   page::PageOptions page_options{.port = static_cast<std::uint16_t>(options.page_port.value_or(0)),
                                  .allowed_hosts = options.page_hosts};
   if (options.page_handover) {
@@ -99,8 +100,8 @@ Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& 
   if (!no_restart) facts.kept_states = {drive.state().time_s(), state_kept_every_s};
   auto page = page::OperatorPage::open(std::move(page_options), std::move(facts), loaded.model->roads);
   if (!page) return tl::unexpected(page.error());
-  std::unique_ptr<OperatorDesk> desk(new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson),
-                                                      std::move(speaker), loaded, scene, drive));
+  std::unique_ptr<OperatorDesk> desk(
+      new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson), std::move(speaker), loaded, gate));
   desk->no_restart_ = std::move(no_restart);
   return desk;
 }
@@ -141,6 +142,7 @@ void OperatorDesk::attend(const std::shared_ptr<const TakenSnapshot>& newest, co
                           const std::vector<HostedScreen>& screens, double now_s) {
   newest_ = newest ? newest : drive_.first();
   now_s_ = now_s;
+  from_ = gate_.shown_from(what);
   if (brake_until_s_ && now_s > *brake_until_s_) hold_brake({}, false);
   if (const auto trouble = speaker_.attend(); trouble && log_) log_->record_message("screen", *trouble);
   for (const auto& wish : page_->take_wishes()) page_->answer(wish, fulfil(wish));
@@ -287,7 +289,7 @@ std::optional<std::string> OperatorDesk::rate(const page::OperatorWish& wish, in
 }
 
 std::optional<std::string> OperatorDesk::change(const page::OperatorWish& wish, const std::string& text) {
-  const auto done = do_command(text, wish.name, scene_, drive_);
+  const auto done = do_command(text, {wish.name, the_page()}, from_, gate_);
   if (!done) return done.error().what;
   if (!done->empty()) note(wish, "operator", *done);
   return std::nullopt;

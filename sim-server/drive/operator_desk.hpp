@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/store.hpp"
 #include "logging/session/drive_end.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_rating.hpp"
@@ -19,6 +18,7 @@
 #include "sim-server/drive/session_log.hpp"
 #include "sim-server/drive/speaker.hpp"
 #include "sim-server/drive/way_back.hpp"
+#include "sim-server/drive/world_gate.hpp"
 #include "sim-server/host/screen_host.hpp"
 #include "sim-server/page/operator_page.hpp"
 
@@ -26,9 +26,9 @@ namespace septet::server {
 
 class OperatorDesk {
  public:
-  /// Opens the page. `loaded`, `scene` and `drive` outlive the desk. Error: the port is not available.
+  /// Opens the page. `loaded` and `gate` outlive the desk. Error: the port is not available.
   static Expected<std::unique_ptr<OperatorDesk>> open(const ServerOptions& options, const LoadedDrive& loaded,
-                                                      const scene::Store& scene, LiveDrive& drive);
+                                                      WorldGate& gate);
 
   const std::string& url() const { return page_->url(); }
   /// `log` outlives the desk; its events are shown on the page.
@@ -56,16 +56,15 @@ class OperatorDesk {
 
  private:
   OperatorDesk(std::unique_ptr<page::OperatorPage> page, std::optional<DriverRating> rating,
-               std::unique_ptr<LessonWatch> lesson, Speaker speaker, const LoadedDrive& loaded,
-               const scene::Store& scene, LiveDrive& drive)
+               std::unique_ptr<LessonWatch> lesson, Speaker speaker, const LoadedDrive& loaded, WorldGate& gate)
       : page_(std::move(page)),
         rating_(std::move(rating)),
         speaker_(std::move(speaker)),
         lesson_(std::move(lesson)),
         loaded_(loaded),
-        scene_(scene),
-        drive_(drive),
-        begun_s_(drive.state().time_s()) {}
+        gate_(gate),
+        drive_(gate.drive()),
+        begun_s_(gate.drive().state().time_s()) {}
   std::optional<std::string> fulfil(const page::OperatorWish& wish);
   std::optional<std::string> change(const page::OperatorWish& wish, const std::string& command);
   void note(const page::OperatorWish& wish, const std::string& kind, const std::string& what);
@@ -91,8 +90,9 @@ class OperatorDesk {
   std::shared_ptr<const std::string> seen_ahead_;  ///< Newest picture of the screen ahead, handed to the lesson.
   std::vector<std::shared_ptr<const std::string>> large_pictures_;  ///< Newest one of each screen.
   const LoadedDrive& loaded_;
-  const scene::Store& scene_;
+  WorldGate& gate_;
   LiveDrive& drive_;
+  Tick from_ = 0;                          ///< First tick that shows what is done now.
   double begun_s_;                         ///< Simulated; not 0 where the drive began at a kept state.
   std::optional<std::string> no_restart_;  ///< Reason for the refusal of a restart (why_no_restart).
   std::optional<double> restart_at_s_;

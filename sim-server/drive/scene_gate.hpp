@@ -34,10 +34,13 @@ std::optional<LeftOfBatch> without_gone(const scene::Store& store, std::span<con
 /// Checks a batch of an editor against its rights and applies it to the store, whole or not at all. An id of its own that
 /// was used and destroyed may be used again. `accept` sees the store with the batch, and may refuse it still; empty:
 /// nothing more is asked. `applied` is called for each command, in order, once all are applied. Of a batch that is
-/// refused every command is checked, and each failure answered (batch_failures.hpp).
+/// refused every command is checked, and each failure answered (batch_failures.hpp). `returned`: nodes that the batch may
+/// create again, with their makers (nobody: the world had them). `inverse`: receives the commands that undo it.
 std::optional<replication::Refusal> pass_gate(scene::Store& store, std::span<const scene::Command> batch,
                                               const Editor& editor, NodeMakers& makers,
                                               const std::function<void(const scene::Command&)>& applied,
-                                              const std::function<std::optional<replication::Failure>()>& accept = {});
+                                              const std::function<std::optional<replication::Failure>()>& accept = {},
+                                              const NodeMakers* returned = nullptr,
+                                              std::vector<scene::Command>* inverse = nullptr);
 
 }  // namespace septet::server

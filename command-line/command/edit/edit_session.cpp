@@ -16,30 +16,15 @@
 #include "engine/document/text_file.hpp"
 #include "engine/scene/command_validation.hpp"
 #include "engine/scene/edit_file.hpp"
-#include "engine/scene/inverse.hpp"
 #include "engine/world/call.hpp"
 
 namespace septet::server {
 namespace {
 
-constexpr std::size_t most_undone = 100;
-
 std::string_view first_word(std::string_view line) {
   const auto begin = line.find_first_not_of(" \t");
   if (begin == std::string_view::npos) return {};
   return line.substr(begin, line.find_first_of(" \t", begin) - begin);
-}
-
-/// The commands that undo a batch, by the nodes that it touches alone; none where it cannot be done.
-std::vector<scene::Command> undo_of(const scene::Store& store, const std::vector<scene::Command>& batch) {
-  std::set<scene::NodeId> touched;
-  for (const scene::Command& command : batch) touched.insert(scene::node_of(command));
-  scene::Store some;
-  for (const scene::NodeId id : touched)
-    if (const scene::Node* node = store.find(id))
-      scene::describe_node(*node, [&](const scene::Command& command) { (void)some.apply(command); });
-  auto undo = scene::apply_whole(some, batch);
-  return undo ? std::move(*undo) : std::vector<scene::Command>{};
 }
 
 /// True if the line would have made the thing that its second word names.
@@ -143,9 +128,7 @@ void EditSession::send(Batch batch) {
     if (!batch.was_asked) return output_.message(describe(number.error()));
     return refuse(request, batch.lines.empty() ? "" : batch.lines.front(), describe(number.error()));
   }
-  std::vector<scene::Command> undo;
-  if (batch.may_be_undone) undo = undo_of(client_.store(), batch.commands);
-  waiting_.emplace(*number, Waiting{request, std::move(batch), std::move(undo)});
+  waiting_.emplace(*number, Waiting{request, std::move(batch)});
 }
 
 void EditSession::forget_created(const Batch& batch) {
@@ -195,8 +178,6 @@ void EditSession::hear() {
       continue;
     }
     end_lifetimes(batch, answer.tick);
-    if (!waiting.undo.empty()) undo_.push_back(waiting.undo);
-    if (undo_.size() > most_undone) undo_.erase(undo_.begin());
     output_.done(waiting.request, answer.tick, batch.messages);
   }
   for (const control::OperatorAnswer& answer : client_.take_operator_answers()) {
@@ -265,7 +246,7 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
   } else if (verb == "export") {
     export_model(++requests_, line, words);
   } else if (verb == "undo") {
-    undo();
+    operate(++requests_, line, "undo");
   } else if (verb == "operate") {
     operate(line);
   } else if (verb == "call") {
@@ -306,17 +287,6 @@ void EditSession::export_model(std::uint64_t request, const std::string& line,
   }
   if (!written) return refuse(request, line, describe(written.error()));
   output_.done(request, 0, {});
-}
-
-void EditSession::undo() {
-  Batch batch;
-  batch.lines = {"undo"};
-  batch.may_be_undone = false;
-  if (undo_.empty())
-    batch.fail({}, "there is nothing of this editor's to be undone");
-  else
-    batch.commands = std::move(undo_.back()), undo_.pop_back();
-  send(std::move(batch));
 }
 
 /// What stands behind the word is the server's to read.
@@ -363,7 +333,6 @@ std::string EditSession::called(scene::NodeId id) const {
 void EditSession::watch(const std::string& line, const std::vector<scene::TextWord>& words) {
   Batch batch;
   batch.lines = {line};
-  batch.may_be_undone = false;
   auto watched = watched_of(words, client_.store(), names_);
   if (!watched) {
     batch.fail(words.size() > 1 ? words[1].text : std::string(), describe(watched.error()));
@@ -392,7 +361,7 @@ void EditSession::look_at_files(double now_s) {
     Batch batch;
     batch.lines = {watched.file().string()};
     batch.commands = std::move(line->commands);
-    batch.may_be_undone = batch.was_asked = false;
+    batch.was_asked = false;
     if (!batch.commands.empty()) send(std::move(batch));
   }
 }

@@ -50,8 +50,7 @@ class EditSession {
     std::vector<FailedLine> wrong;     ///< The lines that cannot be read: the first, as many as a server tells.
     std::uint64_t wrong_untold = 0;    ///< The lines that cannot be read either.
     std::set<std::string> not_made{};  ///< Things that lines of it failed to make.
-    bool may_be_undone = true;
-    bool was_asked = true;  ///< False: of a file that was saved; its answer is a message.
+    bool was_asked = true;             ///< False: of a file that was saved; its answer is a message.
 
     /// Its newest line cannot be read.
     void fail(const std::string& node, const std::string& why) {
@@ -64,7 +63,6 @@ class EditSession {
   struct Waiting {
     std::uint64_t request = 0;
     Batch batch;
-    std::vector<scene::Command> undo;
   };
 
   struct End {
@@ -84,7 +82,6 @@ class EditSession {
   bool query(const std::string& line, const std::vector<scene::TextWord>& words);
   void read(std::uint64_t request, const std::vector<scene::TextWord>& words);
   void export_model(std::uint64_t request, const std::string& line, const std::vector<scene::TextWord>& words);
-  void undo();
   void operate(const std::string& line);
   void operate(std::uint64_t request, const std::string& line, const std::string& text);
   std::string called(scene::NodeId id) const;
@@ -99,7 +96,6 @@ class EditSession {
   std::optional<Batch> batch_;
   std::map<std::uint64_t, Waiting> waiting_;  ///< By the batch's number.
   std::map<std::uint64_t, End> ends_;         ///< Removals that the server keeps for their ticks; no answer is owed.
-  std::vector<std::vector<scene::Command>> undo_;
   std::vector<WatchedModel> watched_;
   std::map<std::uint32_t, std::pair<std::uint64_t, std::string>>
       operating_;  ///< Requests and lines, by the line's number.

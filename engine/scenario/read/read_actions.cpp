@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/scenario/read/scenario_reading.hpp"
+#include "engine/world/scene_call.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -289,6 +290,14 @@ ActionVariant read_call_command(const Element& element) {
   return std::move(*call);
 }
 
+ActionVariant read_scene_command(const Element& element) {
+  Call call = scene_call_of(element.content());
+  if (!call.parameters.front().second.empty() && read_call(text_of(call))) return call;
+  element.error(fmt::format("its content is no line of at most {} bytes", longest_call_value),
+                "write a command of a node: hide-set \"town house/1/2\" 1");
+  return {};
+}
+
 }  // namespace
 
 ActionVariant read_user_defined_action(Reading& reading, const Element& action) {
@@ -300,6 +309,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (type == "septet:ignite") return read_effect_command(reading, command, EffectAction::Kind::ignite);
   if (type == "septet:extinguish") return read_effect_command(reading, command, EffectAction::Kind::extinguish);
   if (type == "septet:call") return read_call_command(command);
+  if (type == "septet:scene") return read_scene_command(command);
   if (type == "septet:game") {
     read_game(reading, command);
     return {};
@@ -308,7 +318,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
     command.warning(
         "this command is not known and has no effect",
         "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish, septet:call, "
-        "septet:game");
+        "septet:scene, septet:game");
     return {};
   }
   const std::string content = command.content();

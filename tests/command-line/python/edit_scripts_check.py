@@ -301,6 +301,28 @@ def call_and_listen(host: str, port: int, keys: pathlib.Path) -> None:
         assert "may not operate" in refused(lambda: guest.call("open")).why
 
 
+def undo_by_the_server(host: str, port: int, keys: pathlib.Path) -> None:
+    """A key's newest batch is taken back, by a later connection too, and by no other key."""
+    with septet.connect(host, port, keys / "lab/lab.key") as lab:
+        lab.add("stimuli/undone", position=(1, 2, 3))
+        tree = lab.find("tree/*")[2]
+        tree.visible = False
+    with septet.connect(host, port, keys / "guest/guest.key") as guest:
+        assert "nothing of guest's" in refused(guest.undo).why
+    with septet.connect(host, port, keys / "reader/reader.key") as reader:
+        assert "may not operate" in refused(reader.undo).why
+    with septet.connect(host, port, keys / "lab/lab.key") as lab:
+        assert not lab.get(tree.name).visible
+        assert lab.undo() > 0
+        assert lab.get(tree.name).visible
+        lab.undo()
+        assert not lab.find("stimuli/undone")
+        lab.operate(f"scene hide-set {tree.node} 1")
+        assert not lab.get(tree.name).visible
+        lab.undo()
+        assert lab.get(tree.name).visible
+
+
 def lift_the_barrier(host: str, port: int, keys: pathlib.Path) -> None:
     """The barrier of the samples is lifted by another script's call."""
     script = subprocess.Popen([sys.executable, str(root / "samples/scripts/barrier.py"), str(keys / "lab"), "8"], stdout=subprocess.PIPE, text=True)
@@ -337,6 +359,7 @@ with tempfile.TemporaryDirectory() as name:
         port = ready.split()[1]
         use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
         call_and_listen("127.0.0.1", int(port), keys)
+        undo_by_the_server("127.0.0.1", int(port), keys)
         ended_at = end_lifetimes("127.0.0.1", int(port), keys, folder / "ball.glb")
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
         glb = str(folder / "ball.glb")

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/world/scene_call.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 #include "tests/relative.hpp"
@@ -322,6 +323,29 @@ TEST_CASE("an event of the storyboard calls, in its own name, and Init may not")
   for (const std::string& text : {scenario_text(two_cars + calling("name=lift"), ""),
                                   scenario_text(two_cars, story_text(event_text("e", calling("lift"), at_time(0.5))))})
     CHECK_FALSE(read_scenario(text, "test.xosc", files_in(".")).has_value());
+}
+
+TEST_CASE("an event of the storyboard asks for a change of the scene in a call of its own, quotes and all") {
+  const auto changing = [](const std::string& text) {
+    return "<UserDefinedAction><CustomCommandAction type=\"septet:scene\">" + text +
+           "</CustomCommandAction></UserDefinedAction>";
+  };
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("e", changing("hide-set \"town house/1/2\" 1"), at_time(0.5)))));
+  std::vector<Call> calls;
+  while (drive.state.time_s < 2.0) {
+    const StepResult result = advance_scenario(drive.scenario, drive.network, 0.01, drive.state);
+    calls.insert(calls.end(), result.calls.begin(), result.calls.end());
+  }
+  REQUIRE(calls.size() == 1);
+  CHECK(scene_line_of(call_event, text_of(calls.front())) == "hide-set \"town house/1/2\" 1");
+  Call others = calls.front();
+  others.by = "lab";
+  CHECK_FALSE(scene_line_of(call_event, text_of(others)).has_value());
+  for (const std::string& text : {std::string(), std::string(longest_call_value + 1, 'a')})
+    CHECK_FALSE(read_scenario(scenario_text(two_cars, story_text(event_text("e", changing(text), at_time(0.5)))),
+                              "test.xosc", files_in("."))
+                    .has_value());
 }
 
 }  // namespace septet::scenario
