@@ -72,14 +72,14 @@ void SceneEdits::take_requests(Tick from, double now_s) {
     }
   }
   while (!ahead_.empty() && ahead_.begin()->first <= from) {
-    SceneRequest request = std::move(ahead_.begin()->second);
+    const SceneRequest request = std::move(ahead_.begin()->second);
     ahead_.erase(ahead_.begin());
     bytes_ahead_ -= bytes_of(request);
-    make(std::move(request), from, now_s);
+    make(request, from, now_s);
   }
 }
 
-void SceneEdits::make(SceneRequest request, Tick from, double now_s) {
+void SceneEdits::make(const SceneRequest& request, Tick from, double now_s) {
   // The list may have changed since it was asked for.
   const auto rights = host_->rights_of(request.editor.name).edit;
   if (!rights) return host_->refuse_scene(request, "the right to edit was taken from this key", now_s);

@@ -33,7 +33,7 @@ class SceneEdits final : public Attendant {
   void close(ServeResult& result) override;
 
  private:
-  void make(SceneRequest request, Tick from, double now_s);
+  void make(const SceneRequest& request, Tick from, double now_s);
   void carry_out_storyboard(Tick from);
   void take_requests(Tick from, double now_s);
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view nameless = "operator", scene_word = "scene ", undo_word = "undo";
 
 /// A call of this author, about a node that is there.
-Expected<void> complete(Call& call, const std::string& by, const scene::Store& scene) {
+Expected<void> complete_call(Call& call, const std::string& by, const scene::Store& scene) {
   if (call.name == scene_call)
     return failure("calls of this name are the storyboard's", std::string(scene_call), "write scene COMMAND");
   constexpr std::size_t longest = longest_call_value - std::string_view("…").size();
@@ -61,7 +61,7 @@ Expected<std::string> do_command(std::string_view text, const Author& author, Ti
     return failure("what stands follows the scene: what is met is what is drawn", "operator's command",
                    "let an editor hide a thing, or set its tag body.solid (docs/editing.md)");
   auto* const call = std::get_if<Call>(&*command);
-  if (auto completed = call ? complete(*call, author.name, gate.scene()) : Expected<void>(); !completed)
+  if (auto completed = call ? complete_call(*call, author.name, gate.scene()) : Expected<void>(); !completed)
     return tl::unexpected(completed.error());
   if (auto done = gate.drive().command(*command); !done) return tl::unexpected(done.error());
   return call ? std::string() : simulation::text_of(*command);

@@ -22,7 +22,7 @@ replication::Refusal refusal_of(std::string node, std::string why) {
   return {{{0, std::move(node), std::move(why)}}, 0};
 }
 
-std::size_t bytes_of(std::span<const scene::Command> commands) {
+std::size_t encoded_bytes(std::span<const scene::Command> commands) {
   Bytes bytes;
   for (const scene::Command& command : commands) scene::encode(command, bytes);
   return bytes.size();
@@ -83,7 +83,7 @@ std::optional<replication::Refusal> WorldGate::pass(const Editor& editor, std::s
 }
 
 void WorldGate::remember(const Editor& editor, Batch batch) {
-  batch.bytes = bytes_of(batch.inverse);
+  batch.bytes = encoded_bytes(batch.inverse);
   auto& batches = undo_[editor.name];
   batches.push_back(std::move(batch));
   std::size_t bytes = 0;

@@ -41,6 +41,14 @@ void remember(std::vector<double>& moments_s, double now_s) {
   moments_s.push_back(now_s);
 }
 
+void pump_scene(replication::ReplicationServer& scene, net::SecureServer& lane, net::ClientId client,
+                std::size_t most_bytes) {
+  scene.pump(client, most_bytes, [&](std::span<const std::byte> message) {
+    const auto sent = lane.send(client, control::scene_message(message), net::Reliability::reliable);
+    return sent == net::SendResult::queued;
+  });
+}
+
 /// True if lockstep need not wait for this screen at `tick`.
 bool keeps_up(const HostedScreen& screen, Tick tick) {
   if (screen.left_behind) return true;
@@ -95,11 +103,7 @@ void ScreenHost::pump(double now_s) {
     if (const auto feedback = options_.car->take_feedback(); feedback && car_client_)
       lane_.send(*car_client_, net::share(encode_control(*feedback)), net::Reliability::unreliable);
   const std::vector<net::ClientId> clients = lane_.clients();
-  for (const net::ClientId client : clients)
-    scene_.pump(client, scene_bytes_per_pump / clients.size(), [&](std::span<const std::byte> message) {
-      const auto sent = lane_.send(client, control::scene_message(message), net::Reliability::reliable);
-      return sent == net::SendResult::queued;
-    });
+  for (const net::ClientId client : clients) pump_scene(scene_, lane_, client, scene_bytes_per_pump / clients.size());
   events_.pump([&](std::uint32_t hearer, const DriveEvent& event) { send(hearer, event); });
   if (options_.welcome.group_ip != 0) send_unicast_to_the_deaf(now_s);
 }
@@ -245,8 +249,10 @@ void ScreenHost::on_operator_line(net::ClientId client, const OperatorLine& line
 }
 
 void ScreenHost::answer(const OperatorRequest& request, const std::optional<std::string>& why_not, Tick tick) {
-  if (clients_.contains(request.client))
-    send(request.client, OperatorAnswer{request.number, tick, why_not.value_or("")});
+  if (!clients_.contains(request.client)) return;
+  // The line may have changed the scene: who is answered has that already.
+  pump_scene(scene_, lane_, request.client, scene_bytes_per_pump);
+  send(request.client, OperatorAnswer{request.number, tick, why_not.value_or("")});
 }
 
 void ScreenHost::on_control(net::ClientId client, const ControlMessage& message, double now_s) {
