@@ -53,7 +53,7 @@ std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-PictureMapping transform_of(const Json& texture) {
+PictureMapping picture_transform(const Json& texture) {
   const Json& transform = extension_in(texture, "KHR_texture_transform");
   const std::int64_t set = index_in(transform, "texCoord", index_in(texture, "texCoord", 0));
   constexpr double furthest = 1e6;
@@ -102,7 +102,7 @@ Wrapping Pictures::wrapping_of(const Json& texture) const {
 
 PictureMapping Pictures::mapping_of(const Json& texture) const {
   const Wrapping wrapping = wrapping_of(texture);
-  PictureMapping mapping = transform_of(texture);
+  PictureMapping mapping = picture_transform(texture);
   mapping.share = {wrapping.u == mirrored ? 0.5 : 1.0, wrapping.v == mirrored ? 0.5 : 1.0};
   return mapping;
 }
