@@ -10,7 +10,7 @@ namespace {
 
 constexpr double refused = -no_leader;
 constexpr double smallest_gap_m = 2.0, smallest_waiting_gap_m = 0.5;
-constexpr double slow_mps = 2.0;
+constexpr double creeping_mps = 2.0;
 constexpr LaneEntry standing{};  ///< The end of a lane.
 /// Bias of making room for an emergency vehicle.
 constexpr double leave_lane_bias_mps2 = 3.0;
@@ -64,7 +64,7 @@ struct Decision {
       own.acceleration_mps2 = static_cast<float>(own_now);
       const double gap = gap_to(traffic, lane, behind->x_m, &own);
       // Who waits for it may stand close.
-      const bool both_wait = rounds_wreck && v < slow_mps && behind->speed_mps < slow_mps;
+      const bool both_wait = rounds_wreck && v < creeping_mps && behind->speed_mps < creeping_mps;
       if (gap < (both_wait ? smallest_waiting_gap_m : smallest_gap_m)) return refused;
       const FollowingLaw& law_behind = law_of(traffic, *behind, i);
       if (law_behind.acceleration(behind->speed_mps, v, gap) < -change.largest_braking_mps2) return refused;
@@ -82,7 +82,8 @@ bool may_turn_to(const CorridorTraffic& traffic, std::span<const Wreck> wrecks, 
                  const Detour& detour, const LaneEntry* ahead) {
   if (wrecks.empty()) return true;
   if (detour.lanes * (lane - traffic.lane[i]) > 0) {
-    const bool is_behind_slow = ahead != nullptr && ahead->speed_mps < slow_mps && traffic.speed_mps[i] < slow_mps;
+    const bool is_behind_slow =
+        ahead != nullptr && ahead->speed_mps < creeping_mps && traffic.speed_mps[i] < creeping_mps;
     const Detour behind{is_behind_slow ? gap_to(traffic, traffic.lane[i], traffic.x_m[i], ahead) : no_leader, 1};
     return can_turn_out(traffic, i, detour) && can_turn_out(traffic, i, behind);
   }

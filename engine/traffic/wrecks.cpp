@@ -9,8 +9,8 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double clearance_m = 0.35;  ///< A little more than those that follow need beside a body (follow.cpp).
-constexpr double hard_strip_m = 0.4;  ///< Beyond the outermost lines.
+constexpr double beside_body_m = 0.35;  ///< A little more than those that follow need beside a body (follow.cpp).
+constexpr double hard_strip_m = 0.4;    ///< Beyond the outermost lines.
 constexpr double look_ahead_m = 300.0;
 /// Bodies nearer to each other than this, along the road, are passed at one go.
 constexpr double one_place_m = 60.0;
@@ -28,7 +28,7 @@ bool reaches_into(const Wreck& wreck, int lane) { return std::ranges::find(wreck
 /// The least shift in a lane with which the vehicle passes a body; nothing where there is no room.
 std::optional<double> shift_past_m(const CorridorTraffic& traffic, const Wreck& wreck, std::size_t i, int lane) {
   if (!reaches_into(wreck, lane)) return 0.0;
-  const double middle_m = -lane * traffic.table.lane_width_m, half_m = traffic.half_width_m[i] + clearance_m;
+  const double middle_m = -lane * traffic.table.lane_width_m, half_m = traffic.half_width_m[i] + beside_body_m;
   const double to_right_m = middle_m - (wreck.right_m - half_m), to_left_m = wreck.left_m + half_m - middle_m;
   if (to_right_m <= 0.0 || to_left_m <= 0.0) return 0.0;
   const double to_line_m = std::max(0.0, 0.5 * traffic.table.lane_width_m - traffic.half_width_m[i]);
@@ -75,8 +75,8 @@ bool is_stuck_in_change(const CorridorTraffic& traffic, std::span<const Wreck> w
   const double right_m = std::min(body.middle_m - body.half_width_m, then.middle_m - then.half_width_m);
   return std::ranges::any_of(wrecks, [&](const Wreck& wreck) {
     const double gap_m = ahead_m(traffic, i, wreck);
-    return gap_m >= 0.0 && gap_m < traffic.law[i].standstill_gap_m + near_m && wreck.left_m + clearance_m > right_m &&
-           wreck.right_m - clearance_m < left_m;
+    return gap_m >= 0.0 && gap_m < traffic.law[i].standstill_gap_m + near_m && wreck.left_m + beside_body_m > right_m &&
+           wreck.right_m - beside_body_m < left_m;
   });
 }
 
