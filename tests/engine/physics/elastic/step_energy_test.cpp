@@ -19,7 +19,7 @@ using namespace septet::elastic;
 
 namespace {
 
-constexpr double tick_s = 1.0 / 60.0;
+constexpr double energy_tick_s = 1.0 / 60.0;
 
 ElasticBody block(double young_modulus_pa) {
   return *make_elastic_body(lattice_mesh({2, 2, 2}, {0.2, 0.3, 0.2}), {young_modulus_pa, 0.3, 1000.0});
@@ -47,7 +47,7 @@ struct Steps {
 template <class Contacts>
 Steps steps_of(ElasticBody body, const Contacts& contacts_of) {
   StepSettings settings;
-  settings.step_s = tick_s;
+  settings.step_s = energy_tick_s;
   Steps steps;
   for (int k = 0; k < 30; ++k) {
     const ElasticBody before = body;
@@ -123,12 +123,12 @@ TEST_CASE("a step's share that is taken is what is booked") {
   for (auto& x : body.position_m) x.z() *= 0.9;
   const ElasticBody before = body;
   StepSettings settings;
-  settings.step_s = tick_s;
+  settings.step_s = energy_tick_s;
   step_elastic(body, settings);
   constexpr double share = 0.3;
   for (int i = 0; i < body.node_count(); ++i) {
     body.velocity_mps[i] *= share;  // It began at rest.
-    body.position_m[i] = before.position_m[i] + tick_s * body.velocity_mps[i];
+    body.position_m[i] = before.position_m[i] + energy_tick_s * body.velocity_mps[i];
   }
   const StepEnergy energy = step_energy(before, body, settings, {}, share);
   const double gained_j = stored_j(body) - stored_j(before);
@@ -140,10 +140,10 @@ TEST_CASE("a fall loses to its step what weight does in half of it and a spin lo
   for (int i = 0; i < body.node_count(); ++i)
     body.velocity_mps[i] = Eigen::Vector3d(0.0, 0.0, 2.0).cross(body.position_m[i] - centre_of_mass_m(body));
   StepSettings settings;
-  settings.step_s = tick_s;
+  settings.step_s = energy_tick_s;
   const ElasticBody before = body;
   step_elastic(body, settings);
-  const double gained_mps = tick_s * gravity_mps2;
+  const double gained_mps = energy_tick_s * gravity_mps2;
   const StepEnergy energy = step_energy(before, body, settings, {});
   CHECK(energy.numerical_loss_j == relative(0.5 * total_mass_kg(body) * gained_mps * gained_mps, 0.02));
   CHECK(std::abs(energy.viscous_loss_j) < 1e-3 * kinetic_energy_j(before));
