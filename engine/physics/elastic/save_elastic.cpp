@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/physics/elastic/tetrahedral_mesh.hpp"
+
 namespace septet::elastic {
 
 // Left out are the positions in the equations.
@@ -46,8 +48,10 @@ void require_whole(const ElasticBody& body, std::size_t most_elements, StateRead
                        element.rest_inverse.cwiseAbs().maxCoeff() <= most,
                    wrong);
     const Tetrahedron& t = element.nodes;
-    reader.require(0 <= t[0] && t[0] < t[1] && t[1] < t[2] && t[2] < t[3] && static_cast<std::size_t>(t[3]) < nodes,
-                   wrong);
+    const bool has_nodes =
+        0 <= t[0] && t[0] < t[1] && t[1] < t[2] && t[2] < t[3] && static_cast<std::size_t>(t[3]) < nodes;
+    // A piece that breaks is made anew from its shape at rest.
+    reader.require(has_nodes && reader.ok() && !is_flat(body.rest_position_m, t), wrong);
   }
 }
 

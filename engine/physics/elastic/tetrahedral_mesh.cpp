@@ -39,6 +39,13 @@ double signed_volume_m3(const Eigen::Vector3d& a, const Eigen::Vector3d& b, cons
   return (b - a).cross(c - a).dot(d - a) / 6.0;
 }
 
+bool is_flat(const std::vector<Eigen::Vector3d>& x, const Tetrahedron& tetrahedron) {
+  const auto [a, b, c, d] = tetrahedron;
+  const double longest = std::max({(x[b] - x[a]).norm(), (x[c] - x[a]).norm(), (x[d] - x[a]).norm(),
+                                   (x[c] - x[b]).norm(), (x[d] - x[b]).norm(), (x[d] - x[c]).norm()});
+  return !(std::abs(signed_volume_m3(x[a], x[b], x[c], x[d])) > 1e-7 * longest * longest * longest);
+}
+
 Expected<void> validate(const TetrahedralMesh& mesh) {
   const auto node_count = static_cast<int>(mesh.nodes_m.size());
   if (node_count == 0 || mesh.tetrahedra.empty())
@@ -55,11 +62,7 @@ Expected<void> validate(const TetrahedralMesh& mesh) {
         return failure(fmt::format("node {} of {} does not exist", i, node_count), where, "count nodes from zero");
       used[i] = true;
     }
-    const auto& x = mesh.nodes_m;
-    const auto [a, b, c, d] = tetrahedron;
-    const double longest = std::max({(x[b] - x[a]).norm(), (x[c] - x[a]).norm(), (x[d] - x[a]).norm(),
-                                     (x[c] - x[b]).norm(), (x[d] - x[b]).norm(), (x[d] - x[c]).norm()});
-    if (std::abs(signed_volume_m3(x[a], x[b], x[c], x[d])) <= 1e-7 * longest * longest * longest)
+    if (is_flat(mesh.nodes_m, tetrahedron))
       return failure("the tetrahedron is flat", where, "move its nodes apart or leave it out");
   }
   for (int i = 0; i < node_count; ++i)

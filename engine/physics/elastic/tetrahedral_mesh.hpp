@@ -30,6 +30,9 @@ Expected<void> validate(const TetrahedralMesh& mesh);
 double signed_volume_m3(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                         const Eigen::Vector3d& d);
 
+/// True where a tetrahedron has next to no volume for its longest edge, or a number of it is not finite.
+bool is_flat(const std::vector<Eigen::Vector3d>& nodes_m, const Tetrahedron& tetrahedron);
+
 /// One triangle of the outer surface, counter-clockwise seen from outside.
 struct SurfaceTriangle {
   std::array<int, 3> nodes;
