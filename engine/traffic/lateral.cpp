@@ -56,6 +56,10 @@ Lateral lateral(const CorridorTraffic& traffic, std::size_t i) {
   return lateral;
 }
 
+double to_line_m(const CorridorTraffic& traffic, std::size_t i) {
+  return std::max(0.0, 0.5 * traffic.table.lane_width_m - traffic.half_width_m[i]);
+}
+
 Across across(const CorridorTraffic& traffic, std::size_t i) {
   const auto [offset, slope, curvature] = lateral(traffic, i);
   const VehicleModel& model = vehicle_models()[traffic.model[i]];

@@ -39,6 +39,11 @@ void begin_change(CorridorTraffic& traffic, std::size_t vehicle, double offset_m
 
 Lateral lateral(const CorridorTraffic& traffic, std::size_t vehicle);
 
+/// Over the line of an outermost lane, on to the hard strip.
+inline constexpr double on_to_hard_strip_m = 0.4;
+/// From the middle of its lane to where a vehicle's side is on the line; 0 for one that is as wide as the lane.
+double to_line_m(const CorridorTraffic& traffic, std::size_t vehicle);
+
 /// A vehicle's extent across the road at its heading, as in `LaneEntry`.
 struct Across {
   double middle_m = 0.0, half_width_m = 0.0;

@@ -15,14 +15,13 @@ constexpr double heard_at_m = 300.0;
 /// Behind it the lane stays open this far: another may follow, as the driver does.
 constexpr double kept_open_m = 80.0;
 constexpr double clearance_m = 0.3;
-/// Distance over the lane's edge: on to the hard strip beside the left-most lane; not over the others' lines.
-constexpr double on_to_hard_strip_m = 0.4;
 constexpr double others_shift_m = 0.35;
 
-/// Target place in its lane of a vehicle of this width that makes room.
+/// Target place in its lane of a vehicle of this width that makes room: on the hard strip beside the left-most lane, not
+/// over the others' lines.
 double aside_for(const CorridorTraffic& traffic, std::size_t i) {
   const int left_most = traffic.table.lowest;
-  const double to_edge = std::max(0.0, 0.5 * traffic.table.lane_width_m - traffic.half_width_m[i]);
+  const double to_edge = to_line_m(traffic, i);
   if (traffic.lane[i] <= left_most) return to_edge + on_to_hard_strip_m;
   return traffic.lane[i] == left_most + 1 ? -to_edge : -std::min(to_edge, others_shift_m);
 }

@@ -45,17 +45,14 @@ void finish_before(CorridorTraffic& traffic, std::span<const Wreck> wrecks, std:
   if (over_mps > 0.0) brake(traffic, i, -over_mps / response_s);
 }
 
-/// Keeps room to turn out at ease, or else, where that is behind it, as tight as it can; returns the room.
-double keep_room(CorridorTraffic& traffic, std::size_t i, const Detour& detour) {
-  const auto to_stop_m = [&](Turning turning) {
-    const double room_m = room_to_turn_out_m(traffic, i, detour.lanes, turning);
+/// Keeps room to turn out at ease, or else, where that is behind it, as tight as it can.
+void keep_room(CorridorTraffic& traffic, std::size_t i, const Detour& detour, double at_ease_m) {
+  const double v = traffic.speed_mps[i], way_to_stop_m = v * v / (2.0 * hardest_stop_mps2(traffic, i));
+  const auto to_stop_m = [&](double room_m) {
     return detour.gap_m - room_m - spare_m + traffic.law[i].standstill_gap_m;
   };
-  const double at_ease_m = to_stop_m(Turning::at_ease);
-  const double way_to_stop_m = traffic.speed_mps[i] * traffic.speed_mps[i] / (2.0 * hardest_stop_mps2(traffic, i));
-  const bool is_within = at_ease_m > way_to_stop_m;
-  brake_to(traffic, i, is_within ? at_ease_m : to_stop_m(Turning::tight));
-  return room_to_turn_out_m(traffic, i, detour.lanes, Turning::at_ease);
+  const bool is_ahead = to_stop_m(at_ease_m) > way_to_stop_m;
+  brake_to(traffic, i, to_stop_m(is_ahead ? at_ease_m : room_to_turn_out_m(traffic, i, detour.lanes, Turning::tight)));
 }
 
 /// Nobody of its lane is between it and the body but one who leaves the lane.
@@ -105,7 +102,8 @@ void mind_wrecks(std::span<const Wreck> wrecks, CorridorTraffic& traffic) {
     }
     const Detour detour = detour_round(traffic, wrecks, i, traffic.lane[i]);
     if (detour.gap_m == no_leader) continue;
-    const double room_m = keep_room(traffic, i, detour);
+    const double room_m = room_to_turn_out_m(traffic, i, detour.lanes, Turning::at_ease);
+    keep_room(traffic, i, detour, room_m);
     if (detour.lanes == 0 || traffic.speed_mps[i] > waits_mps || detour.gap_m > room_m + waits_within_m) continue;
     if (can_turn_out(traffic, i, detour) && is_first_in_lane(traffic, i, detour.gap_m))
       let_in(traffic, i, traffic.lane[i] + (detour.lanes > 0 ? 1 : -1));

@@ -10,7 +10,6 @@ namespace septet::traffic {
 namespace {
 
 constexpr double beside_body_m = 0.35;  ///< A little more than those that follow need beside a body (follow.cpp).
-constexpr double hard_strip_m = 0.4;    ///< Beyond the outermost lines.
 constexpr double look_ahead_m = 300.0;
 /// Bodies nearer to each other than this, along the road, are passed at one go.
 constexpr double one_place_m = 60.0;
@@ -26,14 +25,14 @@ double ahead_m(const CorridorTraffic& traffic, std::size_t i, const Wreck& wreck
 bool reaches_into(const Wreck& wreck, int lane) { return std::ranges::find(wreck.lanes, lane) != wreck.lanes.end(); }
 
 /// The least shift in a lane with which the vehicle passes a body; nothing where there is no room.
-std::optional<double> shift_past_m(const CorridorTraffic& traffic, const Wreck& wreck, std::size_t i, int lane) {
+std::optional<double> shift_in_lane_m(const CorridorTraffic& traffic, const Wreck& wreck, std::size_t i, int lane) {
   if (!reaches_into(wreck, lane)) return 0.0;
   const double middle_m = -lane * traffic.table.lane_width_m, half_m = traffic.half_width_m[i] + beside_body_m;
   const double to_right_m = middle_m - (wreck.right_m - half_m), to_left_m = wreck.left_m + half_m - middle_m;
   if (to_right_m <= 0.0 || to_left_m <= 0.0) return 0.0;
-  const double to_line_m = std::max(0.0, 0.5 * traffic.table.lane_width_m - traffic.half_width_m[i]);
-  const bool is_right_free = to_right_m <= to_line_m + (lane == traffic.table.highest ? hard_strip_m : 0.0);
-  const bool is_left_free = to_left_m <= to_line_m + (lane == traffic.table.lowest ? hard_strip_m : 0.0);
+  const double room_m = to_line_m(traffic, i);
+  const bool is_right_free = to_right_m <= room_m + (lane == traffic.table.highest ? on_to_hard_strip_m : 0.0);
+  const bool is_left_free = to_left_m <= room_m + (lane == traffic.table.lowest ? on_to_hard_strip_m : 0.0);
   if (is_right_free && (!is_left_free || to_right_m < to_left_m)) return -to_right_m;
   return is_left_free ? std::optional(to_left_m) : std::nullopt;
 }
@@ -45,7 +44,7 @@ double closed_at_m(const CorridorTraffic& traffic, std::span<const Wreck> wrecks
   for (const Wreck& wreck : wrecks) {
     const double there_m = ahead_m(traffic, i, wreck);
     if (there_m < 0.0 || there_m > to_m || there_m >= nearest_m) continue;
-    if (!shift_past_m(traffic, wreck, i, lane)) nearest_m = there_m;
+    if (!shift_in_lane_m(traffic, wreck, i, lane)) nearest_m = there_m;
   }
   return nearest_m;
 }
@@ -130,7 +129,7 @@ double shift_past_m(const CorridorTraffic& traffic, std::span<const Wreck> wreck
   double shift_m = 0.0;
   for (const Wreck& wreck : wrecks) {
     if (!is_beside_or_before(traffic, i, wreck)) continue;
-    const double one_m = shift_past_m(traffic, wreck, i, traffic.lane[i]).value_or(0.0);
+    const double one_m = shift_in_lane_m(traffic, wreck, i, traffic.lane[i]).value_or(0.0);
     if (std::abs(one_m) > std::abs(shift_m)) shift_m = one_m;
   }
   return shift_m;

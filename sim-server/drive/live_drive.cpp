@@ -295,11 +295,11 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   newest_ = memory_.share(simulation::server_step(*model_, input.input, state_, events, memory_.spare()));
   move_actuators(before->snapshot());
   show_instruments(input.input);
-  for (const auto& event : events)
+  for (const auto& event : events) {
     if (event.kind == "traffic")
       messages_.push_back("the road holds another number of vehicles than the swarm was asked for: " + event.detail);
-  for (const auto& event : events)
     if (auto line = scene_line_of(event.kind, event.detail)) scene_lines_.push_back(std::move(*line));
+  }
   word_.take(newest_->snapshot(), events);
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));

@@ -1,15 +1,14 @@
 #include "sim-server/drive/operated.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
 #include <fmt/core.h>
 
-#include "engine/core/printable.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/simulation/operator_command.hpp"
 #include "engine/world/scene_call.hpp"
+#include "sim-server/drive/name_in_log.hpp"
 
 namespace septet::server {
 
@@ -22,8 +21,7 @@ Expected<void> complete_call(Call& call, const std::string& by, const scene::Sto
   if (call.name == scene_call)
     return failure("calls of this name are the storyboard's", std::string(scene_call), "write scene COMMAND");
   constexpr std::size_t longest = longest_call_value - std::string_view("…").size();
-  call.by = by.empty() ? nameless : printable(by, longest);
-  std::ranges::replace(call.by, '"', '\'');
+  call.by = by.empty() ? nameless : in_quotes_in_log(by, longest);
   if (!call.node.empty() && !scene::node_of({scene}, {call.node}))
     return failure("the scene has no node of this name", call.node, "name another one, or leave node away");
   return {};

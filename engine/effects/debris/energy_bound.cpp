@@ -119,22 +119,24 @@ void bound_energy(Piece& piece, const Frame& frame) {
 }
 
 void take_from_deformation(std::vector<Piece>& pieces, double energy_j) {
-  std::vector<double> has_j, rigid_j;
+  if (!(energy_j > 0.0)) return;
+  std::vector<Frame> frames;  // Allowed: at first what a piece has as a rigid body.
+  std::vector<double> has_j;
+  frames.reserve(pieces.size()), has_j.reserve(pieces.size());
   double sum_j = 0.0;
   for (const Piece& piece : pieces) {
     const auto motion = elastic::rigid_motion(piece.body);
-    rigid_j.push_back(0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps));
-    has_j.push_back(std::max(0.0, kinetic_energy_j(piece, motion.velocity_mps) - rigid_j.back()) +
+    const double rigid_j = 0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps);
+    frames.push_back({motion.velocity_mps, rigid_j});
+    has_j.push_back(std::max(0.0, kinetic_energy_j(piece, motion.velocity_mps) - rigid_j) +
                     elastic::elastic_energy_j(piece.body));
     sum_j += has_j.back();
   }
-  if (!(energy_j > 0.0) || !(sum_j > 0.0)) return;
+  if (!(sum_j > 0.0)) return;
   const double kept = std::max(0.0, 1.0 - energy_j / sum_j);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    Frame frame;
-    frame.velocity_mps = elastic::rigid_motion(pieces[k].body).velocity_mps;
-    frame.allowed_j = rigid_j[k] + kept * has_j[k];
-    bound_energy(pieces[k], frame);
+    frames[k].allowed_j += kept * has_j[k];
+    bound_energy(pieces[k], frames[k]);
   }
 }
 
