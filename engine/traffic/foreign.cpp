@@ -12,6 +12,9 @@ namespace septet::traffic {
 namespace {
 
 constexpr double over_the_line_m = 0.2;
+/// One who has stood for so long, not behind another and without a beacon, is gone round like a wreck.
+constexpr double given_up_s = 1.0, stands_mps = 0.1;
+constexpr double queue_m = 15.0, queue_mps = 2.0;
 constexpr double flash_s = 0.5;  ///< An indicator lit within this time is on.
 
 /// State of the left and the right indicator.
@@ -23,6 +26,10 @@ Signals signals_of(const Lamps& lamps, double dt_s, std::array<double, 2>& since
   since_s[0] = lamps.has(Lamp::indicator_left) ? 0.0 : since_s[0] + dt_s;
   since_s[1] = lamps.has(Lamp::indicator_right) ? 0.0 : since_s[1] + dt_s;
   return {since_s[0] < flash_s, since_s[1] < flash_s};
+}
+
+bool signals_emergency(const ForeignVehicle& vehicle) {
+  return vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren);
 }
 
 void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& vehicle, std::int32_t index,
@@ -56,7 +63,7 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   entry.straddles = true;
   if (over_left || (signals.left && !both)) found.entries.push_back({lane - 1, entry});
   if (over_right || (signals.right && !both)) found.entries.push_back({lane + 1, entry});
-  if (vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren)) {
+  if (signals_emergency(vehicle)) {
     found.emergencies.push_back({entry.x_m, entry.length_m, entry.lateral_m, half_width});
   }
 }
@@ -112,12 +119,27 @@ void place_adrift(const road::RoadNetwork& network, const ForeignVehicle& vehicl
   }
 }
 
+/// True for one who stands behind somebody of the traffic who is slow himself.
+bool is_in_queue(const road::RoadNetwork& network, const road::Location& place, double front_from_middle_m,
+                 const std::vector<CorridorTraffic>& corridors) {
+  return std::ranges::any_of(corridors, [&](const CorridorTraffic& traffic) {
+    const auto x = x_of(network, traffic.corridor, place.position, place.lanes.lane);
+    const int lane = std::abs(place.lanes.lane);
+    if (!x || lane >= static_cast<int>(traffic.order.lanes.size())) return false;
+    std::uint32_t hint = 0;
+    const LaneEntry* ahead = neighbours(traffic, lane, *x + front_from_middle_m, -1, hint).ahead;
+    return ahead != nullptr && ahead->vehicle >= 0 && ahead->speed_mps < queue_mps &&
+           gap_to(traffic, lane, *x + front_from_middle_m, ahead) < queue_m;
+  });
+}
+
 }  // namespace
 
 std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std::span<const ForeignVehicle> foreign,
                                           double dt_s, TrafficState& state) {
   state.foreign_places.resize(foreign.size());
   state.foreign_speeds_mps.resize(foreign.size(), no_leader);
+  state.foreign_stands_s.resize(foreign.size(), 0.0);
   state.foreign_signals_s.resize(foreign.size(), {no_leader, no_leader});
   std::vector<ForeignTraffic> found(state.corridors.size());
   for (std::size_t i = 0; i < foreign.size(); ++i) {
@@ -127,7 +149,12 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std:
     const Vec3 middle = foreign[i].world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.0);
     auto& hint = state.foreign_places[i];
     const auto place = road::locate(network, {middle.x, middle.y}, hint ? &*hint : nullptr);
-    if (foreign[i].adrift) {
+    double& stands_s = state.foreign_stands_s[i];
+    stands_s = now_mps < stands_mps ? stands_s + dt_s : 0.0;
+    const bool is_in_the_way = stands_s > given_up_s && !signals_emergency(foreign[i]) && place &&
+                               place->lanes.lane != 0 &&
+                               !is_in_queue(network, *place, 0.5 * model.length_m, state.corridors);
+    if (foreign[i].adrift || is_in_the_way) {
       if (place) hint = place->position;
       place_adrift(network, foreign[i], static_cast<std::int32_t>(i), hint ? &*hint : nullptr, state.corridors, found);
       continue;

@@ -24,7 +24,7 @@ SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line, ways), has
                      kept(neighbour_hints, any_aside, order, exits))
 // The corridors are taken one by one. Sights are given anew each tick.
 SEPTET_MEMBER_GROUPS(TrafficState, left_out(corridors), kept(ramps), hashed(time_s), left_out(sights),
-                     kept(foreign_places), hashed(foreign_speeds_mps, foreign_signals_s, bad_numbers),
+                     kept(foreign_places, foreign_stands_s), hashed(foreign_speeds_mps, foreign_signals_s, bad_numbers),
                      kept(removed_below))
 
 namespace {

@@ -138,6 +138,7 @@ struct TrafficState {
   std::vector<LimitedSight> sights;                               ///< The caller's, of this tick.
   std::vector<std::optional<road::RoadPosition>> foreign_places;  ///< Hints, one per foreign vehicle.
   std::vector<double> foreign_speeds_mps;                         ///< Speeds a tick ago.
+  std::vector<double> foreign_stands_s;                           ///< For how long each has stood.
   /// Time since each one's left and right indicator were lit.
   std::vector<std::array<double, 2>> foreign_signals_s;
   std::uint32_t bad_numbers = 0;    ///< Accelerations that were NaN, and were replaced by 0.
