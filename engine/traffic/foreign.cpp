@@ -13,7 +13,7 @@ namespace {
 
 constexpr double over_the_line_m = 0.2;
 /// One who has stood for so long, not behind another and without a beacon, is gone round like a wreck.
-constexpr double given_up_s = 1.0, stands_mps = 0.1;
+constexpr double given_up_s = 1.0, given_up_mps = 0.1;
 constexpr double queue_m = 15.0, queue_mps = 2.0;
 constexpr double flash_s = 0.5;  ///< An indicator lit within this time is on.
 
@@ -150,7 +150,7 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std:
     auto& hint = state.foreign_places[i];
     const auto place = road::locate(network, {middle.x, middle.y}, hint ? &*hint : nullptr);
     double& stands_s = state.foreign_stands_s[i];
-    stands_s = now_mps < stands_mps ? stands_s + dt_s : 0.0;
+    stands_s = now_mps < given_up_mps ? stands_s + dt_s : 0.0;
     const bool is_in_the_way = stands_s > given_up_s && !signals_emergency(foreign[i]) && place &&
                                place->lanes.lane != 0 &&
                                !is_in_queue(network, *place, 0.5 * model.length_m, state.corridors);
