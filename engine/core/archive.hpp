@@ -6,8 +6,8 @@
 ///     StateReader reader(bytes);  transfer(reader, wheel);  if (!reader.ok()) …reader.problem()…
 ///     hash_members(hash, wheel);
 ///
-/// The list names every member in its order: it is a structured binding, so that a struct that gains a member does not
-/// compile before its list has it. Each member is kept and hashed, unless the list says otherwise, in groups:
+/// The list names every member in its order, else it does not compile: it is a structured binding, and the offsets of its
+/// names must ascend. Each member is kept and hashed, unless the list says otherwise, in groups:
 ///
 ///     SEPTET_MEMBER_GROUPS(Fire, hashed(vehicle, burning_s), kept(nearest_hint), left_out(picture))
 ///
@@ -19,11 +19,15 @@
 /// reader trusts nothing: a count is no more than the bytes that are left, memory has a limit, no number is NaN and no
 /// vector infinite; bounds of an index are for the caller to require. After the first problem everything reads as zero.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstring>
+#include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -164,6 +168,10 @@ template <class... T>
 std::tuple<Kept<T>...> kept(T&... values) {
   return {Kept<T>{values}...};
 }
+constexpr bool ascend(std::initializer_list<std::size_t> offsets) {
+  return std::ranges::adjacent_find(offsets, std::greater_equal{}) == offsets.end();
+}
+
 template <class... T>
 std::tuple<> left_out(T&...) {
   return {};
@@ -178,6 +186,7 @@ std::tuple<> left_out(T&...) {
   template <::septet::SameButForConst<Type> S_>                                      \
   auto members(S_& whole_) {                                                         \
     auto& [SEPTET_EXPAND(SEPTET_EACH(SEPTET_NAMES_OF, __VA_ARGS__))] = whole_;       \
+    SEPTET_REQUIRE_ORDER(SEPTET_EXPAND(SEPTET_EACH(SEPTET_NAMES_OF, __VA_ARGS__)))   \
     return std::tuple_cat(SEPTET_EXPAND(SEPTET_EACH(SEPTET_TUPLE_OF, __VA_ARGS__))); \
   }
 // A group stands for a call of one of the three functions above, and behind SEPTET_NAMES_ for its names alone.
@@ -186,12 +195,21 @@ std::tuple<> left_out(T&...) {
 #define SEPTET_NAMES_left_out(...) __VA_ARGS__
 #define SEPTET_NAMES_OF(group) SEPTET_NAMES_##group
 #define SEPTET_TUPLE_OF(group) ::septet::archive::group
+// A binding takes members by their place and would call one by another's name. Compilers only warn that offsets of
+// structs with constructors need not be supported; both support them.
+#define SEPTET_REQUIRE_ORDER(...)                                                                        \
+  _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Winvalid-offsetof\"") static_assert( \
+      ::septet::archive::ascend({SEPTET_EXPAND_MORE(SEPTET_EACH(SEPTET_OFFSET_OF, __VA_ARGS__))}),       \
+      "members are listed in the order of their struct");                                                \
+  _Pragma("GCC diagnostic pop")
+#define SEPTET_OFFSET_OF(name) offsetof(std::remove_const_t<S_>, name)
 // Expands to macro(first), macro(second), …: a macro does not expand itself, so each round of SEPTET_EXPAND makes one
 // more of SEPTET_AGAIN.
 #define SEPTET_EACH(macro, first, ...) macro(first) __VA_OPT__(, SEPTET_AGAIN SEPTET_PARENTHESES(macro, __VA_ARGS__))
 #define SEPTET_AGAIN() SEPTET_EACH
 #define SEPTET_PARENTHESES ()
 #define SEPTET_EXPAND(...) SEPTET_EXPAND_3(SEPTET_EXPAND_3(SEPTET_EXPAND_3(__VA_ARGS__)))
+#define SEPTET_EXPAND_MORE(...) SEPTET_EXPAND(SEPTET_EXPAND(SEPTET_EXPAND(__VA_ARGS__)))
 #define SEPTET_EXPAND_3(...) SEPTET_EXPAND_1(SEPTET_EXPAND_1(SEPTET_EXPAND_1(__VA_ARGS__)))
 #define SEPTET_EXPAND_1(...) __VA_ARGS__
 

@@ -16,15 +16,14 @@ SEPTET_MEMBERS(Ramp, main, way, exit, entry, lane)
 // Left out are the corridor and its tables of road data. Kept are a vehicle's constants, drawn when it came in, and
 // data that follows from the hashed or is searched from it.
 SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line, ways), hashed(id),
-                     kept(model, paint, driver, law),
-                     hashed(x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part, change_offset_m,
-                            change_run_m, next_decision_s),
-                     kept(change_shortest_m, rolled_m, lane_end_m, length_m, half_width_m),
+                     kept(model, paint, driver, law), hashed(x_m, speed_mps, acceleration_mps2), kept(rolled_m),
+                     hashed(lane, from_lane, change_part, change_offset_m, change_run_m), kept(change_shortest_m),
+                     hashed(next_decision_s), kept(lane_end_m, length_m, half_width_m),
                      hashed(aside_m, aside_mps, aside_target_m, heard_s, making_way, emergency),
                      kept(neighbour_hints, any_aside, order, exits))
 // The corridors are taken one by one. Sights are given anew each tick.
 SEPTET_MEMBER_GROUPS(TrafficState, left_out(corridors), kept(ramps), hashed(time_s), left_out(sights),
-                     kept(foreign_places, foreign_stands_s), hashed(foreign_speeds_mps, foreign_signals_s, bad_numbers),
+                     kept(foreign_places), hashed(foreign_speeds_mps, foreign_stands_s, foreign_signals_s, bad_numbers),
                      kept(removed_below))
 
 namespace {
