@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/roadside/plane_cells.hpp"
+#include "engine/math/plane_cells.hpp"
 #include "engine/roadside/road_shape.hpp"
 
 namespace septet::roadside {

@@ -13,12 +13,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/math/plane_cells.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/roadside/barrier_lines.hpp"
 #include "engine/roadside/buildings.hpp"
 #include "engine/roadside/obstacle_profile.hpp"
 #include "engine/roadside/parked_cars.hpp"
-#include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/plants.hpp"
 #include "engine/roadside/signals.hpp"
 #include "engine/roadside/standing_objects.hpp"

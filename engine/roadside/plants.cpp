@@ -12,8 +12,8 @@
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/noise.hpp"
+#include "engine/math/plane_cells.hpp"
 #include "engine/math/polygon.hpp"
-#include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/standing_objects.hpp"
 #include "engine/roadside/street.hpp"
 

@@ -10,10 +10,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/math/plane_cells.hpp"
 #include "engine/math/polygon.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/roadside/mentions.hpp"
-#include "engine/roadside/plane_cells.hpp"
 
 namespace septet::roadside {
 namespace {

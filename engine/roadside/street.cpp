@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/random.hpp"
+#include "engine/math/plane_cells.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
-#include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/standing_objects.hpp"
 #include "engine/roadside/street_lighting.hpp"
 #include "engine/roadside/town.hpp"

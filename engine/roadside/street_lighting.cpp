@@ -7,9 +7,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/math/plane_cells.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
-#include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/town.hpp"
 #include "engine/world/street_lamp.hpp"
 

@@ -15,7 +15,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/roadside/plane_cells.hpp"
+#include "engine/math/plane_cells.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/scenery/world/road_world.hpp"
@@ -96,7 +96,7 @@ class DrawnHeights {
   }
 
  private:
-  static constexpr roadside::PlaneCells cells{2.0};
+  static constexpr PlaneCells cells{2.0};
   std::vector<DrawnTriangle> triangles_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> by_cell_;
 };

@@ -67,7 +67,7 @@ struct Buried {
 
 inline Buried buried_lanes(const road::RoadNetwork& network, const scene::Store& store) {
   constexpr double noticed_m = 0.02;
-  constexpr roadside::PlaneCells cells{4.0};
+  constexpr PlaneCells cells{4.0};
   const std::vector<LanePlace> places = lane_places(network);
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> by_cell;
   for (std::uint32_t i = 0; i < places.size(); ++i) by_cell[cells.key_at(Vec2(places[i].surface_m))].push_back(i);

@@ -6,7 +6,7 @@
 
 #include "engine/math/rigid_transform.hpp"
 
-namespace septet::roadside {
+namespace septet {
 
 /// Grid of squares `cell_m` wide, each with a key for a hash table.
 struct PlaneCells {
@@ -25,4 +25,4 @@ struct PlaneCells {
   }
 };
 
-}  // namespace septet::roadside
+}  // namespace septet
