@@ -17,6 +17,8 @@ struct ObstacleProfile {
   /// Coefficient for painted sheet metal sliding along it; chosen: 0.3 on steel, 0.45 on concrete and bark.
   double friction;
   double yielding_kg;  ///< Same as Obstacle::yielding_kg.
+  /// Height over its foot up to which it hides what is behind; 0 for what is thin, low or looked through.
+  double hides_m = 0.0;
 };
 
 constexpr ObstacleProfile profile_of(ObstacleKind kind) {
@@ -28,11 +30,11 @@ constexpr ObstacleProfile profile_of(ObstacleKind kind) {
     case ObstacleKind::parapet:
       return {0.16, 1.20, 0.35, 0.0};
     case ObstacleKind::noise_wall:
-      return {0.16, 3.60, 0.45, 0.0};
+      return {0.16, 3.60, 0.45, 0.0, 3.60};
     case ObstacleKind::tunnel_wall:
-      return {0.05, tunnel_shape::haunch_m, 0.45, 0.0};
+      return {0.05, tunnel_shape::haunch_m, 0.45, 0.0, tunnel_shape::haunch_m};
     case ObstacleKind::portal:
-      return {0.45, 9.0, 0.45, 0.0};
+      return {0.45, 9.0, 0.45, 0.0, 9.0};
     case ObstacleKind::gantry_leg:
       return {0.28, 8.0, 0.30, 0.0};
     case ObstacleKind::marker_post:
@@ -42,7 +44,7 @@ constexpr ObstacleProfile profile_of(ObstacleKind kind) {
     case ObstacleKind::bush:
       return {0.80, endless_m, 0.20, 40.0};
     case ObstacleKind::house:
-      return {0.05, endless_m, 0.45, 0.0};
+      return {0.05, endless_m, 0.45, 0.0, endless_m};
     case ObstacleKind::post:
       return {signal_post_radius_m, 4.0, 0.30, 0.0};
     case ObstacleKind::ground_face:

@@ -25,6 +25,7 @@
 #include "engine/roadside/street.hpp"
 #include "engine/roadside/street_furniture.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
+#include "engine/world/participant_sight.hpp"
 
 namespace septet::roadside {
 namespace {
@@ -41,7 +42,8 @@ Things::key_type millimetres(const Vec2& place_m) {
 
 class Builder {
  public:
-  Builder(std::vector<Obstacle>& obstacles, Things& things) : obstacles_(obstacles), things_(things) {}
+  Builder(std::vector<Obstacle>& obstacles, std::vector<sight::Wall>& walls, Things& things)
+      : obstacles_(obstacles), walls_(walls), things_(things) {}
 
   /// What `add` adds is drawn by the one object of the scene at this place.
   template <class Add>
@@ -58,12 +60,17 @@ class Builder {
   void point(ObstacleKind kind, const Vec3& foot_m, double radius_m) { add(kind, run_++, foot_m, foot_m, radius_m); }
 
   /// Adds a run of straight stretches, whose inner joints are closed.
-  void line(ObstacleKind kind, const std::vector<Vec3>& points_m) {
+  void line(ObstacleKind kind, const std::vector<Vec3>& points_m) { line(kind, points_m, profile_of(kind).hides_m); }
+  /// `hides_m`: as of its profile.
+  void line(ObstacleKind kind, const std::vector<Vec3>& points_m, double hides_m) {
     if (points_m.size() < 2) return;
     for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
       Obstacle& stretch = add(kind, run_, points_m[i], points_m[i + 1], profile_of(kind).radius_m);
       stretch.open_from = i == 0;
       stretch.open_to = i + 2 == points_m.size();
+      if (hides_m > 0.0)
+        walls_.push_back({stretch.from_m, stretch.to_m, stretch.low_m,
+                          std::max(points_m[i].z, points_m[i + 1].z) + hides_m, thing_});
     }
     ++run_;
   }
@@ -86,6 +93,7 @@ class Builder {
   }
 
   std::vector<Obstacle>& obstacles_;
+  std::vector<sight::Wall>& walls_;
   Things& things_;
   std::uint32_t run_ = 0, thing_ = 0;
 };
@@ -218,13 +226,14 @@ void add_signals(const RoadShape& roads, Builder& builder) {
   }
 }
 
-void add_house(const RigidTransform& world_from_house, const HouseBlock& block, Builder& builder) {
+void add_house(const RigidTransform& world_from_house, const HouseBlock& block, Builder& builder,
+               double hides_m = profile_of(ObstacleKind::house).hides_m) {
   const auto corner = [&](double x, double y) {
     return world_from_house * Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
   };
   const std::array<Vec3, 4> corners{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
   for (std::size_t i = 0; i < corners.size(); ++i)  // Own run for each wall: two are met at once, neither is hidden.
-    builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]});
+    builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]}, hides_m);
 }
 
 /// Adds objects of the road file, except its trees and lamps, which are among those above and below.
@@ -237,7 +246,7 @@ void add_objects(const RoadShape& roads, Builder& builder) {
         const auto corner = [&](std::size_t n) {
           return object.world_from_object * Vec3(object.footprint_m[n % object.footprint_m.size()], 0.0);
         };
-        builder.line(ObstacleKind::house, {corner(i), corner(i + 1)});
+        builder.line(ObstacleKind::house, {corner(i), corner(i + 1)}, object.height_m);
       }
     });
 }
@@ -254,7 +263,8 @@ void add_parked_cars(const RoadShape& roads, std::uint64_t seed, Builder& builde
   for (const ParkedCar& car : parked_cars(roads, seed)) {
     const VehicleModel& model = vehicle_models()[car.model];
     builder.thing(car.world_from_vehicle.position_m, [&] {
-      add_house(car.world_from_vehicle, {model.length_m, model.width_m, model.centre_x_m(), 0.0}, builder);
+      add_house(car.world_from_vehicle, {model.length_m, model.width_m, model.centre_x_m(), 0.0}, builder,
+                opaque_height_m(model));
     });
   }
 }
@@ -293,7 +303,8 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
     : seed_(seed), terrain_(RoadShape(network, overrun_m), seed) {
   const RoadShape roads(network, overrun_m);
   const std::vector<RoadTile> tiles = roads.tiles(160.0);
-  Builder builder(obstacles_, things_);
+  std::vector<sight::Wall> walls;
+  Builder builder(obstacles_, walls, things_);
   add_barriers(roads, tiles, builder);
   add_walls_and_posts(roads, tiles, builder);
   add_tunnels(roads, tiles, builder);
@@ -305,6 +316,7 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
   add_land(roads, terrain_, seed, builder);
   close_ends();
   index();
+  walls_ = sight::Walls(std::move(walls));
   for (road::RoadIndex road = 0; road < network.roads.size(); ++road)
     for (double s = roads.begin_m(road); s < roads.end_m(road); s += 12.0) {
       const road::RoadExtent extent = road::road_extent(network.roads[road], s);

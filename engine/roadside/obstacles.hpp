@@ -17,6 +17,7 @@
 
 #include "engine/roadside/road_shape.hpp"
 #include "engine/roadside/terrain.hpp"
+#include "engine/sight/walls.hpp"
 #include "engine/world/obstacle.hpp"
 
 namespace septet::roadside {
@@ -43,6 +44,9 @@ class Obstacles {
   /// All obstacles but the stems of woods.
   std::span<const Obstacle> listed() const { return obstacles_; }
 
+  /// Those of them that hide what is behind: walls, portals, houses and parked cars, these to their windows.
+  const sight::Walls& walls() const { return walls_; }
+
  private:
   void close_ends();
   void index();
@@ -50,6 +54,7 @@ class Obstacles {
   std::uint64_t seed_;
   Terrain terrain_;
   std::vector<Obstacle> obstacles_;
+  sight::Walls walls_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t> things_;  ///< By place, in millimetres.
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;    ///< Ascending indices into the list.
   std::unordered_set<std::uint64_t> treeless_;                             ///< Cells too near to a road for woods.

@@ -4,10 +4,12 @@
 
 namespace septet::sight {
 
-double dipped_light_lx(double distance_m, double depth) {
+double dipped_light_lx(double distance_m, double depth, double aside_rad) {
   constexpr double pair_cd = 30000.0, lamp_up_m = 0.65, thing_up_m = 0.3;
   const double away_m = std::max(distance_m, 1.0);
-  const light::vec3 way = light::normalize(light::vec3(static_cast<float>(away_m), 0.0f, thing_up_m - lamp_up_m));
+  const light::vec3 way =
+      light::normalize(light::vec3(static_cast<float>(away_m * std::cos(aside_rad)),
+                                   static_cast<float>(away_m * std::sin(aside_rad)), thing_up_m - lamp_up_m));
   return pair_cd * light::dipped_share({1.0f, 0.0f, 0.0f}, way, 1.0f) * std::exp(-depth) / (away_m * away_m);
 }
 

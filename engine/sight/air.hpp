@@ -24,8 +24,8 @@ inline bool sees_reflecting(double depth, double light_lx) {
   return std::exp(-depth) * std::min(1.0, light_lx / full_light_lx) >= std::exp(-reflecting_depth);
 }
 
-/// Light on a low thing straight ahead by a car's own dipped beams, behind air of that optical depth.
-double dipped_light_lx(double distance_m, double depth);
+/// Light on a low thing by a car's own dipped beams, behind air of that optical depth: straight ahead, or to a side.
+double dipped_light_lx(double distance_m, double depth, double aside_rad = 0.0);
 
 /// Extinction by haze and fog of this meteorological range (Koschmieder, contrast of 2 %), 1/m.
 double fog_extinction_per_m(double visibility_m);

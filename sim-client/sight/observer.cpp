@@ -6,7 +6,7 @@
 
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/scenery/vehicles/vehicle_mirrors.hpp"
-#include "engine/world/participant_shape.hpp"
+#include "engine/world/participant_sight.hpp"
 
 namespace septet::sight {
 namespace {
@@ -57,11 +57,8 @@ std::vector<Mirror> mirrors_of(const Participant& observer, const Snapshot& worl
 }
 
 Box box_around(const Participant& participant) {
-  const VehicleModel model = shape_of(participant);
-  Box box;
-  box.world_from_box = {participant.world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.5 * model.height_m),
-                        participant.world_from_vehicle.orientation};
-  box.half_m = 0.5 * Vec3(model.length_m, model.width_m, model.height_m) + protruding_m;
+  Box box = box_of(participant);
+  box.half_m += protruding_m;
   return box;
 }
 

@@ -356,4 +356,39 @@ TEST_CASE("a thing that is gone is left out of what is near, and what stands bes
   for (const double x_m : {std::nan(""), 1e300, 0.5}) CHECK(obstacles.thing_at({x_m, 1e6}) == 0);
 }
 
+TEST_CASE(
+    "noise walls, tunnels and houses hide what is behind them to their height, and rails, trees and posts nothing") {
+  const Obstacles& all = motorway_obstacles();
+  std::map<ObstacleKind, int> hiding, looked_at;
+  for (const Obstacle& obstacle : all.listed()) {
+    const Vec2 along = obstacle.to_m - obstacle.from_m, middle = 0.5 * (obstacle.from_m + obstacle.to_m);
+    const double length_m = glm::length(along);
+    // A short line across it at the height of eyes.
+    const Vec2 across = length_m > 0.0 ? Vec2(-along.y, along.x) / length_m : Vec2(1.0, 0.0);
+    const double up_m = (obstacle.low_m > -100.0 ? obstacle.low_m : 0.0) + 1.2;
+    const bool hides = all.walls().hide(Vec3(middle - 0.01 * across, up_m), Vec3(middle + 0.01 * across, up_m));
+    ++looked_at[obstacle.kind];
+    hiding[obstacle.kind] += hides ? 1 : 0;
+  }
+  for (const ObstacleKind kind :
+       {ObstacleKind::noise_wall, ObstacleKind::tunnel_wall, ObstacleKind::portal, ObstacleKind::house}) {
+    CAPTURE(name_of(kind));
+    REQUIRE(looked_at[kind] > 0);
+    CHECK(hiding[kind] == looked_at[kind]);
+  }
+  for (const ObstacleKind kind :
+       {ObstacleKind::guard_rail, ObstacleKind::parapet, ObstacleKind::tree, ObstacleKind::gantry_leg}) {
+    CAPTURE(name_of(kind));
+    REQUIRE(looked_at[kind] > 0);
+    CHECK(hiding[kind] == 0);
+  }
+  for (const Obstacle& obstacle : all.listed()) {
+    if (obstacle.kind != ObstacleKind::noise_wall) continue;
+    const Vec2 along = glm::normalize(obstacle.to_m - obstacle.from_m), across(-along.y, along.x),
+               middle = 0.5 * (obstacle.from_m + obstacle.to_m);
+    CHECK_FALSE(
+        all.walls().hide(Vec3(middle - across, obstacle.high_m + 0.1), Vec3(middle + across, obstacle.high_m + 0.1)));
+  }
+}
+
 }  // namespace septet::roadside
