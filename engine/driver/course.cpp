@@ -69,12 +69,12 @@ std::vector<Vec2> way_at(const CourseLine& ahead, const road::RoadNetwork& netwo
 }
 
 /// True if a person is at a crossing, on it or at its edge.
-bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, const Snapshot& snapshot,
+bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, std::span<const Participant> around,
                     const OwnPlace& own) {
   const std::vector<Vec2> way = way_at(ahead, network, own);
   if (way.empty()) return false;
   const Vec2 middle = way[way.size() / 2];
-  return std::ranges::any_of(snapshot.participants, [&](const Participant& other) {
+  return std::ranges::any_of(around, [&](const Participant& other) {
     return vehicle_models()[other.model].kind == ParticipantKind::pedestrian &&
            glm::distance(Vec2(other.world_from_vehicle.position_m), middle) < edge_of_crossing_m;
   });
@@ -82,7 +82,8 @@ bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, c
 
 /// True if the driver sees that this line requires a stop.
 bool waits(const CourseLine& ahead, const CourseState& state, const DriverParameters& driver,
-           const road::RoadNetwork& network, const Snapshot& snapshot, const OwnPlace& own, double left_m) {
+           const road::RoadNetwork& network, const Snapshot& snapshot, std::span<const Participant> around,
+           const OwnPlace& own, double left_m) {
   const double v = std::max(own.speed_mps, 0.0);
   const double needs_mps2 = v * v / (2.0 * std::max(left_m, 0.1));
   if (needs_mps2 > hardest_mps2) return false;
@@ -91,10 +92,9 @@ bool waits(const CourseLine& ahead, const CourseState& state, const DriverParame
     if (lamps.has(Lamp::signal_red)) return true;
     return lamps.has(Lamp::signal_amber) && needs_mps2 < hardest_for_amber_mps2;
   }
-  const Participant* self = find_participant(snapshot, snapshot.driver_car.participant);
-  if (!self) return false;
-  const auto conflict =
-      traffic::first_conflict(ahead.line.kind, way_at(ahead, network, own), snapshot.participants, *self);
+  const auto self = std::ranges::find(around, snapshot.driver_car.participant, &Participant::id);
+  if (self == around.end()) return false;
+  const auto conflict = traffic::first_conflict(ahead.line.kind, way_at(ahead, network, own), around, *self);
   if (!conflict) return false;
   const double own_s = left_m / std::max(v, slowest_mps) + (v < standing_mps ? start_s : 0.0);
   // A driver who has decided does not change for a trifle.
@@ -119,8 +119,8 @@ CourseState read_course(const road::RoadNetwork& network, const traffic::Corrido
 }
 
 void look_at_course(CourseState& state, const DriverParameters& driver, const road::RoadNetwork& network,
-                    const traffic::Corridor& corridor, const Snapshot& snapshot, const OwnPlace& own, double now_s,
-                    double dt_s, Random& random) {
+                    const traffic::Corridor& corridor, const Snapshot& snapshot, std::span<const Participant> around,
+                    const OwnPlace& own, double now_s, double dt_s, Random& random) {
   state.speed_mps = allowed_speed_mps(driver, network, corridor, own);
   if (state.lines.empty()) return;
   state.judgement.advance(driver.course.judgement, driver.course.judgement_time_s, dt_s, random);
@@ -130,10 +130,10 @@ void look_at_course(CourseState& state, const DriverParameters& driver, const ro
     // A driver who stopped a little beyond it waits there.
     if (left_m < (own.speed_mps < standing_mps ? -overrun_m : 0.0) || left_m > line_sight_m) continue;
     if (ahead.line.kind == LineKind::crossing && state.speed_mps > driver.course.crossing_mps &&
-        is_somebody_at(ahead, network, snapshot, own))
+        is_somebody_at(ahead, network, around, own))
       state.speed_mps = std::min(state.speed_mps, std::sqrt(driver.course.crossing_mps * driver.course.crossing_mps +
                                                             slower_m2ps2(driver.course, own, left_m)));
-    if (!waits(ahead, state, driver, network, snapshot, own, left_m)) continue;
+    if (!waits(ahead, state, driver, network, snapshot, around, own, left_m)) continue;
     seen = ahead.x_m;
     break;
   }

@@ -2,12 +2,13 @@
 /// Demands of the road ahead beside the lane: slower in bends and for limits, yielding where others have right of way,
 /// indicating before turns.
 ///
-/// Lights come from the snapshot, approaching vehicles are seen to continue as they do (engine/traffic/yield_line.hpp).
+/// Lights come from the snapshot, approaching vehicles that the driver knows of are seen to continue as they do (engine/traffic/yield_line.hpp).
 /// Their arrival is judged with an error; the driver waits for any that would arrive sooner than his own time to the
 /// line plus a gap. A line that would need full braking is passed.
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/core/random.hpp"
@@ -44,10 +45,10 @@ struct CourseState {
 /// Features along a corridor that the driver has just found.
 CourseState read_course(const road::RoadNetwork& network, const traffic::Corridor& corridor);
 
-/// A look ahead, `dt_s` after the last one. `wished_mps` is the driver's desired speed here.
+/// A look ahead, `dt_s` after the last one, with an eye on those `around`, the driver's own car among them.
 void look_at_course(CourseState& state, const DriverParameters& driver, const road::RoadNetwork& network,
-                    const traffic::Corridor& corridor, const Snapshot& snapshot, const OwnPlace& own, double now_s,
-                    double dt_s, Random& random);
+                    const traffic::Corridor& corridor, const Snapshot& snapshot, std::span<const Participant> around,
+                    const OwnPlace& own, double now_s, double dt_s, Random& random);
 
 /// The line to stop at, as a standing obstacle.
 std::optional<Obstacle> line_ahead(const CourseState& state, const OwnPlace& own, const SpeedParameters& speed);

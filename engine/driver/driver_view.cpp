@@ -7,11 +7,11 @@
 #include "engine/road/body_lanes.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/seen_participants.hpp"
 
 namespace septet::driver {
 namespace {
 
-constexpr double sight_m = 250.0;
 constexpr double acceleration_seen_in_s = 0.5;
 constexpr double gap_step_m = 60.0;  ///< Gaps are those along the lane, as well as eyes measure them.
 constexpr double foresight_s = 1.0;  ///< A vehicle that crosses a line is noticed this much earlier.
@@ -115,16 +115,16 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const tr
 }
 
 std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const traffic::Corridor& corridor,
-                                      const Snapshot& snapshot, const OwnPlace& own) {
+                                      std::span<const Participant> around, ParticipantId self, const OwnPlace& own) {
   std::vector<SeenVehicle> seen;
-  const Participant* self = find_participant(snapshot, snapshot.driver_car.participant);
-  if (!self) return seen;
-  const Vec2 here = ground_position(*self);
+  const auto body = std::ranges::find(around, self, &Participant::id);
+  if (body == around.end()) return seen;
+  const Vec2 here = ground_position(*body);
   // The search along the road begins where another would be if it ran straight on.
   const double ahead_along_s = traffic::piece_at(corridor, own.x_m).along_s ? 1.0 : -1.0;
-  const Vec2 forward = ahead_along_s * Vec2(self->world_from_vehicle.orientation * Vec3(1, 0, 0));
-  for (const Participant& other : snapshot.participants) {
-    if (other.id == self->id || glm::distance(ground_position(other), here) > sight_m) continue;
+  const Vec2 forward = ahead_along_s * Vec2(body->world_from_vehicle.orientation * Vec3(1, 0, 0));
+  for (const Participant& other : around) {
+    if (other.id == self || glm::distance(ground_position(other), here) > looked_for_within_m) continue;
     road::RoadPosition hint = own.position;
     hint.s_m += glm::dot(ground_position(other) - here, forward);
     const Vec2 there = ground_position(other);

@@ -1,7 +1,7 @@
 #pragma once
 /// The driver's view from the seat: the place in the lane, the road ahead, and the vehicles around.
 ///
-/// A function of a const Snapshot and the road alone. Lanes are counted as the corridor counts them, outwards from the
+/// A function of a const Snapshot, of those whom the driver knows to be there (known_world.hpp), and the road alone. Lanes are counted as the corridor counts them, outwards from the
 /// middle of the road; "left" and "right" are the driver's.
 
 #include <optional>
@@ -61,10 +61,10 @@ std::optional<traffic::Corridor> find_corridor(const road::RoadNetwork& network,
 std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const traffic::Corridor& corridor,
                                       const Snapshot& snapshot, const std::optional<road::RoadPosition>& hint);
 
-/// All vehicles in the corridor's lanes, or about to be, within 250 m, by ascending id. Vehicles on the shoulder are
-/// excluded. Accelerations stay 0.
+/// Of those around `self`, who is one of them, all in the corridor's lanes, or about to be, within 250 m, by ascending id.
+/// Vehicles on the shoulder are excluded. Accelerations stay 0.
 std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const traffic::Corridor& corridor,
-                                      const Snapshot& snapshot, const OwnPlace& own);
+                                      std::span<const Participant> around, ParticipantId self, const OwnPlace& own);
 
 /// Estimates accelerations from the changes since the look `dt_s` before: the eye takes half a second. Also carries
 /// over earlier flashing lights.

@@ -139,6 +139,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
     driver.place.reset();
     driver.lanes = {};
     driver.tracks = {};
+    driver.known = {};
     DriverInput input = stop_off_road(driver, dt_s);
     input.sequence = driver.sequence;
     return input;
@@ -147,15 +148,16 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
   if (!driver.steering.has_seen) take_the_wheel(driver, network, *own);
   if (driver.lanes.lane == 0) driver.lanes.lane = driver.lanes.target = own->lane;
   if (driver.now_s >= driver.next_look_around_s) {
-    auto seen = see_vehicles(network, *driver.corridor, snapshot, *own);
+    look_around(driver.known, snapshot, look_around_interval_s);
+    auto seen = see_vehicles(network, *driver.corridor, driver.known.bodies, body->id, *own);
     see_accelerations(driver.vehicles, look_around_interval_s, seen);
     driver.vehicles = std::move(seen);
     const double reaction_s = driver.parameters.speed.reaction_time_s;
     driver.minded = remembered_vehicles(driver.foot_eyes.through(driver.now_s, driver.vehicles, reaction_s), reaction_s,
                                         own->speed_mps);
     driver.next_look_around_s = driver.now_s + look_around_interval_s;
-    look_at_course(driver.course, driver.parameters, network, *driver.corridor, snapshot, *own, driver.now_s,
-                   look_around_interval_s, driver.eyes_random);
+    look_at_course(driver.course, driver.parameters, network, *driver.corridor, snapshot, driver.known.bodies, *own,
+                   driver.now_s, look_around_interval_s, driver.eyes_random);
     const LaneChoiceParameters& lanes = driver.parameters.lanes;
     if (driver.lanes.phase == LanePhase::keep && lanes.in_tracks_within_m > 0.0)
       look_at_tracks(driver.tracks, *driver.corridor, *own, driver.vehicles, lanes.in_tracks_within_m,

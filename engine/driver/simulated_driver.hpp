@@ -18,6 +18,7 @@
 #include "engine/driver/driver_parameters.hpp"
 #include "engine/driver/driver_view.hpp"
 #include "engine/driver/gears.hpp"
+#include "engine/driver/known_world.hpp"
 #include "engine/driver/lane_choice.hpp"
 #include "engine/driver/mirrors.hpp"
 #include "engine/driver/pedals.hpp"
@@ -40,6 +41,7 @@ struct SimulatedDriver {
   Random hands_random, foot_random, head_random, eyes_random;
   std::optional<traffic::Corridor> corridor;
   std::optional<road::RoadPosition> place;  ///< Hint for the next look.
+  KnownWorld known;
   std::vector<SeenVehicle> vehicles;
   ReactionDelay<std::vector<SeenVehicle>> foot_eyes;
   std::vector<SeenVehicle> minded;  ///< Vehicles that the foot acts upon: as seen a reaction time ago.

@@ -79,6 +79,8 @@ SEPTET_MEMBERS(OpenCrash, record, run, last_push, first_at, second_at, first, se
                deepest_m, first_moves, second_moves, has_ledger)
 SEPTET_MEMBERS(CrashMemory, struck_vehicles, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
+SEPTET_MEMBERS(Sighting, id, seen, was_seen, since)
+SEPTET_MEMBERS(Sightings, near, changed)
 SEPTET_MEMBERS(MotionState, start_x_m, start_y_m, start_heading_rad, is_over)
 SEPTET_MEMBERS(GameState, standing, next_move_s, random)
 SEPTET_MEMBERS(Fire, vehicle, flames, smoke, burning_s, burning)
@@ -92,11 +94,11 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, bodies,
-// thrown ones, things that are gone, limited sights, a given motion, a game, and an examiner are hashed where there are any. Open crashes change
-// nothing.
+// thrown ones, things that are gone, limited sights, a given motion, a game, and an examiner are hashed where there are any. Open crashes and
+// sightings change nothing.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown, open_crashes),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
-                     left_out(scenario, traffic, effects), kept(gone, sights, motion, game, examiner, input),
+                     left_out(scenario, traffic, effects), kept(gone, sights, sightings, motion, game, examiner, input),
                      hashed(diagnostics, touching))
 
 namespace {
@@ -250,6 +252,9 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   reader.require(std::ranges::is_sorted(state.sights, std::ranges::less_equal{}, &LimitedSight::driver), wrong);
   for (const LimitedSight& sight : state.sights)
     reader.require(impact::is_within(sight.seen_m, 0.0, farthest_sight_m), wrong);
+  reader.require(std::ranges::is_sorted(state.sightings.near, std::ranges::less_equal{}, &Sighting::id), wrong);
+  for (const Sighting& sighting : state.sightings.near) reader.require(sighting.since <= state.tick, wrong);
+  reader.require(state.sightings.changed <= state.tick, wrong);
   reader.require(state.motion.has_value() == (model.motion != nullptr), wrong);
   reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
   reader.require(state.examiner.has_value() != model.yield_lines.empty(), wrong);

@@ -14,6 +14,7 @@
 #include "engine/simulation/collisions.hpp"
 #include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/driver_car.hpp"
+#include "engine/simulation/driver_eyes.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/examiner.hpp"
 #include "engine/simulation/follow_motion.hpp"
@@ -89,6 +90,7 @@ Snapshot capture(const Model& model, const State& state, const DrivenCar& car, s
   if (auto lights = light_keyframe(model, state.tick)) snapshot.effects.push_back(std::move(*lights));
   if (auto warnings = warning_keyframe(state)) snapshot.effects.push_back(std::move(*warnings));
   if (auto sights = sight_keyframe(state)) snapshot.effects.push_back(std::move(*sights));
+  if (auto seen = seen_keyframe(state)) snapshot.effects.push_back(std::move(*seen));
   snapshot.diagnostics = state.diagnostics;
   if (state.game) snapshot.game = state.game->standing;
   return snapshot;
@@ -116,6 +118,8 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   if (model.scenario.game) state.game = initial_game(*model.scenario.game, model.seed);
   if (!model.yield_lines.empty()) state.examiner.emplace();
   if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
+  std::vector<Event> unseen_before;  // At the beginning everybody is.
+  look_for_others(model, participants_now(model, state, car, {}), state, unseen_before);
   return state;
 }
 
@@ -142,6 +146,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   advance_examiner(model, participants, car.participant, state, events);
   look_ahead(model, participants, state.effects, state.scenario);
   look_through_air(model, participants, state, events);
+  look_for_others(model, participants, state, events);
   return capture(model, state, car, std::move(participants));
 }
 

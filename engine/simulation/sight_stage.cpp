@@ -12,7 +12,8 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/sight/air.hpp"
 #include "engine/sight/line_of_sight.hpp"
-#include "engine/world/participant_shape.hpp"
+#include "engine/simulation/air_now.hpp"
+#include "engine/world/participant_sight.hpp"
 #include "engine/world/solid.hpp"
 
 namespace septet::simulation {
@@ -21,22 +22,6 @@ namespace {
 constexpr Tick look_ticks = 30;
 constexpr double step_m = 1.0;
 constexpr double most_spray_depth = 2.0;
-
-struct Air {
-  const smoke::State* smoke = nullptr;
-  double per_m = 0.0;  ///< Of fog and what falls.
-  double natural_lx = 0.0;
-};
-
-Air air_of(const State& state) {
-  const Environment& weather = state.scenario.environment;
-  Air air;
-  if (state.effects.fires.smoke) air.smoke = &*state.effects.fires.smoke;
-  air.per_m = sight::fog_extinction_per_m(weather.visibility_m) +
-              sight::fall_extinction_per_m(weather.rain_mm_per_h, weather.temperature_k);
-  air.natural_lx = weather.sun_illuminance_lux * std::max(0.0, std::sin(weather.sun_elevation_rad));
-  return air;
-}
 
 /// False where a driver sees all of `farthest_sight_m`: the weather hides too little, and there is no smoke within that.
 bool may_be_limited(const Air& air, const Participant& driver) {
@@ -66,10 +51,10 @@ struct View {
 View view_of(const Model& model, const Participant& driver) {
   const VehicleModel& body = vehicle_models()[driver.model];
   const RigidTransform& place = driver.world_from_vehicle;
+  const Vec3 eyes_m = driver_eyes_m(body);
   View view;
-  view.line = {place * Vec3(0.45 * body.wheelbase_m, 0.0, std::min(0.8 * body.height_m, 2.4)),
-               place.orientation * Vec3(1.0, 0.0, 0.0)};
-  view.bonnet_m = body.front_m() - 0.45 * body.wheelbase_m;
+  view.line = {place * eyes_m, place.orientation * Vec3(1.0, 0.0, 0.0)};
+  view.bonnet_m = body.front_m() - eyes_m.x;
   view.left = place.orientation * Vec3(0.0, 1.0, 0.0);
   const auto found = road::locate(model.roads, Vec2(place.position_m));
   if (!found) return view;
@@ -77,8 +62,7 @@ View view_of(const Model& model, const Participant& driver) {
   const double along =
       std::cos(point.heading_rad) * view.line.direction.x + std::sin(point.heading_rad) * view.line.direction.y;
   view.curvature_per_m = std::copysign(1.0, along) * point.curvature_per_m;
-  view.roofed = road::structure_at(model.roads.roads[found->position.road], found->position.s_m,
-                                   road::RoadStructure::Kind::tunnel) != nullptr;
+  view.roofed = is_roofed(model.roads, found->position);
   return view;
 }
 
@@ -102,14 +86,6 @@ Ahead nearest_ahead(const std::vector<Participant>& participants, const Particip
     if (std::abs(aside_m) < beside_m + beside_share * ahead_m) nearest = {&other, rear_m};
   }
   return nearest;
-}
-
-bool shines(const State& state, const Participant& vehicle) {
-  for (const Lamp lamp : {Lamp::low_beam, Lamp::high_beam, Lamp::rear_fog, Lamp::brake, Lamp::beacon,
-                          Lamp::indicator_left, Lamp::indicator_right})
-    if (vehicle.lamps.has(lamp)) return true;
-  return std::ranges::any_of(state.effects.fires.fires,
-                             [&](const Fire& fire) { return fire.vehicle == vehicle.id && fire.burning; });
 }
 
 /// Distance of a wall of the smoke's room along the way.
@@ -159,7 +135,7 @@ DriverSight look(const Model& model, const State& state, const std::vector<Parti
   const auto seen_m = [&](const auto& is_seen) {
     return sight::seen_m(view.line, farthest_sight_m, step_m, extinction_per_m, is_seen);
   };
-  const bool beams = driver.lamps.has(Lamp::low_beam) || driver.lamps.has(Lamp::high_beam);
+  const bool beams = has_beams(driver);
   const double lit_lx = view.roofed ? sight::full_light_lx : air.natural_lx;
   seen.reflecting_m = seen_m([&](double depth, double m) {
     return sight::sees_reflecting(depth, lit_lx + (beams ? sight::dipped_light_lx(m, depth) : 0.0));

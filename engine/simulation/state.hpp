@@ -46,6 +46,20 @@ struct MotionState {
   bool is_over = false;  ///< The table has ended, or the car has touched something: it is free.
 };
 
+/// Somebody within the distance in which the driver looks for others.
+struct Sighting {
+  ParticipantId id = 0;
+  bool seen = false;      ///< At the last look.
+  bool was_seen = false;  ///< At any since he came near.
+  Tick since = 0;         ///< When he was last seen, or came near if he never was.
+};
+
+/// Whom the driver's eyes have before them (driver_eyes.hpp).
+struct Sightings {
+  std::vector<Sighting> near;  ///< Ascending.
+  Tick changed = 0;            ///< The look that last changed who is seen.
+};
+
 struct State {
   Tick tick = 0;
   vehicle::VehicleState car;
@@ -68,6 +82,7 @@ struct State {
   /// Things beside the roads that are hidden (standing.hpp), by Obstacle::thing, ascending. Hashed where there is one.
   std::vector<std::uint32_t> gone;
   std::vector<LimitedSight> sights;       ///< Of the last look, ascending. Hashed where there is one.
+  Sightings sightings;                    ///< For the simulated driver, the snapshot and the log; no stage acts on it.
   std::optional<MotionState> motion;      ///< Present where the car goes by a table (given_motion.hpp).
   std::optional<GameState> game;          ///< Present where the scenario is played as a game.
   std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.

@@ -34,7 +34,7 @@ struct Ahead {
     REQUIRE(corridor);
     const auto own = see_own_place(motorway(), *corridor, snapshot, std::nullopt);
     REQUIRE(own);
-    return see_vehicles(motorway(), *corridor, snapshot, *own);
+    return see_vehicles(motorway(), *corridor, snapshot.participants, 1, *own);
   }
 };
 

@@ -1,0 +1,28 @@
+#pragma once
+/// The air of this tick, as light passes it: fog, what falls, smoke, and the light of the sky.
+///
+/// SI units; lux. Pure functions.
+
+#include "engine/simulation/state.hpp"
+
+namespace septet::simulation {
+
+struct Air {
+  const smoke::State* smoke = nullptr;
+  double per_m = 0.0;  ///< Extinction by fog and what falls.
+  double natural_lx = 0.0;
+};
+
+/// The state must live as long.
+Air air_of(const State& state);
+
+/// True of a vehicle whose lamps are lit, or that burns.
+bool shines(const State& state, const Participant& vehicle);
+
+/// True where the driver's car, or another vehicle, has its dipped or main beams lit.
+bool has_beams(const Participant& vehicle);
+
+/// True within a tunnel, which is lit.
+bool is_roofed(const road::RoadNetwork& network, const road::RoadPosition& place);
+
+}  // namespace septet::simulation
