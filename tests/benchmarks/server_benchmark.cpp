@@ -9,6 +9,7 @@
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/collisions.hpp"
 #include "engine/simulation/driver_car.hpp"
+#include "engine/simulation/driver_eyes.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "program/resources.hpp"
@@ -80,6 +81,15 @@ void collisions_of_nobody_200(benchmark::State& bench) {
   SEPTET_CHECK(drive.state.bodies.empty(), "somebody was hit in tick {}", drive.state.tick);
 }
 BENCHMARK(collisions_of_nobody_200)->Name("server_tick/200_collisions_of_nobody")->Unit(benchmark::kMicrosecond);
+
+/// One look of the driver's eyes at those around, of which a tick has a twelfth: beside server_tick/200 of the same run.
+void whom_the_driver_sees_200(benchmark::State& bench) {
+  RunningDrive drive;
+  const std::vector<Participant> participants = drive.step().participants;
+  for (auto _ : bench) simulation::look_for_others(*drive.model, participants, drive.state, drive.events);
+  SEPTET_CHECK(!drive.state.sightings.near.empty(), "nobody is near");
+}
+BENCHMARK(whom_the_driver_sees_200)->Name("server_tick/200_whom_the_driver_sees")->Unit(benchmark::kMicrosecond);
 
 /// Simulated over computed time, without screens: driver's car, simulated driver, traffic and the session log. The
 /// benchmark's own figure is the CPU time of the thread that simulates; by the clock the log's thread, which encodes
