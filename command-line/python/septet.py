@@ -38,6 +38,7 @@ MOST_EVENTS_KEPT = 10_000
 """Events that wait with them; older ones are dropped and counted."""
 
 
+Solid = Union[bool, float]
 Parent = Union[int, str, "Participant", "Car", "Handle"]
 """A participant, by its number, the scenario's name or as a tick has it; or a thing."""
 
@@ -249,6 +250,11 @@ def _turned(heading_deg: float) -> tuple[float, float, float, float]:
     return (math.cos(half), 0.0, 0.0, math.sin(half))
 
 
+def _solid(value: Solid) -> str:
+    """What stands behind `solid NODE`."""
+    return {True: "", False: " off"}[value] if isinstance(value, bool) else f" {float(value)!r}"
+
+
 def _leg(velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float = 0.0) -> str:
     if (len(velocity), len(acceleration)) != (3, 3):
         raise ValueError("a velocity and an acceleration are x, y, z")
@@ -261,7 +267,8 @@ class Handle:
     def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
         self._world, self.node = world, node
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
-        self._is_moving = self._is_solid = False
+        self._is_moving = False
+        self._solid: Solid = False
 
     @property
     def name(self) -> str:
@@ -331,14 +338,17 @@ class Handle:
         self._visible = bool(value)
 
     @property
-    def solid(self) -> bool:
-        """True once this script has made it so: an upright box around it stands fast and is hit. What is solid does not go()."""
-        return self._is_solid
+    def solid(self) -> Solid:
+        """True once this script has made it so: an upright box around it is hit, stands fast and follows go() whatever it meets.
+
+        A number is its mass in kg, from 0.1 to 20000: it is then pushed, and the first push ends what go() has begun.
+        """
+        return self._solid
 
     @solid.setter
-    def solid(self, value: bool) -> None:
-        self._world._change(f"solid {self.node}{'' if value else ' off'}")
-        self._is_solid = bool(value)
+    def solid(self, value: Solid) -> None:
+        self._world._change(f"solid {self.node}{_solid(value)}")
+        self._solid = value
 
     def show_text(self, text: str) -> None:
         """Black letters on white in the place of its first material: for boards and signs."""
@@ -433,16 +443,16 @@ class World:
         watch: bool = False,
         lifetime_s: Optional[float] = None,
         parent: Optional[Parent] = None,
-        solid: bool = False,
+        solid: Solid = False,
     ) -> Handle:
         """A thing of your own: a .glb file, or nothing yet. One that was added under this name before is replaced.
 
         `watch`: the file is read again each time when it was saved, as long as this connection stands; nothing is replaced.
         `lifetime_s`: it is removed so many seconds of drive time after the tick that shows it first, also when this script has ended.
         `parent`: what it hangs on from the first, as of Handle.hang_on; `position` is in that one's frame.
-        `solid`: it can be hit from the first tick that shows it, as of Handle.solid.
+        `solid`: it can be hit from the first tick that shows it, as of Handle.solid; a number is its mass in kg.
         """
-        if watch and (lifetime_s is not None or parent is not None or solid):
+        if watch and (lifetime_s is not None or parent is not None or solid is not False):
             raise ValueError("a file that is watched has no lifetime, is hung on something by hang_on and made solid by Handle.solid")
         at = f"{_numbers(position)} {float(heading_deg)!r}"
         what = f"create {_word(name)} {at}" if glb is None else f"{'watch' if watch else 'import'} {_word(name)} {_word(os.path.abspath(glb))} {at}"
@@ -457,7 +467,7 @@ class World:
         heading_deg: float = 0.0,
         lifetime_s: Optional[float] = None,
         parent: Optional[Parent] = None,
-        solid: bool = False,
+        solid: Solid = False,
     ) -> Handle:
         """A board for text and pictures; who stands on its +x side, `heading_deg`, reads it. `lifetime_s`, `parent` and `solid` as of add."""
         what = f"board {_word(name)} {_numbers((width_m, height_m))} {_numbers(position)} {float(heading_deg)!r}"
@@ -651,18 +661,18 @@ class World:
                     traceback.print_exc()
 
     def _made(
-        self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent], solid: bool
+        self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent], solid: Solid
     ) -> Handle:
         lines = [line]
         if lifetime_s is not None:
             lines.append(f"lifetime {_word(name)} {float(lifetime_s)!r}")
         if parent is not None:
             lines.append(f"hang {_word(name)} {_who(parent)}")
-        if solid:
-            lines.append(f"solid {_word(name)}")
+        if solid is not False:
+            lines.append(f"solid {_word(name)}{_solid(solid)}")
         self._change(*lines)
         made = Handle(self, _word(name), position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
-        made._is_solid = solid
+        made._solid = solid
         return made
 
     def _change(self, *lines: str) -> None:

@@ -32,6 +32,11 @@ DrawnObject read_object(const Node& node) {
     object.motion.rotation = glm::normalize(data.motion.rotation);
     object.transform = {.scale = data.transform.scale};
   }
+  if (!object.prototype) object.box = pushable_box(node);
+  if (object.box && object.motion.legs.empty()) {
+    object.motion = {object.transform.position_m, object.transform.rotation, {}};
+    object.transform = {.scale = data.transform.scale};
+  }
   for (const auto& [id, link] : data.links) {
     if (link.label == "geometry" && object.geometry == no_node) object.geometry = link.target;
     if (link.label == "material") object.materials.emplace_back(link.target_id, link.target);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/scene/node.hpp"
+#include "engine/scene/pushable_box.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::scene {
@@ -23,6 +24,7 @@ struct DrawnObject {
   std::optional<std::string> prototype;  ///< Name of the prototype that it is; none: it is placed in the world.
   Transform transform;                   ///< Of what moves the scale alone.
   Motion motion;                         ///< With legs: drawn at its motion's pose, as a prototype of its own.
+  std::optional<PushableBox> box;        ///< Likewise drawn where its box was pushed to; its motion may have no legs.
   bool hidden = false;
   NodeId geometry = no_node;
   FaceMaterials materials;

@@ -26,6 +26,7 @@ MovingPose pose_at(const Motion& motion, double simulated_time_s) {
     pose.world_from_object.orientation =
         glm::normalize(turned(leg.turn_radps, seconds) * pose.world_from_object.orientation);
     pose.velocity_mps = leg.velocity_mps + seconds * leg.acceleration_mps2;
+    pose.turn_radps = leg.turn_radps;
   }
   return pose;
 }

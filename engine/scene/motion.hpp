@@ -34,6 +34,7 @@ struct Motion {
 struct MovingPose {
   RigidTransform world_from_object;
   Vec3 velocity_mps{0.0};
+  Vec3 turn_radps{0.0};  ///< Axis times rate.
 };
 
 MovingPose pose_at(const Motion& motion, double simulated_time_s);

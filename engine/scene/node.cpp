@@ -14,7 +14,9 @@ auto find_by_name(const Layers& layers, std::string_view name) -> const typename
 
 }  // namespace
 
-bool is_drawn_tag_group(std::string_view name) { return name == "draw" || name == "surface" || name == "image"; }
+bool is_drawn_tag_group(std::string_view name) {
+  return name == "draw" || name == "surface" || name == "image" || name == "body";
+}
 
 const TagValue* find_tag(const Node& node, std::string_view group, std::string_view tag) {
   const TagGroup* in_group = find_by_name(node.tag_groups, group);

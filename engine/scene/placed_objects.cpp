@@ -14,6 +14,9 @@ constexpr std::size_t many_unused = 4096;
 /// Of no participant: those count from 0.
 std::uint32_t moving_number(NodeId id) { return 0x8000'0000u | id; }
 
+/// Or is moved by pushes.
+bool moves_by_itself(const DrawnObject& drawn) { return !drawn.motion.legs.empty() || drawn.box; }
+
 }  // namespace
 
 // ---- meshes
@@ -159,9 +162,10 @@ void PlacedObjects::place_moving(Root& root, NodeId id, const Object& object, st
     }
   }
   Prototype& prototype = scene.prototypes[root.prototype];
-  if (prototype.motion != object.drawn.motion)
+  if (prototype.motion != object.drawn.motion || prototype.box != object.drawn.box)
     scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
   prototype.motion = object.drawn.motion;
+  prototype.box = object.drawn.box;
   prototype.number = moving_number(id);
   set_parts(root.prototype, std::move(parts), scene);
 }
@@ -194,7 +198,7 @@ bool PlacedObjects::place_root(NodeId id, ResolvedScene& scene) {
   visits_ += root.visits;
   ++scene.revision;
   if (is_model) return place_model(root, found->second, std::move(instances), scene);
-  const bool moves = is_root && !found->second.drawn.motion.legs.empty();
+  const bool moves = is_root && moves_by_itself(found->second.drawn);
   if (root.moves && !moves) stop_moving(root, scene);
   if (moves) {
     place_moving(root, id, found->second, std::move(instances), scene);
@@ -295,13 +299,13 @@ void PlacedObjects::place_all(const Store& store, ResolvedScene& scene) {
     if (parents_.contains(id)) continue;
     Root& root = roots_[id];
     root.is_model = object.drawn.prototype.has_value();
-    root.moves = !object.drawn.motion.legs.empty();
+    root.moves = moves_by_itself(object.drawn);
     std::vector<Instance> instances;
     place(object, id, {}, path, root.visits, instances, scene);
     if (root.is_model || root.moves) {
       root.prototype = static_cast<std::uint32_t>(scene.prototypes.size());
       scene.prototypes.push_back({object.drawn.prototype.value_or(""), std::move(instances), object.drawn.paint,
-                                  object.drawn.motion, root.moves ? moving_number(id) : 0});
+                                  object.drawn.motion, root.moves ? moving_number(id) : 0, object.drawn.box});
     } else {
       root.first = static_cast<std::uint32_t>(scene.instances.size());
       root.capacity = static_cast<std::uint32_t>(instances.size());

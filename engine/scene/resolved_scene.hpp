@@ -18,6 +18,7 @@
 #include "engine/scene/change_list.hpp"
 #include "engine/scene/image_sampling.hpp"
 #include "engine/scene/motion.hpp"
+#include "engine/scene/pushable_box.hpp"
 #include "engine/scene/surface_map.hpp"
 
 namespace septet::scene {
@@ -154,6 +155,7 @@ struct Prototype {
   std::optional<glm::vec3> paint;  ///< Of what it hangs on, in place of that one's own; linear Rec. 709.
   Motion motion;                   ///< Of an object; without legs it has gone.
   std::uint32_t number = 0;        ///< Tells objects that move apart from each other and from participants.
+  std::optional<PushableBox> box;  ///< Of an object that can be pushed, which need not have legs.
 };
 
 /// Pixels of an image, from the upper left.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <variant>
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/core/printable.hpp"
@@ -26,6 +28,15 @@ struct Bounds {
   }
 };
 
+/// What a thing reaches as it turns about the x axis, and about any.
+struct Reach {
+  double from_axis_m = 0.0, from_origin_m = 0.0;
+  void add(const Vec3& point_m) {
+    from_axis_m = std::max(from_axis_m, std::hypot(point_m.y, point_m.z));
+    from_origin_m = std::max(from_origin_m, glm::length(point_m));
+  }
+};
+
 Bounds bounds_of(const GeometryData& geometry) {
   Bounds bounds;
   for (const glm::vec3& vertex_m : geometry.vertices_m) bounds.add(Vec3(vertex_m));
@@ -36,16 +47,25 @@ class Parts {
  public:
   Parts(const Store& store, ReadSolid& read) : store_(store), read_(read) {}
 
-  /// Takes an object and all below it; false where they are too many.
+  /// Takes an object and all below it, from its origin, turned by `turn`; false where they are too many.
+  bool take_root(NodeId id, const Quat& turn) {
+    const DrawnObject drawn = read_object(*note(id));
+    return drawn.hidden || add(id, drawn, Vec3(0.0), turn, Vec3(drawn.transform.scale));
+  }
+  const Bounds& bounds() const { return bounds_; }
+  const Reach& reach() const { return reach_; }
+
+ private:
   bool take(NodeId id, const Vec3& parent_m, const Quat& parent_turn, const Vec3& parent_scale) {
     const Node* node = note(id);
     if (!node || node->type() != NodeType::object) return true;
-    if (++parts_ > most_parts || vertices_ > most_vertices) return false;
     const DrawnObject drawn = read_object(*node);
     if (drawn.hidden || path_.size() >= deepest_child || std::ranges::find(path_, id) != path_.end()) return true;
     const Vec3 origin_m = parent_m + parent_turn * (parent_scale * drawn.transform.position_m);
-    const Quat turn = parent_turn * drawn.transform.rotation;
-    const Vec3 scale = parent_scale * Vec3(drawn.transform.scale);
+    return add(id, drawn, origin_m, parent_turn * drawn.transform.rotation, parent_scale * Vec3(drawn.transform.scale));
+  }
+  bool add(NodeId id, const DrawnObject& drawn, const Vec3& origin_m, const Quat& turn, const Vec3& scale) {
+    if (++parts_ > most_parts || vertices_ > most_vertices) return false;
     add_geometry(drawn.geometry, origin_m, turn, scale);
     path_.push_back(id);
     bool all = true;
@@ -53,9 +73,6 @@ class Parts {
     path_.pop_back();
     return all && vertices_ <= most_vertices;
   }
-  const Bounds& bounds() const { return bounds_; }
-
- private:
   const Node* note(NodeId id) {
     const Node* node = store_.find(id);
     read_.read_from.emplace_back(id, node ? node->drawn_revision : 0);
@@ -75,14 +92,36 @@ class Parts {
                       (corner & 4u) != 0 ? own.high_m.z : own.low_m.z);
       bounds_.add(origin_m + turn * (scale * at_m));
     }
+    for (const glm::vec3& vertex_m : geometry->vertices_m) reach_.add(origin_m + turn * (scale * Vec3(vertex_m)));
   }
 
   const Store& store_;
   ReadSolid& read_;
   Bounds bounds_;
+  Reach reach_;
   std::vector<NodeId> path_;
   std::size_t parts_ = 0, vertices_ = 0;
 };
+
+/// In the frame of a box, whose x axis is what a rolling thing turns about.
+Bounds swept(Bounds bounds, const Reach& reach, Turning turning) {
+  if (turning == Turning::upright) return bounds;
+  const double radius_m = turning == Turning::rolling ? reach.from_axis_m : reach.from_origin_m;
+  const double low_x_m = bounds.low_m.x, high_x_m = bounds.high_m.x;
+  bounds = {Vec3(-radius_m), Vec3(radius_m)};
+  if (turning == Turning::rolling) bounds.low_m.x = low_x_m, bounds.high_m.x = high_x_m;
+  return bounds;
+}
+
+Expected<std::optional<double>> read_mass(const Node& node, const std::string& where) {
+  const TagValue* value = find_tag(node, solid_group, mass_tag);
+  if (!value) return std::nullopt;
+  const double* mass_kg = std::get_if<double>(value);
+  if (mass_kg && *mass_kg >= lightest_solid_kg && *mass_kg <= heaviest_solid_kg) return *mass_kg;
+  return failure(
+      fmt::format("the mass of a solid is a number from {:g} to {:g} kg", lightest_solid_kg, heaviest_solid_kg), where,
+      "give its tag body.mass_kg such a number, or take the tag away: it then stands fast");
+}
 
 }  // namespace
 
@@ -99,24 +138,28 @@ Expected<ReadSolid> read_solid(const Store& store, NodeId object) {
   const DrawnObject drawn = read_object(node);
   if (drawn.prototype)
     return failure("a prototype of participants cannot be solid", where, "make an object that stands in the world");
-  if (!drawn.motion.legs.empty())
-    return failure("what is solid stands still, and this is in motion", where,
-                   "end its motion, or take its tag body.solid away");
   ReadSolid read;
+  auto mass_kg = read_mass(node, where);
+  if (!mass_kg) return tl::unexpected(mass_kg.error());
+  read.mass_kg = *mass_kg;
+  const bool is_placed = drawn.motion.legs.empty() && !drawn.box;  // By its transform alone.
+  read.about_m = is_placed ? drawn.transform.position_m : drawn.motion.position_m;
+  const Quat rotation = is_placed ? drawn.transform.rotation : drawn.motion.rotation;
+  const double heading_rad = box_heading_rad(rotation, drawn.motion);
+  const Quat world_from_upright = glm::angleAxis(heading_rad, Vec3(0.0, 0.0, 1.0));
   Parts parts(store, read);
-  const Vec3 ahead = drawn.transform.rotation * Vec3(1.0, 0.0, 0.0);
-  SolidBox box;
-  // Of what stands on end the heading is any.
-  if (std::hypot(ahead.x, ahead.y) > 1e-6) box.heading_rad = std::atan2(ahead.y, ahead.x);
-  const Quat world_from_upright = glm::angleAxis(box.heading_rad, Vec3(0.0, 0.0, 1.0));
-  if (!parts.take(object, Vec3(0.0), glm::conjugate(world_from_upright), Vec3(1.0)))
+  if (!parts.take_root(object, glm::conjugate(world_from_upright) * rotation))
     return failure(fmt::format("it has more than {} parts or {} vertices", most_parts, most_vertices), where,
                    "make a simpler object solid in its place");
   if (!parts.bounds().holds_anything()) return read;
-  const Vec3 &low_m = parts.bounds().low_m, &high_m = parts.bounds().high_m;
-  box.size_m = high_m - low_m;
-  box.foot_m = world_from_upright * Vec3(0.5 * (low_m.x + high_m.x), 0.5 * (low_m.y + high_m.y), low_m.z);
-  read.box = box;
+  const Turning turning = turning_of(drawn.motion);
+  const Bounds bounds = swept(parts.bounds(), parts.reach(), turning);
+  const Vec3 &low_m = bounds.low_m, &high_m = bounds.high_m;
+  const Vec3 foot_m(0.5 * (low_m.x + high_m.x), 0.5 * (low_m.y + high_m.y), low_m.z);
+  read.box = SolidBox{read.about_m + world_from_upright * foot_m, heading_rad, high_m - low_m};
+  read.legs = drawn.motion.legs;
+  if (turning != Turning::upright)
+    for (MotionLeg& leg : read.legs) leg.turn_radps = Vec3(0.0);
   return read;
 }
 

@@ -3,7 +3,8 @@
 /// `body` (CONVENTIONS.md).
 ///
 /// The box heads as the object does and holds all that is drawn of it and of what hangs below it, each geometry by its
-/// own bounds: exact for what stands upright, large enough for what leans. Metres, world frame.
+/// own bounds: exact for what stands upright, large enough for what leans. What rolls about a level axis is held in all
+/// its turns by a box along that axis; what turns otherwise, by a cube about its origin. Metres, world frame.
 
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/scene/motion.hpp"
+#include "engine/scene/pushable_box.hpp"
 #include "engine/scene/store.hpp"
 
 namespace septet::scene {
@@ -27,15 +30,19 @@ struct SolidBox {
 using ReadNode = std::pair<NodeId, std::uint64_t>;
 
 struct ReadSolid {
-  std::optional<SolidBox> box;      ///< Empty: it is hidden, or there is nothing to be seen of it.
+  std::optional<SolidBox> box;    ///< Empty: it is hidden, or there is nothing to be seen of it.
+  Vec3 about_m{0.0};              ///< What the box turns about: the object's origin.
+  std::vector<MotionLeg> legs;    ///< The box's: about the vertical, or turning not at all. `box` is before the first.
+  std::optional<double> mass_kg;  ///< Empty: it stands fast, or goes its way whatever it meets.
   std::vector<ReadNode> read_from;  ///< What the box depends on.
 };
 
-inline constexpr std::string_view solid_group = "body", solid_tag = "solid";
+/// Range of the tag `mass_kg`.
+inline constexpr double lightest_solid_kg = 0.1, heaviest_solid_kg = 20'000.0;
 /// True for an object whose tag says that it can be hit.
 bool is_tagged_solid(const Node& node);
 
-/// `object` is tagged. Error: it is in motion, is a prototype, or has too many parts.
+/// `object` is tagged. Error: it is a prototype, has too many parts, or its mass is no number of that range.
 Expected<ReadSolid> read_solid(const Store& store, NodeId object);
 
 /// True where nothing has changed since.

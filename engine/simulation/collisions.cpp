@@ -17,6 +17,7 @@
 #include "engine/simulation/crash_poses.hpp"
 #include "engine/simulation/crash_recording.hpp"
 #include "engine/simulation/effects/body_box.hpp"
+#include "engine/simulation/solid_motion.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 
 namespace septet::simulation {
@@ -56,6 +57,7 @@ class Contacts {
         pairs.insert(at, known);
     }
     for (const auto& pair : pairs) look_at(pair.first, pair.second);
+    free_pushed_solids(state_, participants_);
     state_.touching = std::move(touching_);
     note_poses(model_, participants_, state_);
     close_crashes(state_, events_);
@@ -203,7 +205,7 @@ class Contacts {
     state_.effects.crashes.struck_vehicles.push_back(crash_of(first, second, *impact));
   }
 
-  bool may_loosen(const Participant& one) const { return is_driver(one) || may_leave_rails(model_, one); }
+  bool may_loosen(const Participant& one) const { return is_pushed(one) || may_leave_rails(model_, one); }
   /// True where it is, or becomes, a body that contacts push.
   bool loosen(const Participant& one) {
     return is_pushed(one) || leave_rails(model_, one, car_.participant, state_, events_);
@@ -216,7 +218,7 @@ class Contacts {
 
   VehicleCrash crash_of(const Participant& first, const Participant& second, const impact::Impact& impact) const {
     const auto crashed = [&](const Participant& one) {
-      return CrashedVehicle{one.id, mass_kg(model_, one), one.velocity_mps, one.angular_velocity_radps};
+      return CrashedVehicle{one.id, mass_kg(model_, state_, one), one.velocity_mps, one.angular_velocity_radps};
     };
     VehicleCrash crash;
     crash.first = crashed(first);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -17,7 +18,9 @@
 #include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/road/position_members.hpp"
 #include "engine/scenario/run/save_scenario.hpp"
+#include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/save_thrown.hpp"
+#include "engine/simulation/solids.hpp"
 #include "engine/world/participant_shape.hpp"
 #include "engine/world/world_members.hpp"
 
@@ -58,8 +61,14 @@ namespace septet::vehicle {
 SEPTET_MEMBERS(Faults, anti_lock, misfire)
 }
 
+namespace septet::scene {
+SEPTET_MEMBERS(MotionLeg, from_s, velocity_mps, acceleration_mps2, turn_radps)
+SEPTET_MEMBERS(Motion, position_m, rotation, legs)
+}  // namespace septet::scene
+
 namespace septet::simulation {
 
+SEPTET_MEMBERS(SolidMotion, participant, foot_m, heading_rad, motion)
 SEPTET_MEMBERS(CarFaults, vehicle, lamps_out)
 SEPTET_MEMBERS(BlackIce, road, lane, s_m, length_m, thickness_m)
 // Panes are in the effects' chained hash, where there are any.
@@ -94,11 +103,12 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, bodies,
-// thrown ones, things that are gone, limited sights, a given motion, a game, and an examiner are hashed where there are any. Open crashes and
-// sightings change nothing.
+// thrown ones, things that are gone, solids in motion, limited sights, a given motion, a game, and an examiner are
+// hashed where there are any. Open crashes and sightings change nothing.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown, open_crashes),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
-                     left_out(scenario, traffic, effects), kept(gone, sights, sightings, motion, game, examiner, input),
+                     left_out(scenario, traffic, effects),
+                     kept(gone, solid_motions, sights, sightings, motion, game, examiner, input),
                      hashed(diagnostics, touching))
 
 namespace {
@@ -168,12 +178,13 @@ bool is_sound(const vehicle::HullTouch& touch) {
          impact::is_within(touch.crushed_m, 0.0, longest_crush_m);
 }
 
-bool is_sound(const LooseBody& loose) {
+/// `led`: by a motion.
+bool is_sound(const LooseBody& loose, bool led) {
   constexpr double farthest = 1e7;  // In any unit.
   const impact::Body& body = loose.body;
   const bool stands_fast = loose.model == box_model() && body.mass_kg == INFINITY &&
-                           body.yaw_inertia_kgm2 == INFINITY && body.velocity_mps == Vec2(0.0) &&
-                           body.yaw_rate_radps == 0.0;
+                           body.yaw_inertia_kgm2 == INFINITY &&
+                           (led || (body.velocity_mps == Vec2(0.0) && body.yaw_rate_radps == 0.0));
   const Vec3& size_m = loose.box_size_m;
   return loose.model < vehicle_models().size() && loose.id != driver_participant &&
          impact::is_within(std::min({size_m.x, size_m.y, size_m.z}), 1e-3, farthest) &&
@@ -188,16 +199,30 @@ bool is_sound(const LooseBody& loose) {
 }
 
 /// As no contact is told of two that are one, and none twice.
-void require_sound(const Model& model, const BodiesState& bodies, StateReader& reader) {
+void require_sound(const Model& model, const State& state, StateReader& reader) {
+  const BodiesState& bodies = state.bodies;
   for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
     const LooseBody& loose = bodies.bodies[i];
-    reader.require(is_sound(loose) && std::ranges::count(bodies.bodies, loose.id, &LooseBody::id) == 1, wrong);
+    reader.require(
+        is_sound(loose, is_led(state, loose.id)) && std::ranges::count(bodies.bodies, loose.id, &LooseBody::id) == 1,
+        wrong);
     if (loose.road) road::require_on_roads(reader, model.roads, *loose.road);
   }
   const auto pair = [](const BodyContact& contact) { return std::pair(contact.first, contact.second); };
   reader.require(std::ranges::is_sorted(bodies.contacts, std::ranges::less_equal{}, pair), wrong);
   for (const BodyContact& contact : bodies.contacts)
     reader.require(contact.first < contact.second && impact::is_sound(contact.engagement), wrong);
+}
+
+bool is_sound(const SolidMotion& moving) {
+  const auto within = [](double value, double most) { return impact::is_within(value, -most, most); };
+  const auto near = [&](const Vec3& place_m, double most_m) {
+    return within(place_m.x, most_m) && within(place_m.y, most_m) && within(place_m.z, most_m);
+  };
+  const scene::Motion& motion = moving.motion;
+  return is_solid(moving.participant) && near(moving.foot_m, 2.0 * farthest_solid_m) &&
+         within(moving.heading_rad, 2.0 * std::numbers::pi) && near(motion.position_m, farthest_solid_m) &&
+         motion.rotation == Quat(1.0, 0.0, 0.0, 0.0) && !motion.legs.empty() && is_motion_of_solid(motion.legs);
 }
 
 /// The record is within what its ticks allow; its numbers are told and reckoned with, and index nothing.
@@ -242,7 +267,11 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
   for (const CarImpact& running : state.impacts) reader.require(is_sound(running), wrong);
-  require_sound(model, state.bodies, reader);
+  require_sound(model, state, reader);
+  for (const SolidMotion& moving : state.solid_motions)
+    reader.require(is_sound(moving) && find_loose(state, moving.participant) &&
+                       std::ranges::count(state.solid_motions, moving.participant, &SolidMotion::participant) == 1,
+                   wrong);
   for (const OpenCrash& crash : state.open_crashes) reader.require(is_sound(crash, state.tick), wrong);
   require_sound(reader, model.roads, state.thrown);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
@@ -275,6 +304,7 @@ std::uint64_t hash_state(const State& state) {
   state.traffic->add_to_hash(hash);
   hash_members(hash, state.effects, state.effects.fires);
   for (const std::uint32_t thing : state.gone) hash.add(thing);
+  for (const SolidMotion& moving : state.solid_motions) hash_members(hash, moving);
   for (const LimitedSight& sight : state.sights) hash_members(hash, sight);
   if (state.motion) hash_members(hash, *state.motion);
   if (state.game) hash_members(hash, *state.game);

@@ -1,21 +1,27 @@
 #pragma once
-/// Solids: things of the scene that can be hit, as upright boxes that stand fast.
+/// Solids: things of the scene that can be hit, as upright boxes.
 ///
 /// The simulation knows a solid by its number alone; which thing of the scene it is, the server knows
-/// (sim-server/drive/solid_things.hpp), and the command has that thing's name for those who read the log. It stands among the loose bodies (bodies/), with an infinite mass, from the
-/// command that stands it to the one that clears it. So the driver's car, bodies and debris meet it, and traffic and
-/// simulated drivers see it, as they do a box of the scenario that stands fast.
+/// (sim-server/drive/solid_things.hpp), and the command has that thing's name for those who read the log. It is one of the
+/// loose bodies (bodies/) from the command that stands it to the one that clears it: so the driver's car, bodies and debris
+/// meet it, and traffic and simulated drivers see it, as they do a box of the scenario. Without a mass it stands fast,
+/// with one it is pushed and slides; it may follow a motion (solid_motion.hpp).
 ///
-/// Both commands are logged with their tick like an operator's, and read back to the last bit:
+/// Both commands are logged with their tick like an operator's, and read back to the last bit. Mass and motion are left
+/// out where there is none; a leg is the time from which it holds, velocity, acceleration, and turn about the vertical:
 ///
 ///     stand solid=3 x_m=120.5 y_m=-3.25 z_m=0 heading_rad=0.5 length_m=4 width_m=0.5 height_m=1.2 name="stimuli/wall"
+///     stand solid=4 x_m=9 … height_m=0.2 mass_kg=0.4 about_x_m=9 about_y_m=2 leg=12.5,3,0,0,-0.5,0,0,0 name="ball"
 ///     clear solid=3
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/scene/motion.hpp"
 #include "engine/simulation/state.hpp"
 #include "engine/world/solid.hpp"
 
@@ -28,6 +34,9 @@ struct StandSolid {
   double heading_rad = 0.0;                ///< Of its length, counter-clockwise from x.
   double length_m = 1.0, width_m = 1.0, height_m = 1.0;
   std::string name{};  ///< Of the thing (is_name_of_thing); empty in logs of earlier builds.
+  double mass_kg = std::numeric_limits<double>::infinity();  ///< Infinite: nothing pushes it.
+  double about_x_m = 0.0, about_y_m = 0.0;  ///< What it turns about, world, before the first leg; 0 without legs.
+  std::vector<scene::MotionLeg> legs{};     ///< Turn about the vertical alone. Place and heading are before the first.
   bool operator==(const StandSolid&) const = default;
 };
 struct ClearSolid {
@@ -37,8 +46,14 @@ struct ClearSolid {
 
 /// Range of each side of a solid.
 inline constexpr double thinnest_solid_m = 0.05, longest_solid_m = 200.0;
-/// Farthest place of one, on each axis: within what a snapshot can tell.
-inline constexpr double farthest_solid_m = 5e5;
+/// Farthest place of one, on each axis, and its greatest speed and turn: within what a snapshot can tell.
+inline constexpr double farthest_solid_m = 5e5, fastest_solid_mps = 1000.0, fastest_solid_radps = 1000.0;
+inline constexpr double latest_leg_s = 1e9;
+
+/// True where place and speed are within those bounds.
+bool is_in_range(const LooseBody& solid);
+/// True for legs that a solid may have: few, in order, each within the bounds above and turning about the vertical.
+bool is_motion_of_solid(const std::vector<scene::MotionLeg>& legs);
 
 std::string text_of(const StandSolid& stand);
 std::string text_of(const ClearSolid& clear);

@@ -20,6 +20,7 @@
 #include "engine/simulation/game_state.hpp"
 #include "engine/simulation/model.hpp"
 #include "engine/simulation/open_crash.hpp"
+#include "engine/simulation/solid_motion.hpp"
 #include "engine/simulation/thrown_state.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 #include "engine/world/driver_input.hpp"
@@ -81,10 +82,11 @@ struct State {
   EffectsState effects;
   /// Things beside the roads that are hidden (standing.hpp), by Obstacle::thing, ascending. Hashed where there is one.
   std::vector<std::uint32_t> gone;
-  std::vector<LimitedSight> sights;       ///< Of the last look, ascending. Hashed where there is one.
-  Sightings sightings;                    ///< For the simulated driver, the snapshot and the log; no stage acts on it.
-  std::optional<MotionState> motion;      ///< Present where the car goes by a table (given_motion.hpp).
-  std::optional<GameState> game;          ///< Present where the scenario is played as a game.
+  std::vector<SolidMotion> solid_motions;  ///< In the order in which they were stood. Hashed where there is one.
+  std::vector<LimitedSight> sights;        ///< Of the last look, ascending. Hashed where there is one.
+  Sightings sightings;                     ///< For the simulated driver, the snapshot and the log; no stage acts on it.
+  std::optional<MotionState> motion;       ///< Present where the car goes by a table (given_motion.hpp).
+  std::optional<GameState> game;           ///< Present where the scenario is played as a game.
   std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.
   DriverInput input;                      ///< Input of the last step.
   Diagnostics diagnostics;

@@ -35,7 +35,7 @@ void tell_touch(const Model& model, const ThrownTouch& touch, State& state, std:
   const Vec2 to_second = vehicle_first ? way_to_other(touch.touches) : -way_to_other(touch.touches);
   const double closing_mps = touch.touches.closing_mps;
   const auto crashed = [&](const Participant& one) {
-    return CrashedVehicle{one.id, mass_kg(model, one), one.velocity_mps, one.angular_velocity_radps};
+    return CrashedVehicle{one.id, mass_kg(model, state, one), one.velocity_mps, one.angular_velocity_radps};
   };
   VehicleCrash crash;
   crash.first = crashed(first), crash.second = crashed(second);

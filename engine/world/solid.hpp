@@ -1,12 +1,13 @@
 #pragma once
-/// Numbers of participants that are solids: boxes that stand fast in the place of things that an editor has put into
-/// the scene. The scene draws the things; as participants they are met, seen by drivers and logged, and never drawn.
+/// Numbers of participants that are solids: boxes in the place of things that an editor has put into the scene. The
+/// scene draws the things; as participants they are met, seen by drivers and logged, and never drawn.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "engine/world/lamps.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet {
@@ -17,6 +18,12 @@ inline constexpr ParticipantId first_solid_participant = 32768;
 
 constexpr bool is_solid(ParticipantId id) {
   return id >= first_solid_participant && id - first_solid_participant < most_solids;
+}
+
+/// True for a solid with a mass that no motion leads: its thing is drawn where this box is (engine/scene/pushable_box.hpp).
+/// Its brake lamp is lit, as that of a vehicle that has left its rails.
+inline bool is_free_solid(const Participant& participant) {
+  return is_solid(participant.id) && participant.lamps.has(Lamp::brake);
 }
 
 /// A command's text, and the name with which it ends: ` name="NAME"`; empty where it has none.

@@ -193,12 +193,20 @@ void add_hung_things(instant::FrameInput& frame, const Participant& participant,
   }
 }
 
-/// Objects that move by themselves, where they are now.
-void add_moving_things(instant::FrameInput& frame, const scene::ResolvedScene& scene) {
+/// Where a thing that moves by itself is now, or where pushes have moved its box.
+scene::MovingPose pose_now(const scene::Prototype& prototype, const Snapshot& shown) {
+  const Participant* box = prototype.box ? find_participant(shown, prototype.box->participant) : nullptr;
+  if (!box || !is_free_solid(*box)) return scene::pose_at(prototype.motion, shown.simulated_time_s);
+  return {scene::pose_by_box(*prototype.box, box->world_from_vehicle, prototype.motion.rotation, prototype.motion),
+          box->velocity_mps, box->angular_velocity_radps};
+}
+
+/// Objects that move by themselves or can be pushed.
+void add_moving_things(instant::FrameInput& frame, const Snapshot& shown, const scene::ResolvedScene& scene) {
   for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i) {
     const scene::Prototype& prototype = scene.prototypes[i];
-    if (prototype.motion.legs.empty()) continue;
-    const scene::MovingPose now = scene::pose_at(prototype.motion, frame.simulated_time_s);
+    if (prototype.motion.legs.empty() && !prototype.box) continue;
+    const scene::MovingPose now = pose_now(prototype, shown);
     instant::DrawnParticipant drawn;
     drawn.prototype = i;
     drawn.number = prototype.number;
@@ -258,7 +266,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     }
     frame.participants.push_back(drawn);
   }
-  add_moving_things(frame, scene);
+  add_moving_things(frame, shown, scene);
   for (const TrafficLight& light : traffic_lights_of(shown)) {
     const auto prototype = prototype_of(scene, light.for_walkers ? "pedestrian light" : "traffic light");
     if (!prototype) continue;

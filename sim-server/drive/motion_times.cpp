@@ -14,10 +14,12 @@ bool is_from_now(const Command& command) {
   return asked && asked->from_now;
 }
 
-/// Where a batch has put its objects so far; of others the store tells it.
+using Pushed = std::function<std::optional<RigidTransform>(NodeId)>;
+
+/// Where a batch has put its objects so far; of others pushes or the store tell it.
 class PlacedObjects {
  public:
-  explicit PlacedObjects(const Store& store) : store_(store) {}
+  PlacedObjects(const Store& store, const Pushed& pushed) : store_(store), pushed_(pushed) {}
 
   /// Null: there is no such object.
   ObjectData* find(NodeId object) {
@@ -27,6 +29,10 @@ class PlacedObjects {
     if (!stored) return nullptr;
     ObjectData& data = placed_[object];
     data.transform = stored->transform, data.motion = stored->motion;
+    if (const auto pose = pushed_ ? pushed_(object) : std::nullopt) {
+      data.transform.position_m = pose->position_m, data.transform.rotation = pose->orientation;
+      data.motion = {};
+    }
     return &data;
   }
 
@@ -42,6 +48,7 @@ class PlacedObjects {
 
  private:
   const Store& store_;
+  const Pushed& pushed_;
   std::map<NodeId, ObjectData> placed_;
 };
 
@@ -52,9 +59,9 @@ RigidTransform pose_of(const ObjectData& data, double now_s) {
 
 }  // namespace
 
-void put_true_times(const Store& store, std::span<Command> batch, double now_s) {
+void put_true_times(const Store& store, std::span<Command> batch, double now_s, const Pushed& pushed) {
   if (std::ranges::none_of(batch, is_from_now)) return;
-  PlacedObjects objects(store);
+  PlacedObjects objects(store, pushed);
   for (Command& command : batch) {
     auto* asked = std::get_if<MotionSet>(&command);
     const ObjectData* data = is_from_now(command) ? objects.find(asked->node) : nullptr;

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include <fmt/core.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "engine/core/printable.hpp"
 #include "engine/scene/command_validation.hpp"
+#include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/bodies/loose_body.hpp"
 #include "engine/simulation/solids.hpp"
+#include "engine/world/solid.hpp"
 #include "sim-server/drive/batch_failures.hpp"
 #include "sim-server/drive/name_in_log.hpp"
 
@@ -40,12 +45,51 @@ std::size_t place_in(std::span<const scene::Command> batch, const std::vector<sc
   return batch.empty() ? 0 : batch.size() - 1;
 }
 
-StandSolid stand_of(std::uint32_t solid, const scene::SolidBox& box, std::string name) {
+/// `read` has a box.
+StandSolid stand_of(std::uint32_t solid, const scene::ReadSolid& read, std::string name) {
+  const scene::SolidBox& box = *read.box;
   // A board and a sheet are flat; a blow needs some thickness.
   const auto thick_m = [](double size_m) { return std::max(size_m, simulation::thinnest_solid_m); };
-  return {solid,           box.foot_m.x,          box.foot_m.y,          box.foot_m.z,
-          box.heading_rad, thick_m(box.size_m.x), thick_m(box.size_m.y), thick_m(box.size_m.z),
-          std::move(name)};
+  StandSolid stand{solid,           box.foot_m.x,          box.foot_m.y,          box.foot_m.z,
+                   box.heading_rad, thick_m(box.size_m.x), thick_m(box.size_m.y), thick_m(box.size_m.z),
+                   std::move(name)};
+  if (read.mass_kg) stand.mass_kg = *read.mass_kg;
+  if (read.legs.empty()) return stand;
+  stand.about_x_m = read.about_m.x, stand.about_y_m = read.about_m.y;
+  stand.legs = read.legs;
+  return stand;
+}
+
+/// `read` has a box.
+std::optional<scene::PushableBox> pushable_box_of(std::uint32_t solid, const scene::ReadSolid& read) {
+  if (!read.mass_kg) return std::nullopt;
+  const Quat box_from_world = glm::angleAxis(-read.box->heading_rad, Vec3(0.0, 0.0, 1.0));
+  return scene::PushableBox{first_solid_participant + solid, box_from_world * (read.box->foot_m - read.about_m)};
+}
+
+/// The tag of this name, or an id that is free.
+scene::PartId tag_id(const scene::TagGroup& group, std::string_view name) {
+  scene::PartId free = 0;
+  for (const auto& [id, tag] : group.tags) {
+    if (tag.name == name) return id;
+    if (id == free) ++free;
+  }
+  return free;
+}
+
+/// The tags by which screens know the box. `node` is tagged solid.
+void append_tags(const scene::Node& node, const scene::PushableBox& box, std::vector<scene::Command>& commands) {
+  const auto found =
+      std::ranges::find_if(node.tag_groups, [](const auto& entry) { return entry.second.name == scene::solid_group; });
+  const scene::PartId group = found->first;
+  scene::TagGroup tags = found->second;
+  const auto set = [&](std::string_view name, scene::TagValue value) {
+    const scene::PartId id = tag_id(tags, name);
+    tags.tags[id] = {std::string(name), std::move(value)};
+    commands.emplace_back(scene::TagSet{node.id, group, id, tags.tags[id]});
+  };
+  set(scene::participant_tag, box.participant);
+  set(scene::foot_tag, box.foot_m);
 }
 
 /// Of the solids that nobody has.
@@ -82,7 +126,7 @@ Expected<void> add_thing(const scene::Store& store, scene::NodeId id, std::map<s
   if (!number)
     return failure(fmt::format("there are {} solids already", most_solids), fmt::format("\"{}\"", name_in(store, id)),
                    "take the tag body.solid from another thing first");
-  things[id] = {*number, std::nullopt, {}};
+  things[id] = {.solid = *number, .standing = std::nullopt};
   return {};
 }
 
@@ -94,7 +138,13 @@ Expected<void> update_thing(const scene::Store& store, scene::NodeId id, const s
   auto read = scene::read_solid(store, id);
   if (!read) return tl::unexpected(read.error());
   std::optional<StandSolid> wanted;
-  if (read->box) wanted = stand_of(thing.solid, *read->box, name_in_log(store, id));
+  thing.box.reset();
+  if (read->box) {
+    wanted = stand_of(thing.solid, *read, name_in_log(store, id));
+    thing.box = pushable_box_of(thing.solid, *read);
+    // Renamed, it stays where it was pushed to.
+    if (thing.box && thing.standing) wanted->name = thing.standing->name;
+  }
   if (wanted != thing.standing) {
     if (wanted) {
       if (auto may = simulation::may_stand(model, state, *wanted); !may)
@@ -171,6 +221,29 @@ SolidChange SolidThings::begin(const scene::Store& store, const simulation::Mode
     messages.push_back("not solid: " + describe(done.error()));
   }
   return change;
+}
+
+std::vector<scene::Command> SolidThings::missing_tags(const scene::Store& store) const {
+  std::vector<scene::Command> missing;
+  for (const auto& [id, thing] : things_) {
+    const scene::Node* node = thing.box ? store.find(id) : nullptr;
+    if (node && scene::pushable_box(*node) != thing.box) append_tags(*node, *thing.box, missing);
+  }
+  return missing;
+}
+
+std::optional<RigidTransform> SolidThings::pushed_pose(const scene::Store& store, scene::NodeId id,
+                                                       const simulation::State& state) const {
+  const auto thing = things_.find(id);
+  const scene::Node* node = store.find(id);
+  if (thing == things_.end() || !thing->second.box || !node) return std::nullopt;
+  const simulation::LooseBody* body = simulation::find_loose(state, thing->second.box->participant);
+  if (!body) return std::nullopt;
+  const Participant box = simulation::participant_of(*body);
+  if (!is_free_solid(box)) return std::nullopt;
+  const auto& data = std::get<scene::ObjectData>(node->data);
+  const Quat& rotation = data.motion.legs.empty() ? data.transform.rotation : data.motion.rotation;
+  return scene::pose_by_box(*thing->second.box, box.world_from_vehicle, glm::normalize(rotation), data.motion);
 }
 
 }  // namespace septet::server

@@ -4,7 +4,8 @@
 ///
 /// After each batch of an editor the solids are read from the scene again, as far as something of them changed: what was
 /// moved stands elsewhere, what is hidden, destroyed or no longer tagged is met no more. The batch is refused where a
-/// solid may not be, so that what is met is always what is drawn.
+/// solid may not be, so that what is met is always what is drawn. One that was pushed stays where it came to until its
+/// place, motion, shape or mass is changed: it then stands as the scene has it.
 
 #include <cstdint>
 #include <map>
@@ -13,7 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/math/rigid_transform.hpp"
 #include "engine/scene/command.hpp"
+#include "engine/scene/pushable_box.hpp"
 #include "engine/scene/solid_box.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/simulation/operator_command.hpp"
@@ -26,6 +29,7 @@ struct SolidThing {
   std::uint32_t solid = 0;                         ///< Its number.
   std::optional<simulation::StandSolid> standing;  ///< Empty: it is hidden, or nothing is to be seen of it.
   std::vector<scene::ReadNode> read_from{};
+  std::optional<scene::PushableBox> box{};  ///< Of one that stands and has a mass.
 };
 
 /// What a batch makes of the solids.
@@ -47,6 +51,13 @@ class SolidThings {
   /// message. Clears what an earlier log left standing.
   SolidChange begin(const scene::Store& store, const simulation::Model& model, const simulation::State& state,
                     std::vector<std::string>& messages) const;
+
+  /// Tags by which screens draw what can be pushed where it is (engine/scene/pushable_box.hpp), as far as they are not set.
+  std::vector<scene::Command> missing_tags(const scene::Store& store) const;
+
+  /// Pose of a thing that nothing but pushes moves, after the state's tick; empty of others.
+  std::optional<RigidTransform> pushed_pose(const scene::Store& store, scene::NodeId id,
+                                            const simulation::State& state) const;
 
   void take_over(SolidChange change) { things_ = std::move(change.things); }
 

@@ -36,11 +36,22 @@ void WorldGate::execute(const std::vector<simulation::OperatorCommand>& commands
     if (const auto done = drive_.live->command(command); !done) messages_.push_back(describe(done.error()));
 }
 
+/// Belongs to no author, and nobody undoes it.
+void WorldGate::tag_pushable(Tick from) {
+  const std::vector<scene::Command> tags = solids_.missing_tags(drive_.store);
+  for (const scene::Command& tag : tags) {
+    if (const auto done = drive_.store.apply(tag); !done) messages_.push_back(describe(done.error()));
+    done_(tag, from);
+  }
+  if (log_ && !tags.empty()) log_->record_edits(from, tags);
+}
+
 void WorldGate::begin() {
   SolidChange solids = solids_.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_);
   execute(solids.commands);
   solids_.take_over(std::move(solids));
   execute(drive_.standing.begin(drive_.store, *drive_.loaded.model, drive_.live->state(), messages_));
+  tag_pushable(drive_.live->state().tick);
 }
 
 std::optional<replication::Refusal> WorldGate::pass(const Editor& editor, std::span<const scene::Command> batch,
@@ -78,6 +89,7 @@ std::optional<replication::Refusal> WorldGate::pass(const Editor& editor, std::s
   solids_.take_over(std::move(solids));
   execute(standing);
   if (log_) log_->record_edits(from, batch);
+  tag_pushable(from);
   if (done) *done = {std::move(inverse), std::move(destroyed)};
   return std::nullopt;
 }
@@ -96,7 +108,8 @@ void WorldGate::remember(const Editor& editor, Batch batch) {
 
 std::optional<replication::Refusal> WorldGate::make(const Editor& editor, std::vector<scene::Command> batch, Tick from,
                                                     bool may_be_undone) {
-  put_true_times(drive_.store, batch, static_cast<double>(from) / simulation::tick_rate_hz);
+  put_true_times(drive_.store, batch, static_cast<double>(from) / simulation::tick_rate_hz,
+                 [&](scene::NodeId id) { return solids_.pushed_pose(drive_.store, id, drive_.live->state()); });
   const auto left = without_gone(drive_.store, batch, editor.own_ids);
   Batch done;
   auto refused = pass(editor, left ? left->commands : batch, from, nullptr, may_be_undone ? &done : nullptr);

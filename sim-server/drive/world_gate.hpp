@@ -69,6 +69,7 @@ class WorldGate {
   };
 
   void execute(const std::vector<simulation::OperatorCommand>& commands);
+  void tag_pushable(Tick from);
   void remember(const Editor& editor, Batch batch);
   std::optional<replication::Refusal> pass(const Editor& editor, std::span<const scene::Command> batch, Tick from,
                                            const Batch* undone, Batch* done);

@@ -10,6 +10,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/scene/builder.hpp"
+#include "engine/scene/pushable_box.hpp"
+#include "engine/world/solid.hpp"
 #include "sim-server/drive/operated.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 #include "tests/why_not.hpp"
@@ -132,6 +134,35 @@ TEST_CASE("page, storyboard and keys change the scene by one text through one ga
   const auto done = gate.world->make_line(the_storyboard(), "transform-set tree/1 4 5 6", 8);
   REQUIRE_MESSAGE(done.has_value(), why_not(done));
   CHECK(gate.told.back().first == 8);
+}
+
+TEST_CASE("a solid with a mass has its box in tags from the tick that shows its batch, and is undone whole") {
+  Gate gate;
+  const NodeId mesh = labs_ids, crate = labs_ids + 1;
+  const std::vector<Command> batch{
+      scene::NodeCreate{mesh, scene::NodeType::geometry},
+      scene::GeometrySizeSet{mesh, 4, 1},
+      scene::VerticesSet{mesh, 0, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 1}}},
+      scene::PolygonsSet{mesh, 0, {{0, 1, 2, 3}}},
+      scene::NodeCreate{crate, scene::NodeType::object},
+      scene::NodeNameSet{crate, "stimuli/crate"},
+      scene::LinkSet{crate, 0, {"geometry", mesh, 0}},
+      scene::TransformSet{crate, {{3e4, 3e4, 5.0}}},
+      scene::TagGroupSet{crate, 3, "body"},
+      scene::TagSet{crate, 3, 0, {"solid", true}},
+      scene::TagSet{crate, 3, 1, {"mass_kg", 25.0}},
+  };
+  REQUIRE(gate.make(gate.lab, batch) == "");
+  CHECK(gate.told.size() == batch.size() + 2);
+  CHECK(gate.told.back().first == 5);
+  const auto box = scene::pushable_box(*gate.opened.store.find(crate));
+  REQUIRE(box.has_value());
+  CHECK(box->participant == first_solid_participant);
+  CHECK(box->foot_m == Vec3(1.0, 0.5, 0.0));
+  CHECK(gate.live->state().bodies.bodies.size() == 1);
+  CHECK(gate.undo(gate.lab) == "");
+  CHECK_FALSE(gate.opened.store.find(crate));
+  CHECK(gate.live->state().bodies.empty());
 }
 
 }  // namespace septet::server

@@ -340,28 +340,49 @@ class Verbs {
     made.commands.emplace_back(LinkSet{parent, link, {"child", *id, 0}});
     return keep(std::move(made));
   }
-  /// Ids of the group and the tag by which a node is solid: those that it has, else a group that models and paint leave
-  /// free. Null: a node that is still to come.
-  static std::pair<PartId, PartId> solid_ids(const Node* node) {
-    constexpr std::pair<PartId, PartId> free{0xFF00, 0};
+  /// Ids of the group and the tags by which a node is solid: those that it has, else a group that models and paint leave
+  /// free.
+  struct SolidIds {
+    PartId group = 0xFF00, solid = 0, mass = 1;
+    bool has_mass = false;
+  };
+  /// Null: a node that is still to come.
+  static SolidIds solid_ids(const Node* node) {
+    SolidIds ids;
     const auto named = [](std::string_view name) {
       return [name](const auto& entry) { return entry.second.name == name; };
     };
-    if (!node) return free;
+    if (!node) return ids;
     const auto group = std::ranges::find_if(node->tag_groups, named(solid_group));
-    if (group == node->tag_groups.end()) return free;
-    const auto tag = std::ranges::find_if(group->second.tags, named(solid_tag));
-    return {group->first, tag == group->second.tags.end() ? 0 : tag->first};
+    if (group == node->tag_groups.end()) return ids;
+    const std::map<PartId, Tag>& tags = group->second.tags;
+    ids.group = group->first;
+    const auto solid = std::ranges::find_if(tags, named(solid_tag)), mass = std::ranges::find_if(tags, named(mass_tag));
+    ids.solid = solid == tags.end() ? free_tag(tags, 0) : solid->first;
+    ids.has_mass = mass != tags.end();
+    ids.mass = ids.has_mass ? mass->first : free_tag(tags, static_cast<PartId>(ids.solid + 1));
+    return ids;
+  }
+  static PartId free_tag(const std::map<PartId, Tag>& tags, PartId from) {
+    while (tags.contains(from)) ++from;
+    return from;
   }
   Expected<EditedLine> solid(Words words) {
-    constexpr std::string_view usage = "solid NODE [off]";
+    constexpr std::string_view usage = "solid NODE [off | KG]";
     const bool off = words.size() == 2 && words[1].text == "off";
-    if (words.empty() || (words.size() != 1 && !off)) return wrong("one node is needed, and off at most", usage);
+    const auto mass_kg = words.size() == 2 && !off ? numbers(words.subspan(1)) : std::nullopt;
+    if (words.empty() || (words.size() != 1 && !off && !mass_kg))
+      return wrong("one node is needed, and off or a mass in kg at most", usage);
     const auto id = object(words[0]);
     if (!id) return no_node_called(words[0]);
-    const auto [group, tag] = solid_ids(store_.find(*id));
-    return EditedLine{
-        {TagGroupSet{*id, group, std::string(solid_group)}, TagSet{*id, group, tag, {std::string(solid_tag), !off}}}};
+    const SolidIds ids = solid_ids(store_.find(*id));
+    EditedLine line{{TagGroupSet{*id, ids.group, std::string(solid_group)},
+                     TagSet{*id, ids.group, ids.solid, {std::string(solid_tag), !off}}}};
+    if (mass_kg)
+      line.commands.emplace_back(TagSet{*id, ids.group, ids.mass, {std::string(mass_tag), mass_kg->front()}});
+    else if (ids.has_mass && !off)
+      line.commands.emplace_back(TagDestroy{*id, ids.group, ids.mass});
+    return line;
   }
   Expected<EditedLine> repaint(Words words) {
     constexpr std::string_view usage = "repaint PARTICIPANT RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";

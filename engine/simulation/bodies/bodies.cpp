@@ -12,6 +12,7 @@
 #include "engine/simulation/bodies/loose_body.hpp"
 #include "engine/simulation/bodies/loose_hull.hpp"
 #include "engine/simulation/hull_crashes.hpp"
+#include "engine/simulation/solid_motion.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "engine/world/participant_shape.hpp"
@@ -96,6 +97,11 @@ LooseBody* find_loose(State& state, ParticipantId id) {
   return found == state.bodies.bodies.end() ? nullptr : &*found;
 }
 
+double mass_kg(const Model& model, const State& state, const Participant& participant) {
+  const LooseBody* solid = is_solid(participant.id) ? find_loose(state, participant.id) : nullptr;
+  return solid ? solid->body.mass_kg : mass_kg(model, participant);
+}
+
 std::optional<impact::Body> pushed_body(const Model& model, const State& state, ParticipantId id) {
   if (id == driver_participant) return vehicle::planar_body(model.car.body, state.car);
   const LooseBody* loose = find_loose(state, id);
@@ -125,7 +131,9 @@ bool leave_rails(const Model& model, const Participant& participant, const Parti
 }
 
 void advance_bodies(const Model& model, State& state, std::vector<Event>& events) {
+  lead_solids(state);
   for (LooseBody& loose : state.bodies.bodies) {
+    if (is_led(state, loose.id)) continue;
     loose.acceleration_mps2 = Vec2(0.0);
     loose.climb_mps = 0.0;
     if (moves(loose.body) || is_engaged(loose)) slide_on(model, loose, state, events);

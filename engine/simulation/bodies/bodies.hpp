@@ -18,6 +18,9 @@ namespace septet::simulation {
 const LooseBody* find_loose(const State& state, ParticipantId id);
 LooseBody* find_loose(State& state, ParticipantId id);
 
+/// As in loose_body.hpp; of a solid, the one that it was given.
+double mass_kg(const Model& model, const State& state, const Participant& participant);
+
 /// Motion in plan of one whom contacts push: the driver's car, or a loose body; empty for others.
 std::optional<impact::Body> pushed_body(const Model& model, const State& state, ParticipantId id);
 
@@ -35,8 +38,8 @@ bool may_leave_rails(const Model& model, const Participant& participant);
 bool leave_rails(const Model& model, const Participant& participant, const Participant& car, State& state,
                  std::vector<Event>& events);
 
-/// Moves all by their wheels for a tick, against what stands beside the road (loose_hull.hpp). Contacts push them
-/// afterwards (collisions.hpp). Events are appended.
+/// Moves all by their wheels for a tick, against what stands beside the road (loose_hull.hpp); solids in motion by that
+/// (solid_motion.hpp). Contacts push them afterwards (collisions.hpp). Events are appended.
 void advance_bodies(const Model& model, State& state, std::vector<Event>& events);
 
 /// Tells the storyboard where those are that were its own.

@@ -10,7 +10,7 @@ namespace septet::simulation {
 
 /// One mass a participant: of the driver's car its vehicle file's, of others that of the scenario where it gives one,
 /// else that of their kind (engine/world/bodies.toml). Of a box as in scenario/model/misc_object.hpp: infinite, where it
-/// stands fast, and of every solid.
+/// stands fast, and of a solid, whose own its body has (bodies.hpp).
 double mass_kg(const Model& model, const Participant& participant);
 
 /// Its mass centre ahead of its origin: of the driver's car as its file has it, of others the middle of the outline.

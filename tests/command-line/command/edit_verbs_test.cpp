@@ -143,7 +143,18 @@ TEST_CASE("a thing is tagged solid and no more, in the group that it has for it"
     CHECK(editor.store.find(wall)->tag_groups.size() == 1);
   }
   CHECK(editor.find("tag body.solid") == Names{"wall"});
-  for (const char* line : {"solid", "solid nobody", "solid wall on", "solid wall off off"})
+  const auto mass_kg = [&] { return scene::find_tag(*editor.store.find(wall), "body", "mass_kg"); };
+  for (const double kg : {12.5, 0.4}) {
+    REQUIRE(editor.take(fmt::format("solid wall {}", kg)).has_value());
+    REQUIRE(mass_kg());
+    CHECK(std::get<double>(*mass_kg()) == kg);
+    CHECK(scene::is_tagged_solid(*editor.store.find(wall)));
+  }
+  REQUIRE(editor.take("solid wall").has_value());
+  CHECK_FALSE(mass_kg());
+  CHECK(editor.store.find(wall)->tag_groups.size() == 1);
+  for (const char* line :
+       {"solid", "solid nobody", "solid wall on", "solid wall off off", "solid wall 1 2", "solid wall nan"})
     CHECK_FALSE(editor.take(line).has_value());
 }
 

@@ -180,11 +180,17 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         # What moves is sent once, and begins where it is when the server does it.
         # What is solid is met where it is seen, far from everybody here; it is no more where it is hidden.
         wall = world.add("stimuli/wall", glb, (5, 6, 700), solid=True)
-        assert wall.solid
-        assert "in motion" in refused(lambda: wall.go((1, 0, 0))).why
+        assert wall.solid is True
+        wall.go((1, 0, 0))
         wall.visible = False
         wall.visible = True
         wall.solid = False
+        crate = world.add("stimuli/crate", glb, (5, 6, 700), solid=25)
+        assert crate.solid == 25
+        tags = [line.split()[3:] for line in world._ask(["read stimuli/crate"]).result(60) if line.startswith("tag-set")]
+        assert {tag[1].strip('"') for tag in tags} >= {"solid", "mass_kg", "participant", "foot_m"}, tags
+        assert "from 0.1 to 20000 kg" in refused(lambda: setattr(crate, "solid", 0.0)).why
+        crate.remove()
         deer = world.add("stimuli/deer", glb, (5, 6, 7))
         deer.go((0, 3, 0), turn_degps=90, then=[(2, (0, 0, 0))])
         (line,) = [line.split() for line in world._ask(["read stimuli/deer"]).result(60) if line.startswith("motion-set")]
@@ -401,8 +407,11 @@ with tempfile.TemporaryDirectory() as name:
     print(run(str(septet_program), "replay", "--verify", str(session)))
     told = sqlite3.connect(session).execute("SELECT detail FROM events WHERE kind = 'operator_command'").fetchall()
     solids = [row[0].split()[:2] for row in told if "solid=" in row[0]]
-    assert solids == [["stand", "solid=0"], ["clear", "solid=0"]] * 2, told
-    assert all(row[0].endswith(' name="stimuli/wall"') for row in told if row[0].startswith("stand ")), told
+    stand, clear = ["stand", "solid=0"], ["clear", "solid=0"]
+    assert solids == [stand, stand, clear, stand, clear, stand, clear], told
+    stood = [row[0] for row in told if row[0].startswith("stand ")]
+    assert [row.endswith(' name="stimuli/wall"') for row in stood] == [True] * 3 + [False], stood
+    assert [" leg=" in row for row in stood] == [False, True, True, False] and " mass_kg=25 " in stood[3], stood
     # What is hidden of the generated world is met no more.
     assert any(row[0].startswith("gone x_m=") and ' name="tree/' in row[0] for row in told), told
     assert "stimuli/sign" in (folder / "saved.edits").read_text()

@@ -18,6 +18,19 @@ namespace {
 
 const StandSolid wall_ahead{.solid = 3, .x_m = 20.0, .length_m = 0.5, .width_m = 6.0, .height_m = 2.0};
 
+StandSolid moving_ball() {
+  StandSolid ball{.solid = 2, .x_m = 1.0 / 3.0, .length_m = 0.2, .width_m = 0.2, .height_m = 0.2, .name = "a ball"};
+  ball.mass_kg = 0.43, ball.about_x_m = 2.0 / 3.0, ball.about_y_m = -1e5 / 7.0;
+  ball.legs = {{1.0 / 7.0, {0.1, -0.2, 0.3}, {0.7, -0.9, 1.0 / 9.0}, {0.0, 0.0, -0.11}}, {.from_s = 9.0}};
+  return ball;
+}
+
+std::string legs(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += " leg=0,1,0,0,0,0,0,0";
+  return text;
+}
+
 /// The driver's car, at the origin, drives along x; nobody else is there.
 CrashSite driven_alone(double speed_mps) { return {plane_model(0), {}, speed_mps, {}}; }
 
@@ -39,6 +52,7 @@ double x_of_car_m(const CrashSite& site) { return site.car.participant.world_fro
 TEST_CASE("a solid's commands come back from their texts to the last bit") {
   for (const OperatorCommand& command :
        {OperatorCommand(StandSolid{63, 1.0 / 3.0, -1e5 / 7.0, 0.1, -0.7, 0.05, 200.0, 2.0 / 3.0, {}}),
+        OperatorCommand(moving_ball()),
         OperatorCommand(StandSolid{.solid = 1, .name = "stimuli/a wall, name='x' solid=5 å"}),
         OperatorCommand(ClearSolid{63})}) {
     const auto read = parse_operator_command(text_of(command));
@@ -59,7 +73,23 @@ TEST_CASE("a solid out of its bounds is refused as a text and as a value") {
                                   std::string("clear solid=64"),
                                   std::string("clear "),
                                   good + " ",
-                                  good + " mass_kg=1",
+                                  good + " mass_kg=0",
+                                  good + " mass_kg=nan",
+                                  good + " mass_kg=inf",
+                                  good + " mass_kg=1e9",
+                                  good + " mass_kg=1 mass_kg=1",
+                                  good + " about_x_m=1",
+                                  good + " about_x_m=nan about_y_m=0 leg=0,1,0,0,0,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0",
+                                  good + " about_x_m=0 about_y_m=0 leg=0,1,0,0,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0 leg=0,1,0,0,0,0,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0 leg=0,nan,0,0,0,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0 leg=inf,1,0,0,0,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0 leg=0,1001,0,0,0,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0 leg=0,1,0,0,1e5,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0 leg=0,1,0,0,0,0,0,1e5",
+                                  good + " about_x_m=0 about_y_m=0 leg=2,1,0,0,0,0,0,0 leg=1,1,0,0,0,0,0,0",
+                                  good + " about_x_m=0 about_y_m=0" + legs(17),
                                   good + " name=wall",
                                   good + " name=\"wall",
                                   good + " name=\"a\"b\"",
@@ -87,8 +117,21 @@ TEST_CASE("a solid out of its bounds is refused as a text and as a value") {
     solid = wall_ahead;
     solid.height_m = value;
     CHECK_FALSE(stand_solid(site.model, solid, site.state).has_value());
+    solid = wall_ahead;
+    solid.mass_kg = -value;
+    CHECK_FALSE(stand_solid(site.model, solid, site.state).has_value());
+    solid = wall_ahead;
+    solid.legs = {{.from_s = -1.0, .velocity_mps = {0.0, value, 0.0}}};
+    CHECK_FALSE(stand_solid(site.model, solid, site.state).has_value());
   }
+  // Begun long ago, it is far away by now, or fast.
+  StandSolid gone = wall_ahead;
+  gone.legs = {{.from_s = -1e6, .velocity_mps = {0.0, 1.0, 0.0}}};
+  CHECK_FALSE(stand_solid(site.model, gone, site.state).has_value());
+  gone.legs = {{.from_s = -20.0, .acceleration_mps2 = {0.0, 100.0, 0.0}}};
+  CHECK_FALSE(stand_solid(site.model, gone, site.state).has_value());
   CHECK(site.state.bodies.empty());
+  CHECK(site.state.solid_motions.empty());
   CHECK_FALSE(clear_solid({3}, site.state).has_value());
 }
 

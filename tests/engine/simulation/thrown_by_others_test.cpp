@@ -15,9 +15,12 @@
 #include "engine/physics/person/jointed_plans.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "engine/simulation/solid_motion.hpp"
+#include "engine/simulation/solids.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/crash_record.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/solid.hpp"
 #include "tests/engine/physics/person/searle_band.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
@@ -274,6 +277,30 @@ TEST_CASE("a drive that is saved while a scripted car's victim flies goes on wit
   // Whom a vehicle has met is part of the state: nobody is told twice.
   state.thrown.front().met.clear();
   CHECK(hash_state(state) != hash_state(again));
+}
+
+TEST_CASE("a solid in motion throws a walker whom it meets, which frees one with a mass and changes no other's way") {
+  for (const double mass_kg : {300.0, static_cast<double>(INFINITY)}) {
+    CAPTURE(mass_kg);
+    const Model model = street(0.0, "pedestrian", 0.0, 100.0);
+    State state = begun(model);
+    std::vector<Event> events;
+    const Participant person = shown(server_step(model, braking(), state, events), walker_id);
+    const RigidTransform& stands = person.world_from_vehicle;
+    const Vec3 from_m = stands * Vec3(-4.0, 0.0, 0.0);
+    StandSolid solid{.solid = 0, .x_m = from_m.x, .y_m = from_m.y, .z_m = from_m.z, .height_m = 1.5};
+    solid.mass_kg = mass_kg, solid.about_x_m = solid.x_m, solid.about_y_m = solid.y_m;
+    solid.legs = {{.velocity_mps = stands.orientation * Vec3(8.0, 0.0, 0.0)}};
+    REQUIRE(stand_solid(model, solid, state).has_value());
+    for (int tick = 0; tick < 30; ++tick) server_step(model, braking(), state, events);
+    CHECK(state.thrown.empty());
+    CHECK(is_led(state, first_solid_participant));
+    state = saved_and_restored(model, state);
+    for (int tick = 0; tick < 60; ++tick) server_step(model, braking(), state, events);
+    CHECK_FALSE(state.thrown.empty());
+    CHECK(std::ranges::count(events, "crash_of_others", &Event::kind) == 1);
+    CHECK(is_led(state, first_solid_participant) == std::isinf(mass_kg));
+  }
 }
 
 }  // namespace septet::simulation
