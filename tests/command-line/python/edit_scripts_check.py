@@ -344,6 +344,24 @@ def lift_the_barrier(host: str, port: int, keys: pathlib.Path) -> None:
     assert script.wait(120) == 0
 
 
+def time_of(host: str, port: int, keys: pathlib.Path) -> float:
+    with septet.connect(host, port, keys / "desk/desk.key") as desk:
+        return next(desk.ticks()).time_s
+
+
+def film(session: pathlib.Path, times_s: list, folder: pathlib.Path) -> None:
+    """Two frames of the half second before each of these times, by both renderers: as many pictures, and no two times look alike."""
+    shots = [f"[[shot]]\nfrom_s = {time_s - 0.5:.3f}\nto_s = {time_s:.3f}\ninterior = true\n" for time_s in times_s]
+    (folder / "after_scripts.toml").write_text("\n".join(shots))
+    for renderer, more in (("raster", ["--software"]), ("traced", ["--samples", "1"])):
+        out = folder / renderer
+        run(str(septet_program), "film", str(session), "--shots", str(folder / "after_scripts.toml"), "--out", str(out), "--fps", "4", "--size", "64x48",
+            "--renderer", renderer, "--no-sound", *more)
+        pictures = sorted(out.glob("*.png"))
+        assert len(pictures) == 2 * len(times_s), (renderer, len(pictures))
+        assert len({picture.read_bytes() for picture in pictures[::2]}) == len(times_s), renderer
+
+
 every_tick_that_is_missed_is_stood_in_for()
 events_of_ticks_that_a_slow_script_misses_go_to_the_next_and_are_bounded()
 heard_by: list = []
@@ -370,12 +388,14 @@ with tempfile.TemporaryDirectory() as name:
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
         glb = str(folder / "ball.glb")
         lift_the_barrier("127.0.0.1", int(port), keys)
+        ended_s = [time_of("127.0.0.1", int(port), keys)]
         said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
         for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["9"]), ("repaint_traffic.py", []),
                              ("log_gaze.py", [str(folder / "gaze.csv"), "4"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),
                              ("step_by_step.py", ["4"]), ("too_close.py", ["2"])):
             said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
             assert said.startswith(said_by.get(script, "")), (script, said)
+            ended_s.append(time_of("127.0.0.1", int(port), keys))
     except BaseException:
         print((folder / "server.log").read_text(), file=sys.stderr)
         raise
@@ -405,6 +425,8 @@ with tempfile.TemporaryDirectory() as name:
     assert any(detail.startswith("by=lab wish=conditions") for _, detail in notes), notes
     assert logged > 20, logged
     print(run(str(septet_program), "replay", "--verify", str(session)))
+    assert len(ended_s) == len(list((root / "samples/scripts").glob("*.py"))), ended_s
+    film(session, ended_s, folder)
     told = sqlite3.connect(session).execute("SELECT detail FROM events WHERE kind = 'operator_command'").fetchall()
     solids = [row[0].split()[:2] for row in told if "solid=" in row[0]]
     stand, clear = ["stand", "solid=0"], ["clear", "solid=0"]
