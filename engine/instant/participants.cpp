@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -11,6 +12,7 @@
 #include "engine/instant/headlight_beam.hpp"
 #include "engine/instant/level_fade.hpp"
 #include "engine/instant/limb_pose.hpp"
+#include "engine/scene/keyed_part.hpp"
 #include "engine/world/limbs.hpp"
 #include "engine/world/paint.hpp"
 #include "engine/world/participant_shape.hpp"
@@ -177,7 +179,9 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     std::size_t head_lamps_gone = 0;
     const float main_beam = participant.lamps.has(Lamp::high_beam) ? 1.0f : 0.0f;
     const std::vector<scene::Instance>& parts = prototypes[participant.prototype].parts;
-    for (const scene::Instance& part : parts) {
+    for (const scene::Instance& resting : parts) {
+      const std::optional<scene::Instance> moved = scene::moved(resting, simulated_time_s);
+      const scene::Instance& part = moved ? *moved : resting;
       if (part.mesh >= meshes.size() || distance_m - margin_m >= gone_from_m(part.visible_to_m)) continue;
       const MeshSummary& mesh = meshes[part.mesh];
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);
@@ -188,7 +192,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       placed.share_of_sky = sky;
       placed.snowed_on = false;  // The airstream of the drive has blown snow off.
       placed.number = participant.number;
-      if (const auto index = static_cast<std::size_t>(&part - parts.data());
+      if (const auto index = static_cast<std::size_t>(&resting - parts.data());
           participant.reshaped && index < participant.reshaped->size())
         placed.reshaped = (*participant.reshaped)[index].get();
       if (placed.reshaped && placed.reshaped->indices.empty()) {

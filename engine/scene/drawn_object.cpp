@@ -6,6 +6,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/scene/keyed_part.hpp"
 #include "engine/scene/part_role.hpp"
 
 namespace septet::scene {
@@ -48,6 +49,7 @@ DrawnObject read_object(const Node& node) {
   object.visible_to_m = static_cast<float>(draw_tag(node, "to_m", 1e9));
   object.role = part_role(draw_tag(node, "role", std::string()));
   object.casts_shadow = draw_tag(node, "casts_shadow", true);
+  object.keys = keys_of(node);
   if (const TagValue* paint = find_tag(node, "draw", "paint"); paint && object.prototype)
     if (const auto* rgb = std::get_if<Vec3>(paint)) object.paint = glm::clamp(glm::vec3(*rgb), 0.0f, 1.0f);
   return object;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/math/pose_keys.hpp"
 #include "engine/scene/node.hpp"
 #include "engine/scene/pushable_box.hpp"
 #include "engine/scene/resolved_scene.hpp"
@@ -33,6 +34,7 @@ struct DrawnObject {
   PartRole role = PartRole::fixed;
   bool casts_shadow = true;
   std::optional<glm::vec3> paint;  ///< Of a prototype.
+  std::vector<PoseKey> keys;       ///< Moves by them, if any; `transform` is its pose at rest.
 
   bool operator==(const DrawnObject&) const = default;
 };

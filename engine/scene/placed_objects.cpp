@@ -1,7 +1,10 @@
 #include "engine/scene/placed_objects.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
+
+#include "engine/math/rigid_transform.hpp"
 
 namespace septet::scene {
 namespace {
@@ -15,7 +18,7 @@ constexpr std::size_t many_unused = 4096;
 std::uint32_t moving_number(NodeId id) { return 0x8000'0000u | id; }
 
 /// Or is moved by pushes.
-bool moves_by_itself(const DrawnObject& drawn) { return !drawn.motion.legs.empty() || drawn.box; }
+bool moves_by_itself(const Motion& motion, const DrawnObject& drawn) { return !motion.legs.empty() || drawn.box; }
 
 }  // namespace
 
@@ -65,29 +68,46 @@ void PlacedObjects::spoil(NodeId geometry) {
 
 // ---- one root
 
-PlacedObjects::Placement PlacedObjects::child_of(const Placement& parent, const Transform& t) {
-  Placement placed;
-  placed.world_from_object.position_m = parent.world_from_object * (glm::dvec3(parent.scale) * t.position_m);
-  placed.world_from_object.orientation = parent.world_from_object.orientation * t.rotation;
-  placed.scale = parent.scale * t.scale;
-  return placed;
-}
-
 /// Appends an object and everything below it. `path` holds the objects above.
-void PlacedObjects::place(Object& object, NodeId id, const Placement& parent, std::vector<NodeId>& path,
-                          std::size_t& visits, std::vector<Instance>& into, ResolvedScene& scene) {
+void PlacedObjects::place(Object& object, NodeId id, const ScaledPose& parent, const Keyed* above,
+                          std::vector<NodeId>& path, std::size_t& visits, std::vector<Instance>& into,
+                          ResolvedScene& scene) {
   const DrawnObject& drawn = object.drawn;
   if (drawn.hidden || path.size() >= deepest_child || visits_ + ++visits > most_visits) return;
   if (std::find(path.begin(), path.end(), id) != path.end()) return;
-  const Placement placed = child_of(parent, drawn.transform);
+  const RigidTransform own{drawn.transform.position_m, drawn.transform.rotation};
+  const ScaledPose placed = child_of(parent, own, drawn.transform.scale);
+  Keyed keyed;
+  if (above)
+    keyed = {above->above, above->keys, child_of(above->below, own, drawn.transform.scale)};
+  else if (!drawn.keys.empty())
+    keyed = {parent, &drawn.keys, {}};
   if (drawn.geometry != no_node)
-    into.push_back({use_mesh(object, scene), placed.world_from_object, placed.scale, drawn.visible_from_m,
-                    drawn.visible_to_m, drawn.casts_shadow, drawn.role});
+    into.push_back(
+        {use_mesh(object, scene), placed.pose, placed.scale, drawn.visible_from_m, drawn.visible_to_m,
+         drawn.casts_shadow, drawn.role,
+         keyed.keys ? std::make_shared<const KeyedPart>(KeyedPart{keyed.above, keyed.below, *keyed.keys}) : nullptr});
   path.push_back(id);
   for (const NodeId child : drawn.children)
     if (const auto found = objects_.find(child); found != objects_.end())
-      place(found->second, child, placed, path, visits, into, scene);
+      place(found->second, child, placed, keyed.keys ? &keyed : nullptr, path, visits, into, scene);
   path.pop_back();
+}
+
+/// The motion by which a root is drawn: its own, or, with parts that move by keys, one that stands at its pose, to
+/// which `instances` are then relative. Without legs for any other.
+Motion PlacedObjects::motion_of(const DrawnObject& root, std::vector<Instance>& instances) {
+  if (moves_by_itself(root.motion, root)) return root.motion;
+  if (std::ranges::none_of(instances, [](const Instance& part) { return part.keyed != nullptr; })) return {};
+  const RigidTransform root_from_world = inverse({root.transform.position_m, root.transform.rotation});
+  for (Instance& part : instances) {
+    part.world_from_object = root_from_world * part.world_from_object;
+    if (!part.keyed) continue;
+    KeyedPart keyed = *part.keyed;
+    keyed.above.pose = root_from_world * keyed.above.pose;
+    part.keyed = std::make_shared<const KeyedPart>(std::move(keyed));
+  }
+  return {root.transform.position_m, root.transform.rotation, {MotionLeg{}}};
 }
 
 void PlacedObjects::set_instance(std::uint32_t index, const Instance& instance, ResolvedScene& scene) {
@@ -149,8 +169,8 @@ bool PlacedObjects::place_model(Root& root, const Object& object, std::vector<In
 }
 
 /// Prototypes keep their indices, so one of an object comes and goes for the price of its parts.
-void PlacedObjects::place_moving(Root& root, NodeId id, const Object& object, std::vector<Instance> parts,
-                                 ResolvedScene& scene) {
+void PlacedObjects::place_moving(Root& root, NodeId id, const Object& object, const Motion& motion,
+                                 std::vector<Instance> parts, ResolvedScene& scene) {
   if (!root.moves) {
     clear(root, scene);
     root = {.visits = root.visits, .moves = true, .prototype = static_cast<std::uint32_t>(scene.prototypes.size())};
@@ -162,9 +182,9 @@ void PlacedObjects::place_moving(Root& root, NodeId id, const Object& object, st
     }
   }
   Prototype& prototype = scene.prototypes[root.prototype];
-  if (prototype.motion != object.drawn.motion || prototype.box != object.drawn.box)
+  if (prototype.motion != motion || prototype.box != object.drawn.box)
     scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
-  prototype.motion = object.drawn.motion;
+  prototype.motion = motion;
   prototype.box = object.drawn.box;
   prototype.number = moving_number(id);
   set_parts(root.prototype, std::move(parts), scene);
@@ -194,14 +214,15 @@ bool PlacedObjects::place_root(NodeId id, ResolvedScene& scene) {
   visits_ -= std::exchange(root.visits, 0);
   std::vector<Instance> instances;
   std::vector<NodeId> path;
-  if (is_root) place(found->second, id, {}, path, root.visits, instances, scene);
+  if (is_root) place(found->second, id, {}, nullptr, path, root.visits, instances, scene);
   visits_ += root.visits;
   ++scene.revision;
   if (is_model) return place_model(root, found->second, std::move(instances), scene);
-  const bool moves = is_root && moves_by_itself(found->second.drawn);
+  const Motion motion = is_root ? motion_of(found->second.drawn, instances) : Motion{};
+  const bool moves = is_root && moves_by_itself(motion, found->second.drawn);
   if (root.moves && !moves) stop_moving(root, scene);
   if (moves) {
-    place_moving(root, id, found->second, std::move(instances), scene);
+    place_moving(root, id, found->second, motion, std::move(instances), scene);
   } else if (is_root) {
     keep(root, instances, scene);
   } else {
@@ -299,13 +320,14 @@ void PlacedObjects::place_all(const Store& store, ResolvedScene& scene) {
     if (parents_.contains(id)) continue;
     Root& root = roots_[id];
     root.is_model = object.drawn.prototype.has_value();
-    root.moves = moves_by_itself(object.drawn);
     std::vector<Instance> instances;
-    place(object, id, {}, path, root.visits, instances, scene);
+    place(object, id, {}, nullptr, path, root.visits, instances, scene);
+    const Motion motion = root.is_model ? Motion{} : motion_of(object.drawn, instances);
+    root.moves = !root.is_model && moves_by_itself(motion, object.drawn);
     if (root.is_model || root.moves) {
       root.prototype = static_cast<std::uint32_t>(scene.prototypes.size());
-      scene.prototypes.push_back({object.drawn.prototype.value_or(""), std::move(instances), object.drawn.paint,
-                                  object.drawn.motion, root.moves ? moving_number(id) : 0, object.drawn.box});
+      scene.prototypes.push_back({object.drawn.prototype.value_or(""), std::move(instances), object.drawn.paint, motion,
+                                  root.moves ? moving_number(id) : 0, object.drawn.box});
     } else {
       root.first = static_cast<std::uint32_t>(scene.instances.size());
       root.capacity = static_cast<std::uint32_t>(instances.size());

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "engine/scene/drawn_object.hpp"
+#include "engine/scene/keyed_part.hpp"
+#include "engine/scene/motion.hpp"
 #include "engine/scene/resolved_scene.hpp"
 #include "engine/scene/slots.hpp"
 #include "engine/scene/store.hpp"
@@ -52,17 +54,19 @@ class PlacedObjects {
     bool is_model = false, moves = false;  ///< Either: its instances are parts of a prototype.
     std::uint32_t prototype = 0;
   };
-  struct Placement {
-    RigidTransform world_from_object;
-    glm::vec3 scale{1.0f};
+  /// The keyed object that is placed now or is above the placed one; of several the uppermost.
+  struct Keyed {
+    ScaledPose above;
+    const std::vector<PoseKey>* keys = nullptr;
+    ScaledPose below;
   };
-  static Placement child_of(const Placement& parent, const Transform& transform);
 
   std::uint32_t use_mesh(Object& object, ResolvedScene& scene);
   void leave_mesh(std::uint32_t mesh);
   void free_unused(ResolvedScene& scene);
-  void place(Object& object, NodeId id, const Placement& parent, std::vector<NodeId>& path, std::size_t& visits,
-             std::vector<Instance>& into, ResolvedScene& scene);
+  void place(Object& object, NodeId id, const ScaledPose& parent, const Keyed* keyed, std::vector<NodeId>& path,
+             std::size_t& visits, std::vector<Instance>& into, ResolvedScene& scene);
+  static Motion motion_of(const DrawnObject& root, std::vector<Instance>& instances);
   void link_children(NodeId parent, const std::vector<NodeId>& children);
   void unlink_children(NodeId parent, const std::vector<NodeId>& children);
   void add_roots_above(NodeId id, std::set<NodeId>& roots) const;
@@ -70,7 +74,8 @@ class PlacedObjects {
   /// False where models come or go, which only place_all does.
   bool place_root(NodeId id, ResolvedScene& scene);
   bool place_model(Root& root, const Object& object, std::vector<Instance> parts, ResolvedScene& scene);
-  void place_moving(Root& root, NodeId id, const Object& object, std::vector<Instance> parts, ResolvedScene& scene);
+  void place_moving(Root& root, NodeId id, const Object& object, const Motion& motion, std::vector<Instance> parts,
+                    ResolvedScene& scene);
   void stop_moving(Root& root, ResolvedScene& scene);
   void set_parts(std::uint32_t prototype, std::vector<Instance> parts, ResolvedScene& scene);
   void keep(Root& root, const std::vector<Instance>& instances, ResolvedScene& scene);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -131,6 +132,10 @@ enum class PartRole : std::uint8_t {
 /// Mesh of an instance that is no more: it keeps its index for others to come, and nothing is drawn of it.
 inline constexpr std::uint32_t no_mesh = std::numeric_limits<std::uint32_t>::max();
 
+struct KeyedPart;
+/// True for keys and places that are equal, and for two null ones.
+bool same_keys(const std::shared_ptr<const KeyedPart>& a, const std::shared_ptr<const KeyedPart>& b);
+
 /// One placed mesh.
 struct Instance {
   std::uint32_t mesh = 0;            ///< Indexes ResolvedScene::meshes; left out where it points outside.
@@ -140,11 +145,12 @@ struct Instance {
   float visible_to_m = 1e9f;
   bool casts_shadow = true;
   PartRole role = PartRole::fixed;
+  std::shared_ptr<const KeyedPart> keyed{};  ///< Of a part that moves by keys (keyed_part.hpp); its pose is at rest.
   bool operator==(const Instance& other) const {
     return mesh == other.mesh && world_from_object.position_m == other.world_from_object.position_m &&
            world_from_object.orientation == other.world_from_object.orientation && scale == other.scale &&
            visible_from_m == other.visible_from_m && visible_to_m == other.visible_to_m &&
-           casts_shadow == other.casts_shadow && role == other.role;
+           casts_shadow == other.casts_shadow && role == other.role && same_keys(keyed, other.keyed);
   }
 };
 

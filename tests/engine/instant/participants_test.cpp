@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
 #include "engine/instant/headlight_beam.hpp"
+#include "engine/math/pose_keys.hpp"
+#include "engine/scene/keyed_part.hpp"
 #include "engine/world/limbs.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 #include "tests/relative.hpp"
@@ -418,6 +422,20 @@ TEST_CASE("a participant is drawn where and as the snapshot has it") {
   CHECK(drawn.front_steer_rad == 0.2);
   CHECK(drawn.wheel_spin_rad == 0.7);
   CHECK(drawn.wheel_lift_m == participant.wheel_lift_m);
+}
+
+TEST_CASE("a part with keys is placed where they are at the instant that is drawn") {
+  const std::vector<PoseKey> keys{{0.0f, {0, 0, 0}}, {2.0f, {0, 0, 3}}};
+  scene::Prototype lift;
+  lift.parts.emplace_back().keyed = std::make_shared<const scene::KeyedPart>(scene::KeyedPart{{}, {}, keys});
+  const std::vector<MeshSummary> meshes(1);
+  DrawnParticipant drawn;
+  drawn.world_from_vehicle.position_m = {10, 0, 0};
+  for (const double time_s : {0.5, 1.0, 3.0}) {
+    const auto placed = place_participants({&drawn, 1}, {&lift, 1}, meshes, time_s, {}, in_the_open);
+    REQUIRE(placed.meshes.size() == 1);
+    CHECK(placed.meshes[0].origin_m.z == doctest::Approx(time_s < 2.0 ? 1.5 * time_s : 1.5));
+  }
 }
 
 }  // namespace septet::instant
