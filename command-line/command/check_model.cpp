@@ -26,6 +26,18 @@ std::string parts_of(const gltf::Model& model) {
   return "parts that move or shine: " + text;
 }
 
+std::string movement_of(const gltf::Model& model) {
+  std::size_t moving = 0;
+  float period_s = 0.0f;
+  for (const gltf::Part& part : model.parts) {
+    if (part.keys.empty()) continue;
+    ++moving;
+    period_s = part.keys.back().at_s;
+  }
+  return moving == 0 ? "nothing moves by an animation"
+                     : fmt::format("{} parts move by animations, which begin again after {:.2f} s", moving, period_s);
+}
+
 std::string materials_of(const gltf::Model& model) {
   std::string names;
   // The last look is the reader's own.
@@ -55,6 +67,7 @@ CheckedModel check_model(const std::filesystem::path& file) {
       warn(*differs, "give it the size of the catalogue's, or expect collisions beside what is seen");
   checked.found.push_back(scenery::told_size(*model));
   checked.found.push_back(parts_of(*model));
+  checked.found.push_back(movement_of(*model));
   checked.found.push_back(materials_of(*model));
   return checked;
 }

@@ -11,6 +11,7 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/gltf/gltf.hpp"
+#include "engine/gltf/passed_over.hpp"
 
 namespace septet::gltf {
 namespace {
@@ -199,6 +200,8 @@ Expected<Container> open_container(std::string_view bytes, std::string_view wher
   if (const std::string least = text_in(asset, "minVersion");
       !least.empty() && least != "2.0")  // 3.2: it is not loaded.
     return failure(fmt::format("it requires glTF {}", printable(least, 20)), where, export_anew);
+  // Before the buffers, which a compression leaves empty.
+  if (auto known = check_required_extensions(container); !known) return tl::unexpected(known.error());
   const Json& buffers = list_of(json, "buffers");
   if (buffers.size() > most_buffers)
     return failure(fmt::format("it has {} buffers, more than {}", buffers.size(), most_buffers), where, export_anew);

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -20,12 +21,15 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/gltf/accessors.hpp"
+#include "engine/gltf/animation.hpp"
 #include "engine/gltf/container.hpp"
 #include "engine/gltf/extras.hpp"
 #include "engine/gltf/looks.hpp"
+#include "engine/gltf/morph.hpp"
 #include "engine/gltf/nodes.hpp"
 #include "engine/gltf/passed_over.hpp"
 #include "engine/gltf/skin.hpp"
+#include "engine/math/pose_keys.hpp"
 
 namespace septet::gltf {
 namespace {
@@ -51,6 +55,12 @@ struct Growing {
   Part part;
   std::unordered_map<Corner, std::uint32_t, CornerHash> known;
   bool has_uvs = false;
+};
+
+/// Where a node's contents go.
+struct Place {
+  std::size_t part = 0;
+  glm::mat4 part_from_parent{1.0f};  ///< Of a part with keys.
 };
 
 /// Triangles of a primitive as its own vertices (glTF 2.0, 3.7.2.1), in the winding of each mode.
@@ -79,8 +89,11 @@ class Reader {
     auto placed = place_nodes(container_);
     if (!placed) return tl::unexpected(placed.error());
     placed_ = std::move(*placed);
+    auto animations = read_animations(container_, model_.left_out);
+    if (!animations) return tl::unexpected(animations.error());
+    animations_ = std::move(*animations);
     for (const std::int64_t root : placed_.roots)
-      if (auto added = add_node(root, 0); !added) return tl::unexpected(added.error());
+      if (auto added = add_node(root, {}); !added) return tl::unexpected(added.error());
     finish();
     if (model_.parts.empty())
       return failure("it has no triangle in its scene", container_.where, "export what is to be seen");
@@ -91,24 +104,73 @@ class Reader {
   std::string node_place(std::int64_t index) const { return fmt::format("{}, node {}", container_.where, index); }
 
   /// `index`: a placed node's.
-  Expected<void> add_node(std::int64_t index, std::size_t part) {
+  Expected<void> add_node(std::int64_t index, Place place) {
     const Json& node = nodes_[static_cast<std::size_t>(index)];
     add_extras(node, model_.extras, model_.left_out);
+    chain_.push_back(index);
     const glm::mat4& model_from_node = *placed_.model_from_node[static_cast<std::size_t>(index)];
-    if (const std::string name = text_in(node, "name"); !name.empty() && begins_part_(name)) {
+    place.part_from_parent = place.part_from_parent * parent_from_node(node);
+    const std::string name = text_in(node, "name");
+    const bool is_animated = animations_.by_node.contains(index);
+    if (!name.empty() && begins_part_(name)) {
       if (growing_.size() >= most_parts)
         return failure(fmt::format("more than {} parts begin", most_parts), node_place(index), "join some");
-      part = growing_.size();
+      if (is_animated || !growing_[place.part].part.keys.empty()) unmoved_.insert(printable(name, 80));
+      place.part = growing_.size();
       growing_.emplace_back();
       growing_.back().part.name = name;
       const glm::vec3 origin = our_axes(glm::vec3(model_from_node[3]));
       if (!is_near(origin)) return far_away(index);
       growing_.back().part.origin_m = origin;
+    } else if (is_animated && has_rigid_mesh(node)) {
+      if (auto begun = begin_moving(index, place); !begun) return begun;
     }
     if (node.is_object() && node.contains("mesh"))
-      if (auto added = add_mesh(index_in(node, "mesh"), index, model_from_node, growing_[part]); !added) return added;
+      if (auto added = add_mesh(index_in(node, "mesh"), index, model_from_node, place); !added) return added;
     for (const Json& child : list_of(node, "children"))
-      if (auto added = add_node(node_index(*container_.json, child), part); !added) return added;
+      if (auto added = add_node(node_index(*container_.json, child), place); !added) return added;
+    chain_.pop_back();
+    return {};
+  }
+
+  /// True if the node, or one below it that no animation moves itself, has a mesh that no joints place.
+  bool has_rigid_mesh(const Json& node) const {
+    if (node.is_object() && node.contains("mesh") && !node.contains("skin")) return true;
+    const Json& children = list_of(node, "children");
+    return std::ranges::any_of(children, [&](const Json& child) {
+      const std::int64_t index = node_index(*container_.json, child);
+      return !animations_.by_node.contains(index) && has_rigid_mesh(nodes_[static_cast<std::size_t>(index)]);
+    });
+  }
+
+  /// A part that moves by the animation of the last node of the chain and of those above it.
+  Expected<void> begin_moving(std::int64_t node, Place& place) {
+    constexpr std::size_t most_poses = 1'000'000;
+    if (const std::string& role = growing_[place.part].part.name; !role.empty()) {
+      unmoved_.insert(printable(role, 80));
+      return {};
+    }
+    if (growing_.size() >= most_parts || poses_ > most_poses) {
+      moves_too_much_ = true;
+      place.part = 0;
+      return {};
+    }
+    place = {growing_.size(), glm::mat4(1.0f)};
+    Growing& growing = growing_.emplace_back();
+    growing.part.keys = keys_of_chain(container_, animations_, chain_);
+    poses_ += growing.part.keys.size() * chain_.size();
+    float largest = 0.0f;
+    for (PoseKey& key : growing.part.keys) {
+      key.position_m = our_axes(key.position_m);
+      key.rotation = glm::quat(key.rotation.w, our_axes({key.rotation.x, key.rotation.y, key.rotation.z}));
+      key.scale = our_axes(key.scale);
+      if (!is_near(key.position_m)) return far_away(node);
+      for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(key.scale[i]));
+    }
+    if (!(largest > 0.0f)) return {};
+
+    for (PoseKey& key : growing.part.keys) key.scale /= largest;
+    place.part_from_parent = glm::mat4(glm::mat3(largest));
     return {};
   }
 
@@ -120,7 +182,7 @@ class Reader {
                    "give the model's lengths in metres and its place around the origin");
   }
 
-  Expected<void> add_mesh(std::int64_t mesh, std::int64_t node, const glm::mat4& model_from_node, Growing& growing) {
+  Expected<void> add_mesh(std::int64_t mesh, std::int64_t node, const glm::mat4& model_from_node, const Place& place) {
     const Json& meshes = list_of(*container_.json, "meshes");
     if (mesh < 0 || static_cast<std::uint64_t>(mesh) >= meshes.size())
       return failure(fmt::format("its mesh is none of the file's {}", meshes.size()), node_place(node), export_anew);
@@ -129,9 +191,16 @@ class Reader {
       auto read = read_skin(container_, index_in(json, "skin"), placed_, node_place(node));
       if (!read) return tl::unexpected(read.error());
       skin = std::move(*read);
+      const Json& skin_json = list_of(*container_.json, "skins")[static_cast<std::size_t>(index_in(json, "skin"))];
+      if (const Json& joints = list_of(skin_json, "joints"); std::ranges::any_of(joints, [&](const Json& joint) {
+            return animations_.by_node.contains(node_index(*container_.json, joint));
+          }))
+        bent_.insert(mesh);
     }
+    const bool has_keys = !growing_[place.part].part.keys.empty();
     // The joints alone place a skinned mesh (3.7.3.3).
-    const glm::mat4 model_from_mesh = skin ? glm::mat4(1.0f) : model_from_node;
+    const glm::mat4 model_from_mesh = skin ? glm::mat4(1.0f) : has_keys ? place.part_from_parent : model_from_node;
+    Growing& growing = growing_[skin && has_keys ? 0 : place.part];
     for (const Json& primitive : list_of(meshes[static_cast<std::size_t>(mesh)], "primitives"))
       if (auto added = add_primitive(primitive, mesh, node, model_from_mesh, skin ? &*skin : nullptr, growing); !added)
         return added;
@@ -155,8 +224,12 @@ class Reader {
                        node_place(node), export_anew);
       return rows;
     };
-    const auto normals = optional_rows("NORMAL", 3, 3);
+    auto normals = optional_rows("NORMAL", 3, 3);
     if (!normals) return tl::unexpected(normals.error());
+    const std::vector<float> weights = weights_of(nodes_[static_cast<std::size_t>(node)],
+                                                  list_of(*container_.json, "meshes")[static_cast<std::size_t>(mesh)]);
+    if (auto added = add_targets(container_, primitive, weights, *positions, *normals, node_place(node)); !added)
+      return added;
     const auto colours = optional_rows("COLOR_0", 3, 4);
     if (!colours) return tl::unexpected(colours.error());
     std::vector<std::uint32_t> indices;
@@ -289,9 +362,23 @@ class Reader {
     }
   }
 
+  void report_unmoved() {
+    if (!bent_.empty())
+      model_.left_out.push_back(fmt::format(
+          "{}{} is bent by joints, whose animation is not played: it stands as they "
+          "do in the file",
+          mesh_name(*bent_.begin()), bent_.size() > 1 ? fmt::format(" (and {} more)", bent_.size() - 1) : ""));
+    for (const std::string& name : unmoved_)
+      model_.left_out.push_back(fmt::format("node \"{}\" moves by its name, and no animation moves it", name));
+    if (moves_too_much_)
+      model_.left_out.push_back(
+          fmt::format("more than {} parts are animated: the others stand as they do in the file", most_parts));
+  }
+
   void finish() {
     for (std::string& sentence : passed_over(container_)) model_.left_out.push_back(std::move(sentence));
     report_unmapped();
+    report_unmoved();
     for (const std::string& material : many_coloured_)
       model_.left_out.push_back(
           fmt::format("material \"{}\" lies on vertices of several colours, of which the mean is drawn", material));
@@ -300,7 +387,9 @@ class Reader {
       if (part.mesh.polygons.empty()) continue;
       if (!growing.has_uvs) part.mesh.corner_uvs.clear();
       for (const glm::vec3& p : part.mesh.vertices_m) {
-        const glm::vec3 at = part.origin_m + p;
+        const glm::vec3 at = part.keys.empty() ? part.origin_m + p
+                                               : part.keys.front().position_m +
+                                                     part.keys.front().rotation * (part.keys.front().scale * p);
         model_.least_m = bounded_ ? glm::min(model_.least_m, at) : at;
         model_.most_m = bounded_ ? glm::max(model_.most_m, at) : at;
         bounded_ = true;
@@ -313,6 +402,12 @@ class Reader {
   const std::function<bool(std::string_view)>& begins_part_;
   const Json& nodes_;
   PlacedNodes placed_;
+  Animations animations_;
+  std::vector<std::int64_t> chain_;  ///< From the root to the node that is read.
+  std::size_t poses_ = 0;            ///< Computed of animated nodes.
+  bool moves_too_much_ = false;
+  std::set<std::int64_t> bent_;    ///< Skinned meshes whose joints are animated.
+  std::set<std::string> unmoved_;  ///< Parts that move by their name, and would by an animation.
   Model model_;
   std::vector<Growing> growing_;
   std::map<std::array<int, 4>, std::uint32_t> coloured_;

@@ -1,13 +1,14 @@
 #pragma once
 /// A user's own glTF 2.0 file as scenery: meshes by node, and their materials' numbers.
 ///
-/// Read from a file: the default scene's nodes with their transforms; triangles, strips and fans with positions,
-/// normals, texture coordinates and the mean of the first vertex colours, sparse accessors too; of materials base
-/// colour, metallic, roughness, emissive (with KHR_materials_emissive_strength), normals, occlusion, by factor and PNG
-/// or JPEG texture, which may name its set of coordinates and transform them, the same for all of a material; alpha,
-/// and transmission as transparency. Skinned meshes stand as their joints do, morph targets stay as they were
-/// modelled; cameras, lights and animations are skipped, and tangents, which follow from coordinates. A file is self-contained: a .glb, or a .gltf whose buffers are data: URIs. External files
-/// that it names are never opened.
+/// Read from a file: the default scene's nodes with their transforms, and the animations that move them (animation.hpp);
+/// triangles, strips and fans with positions, normals, texture coordinates and the mean of the first vertex colours,
+/// sparse accessors too; of materials base colour, metallic, roughness, emissive (with
+/// KHR_materials_emissive_strength), normals, occlusion, by factor and PNG or JPEG texture, which may name its set of
+/// coordinates and transform them, the same for all of a material; alpha, transmission as transparency, and unlit ones
+/// as emission. Skinned meshes stand as their joints do, morph targets by the file's weights; cameras and lights are
+/// skipped, and tangents, which follow from coordinates. A file is self-contained: a .glb, or a .gltf whose buffers are
+/// data: URIs. External files that it names are never opened.
 ///
 /// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres.
 /// Vertices are joined where position and normal agree, so that edges which the file keeps sharp stay sharp.
@@ -26,12 +27,13 @@
 #include "engine/core/expected.hpp"
 #include "engine/geometry/polygon_mesh.hpp"
 #include "engine/image/image.hpp"
+#include "engine/math/pose_keys.hpp"
 
 namespace septet::gltf {
 
 /// Limits of a file. A model is drawn many times a picture, on every screen.
 inline constexpr std::size_t largest_file_bytes = 64u << 20, most_triangles = 200'000, most_vertices = 600'000,
-                             most_materials = 64, most_parts = 64;
+                             most_materials = 256, most_parts = 256;
 /// Pictures are halved until they are no larger than the second.
 inline constexpr std::uint32_t largest_picture_px = 4096, drawn_picture_px = 1024;
 /// Limit of distances from its origin; a file beyond it is not in metres.
@@ -84,6 +86,9 @@ struct Part {
   std::string name;            ///< Name of the node that begins it; empty: everything that belongs to no part.
   glm::vec3 origin_m{0.0};     ///< The node's place in the model; the mesh is relative to it, axes as the model's.
   geometry::PolygonMesh mesh;  ///< Materials are indices of Model::looks.
+  /// Poses of a part that an animation moves, in the model's frame and by their time in the animation, which repeats;
+  /// the mesh is then relative to them, and `origin_m` zero. Empty for any other.
+  std::vector<PoseKey> keys{};
 };
 
 using ExtraValue = std::variant<bool, double, std::string, glm::dvec3>;

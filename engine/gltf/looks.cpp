@@ -103,11 +103,18 @@ class Looks {
     constexpr double most_strength = 100.0;
     look.emission = factor_of(material, "emissiveFactor", glm::vec3(0.0f), 1.0f) *
                     static_cast<float>(std::clamp(strength, 0.0, most_strength));
+    const bool is_unlit = member_of(material, "extensions").contains("KHR_materials_unlit");
     mapping_.reset();
     if (auto added = add_base_color(metallic_roughness, mode, look); !added) return tl::unexpected(added.error());
-    if (auto added = add_emission(material, look); !added) return tl::unexpected(added.error());
-    if (auto added = add_properties(material, look); !added) return tl::unexpected(added.error());
-    if (auto added = add_normal(material, look); !added) return tl::unexpected(added.error());
+    if (is_unlit) {
+      if (auto shining = shine(metallic_roughness, look); !shining) return tl::unexpected(shining.error());
+    } else if (auto added = add_emission(material, look); !added) {
+      return tl::unexpected(added.error());
+    }
+    if (!is_unlit) {
+      if (auto added = add_properties(material, look); !added) return tl::unexpected(added.error());
+      if (auto added = add_normal(material, look); !added) return tl::unexpected(added.error());
+    }
     look.mapping = mapping_.value_or(PictureMapping{});
     for (const std::int32_t shown :
          {look.picture, look.emission_picture, look.properties_picture, look.normal_picture}) {
@@ -173,6 +180,18 @@ class Looks {
     }
     lies_alike(texture, look, "base colour");
     return {};
+  }
+
+  /// KHR_materials_unlit: the base colour is what is seen, whatever the light.
+  Expected<void> shine(const Json& metallic_roughness, Look& look) {
+    look.emission = std::exchange(look.base_color, glm::vec3(0.0f));
+    look.roughness = 1.0f;
+    look.metallic = 0.0f;
+    if (look.picture < 0) return {};
+    const Json& texture = member_of(metallic_roughness, "baseColorTexture");
+    const auto image = pictures_.image_of(texture);
+    return image ? add(key_of(texture, Use::emission, *image), look, "emission", look.emission_picture, [](Image&) {})
+                 : Expected<void>{};
   }
 
   /// Emission by a texture, times the factor (3.9.3); a picture of the base colour alone does not colour it.

@@ -52,24 +52,6 @@ std::optional<std::array<float, count>> numbers_of(const Json& object, const cha
   return numbers;
 }
 
-glm::mat4 transform_of(const Json& node) {
-  glm::mat4 transform(1.0f);
-  if (const auto matrix = numbers_of<16>(node, "matrix")) {
-    for (int i = 0; i < 16; ++i) transform[i / 4][i % 4] = (*matrix)[static_cast<std::size_t>(i)];
-    return transform;
-  }
-  const auto turn = numbers_of<4>(node, "rotation");
-  glm::quat rotation(1.0f, 0.0f, 0.0f, 0.0f);
-  if (turn) rotation = glm::quat((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]);
-  const float length = glm::length(rotation);
-  transform = glm::mat4(length > 1e-6f ? glm::mat3_cast(rotation / length) : glm::mat3(1.0f));
-  if (const auto scale = numbers_of<3>(node, "scale"))
-    for (int i = 0; i < 3; ++i) transform[i] *= (*scale)[static_cast<std::size_t>(i)];
-  if (const auto shift = numbers_of<3>(node, "translation"))
-    transform[3] = glm::vec4((*shift)[0], (*shift)[1], (*shift)[2], 1.0f);
-  return transform;
-}
-
 Expected<void> place(const Container& container, std::int64_t index, const glm::mat4& parent, std::size_t depth,
                      PlacedNodes& placed) {
   const Json& nodes = list_of(*container.json, "nodes");
@@ -81,7 +63,7 @@ Expected<void> place(const Container& container, std::int64_t index, const glm::
   if (depth > deepest_node)
     return failure(fmt::format("it hangs more than {} nodes deep", deepest_node), where, export_anew);
   const Json& node = nodes[static_cast<std::size_t>(index)];
-  model_from_node = parent * transform_of(node);
+  model_from_node = parent * parent_from_node(node);
   for (const Json& child : list_of(node, "children"))
     if (auto below = place(container, node_index(*container.json, child), *model_from_node, depth + 1, placed); !below)
       return below;
@@ -89,6 +71,24 @@ Expected<void> place(const Container& container, std::int64_t index, const glm::
 }
 
 }  // namespace
+
+glm::mat4 parent_from_node(const Json& node, const NodePose& instead) {
+  glm::mat4 transform(1.0f);
+  if (const auto matrix = numbers_of<16>(node, "matrix")) {
+    for (int i = 0; i < 16; ++i) transform[i / 4][i % 4] = (*matrix)[static_cast<std::size_t>(i)];
+    return transform;
+  }
+  const auto turn = instead.rotation ? instead.rotation : numbers_of<4>(node, "rotation");
+  glm::quat rotation(1.0f, 0.0f, 0.0f, 0.0f);
+  if (turn) rotation = glm::quat((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]);
+  const float length = glm::length(rotation);
+  transform = glm::mat4(length > 1e-6f ? glm::mat3_cast(rotation / length) : glm::mat3(1.0f));
+  if (const auto scale = instead.scale ? instead.scale : numbers_of<3>(node, "scale"))
+    for (int i = 0; i < 3; ++i) transform[i] *= (*scale)[static_cast<std::size_t>(i)];
+  if (const auto shift = instead.translation ? instead.translation : numbers_of<3>(node, "translation"))
+    transform[3] = glm::vec4((*shift)[0], (*shift)[1], (*shift)[2], 1.0f);
+  return transform;
+}
 
 std::int64_t node_index(const Json& file, const Json& number) {
   if (!number.is_number_unsigned() || number.get<std::uint64_t>() >= list_of(file, "nodes").size()) return -1;

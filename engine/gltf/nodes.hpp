@@ -1,6 +1,7 @@
 #pragma once
 /// Nodes of a file's default scene and their places (glTF 2.0, 3.5).
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,6 +12,14 @@
 #include "engine/gltf/container.hpp"
 
 namespace septet::gltf {
+
+/// What an animation puts in the place of a node's own; empty: the node's.
+struct NodePose {
+  std::optional<std::array<float, 3>> translation;
+  std::optional<std::array<float, 4>> rotation;  ///< x, y, z, w.
+  std::optional<std::array<float, 3>> scale;
+};
+glm::mat4 parent_from_node(const Json& node, const NodePose& instead = {});
 
 /// Axes are glTF's.
 struct PlacedNodes {

@@ -15,16 +15,15 @@
 namespace septet::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 4> applied{"KHR_mesh_quantization", "KHR_texture_transform",
-                                                  "KHR_materials_emissive_strength", "KHR_materials_transmission"};
+constexpr std::array<std::string_view, 5> applied{"KHR_mesh_quantization", "KHR_texture_transform",
+                                                  "KHR_materials_emissive_strength", "KHR_materials_transmission",
+                                                  "KHR_materials_unlit"};
 /// A hostile file names any number of extensions.
 constexpr std::size_t most_extensions_told = 20;
 
 std::string extension_name(const Json& extension) {
   return extension.is_string() ? printable(extension.get<std::string>(), 60) : std::string("?");
 }
-
-bool has(const Json& object, const char* name) { return object.is_object() && object.contains(name); }
 
 /// "mesh \"car\" (and 2 more)", of the elements of a list of the file's that `is_one` accepts; empty where none is.
 std::string those(const Json& file, const char* list, const char* word,
@@ -71,10 +70,6 @@ std::vector<std::string> passed_over(const Container& container) {
   constexpr std::int64_t triangle_list = 4;
   tell(meshes_with([](const Json& primitive) { return index_in(primitive, "mode", triangle_list) < triangle_list; }),
        "has points or lines, which are not drawn");
-  tell(meshes_with([](const Json& primitive) { return has(primitive, "targets"); }),
-       "has morph targets, which are not read: it is drawn as it was modelled");
-  tell(those(file, "animations", "animation", [](const Json&) { return true; }),
-       "is not read: nodes and joints stand as they do in the file");
   tell(those(file, "cameras", "camera", [](const Json&) { return true; }), "is not read");
   const std::int64_t shown = index_in(file, "scene", 0);
   if (const Json& scenes = list_of(file, "scenes"); scenes.size() > 1)

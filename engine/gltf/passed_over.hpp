@@ -13,8 +13,8 @@ namespace septet::gltf {
 Expected<void> check_required_extensions(const Container& container);
 
 /// One sentence a kind of contents, with the first that has it and how many there are: extensions used and not
-/// applied, points and lines, morph targets, animations, cameras,
-/// other scenes.
+/// applied, points and lines, cameras, other
+/// scenes.
 std::vector<std::string> passed_over(const Container& container);
 
 }  // namespace septet::gltf

@@ -10,6 +10,8 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/core/regular_file.hpp"
+#include "engine/math/pose_keys.hpp"
+#include "engine/scene/keyed_part.hpp"
 #include "engine/scene/part_role.hpp"
 
 namespace septet::scenery {
@@ -48,6 +50,26 @@ Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const glt
     palette.push_back(builder.add_material(fmt::format("{}/{}", name, look.name), material));
   }
   return palette;
+}
+
+/// The keys of a part whose model is placed as a whole; empty for one that moves by a role or stands.
+std::vector<PoseKey> keys_of(const gltf::Part& part, const Placement& placement) {
+  std::vector<PoseKey> keys = part.keys;
+  const scene::ScaledPose model{placement.parent_from_object, placement.scale};
+  for (PoseKey& key : keys) {
+    const auto placed = scene::child_of(model, {Vec3(key.position_m), Quat(key.rotation)}, key.scale);
+    key = {key.at_s, glm::vec3(placed.pose.position_m), glm::quat(placed.pose.orientation), placed.scale};
+  }
+  return keys;
+}
+
+void add_keys(scene::SceneBuilder& builder, scene::NodeId object, const std::vector<PoseKey>& keys) {
+  if (keys.empty()) return;
+  // Of the group "draw", beside the tags of add_object.
+  constexpr scene::PartId group = 0, first_tag = 16;
+  builder.apply(scene::TagGroupSet{object, group, "draw"});
+  scene::PartId id = first_tag;
+  for (scene::Tag& tag : scene::tags_of_keys(keys)) builder.apply(scene::TagSet{object, group, id++, std::move(tag)});
 }
 
 }  // namespace
@@ -109,7 +131,13 @@ bool OwnShapes::place(std::string_view name, const Placement& placement, scene::
     Placement placed = placement;
     placed.parent_from_object.position_m = placement.parent_from_object * Vec3(part.origin_m * placement.scale);
     placed.role = part.name.empty() ? scene::PartRole::fixed : scene::part_role(without_number(part.name));
-    scenery::place(builder_, name, shapes[i], placed, parent);
+    const std::vector<PoseKey> keys = keys_of(part, placement);
+    if (!keys.empty()) {
+      const PoseKey& rest = keys.front();
+      placed.parent_from_object = {Vec3(rest.position_m), Quat(rest.rotation)};
+      placed.scale = rest.scale;
+    }
+    add_keys(builder_, scenery::place(builder_, name, shapes[i], placed, parent), keys);
   }
   return true;
 }

@@ -5,7 +5,10 @@
 #include <cstdlib>
 #include <string_view>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "engine/gltf/gltf.hpp"
+#include "engine/math/pose_keys.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace septet;
@@ -28,6 +31,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       if (material >= model->looks.size()) std::abort();
     for (const glm::vec3& p : mesh.vertices_m)
       if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) < 1e5f)) std::abort();
+    if (part.keys.size() > max_pose_keys) std::abort();
+    float before_s = 0.0f;
+    for (const PoseKey& key : part.keys) {
+      if (!(key.at_s >= before_s)) std::abort();
+      before_s = key.at_s;
+      for (int k = 0; k < 3; ++k)
+        if (!std::isfinite(key.position_m[k]) || !std::isfinite(key.scale[k])) std::abort();
+      if (!(std::abs(glm::dot(key.rotation, key.rotation) - 1.0f) < 1e-3f)) std::abort();
+    }
     for (const auto& uvs : mesh.corner_uvs)
       for (const glm::vec2& uv : uvs)
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) std::abort();

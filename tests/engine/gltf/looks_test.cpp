@@ -1,5 +1,6 @@
 // Textures of a material beside its base colour's.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -124,6 +125,21 @@ TEST_CASE("a texture that lies otherwise than its material's first is told, and 
                 "without it"});
   CHECK(model.looks.at(0).properties_picture == -1);
   CHECK(model.looks.at(0).normal_picture == 1);
+}
+
+TEST_CASE("an unlit material shines with its base colour, which no light changes") {
+  const Model model = with_material(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,1],)"
+                                    R"("baseColorTexture":{"index":0}},"emissiveFactor":[1,1,1],)"
+                                    R"("normalTexture":{"index":0},"extensions":{"KHR_materials_unlit":{}}})",
+                                    {Image(2, 2, some)});
+  const Look& look = model.looks.at(0);
+  CHECK(look.base_color == glm::vec3(0.0f));
+  CHECK(look.emission == glm::vec3(1.0f, 0.5f, 0.25f));
+  REQUIRE(look.emission_picture >= 0);
+  CHECK(model.pictures.at(static_cast<std::size_t>(look.emission_picture)) == Image(2, 2, some));
+  CHECK(look.normal_picture == -1);
+  CHECK(look.metallic == 0.0f);
+  CHECK(look.roughness == 1.0f);
 }
 
 }  // namespace septet::gltf

@@ -1,0 +1,47 @@
+#pragma once
+/// Animations of nodes: place, turn and size by time (glTF 2.0, 3.11 and appendix C), as keys of a part.
+///
+/// All of a file's animations play together and repeat after the longest; of two that move one thing of a node the
+/// first does.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/gltf/accessors.hpp"
+#include "engine/gltf/container.hpp"
+#include "engine/math/pose_keys.hpp"
+
+namespace septet::gltf {
+
+/// One number or triple by time.
+struct Channel {
+  enum class Interpolation : std::uint8_t { linear, step, cubic };
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<float> times_s;  ///< Rising, from 0 on.
+  Rows values;                 ///< One row a time; of a cubic one three: the slope before, the value, the slope behind.
+};
+
+struct NodeChannels {
+  std::optional<Channel> translation, rotation, scale;
+};
+
+struct Animations {
+  std::map<std::int64_t, NodeChannels> by_node;
+  float period_s = 0.0f;
+};
+
+/// `left_out`: gets a sentence for each kind of what is not played. Error: a channel without its sampler, node or rows,
+/// times that do not rise, more than 10,000 of them.
+Expected<Animations> read_animations(const Container& container, std::vector<std::string>& left_out);
+
+/// Poses of a node in the model; `chain`: the nodes from the root to it. Axes are glTF's. A chain that interpolates by
+/// curves, or moves at several nodes, is taken 60 times a second, and less often beyond `max_pose_keys`.
+std::vector<PoseKey> keys_of_chain(const Container& container, const Animations& animations,
+                                   const std::vector<std::int64_t>& chain);
+
+}  // namespace septet::gltf
