@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/geometry/shapes.hpp"
+#include "engine/scene/keyed_part.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 
@@ -78,6 +79,26 @@ TEST_CASE("a model as large as the vehicle is taken without a word, and one a te
   REQUIRE(longer.has_value());
   CHECK(longer->find("4.62") != std::string::npos);
   CHECK(said(0.01 * model.length_m).has_value());
+}
+
+TEST_CASE("a part that an animation moves takes its keys into the scene, placed and scaled with the whole") {
+  gltf::Model model = box_on_a_wheel(glm::vec3(2.0f), glm::vec3(0.0f));
+  model.parts[0].keys = {{0.0f, {0, 0, 1}}, {2.0f, {0, 0, 3}}};
+  const OwnModels own{{"lift", std::move(model)}};
+  scene::Store store;
+  scene::SceneBuilder builder(store);
+  const scene::NodeId root = builder.add_object("thing", {.parent_from_object = {{100, 0, 0}}});
+  OwnShapes(builder, &own).place("lift", {.parent_from_object = {{10, 0, 0}}, .scale = glm::vec3(2.0f)}, root);
+  const scene::ResolvedScene scene = scene::resolve(store);
+  REQUIRE(scene.prototypes.size() == 1);
+  const auto& parts = scene.prototypes[0].parts;
+  const auto moving = std::ranges::find_if(parts, [](const scene::Instance& part) { return part.keyed != nullptr; });
+  REQUIRE(moving != parts.end());
+  CHECK(std::ranges::count_if(parts, [](const scene::Instance& part) { return part.keyed != nullptr; }) == 1);
+  const auto after_a_second = scene::moved(*moving, 1.0);
+  REQUIRE(after_a_second.has_value());
+  CHECK(after_a_second->world_from_object.position_m == Vec3(10, 0, 4));
+  CHECK(after_a_second->scale == glm::vec3(2.0f));
 }
 
 }  // namespace septet::scenery
