@@ -11,6 +11,7 @@
 
 #include <fmt/core.h>
 
+#include "command-line/command/edit/content_ahead.hpp"
 #include "command-line/command/edit/exported_model.hpp"
 #include "engine/core/whole_file.hpp"
 #include "engine/document/text_file.hpp"
@@ -122,13 +123,69 @@ void EditSession::send(Batch batch) {
     end_lifetimes(batch, now);
     return output_.done(request, now, {});
   }
-  const auto number = client_.request(batch.commands, batch.tick);
-  if (!number) {
-    forget_created(batch);
-    if (!batch.was_asked) return output_.message(describe(number.error()));
-    return refuse(request, batch.lines.empty() ? "" : batch.lines.front(), describe(number.error()));
+  later_.push_back({request, std::move(batch)});
+  if (ahead_.empty()) send_later();
+}
+
+/// Sends what waits, in its order, up to the next batch that its contents go ahead of: what shows them is sent when the
+/// server has them.
+void EditSession::send_later() {
+  while (!later_.empty()) {
+    Batch& batch = later_.front().batch;
+    SplitBatch split = split_content(batch.commands);
+    std::string why_not;
+    for (const std::vector<scene::Command>& content : split.ahead)
+      if (const auto number = client_.request(content, 0))
+        ahead_.insert(*number);
+      else
+        why_not = describe(number.error());
+    if (!why_not.empty()) content_refused_ = why_not;
+    if (split.ahead.empty()) {
+      send_whole(std::exchange(later_.front(), {}));
+      later_.pop_front();
+      continue;
+    }
+    std::vector<std::size_t> line_of;
+    for (const std::size_t from : split.rest_from)
+      if (from < batch.line_of.size()) line_of.push_back(batch.line_of[from]);
+    batch.line_of = std::move(line_of);
+    batch.commands = std::move(split.rest);
+    if (!ahead_.empty()) return;
+    end_content();
   }
-  waiting_.emplace(*number, Waiting{request, std::move(batch)});
+}
+
+/// All contents of the first batch that waits are answered.
+void EditSession::end_content() {
+  const Waiting waiting = std::exchange(later_.front(), {});
+  later_.pop_front();
+  if (const std::string why = std::exchange(content_refused_, {}); !why.empty())
+    fail(waiting, why);
+  else
+    send_whole(waiting);
+}
+
+void EditSession::send_whole(Waiting waiting) {
+  const auto number = client_.request(waiting.batch.commands, waiting.batch.tick);
+  if (!number) return fail(waiting, describe(number.error()));
+  waiting_.emplace(*number, std::move(waiting));
+}
+
+void EditSession::fail(const Waiting& waiting, const std::string& why) {
+  const Batch& batch = waiting.batch;
+  forget_created(batch);
+  if (!batch.was_asked) return output_.message(why);
+  refuse(waiting.request, batch.lines.empty() ? "" : batch.lines.front(), why);
+}
+
+/// True for the answer to a batch of contents.
+bool EditSession::hear_content(const EditAnswer& answer) {
+  if (ahead_.erase(answer.batch) == 0) return false;
+  if (answer.refused) content_refused_ = why_of(*answer.refused);
+  if (!ahead_.empty()) return true;
+  end_content();
+  send_later();
+  return true;
 }
 
 void EditSession::forget_created(const Batch& batch) {
@@ -161,6 +218,7 @@ void EditSession::hear() {
         forget_destroyed(names_, end.mapped().removal);
       continue;
     }
+    if (hear_content(answer)) continue;
     const auto found = waiting_.find(answer.batch);
     if (found == waiting_.end()) continue;
     const Waiting waiting = std::move(found->second);

@@ -2,6 +2,7 @@
 /// Lines of an editor to batches, and the server's answers to what is said.
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,7 +31,7 @@ class EditSession {
   /// True if no answer is owed and the mirror is whole.
   bool is_settled() const { return answers_owed() == 0 && client_.is_complete(); }
   bool is_in_batch() const { return batch_.has_value(); }
-  std::size_t answers_owed() const { return waiting_.size() + operating_.size(); }
+  std::size_t answers_owed() const { return waiting_.size() + later_.size() + operating_.size(); }
   void take(const std::string& line);
   /// Says what the server has answered, and the ticks that have come.
   void hear();
@@ -73,6 +74,11 @@ class EditSession {
   scene::TextNames names() const { return {client_.store(), names_.own_ids, nullptr, &names_.fresh}; }
   void add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words);
   void send(Batch batch);
+  void send_later();
+  void end_content();
+  void send_whole(Waiting waiting);
+  void fail(const Waiting& waiting, const std::string& why);
+  bool hear_content(const EditAnswer& answer);
   void refuse(std::uint64_t request, const FailedLines& failed);
   /// A request of one line.
   void refuse(std::uint64_t request, const std::string& text, const std::string& why);
@@ -95,6 +101,9 @@ class EditSession {
   std::uint64_t requests_ = 0, refusals_ = 0;
   std::optional<Batch> batch_;
   std::map<std::uint64_t, Waiting> waiting_;  ///< By the batch's number.
+  std::deque<Waiting> later_;                 ///< Not sent yet: the first one's contents are, or nothing.
+  std::set<std::uint64_t> ahead_;             ///< Batches of contents that are not answered yet.
+  std::string content_refused_;               ///< Why one of them was refused.
   std::map<std::uint64_t, End> ends_;         ///< Removals that the server keeps for their ticks; no answer is owed.
   std::vector<WatchedModel> watched_;
   std::map<std::uint32_t, std::pair<std::uint64_t, std::string>>
