@@ -11,15 +11,13 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/command_limits.hpp"
-
 namespace septet::scene {
 namespace {
 
 /// Time, place, rotation (w first), scale, each a little-endian real32.
-constexpr std::size_t numbers_a_key = 11, bytes_a_key = 4 * numbers_a_key,
-                      keys_a_tag = max_tag_blob_bytes / bytes_a_key,
-                      most_tags = (max_pose_keys + keys_a_tag - 1) / keys_a_tag;
+constexpr std::size_t numbers_a_key = 11, bytes_a_key = 4 * numbers_a_key;
+/// As many as a tag's bytes hold (command_limits.hpp), and the tags of all.
+constexpr std::size_t keys_a_tag = 93, most_tags = (max_pose_keys + keys_a_tag - 1) / keys_a_tag;
 
 std::array<float, numbers_a_key> numbers_of(const PoseKey& key) {
   const auto& [at_s, p, r, s] = key;

@@ -9,6 +9,7 @@
 #include "engine/gltf/gltf.hpp"
 #include "engine/math/pose_keys.hpp"
 #include "tests/engine/gltf/file_text.hpp"
+#include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
 namespace septet::gltf {
@@ -89,9 +90,8 @@ TEST_CASE("a cubic spline follows its slopes") {
                                           channel(0, "translation"), "CUBICSPLINE"));
     return place_at(model.parts.at(0), 0, 0.5).x;
   };
-  CHECK(at_half_second(0.0f) == doctest::Approx(4.0 * (3.0 / 16.0 - 2.0 / 64.0)).epsilon(1e-4));
-  CHECK(at_half_second(3.0f) - at_half_second(0.0f) ==
-        doctest::Approx(2.0 * 3.0 * (1.0 / 64.0 - 2.0 / 16.0 + 0.25)).epsilon(1e-3));
+  CHECK(at_half_second(0.0f) == relative(4.0 * (3.0 / 16.0 - 2.0 / 64.0), 1e-4));
+  CHECK(at_half_second(3.0f) - at_half_second(0.0f) == relative(2.0 * 3.0 * (1.0 / 64.0 - 2.0 / 16.0 + 0.25), 1e-3));
 }
 
 TEST_CASE("what hangs on an animated node moves with it, and on two with both") {
@@ -165,7 +165,7 @@ TEST_CASE("an animation of more keys than a part may have is taken at even steps
   }
   const Model model = model_of(animated(times_s, values, channel(0, "translation")));
   CHECK(model.parts.at(0).keys.size() <= max_pose_keys);
-  CHECK(place_at(model.parts.at(0), 0, 20.0).x == doctest::Approx(20.0).epsilon(1e-3));
+  CHECK(place_at(model.parts.at(0), 0, 20.0).x == relative(20.0, 1e-3));
 }
 
 }  // namespace septet::gltf

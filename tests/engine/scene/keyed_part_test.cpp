@@ -9,6 +9,7 @@
 
 #include "engine/geometry/polygon_mesh.hpp"
 #include "engine/scene/builder.hpp"
+#include "engine/scene/command_limits.hpp"
 #include "engine/scene/resolve.hpp"
 
 namespace septet::scene {
@@ -86,6 +87,7 @@ TEST_CASE("keys come out of an object's tags as they went in, also those of seve
   for (int i = 0; i < 500; ++i) many.push_back({0.25f * static_cast<float>(i), glm::vec3(static_cast<float>(i))});
   const auto of_many = tags_of_keys(many);
   CHECK(of_many.size() == 6);
+  CHECK(std::get<Blob>(of_many[0].value).size() <= max_tag_blob_bytes);
   give_keys(thing.store, thing.lifted, many);
   CHECK(keys_of(*thing.store.find(thing.lifted)) == many);
   many.resize(2000, many.back());
