@@ -1,6 +1,7 @@
 #include "sim-client/sight/pairs.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/scenery/vehicles/cockpit.hpp"
+#include "logging/study/measures/collisions.hpp"
 
 namespace septet::sight {
 namespace {
@@ -33,15 +35,26 @@ Expected<std::map<ParticipantId, double>> distances_from(const logging::SessionR
   }
 }
 
-/// First contact of the driver's car with each participant.
-Expected<std::map<ParticipantId, double>> contacts_of(const logging::SessionReader& session, const PairChoice& choice) {
+/// Two participants, the lesser number first.
+using Two = std::pair<ParticipantId, ParticipantId>;
+Two two(ParticipantId a, ParticipantId b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// First contact of each two: with the driver's car, or of two others.
+Expected<std::map<Two, double>> contacts_of(const logging::SessionReader& session, std::optional<ParticipantId> driver,
+                                            const PairChoice& choice) {
   const auto events = session.events();
   if (!events) return tl::unexpected(events.error());
-  std::map<ParticipantId, double> contacts;
-  for (const logging::Event& event : *events)
-    if (event.kind == "collision" && event.participant && event.simulated_time_s >= choice.from_s &&
-        event.simulated_time_s <= choice.to_s)
-      contacts.try_emplace(*event.participant, event.simulated_time_s);
+  std::map<Two, double> contacts;
+  for (const logging::Event& event : *events) {
+    if (!event.participant || event.simulated_time_s < choice.from_s || event.simulated_time_s > choice.to_s) continue;
+    if (event.kind == "collision" && driver) {
+      contacts.try_emplace(two(*driver, *event.participant), event.simulated_time_s);
+    } else if (event.kind == "crash_of_others") {
+      const auto with = logging::number_in_detail(event.detail, "with");  // None: a thing that stands.
+      if (with && *with >= 0.0 && *with <= std::numeric_limits<ParticipantId>::max())
+        contacts.try_emplace(two(*event.participant, static_cast<ParticipantId>(*with)), event.simulated_time_s);
+    }
+  }
   return contacts;
 }
 
@@ -52,7 +65,9 @@ bool has_eyes(const logging::Stay& stay) { return scenery::is_driven(vehicle_mod
 Expected<std::vector<ChosenPair>> choose_pairs(const logging::SessionReader& session, const PairChoice& choice) {
   const auto stays = logging::stays_of(session);
   if (!stays) return tl::unexpected(stays.error());
-  const auto contacts = contacts_of(session, choice);
+  const auto driver = std::ranges::find_if(*stays, &logging::Stay::is_driver);
+  const auto contacts =
+      contacts_of(session, driver != stays->end() ? std::optional(driver->number) : std::nullopt, choice);
   if (!contacts) return tl::unexpected(contacts.error());
   std::optional<logging::Stay> eyes, target;
   if (!choice.eyes.empty()) {
@@ -68,8 +83,7 @@ Expected<std::vector<ChosenPair>> choose_pairs(const logging::SessionReader& ses
     target = std::move(*found);
   }
   const auto contact = [&](const logging::Stay& a, const logging::Stay& b) -> std::optional<double> {
-    if (!a.is_driver && !b.is_driver) return std::nullopt;  // The log tells of the driver's car alone.
-    const auto found = contacts->find(a.is_driver ? b.number : a.number);
+    const auto found = contacts->find(two(a.number, b.number));
     return found == contacts->end() ? std::nullopt : std::optional(found->second);
   };
   if (eyes && target) {
@@ -77,7 +91,6 @@ Expected<std::vector<ChosenPair>> choose_pairs(const logging::SessionReader& ses
       return failure("nobody looks at themselves", "--eyes, --target", "name two participants");
     return std::vector<ChosenPair>{{*eyes, *target, contact(*eyes, *target)}};
   }
-  const auto driver = std::ranges::find_if(*stays, &logging::Stay::is_driver);
   const std::optional<logging::Stay> centre = eyes                     ? eyes
                                               : target                 ? target
                                               : driver != stays->end() ? std::optional(*driver)

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/document/text_file.hpp"
+#include "engine/document/try_folder.hpp"
 #include "logging/session/session_reader.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
@@ -41,6 +42,7 @@ Expected<int> run_sight(SightOptions options) {
                                               .range_m = options.range_m,
                                               .most = options.pairs});
   if (!chosen) return tl::unexpected(chosen.error());
+  if (auto writable = document::try_folder(options.out); !writable) return tl::unexpected(writable.error());
   const auto lookings = lookings_of(*chosen);
   program::ProgressLine progress;
   const auto sight = sight_of(

@@ -15,6 +15,7 @@
 #include "engine/scene/builder.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
+#include "sim-client/sight/pairs.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/why_not.hpp"
 
@@ -147,6 +148,44 @@ TEST_CASE("a session's sight is told both ways, and sentence, table and ticks ag
   CHECK(text_of(each_tick.out / "sight.txt").substr(0, 90) == text.substr(0, 90));
 }
 
+TEST_CASE("sight is counted to the contact of two others as to one of the driver's car, and their pair comes first") {
+  const TemporaryFolder folder;
+  constexpr ParticipantId parked = 7;
+  auto info = logging::example_info();
+  info.other["participant_names"] = R"({"1": "ego", "4": "walker", "7": "parked"})";
+  auto writer = logging::SessionWriter::create(folder / "session.sqlite", info);
+  REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
+  for (Tick tick = 0; tick <= last_tick; ++tick) {
+    Snapshot world = crossing(tick);
+    world.participants.push_back({.id = parked, .model = *find_vehicle_model("saloon")});
+    writer->record(logging::taken(world));
+  }
+  writer->record(logging::Event{.tick = 180,
+                                .simulated_time_s = 1.5,
+                                .kind = "crash_of_others",
+                                .participant = crosser,
+                                .detail = "with=7 closing_speed_mps=1.50 by=4"});
+  writer->record(logging::Event{.tick = 190,
+                                .simulated_time_s = 190.0 / 120.0,
+                                .kind = "crash_of_others",
+                                .participant = parked,
+                                .detail = "post closing_speed_mps=2.00"});
+  REQUIRE(writer->finish().has_value());
+  const auto session = logging::SessionReader::open(folder / "session.sqlite");
+  REQUIRE_MESSAGE(session.has_value(), why_not(session));
+  PairChoice choice{.eyes = "parked", .target = "walker", .from_s = 0.0, .to_s = 2.0};
+  const auto both = choose_pairs(*session, choice);
+  REQUIRE_MESSAGE(both.has_value(), why_not(both));
+  CHECK(both->front().contact_s == std::optional(1.5));
+  // The driver's car is nearer, at its start.
+  choice.target.clear();
+  const auto all = choose_pairs(*session, choice);
+  REQUIRE_MESSAGE(all.has_value(), why_not(all));
+  REQUIRE(all->size() == 2);
+  CHECK(all->front().second.number == crosser);
+  CHECK_FALSE(all->back().contact_s.has_value());
+}
+
 TEST_CASE("a session without a scene, unknown names and empty spans are refused in one line and nothing is written") {
   const TemporaryFolder folder;
   SightOptions options;
@@ -160,6 +199,10 @@ TEST_CASE("a session without a scene, unknown names and empty spans are refused 
     return line;
   };
   CHECK(refused().find("keeps no scene") != std::string::npos);
+  // Where the results could not be written nothing is worked out: the scene is not even looked for.
+  options.out = options.session / "sight";
+  CHECK(refused().find("choose a folder that can be written") != std::string::npos);
+  options.out = folder / "sight";
   options.eyes = "tram";
   CHECK(refused().find("nobody called \"tram\"") != std::string::npos);
   options.eyes = options.target = "walker";
