@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -20,7 +22,7 @@ namespace septet::simulation {
 namespace {
 
 constexpr std::size_t most_rows = 100'000, most_named = 5;
-constexpr double least_row_s = 1e-3;
+constexpr double least_row_s = 1e-3, most_intervals = 1.5;
 /// Slower than this a path has no direction.
 constexpr double directed_mps = 0.1;
 
@@ -182,6 +184,25 @@ Expected<void> check_possible(const GivenMotion& motion, std::string_view name) 
                  "end the table before the contact, from where on the car is free, or mend the rows");
 }
 
+/// A recorder writes at even times: an interval longer than `most_intervals` of the median one lacks rows.
+Expected<void> check_whole(const GivenMotion& motion, std::string_view name) {
+  if (motion.is_path) return {};
+  const auto interval_s = [&](std::size_t i) { return motion.rows[i + 1].value.time_s - motion.rows[i].value.time_s; };
+  std::vector<double> intervals_s;
+  intervals_s.reserve(motion.rows.size() - 1);
+  for (std::size_t i = 0; i + 1 < motion.rows.size(); ++i) intervals_s.push_back(interval_s(i));
+  // The lower middle: of two intervals the shorter one is the recorder's.
+  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>((intervals_s.size() - 1) / 2);
+  std::ranges::nth_element(intervals_s, middle);
+  for (std::size_t i = 0; i + 1 < motion.rows.size(); ++i)
+    if (interval_s(i) > most_intervals * *middle + least_row_s)
+      return failure(
+          fmt::format("rows are missing: {:g} s from line {} to line {}, where most rows follow after {:g} s",
+                      interval_s(i), motion.rows[i].line, motion.rows[i + 1].line, *middle),
+          std::string(name), "add them, such as by values between the two with a ± of their own");
+  return {};
+}
+
 }  // namespace
 
 Expected<GivenMotion> read_motion(std::string_view text, std::string_view name) {
@@ -227,6 +248,7 @@ Expected<GivenMotion> read_motion(std::string_view text, std::string_view name) 
                    "name the columns in the first line, then give one line for each time");
   const double first_s = motion.rows.front().value.time_s;
   for (MotionRow& row : motion.rows) row.value.time_s -= first_s;
+  if (auto whole = check_whole(motion, name); !whole) return tl::unexpected(whole.error());
   lay(motion);
   if (auto possible = check_possible(motion, name); !possible) return tl::unexpected(possible.error());
   return motion;

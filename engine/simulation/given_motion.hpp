@@ -56,7 +56,7 @@ struct PlanMotion {
 inline constexpr double most_tyre_acceleration_g = 1.1;
 
 /// Error: the line, the fault and the remedy; rows that no tyre can bring about (beyond most_tyre_acceleration_g) are
-/// named by their lines.
+/// named by their lines, and so is a gap in a recorder's table: an interval of more than 1.5 times the median one.
 Expected<GivenMotion> read_motion(std::string_view text, std::string_view name);
 
 /// The motion at a time; beyond the table's ends as if it went straight on.

@@ -97,6 +97,16 @@ TEST_CASE("rows that no tyre can bring about are named by their lines") {
   CHECK(says(refusal("time_s,x_m,y_m\n0,0,0\n1,10,0\n2,20,0\n3,30,40\n"), "line 4"));
 }
 
+TEST_CASE("rows that a recorder's table lacks are named by the lines around them, and a path may have any times") {
+  const std::string said = refusal("time_s,speed_kmh\n-5,50\n-4,50\n# lost\n-1,48\n0,47\n");
+  CHECK(says(said, "edr.csv: rows are missing: 3 s from line 3 to line 5, where most rows follow after 1 s; add them"));
+  CHECK(says(refusal("time_s,speed_kmh\n0,50\n0.5,50\n1.5,50\n"), "1 s from line 3 to line 4"));
+  // The instant of the contact is often half an interval after the last row.
+  CHECK(refusal("time_s,speed_kmh\n-2.5,50\n-1.5,50\n-0.5,48\n0,47\n") == "taken");
+  CHECK(refusal("time_s,speed_kmh\n0,50\n600,50\n") == "taken");
+  CHECK(refusal("time_s,x_m,y_m\n0,0,0\n1,10,0\n4,40,0\n5,50,0\n") == "taken");
+}
+
 TEST_CASE("a table with faults is refused with the line and the fault") {
   CHECK(says(refusal("time_s,x_m\n0,0\n1,1\n"), "neither a path nor a table of speeds"));
   CHECK(says(refusal("time_s,x_m,y_m,speed_mps\n0,0,0,1\n1,1,0,1\n"), "neither a path nor a table of speeds"));
