@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "engine/render/renderer.hpp"
 #include "sim-client/film/drawn_frame.hpp"
 #include "sim-client/film/film_file.hpp"
@@ -104,6 +106,11 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   const auto folder = FilmFolder::open(pictures_in, *record, options.resume);
   if (!folder) return tl::unexpected(folder.error());
   FilmMade made{.planned = frames->plan().frames.size()};
+  if (frames->scene().prototypes.empty())
+    made.notice = fmt::format(
+        "{}: it keeps no scene, so the pictures show no road and nobody; take a session that "
+        "septet drive recorded",
+        options.session.string());
   const auto drawn = traced ? trace_film(options, *frames, *folder, others, made, go_on)
                             : rasterise(options, *frames, *rasteriser, *folder, made, go_on);
   if (!drawn) return tl::unexpected(drawn.error());

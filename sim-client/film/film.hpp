@@ -94,7 +94,7 @@ struct FilmMade {
   double share_of_next = 0.0;     ///< Progress of the frames being drawn together: 1 is one frame.
   double kept_of_next = 0.0;      ///< Share of these that was there already.
   std::size_t workers = 0;        ///< Programs that trace, including this one.
-  std::string notice;             ///< Last event that does not stop the film: a worker that has given up.
+  std::string notice;             ///< Last event that does not stop the film: no scene, a worker that has given up.
   std::uint64_t bad_samples = 0;  ///< Samples with NaN or infinite light: counted as black.
   /// Root mean square of the traced pixels' errors (raytrace::relative_error); samples of one pixel.
   double error = 0.0, samples = 0.0;

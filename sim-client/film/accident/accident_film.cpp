@@ -57,7 +57,9 @@ Expected<bool> film_plan(const FilmOptions& options) {
   program::catch_stop_signals();
   program::ProgressLine progress;
   const double begun_s = program::monotonic_s();
+  std::string noticed;
   const auto made = make_film(options, [&](const FilmMade& so_far) {
+    if (so_far.notice != noticed) progress.message("septet: " + (noticed = so_far.notice));
     if (progress.is_due(program::monotonic_s())) progress.show(progress_text(so_far, program::monotonic_s() - begun_s));
     return !program::should_stop();
   });

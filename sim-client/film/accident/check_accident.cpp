@@ -102,6 +102,36 @@ void compare_film(const Record& record, const fs::path& folder, std::vector<std:
     }
 }
 
+/// Sessions may hold bytes that are no text.
+std::string on_one_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// What differs of a member that session and plan decide: each input by itself, else the whole.
+void compare_member(const std::string& name, const Json& kept, const Json& found,
+                    std::vector<std::string>& differences) {
+  if (kept == found) return;
+  if (name != "inputs" || kept.size() != found.size()) {
+    differences.push_back(fmt::format("{}: \"{}\" is {}, the session gives {}", manifest_name, name, on_one_line(kept),
+                                      on_one_line(found)));
+    return;
+  }
+  for (std::size_t n = 0; n < found.size(); ++n)
+    if (kept[n] != found[n])
+      differences.push_back(fmt::format("{}: input {} is {}, the session gives {}", manifest_name, n + 1,
+                                        on_one_line(kept[n]), on_one_line(found[n])));
+}
+
+/// Compares what the film was made of: the session's own words, its inputs, its contacts.
+void compare_made_of(const Record& record, const logging::SessionReader& session, const PlannedAccident& planned,
+                     std::vector<std::string>& differences) {
+  const Json made_of = made_of_json(session.info(), planned.facts, planned.plan);
+  for (const auto& [name, found] : made_of.items()) {
+    Json kept = record.json.value(name, Json());
+    // Of the session the file's place and hash are compared apart.
+    if (name == "session") kept.erase("file"), kept.erase("hash");
+    compare_member(name, kept, found, differences);
+  }
+}
+
 /// Plans anew and compares what was planned.
 void compare_plan(const Record& record, const fs::path& folder, const logging::SessionReader& session,
                   std::vector<std::string>& differences) {
@@ -111,6 +141,7 @@ void compare_plan(const Record& record, const fs::path& folder, const logging::S
     differences.push_back(describe(planned.error()));
     return;
   }
+  compare_made_of(record, session, *planned, differences);
   const Json found = figures_json(planned->plan), &kept = record.json["figures"];
   if (found.size() != kept.size())
     differences.push_back(
@@ -174,6 +205,9 @@ Expected<void> draw_again(const Record& record, const fs::path& folder, Accident
 
 Expected<AccidentCheck> check_accident(const fs::path& film, const fs::path& session_file) {
   std::error_code ignored;
+  if (!fs::exists(film, ignored))
+    return failure("there is no such film", film.string(),
+                   "give the folder that septet accident made, or the film in it");
   const fs::path folder = fs::is_directory(film, ignored) ? film
                           : film.has_parent_path()        ? film.parent_path()
                                                           : fs::path(".");

@@ -80,6 +80,17 @@ Expected<std::vector<std::string>> decoded_hashes(const fs::path& film) {
   return hashes;
 }
 
+Json made_of_json(const logging::SessionInfo& session, const AccidentFacts& facts, const AccidentPlan& plan) {
+  Json json;
+  json["title"] = plan.title;
+  json["session"] = {{"started", session.started_utc}, {"septet", session.septet_version}, {"driver", facts.driver}};
+  json["inputs"] = inputs_json(session);
+  json["event"] = facts.chosen ? *facts.chosen + 1 : 0;
+  json["contacts"] = facts.contacts.size();
+  json["left_out"] = plan.left_out;
+  return json;
+}
+
 Json figures_json(const AccidentPlan& plan) {
   Json figures = Json::array();
   for (const Figure& figure : plan.figures)
@@ -91,23 +102,15 @@ Json figures_json(const AccidentPlan& plan) {
 }
 
 Expected<Json> manifest(const ManifestSources& sources) {
-  const logging::SessionInfo& info = sources.session.info();
   const fs::path& session = sources.session.path();
   const auto session_hash = hash_of_file(session);
   if (!session_hash) return tl::unexpected(session_hash.error());
   std::error_code unknown;
   const fs::path nearby = fs::relative(session, sources.folder, unknown);
-  Json json;
-  json["title"] = sources.plan.title;
+  Json json = made_of_json(sources.session.info(), sources.facts, sources.plan);
   json["septet"] = version_text();
-  json["session"] = {{"file", unknown || nearby.empty() ? session.string() : nearby.string()},
-                     {"hash", *session_hash},
-                     {"started", info.started_utc},
-                     {"septet", info.septet_version},
-                     {"driver", sources.facts.driver}};
-  json["inputs"] = inputs_json(info);
-  json["event"] = sources.facts.chosen ? *sources.facts.chosen + 1 : 0;
-  json["contacts"] = sources.facts.contacts.size();
+  json["session"]["file"] = unknown || nearby.empty() ? session.string() : nearby.string();
+  json["session"]["hash"] = *session_hash;
   json["options"] = {{"frames_per_second", sources.options.frames_per_second},
                      {"width", sources.options.width_px},
                      {"height", sources.options.height_px},
@@ -117,7 +120,6 @@ Expected<Json> manifest(const ManifestSources& sources) {
                      {"denoise", sources.options.denoise},
                      {"sound", sources.options.sound}};
   json["assumptions"] = sources.plan.script.overlay.notes;
-  json["left_out"] = sources.plan.left_out;
   json["figures"] = figures_json(sources.plan);
   json["files"] = Json::array();
   for (const std::string& name : sources.files) {

@@ -44,6 +44,10 @@ struct ManifestSources {
 };
 Expected<document::Json> manifest(const ManifestSources& sources);
 
+/// The record's members that session and plan decide alone: `title`, `session` without its file, `inputs`, `event`,
+/// `contacts`, `left_out`.
+document::Json made_of_json(const logging::SessionInfo& session, const AccidentFacts& facts, const AccidentPlan& plan);
+
 /// Figures of a plan as JSON, each with value, unit and origin.
 document::Json figures_json(const AccidentPlan& plan);
 

@@ -125,6 +125,22 @@ TEST_CASE("an accident's film is the same bytes twice and its check finds an alt
   replace_in(of_script / script_name, "field_of_view_deg = 75.0", "field_of_view_deg = 76.0");
   CHECK(has(differences_of(of_script), "storyboard.toml: it is not what the session's plan gives"));
 
+  const fs::path of_driver = altered("driver");
+  replace_in(of_driver / manifest_name, R"("driver": "novice")", R"("driver": "expert")");
+  CHECK(has(differences_of(of_driver), "accident.json: \"session\" is"));
+
+  const fs::path of_input = altered("input");
+  replace_in(of_input / manifest_name, R"("role": "scenario")", R"("role": "scene")");
+  CHECK(has(differences_of(of_input), "accident.json: input "));
+
+  const fs::path of_contacts = altered("contacts");
+  replace_in(of_contacts / manifest_name, R"("contacts": 1)", R"("contacts": 2)");
+  CHECK(has(differences_of(of_contacts), "accident.json: \"contacts\" is 2, the session gives 1"));
+
+  const auto nowhere = check_accident(folder / "nowhere", {});
+  REQUIRE_FALSE(nowhere.has_value());
+  CHECK(has(describe(nowhere.error()), (folder / "nowhere").string() + ": there is no such film"));
+
   // Somebody who alters what is drawn and writes the record anew: frames are drawn again.
   const fs::path of_record = altered("record");
   std::string text = text_of(of_record / manifest_name);

@@ -245,7 +245,9 @@ TEST_CASE("the layer of motion changes no pixel and tells the ways of what moves
   REQUIRE(refusal_of(options) == "");
   options.out = folder / "with";
   options.layers = {Layer::motion};
-  REQUIRE(refusal_of(options) == "");
+  const auto made = make_film(options, [](const FilmMade&) { return true; });
+  REQUIRE_MESSAGE(made.has_value(), why_not(made));
+  CHECK(made->notice.empty());
   for (const char* name : {"000001", "000002"}) {
     const auto picture = fmt::format("{}.png", name), light = fmt::format("{}.exr", name);
     CHECK(bytes_of(folder / "with" / picture) == bytes_of(folder / "without" / picture));
@@ -267,6 +269,21 @@ TEST_CASE("OpenEXR pictures are refused where there are none and layers without 
   options.layers = {Layer::depth};
   CHECK(has(refusal_of(options), "add --exr half"));
   CHECK_FALSE(fs::exists(options.out));
+}
+
+TEST_CASE("a film of a session without a scene says that it shows nobody") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  const FilmOptions options{.session = folder / "session.sqlite",
+                            .shots = folder / "shots.toml",
+                            .out = folder / "film",
+                            .width_px = 64,
+                            .height_px = 48,
+                            .renderer = FilmRenderer::traced,
+                            .samples = 1};
+  const auto made = make_film(options, [](const FilmMade&) { return false; });
+  REQUIRE_MESSAGE(made.has_value(), why_not(made));
+  CHECK(has(made->notice, "session.sqlite: it keeps no scene"));
 }
 
 TEST_CASE("a film that is stopped while a frame is traced ends there") {
