@@ -1,6 +1,7 @@
 // Crashes that a scenario stages on a shipped road: who is hit, what is told, and states saved in the middle.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/dent.hpp"
+#include "engine/math/plane_vector.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/world/wire_snapshot.hpp"
@@ -27,6 +29,15 @@ Vec3 velocity_of(const Snapshot& snapshot, ParticipantId id) {
   const Participant* one = find_participant(snapshot, id);
   REQUIRE(one != nullptr);
   return one->velocity_mps;
+}
+
+const BodyContact& contact_with(const State& state, ParticipantId other) {
+  const auto found = std::ranges::find_if(state.bodies.contacts, [&](const BodyContact& contact) {
+    return contact.first == driver_participant && contact.second == other;
+  });
+  REQUIRE(found != state.bodies.contacts.end());
+  REQUIRE(found->engagement.pulses.size() == 1);
+  return *found;
 }
 
 }  // namespace
@@ -96,7 +107,7 @@ TEST_CASE("a screen that comes in long after a crash sees the wreck where it lie
   CHECK(std::ranges::any_of(dents_of(late), is_bent));
 }
 
-TEST_CASE("the change of velocity that is told is the driven one within 2 %, the tyres' share subtracted") {
+TEST_CASE("velocity and yaw rate change in a drive as the closed form says within 2 %, the tyres' share subtracted") {
   StagedCrash crash("side");
   const ParticipantId crosser = crash.named("crosser");
   const auto apart_m = [&] {
@@ -106,6 +117,7 @@ TEST_CASE("the change of velocity that is told is the driven one within 2 %, the
   while (apart_m() > 8.0 && crash.state.tick < 1200) crash.step();
   // Tick by tick: what the car's own step does to its velocity, and what it is after the contact's push.
   Vec3 tyres_mps(0.0), changed_mps(0.0);
+  double turned_radps = 0.0, law_radps = 0.0;
   do {
     const Vec3 before_mps = crash.state.car.velocity_mps;
     State alone = crash.restored();
@@ -114,8 +126,13 @@ TEST_CASE("the change of velocity that is told is the driven one within 2 %, the
     std::vector<Event> none;
     advance_car(*crash.loaded.model, alone, none);
     if (!crash.event("collision")) continue;
+    if (law_radps == 0.0) {
+      const impact::Impulse& impulse = contact_with(crash.state, crosser).engagement.pulses.front().impulse;
+      law_radps = -cross(impulse.first_arm_m, impulse.on_second_ns) / crash.loaded.model->car.body.inertia_kgm2.z;
+    }
     tyres_mps += alone.car.velocity_mps - before_mps;
     changed_mps += crash.state.car.velocity_mps - before_mps;
+    turned_radps += crash.state.car.angular_velocity_radps.z - alone.car.angular_velocity_radps.z;
   } while (crash.state.tick < 1200 && (!crash.event("collision") || crash.pressed()));
   REQUIRE(crash.event("collision"));
   const double given_mps = glm::length(Vec2(changed_mps - tyres_mps)),
@@ -123,6 +140,9 @@ TEST_CASE("the change of velocity that is told is the driven one within 2 %, the
   MESSAGE("told " << told_mps << " m/s, given " << given_mps << " m/s, by tyres " << glm::length(Vec2(tyres_mps))
                   << " m/s");
   CHECK(given_mps == relative(told_mps, 0.02));
+  MESSAGE("yaw rate by the law " << law_radps << " rad/s, given " << turned_radps);
+  CHECK(std::abs(law_radps) > 1.0);
+  CHECK(turned_radps == relative(law_radps, 0.02));
 }
 
 TEST_CASE("two of the scenario crash with each other, and one event tells of each pair") {
