@@ -1,5 +1,6 @@
 #include "command-line/command/what_if_command.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <numeric>
@@ -13,6 +14,7 @@
 #include "command-line/command/what_if_variants.hpp"
 #include "engine/core/random.hpp"
 #include "engine/document/text_file.hpp"
+#include "engine/document/try_folder.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
 #include "program/machines.hpp"
@@ -147,8 +149,26 @@ std::string text_of(const simulation::MotionDeviation& deviation, bool is_path) 
                                share.yaw_rate_radps);
 }
 
-Expected<int> run_deviations(const WhatIf& what_if, std::size_t runs, const fs::path& folder, unsigned jobs,
-                             program::Machines* machines, std::ostream& out) {
+/// Sessions of the first runs, and the words that show them in one film.
+Expected<void> write_runs(const logging::SessionReader& session, const WhatIf& what_if, std::size_t count,
+                          const fs::path& folder, std::ostream& out) {
+  const std::uint64_t seed = what_if.recorded.loaded.model->seed;
+  std::string film = "septet film " + session.path().string();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto written =
+        write_run_session(session, what_if, deviation_of(seed, i), folder, fmt::format("run-{}.sqlite", i + 1));
+    if (!written) return tl::unexpected(written.error());
+    film += " --ghost " + written->string();
+  }
+  if (count > 0) out << "as ghosts in one film: " << film << '\n';
+  return {};
+}
+
+Expected<int> run_deviations(const logging::SessionReader& session, const WhatIf& what_if,
+                             const WhatIfCommandOptions& options, unsigned jobs, program::Machines* machines,
+                             std::ostream& out) {
+  const std::size_t runs = options.runs;
+  const fs::path folder = what_if_folder(options);
   const simulation::Model& model = *what_if.recorded.loaded.model;
   auto outcomes = run_all(
       what_if, [&](std::size_t i) { return run_deviating(what_if, deviation_of(model.seed, i)); }, runs, jobs, machines,
@@ -162,6 +182,8 @@ Expected<int> run_deviations(const WhatIf& what_if, std::size_t runs, const fs::
   if (auto written = document::write_text_files(folder, {{"what-if.csv", variants_csv(what_if, ran)}}); !written)
     return tl::unexpected(written.error());
   out << share_sentence(ran) << '\n' << (folder / "what-if.csv").string() << '\n';
+  if (auto written = write_runs(session, what_if, std::min(options.sessions, runs), folder, out); !written)
+    return tl::unexpected(written.error());
   return 0;
 }
 
@@ -172,6 +194,8 @@ Expected<int> run_here(const WhatIfCommandOptions& options, program::Machines* m
   if (!session) return tl::unexpected(session.error());
   std::vector<std::vector<InputChange>> extremes;
   if (!asked->each.empty()) extremes = {asked->of(0), asked->of(asked->count() - 1)};
+  if (options.sessions > 0 && options.runs == 0)
+    return failure("--sessions is given without --runs", options.session.string(), "add --runs N");
   if (options.runs > 0 && !asked->each.empty())
     return failure("--runs and --change are given", options.session.string(), "give one of them");
   WhatIfOptions run = options.run;
@@ -186,8 +210,11 @@ Expected<int> run_here(const WhatIfCommandOptions& options, program::Machines* m
     out.flush();
   }
   if (asked->each.empty() && options.runs == 0) return 0;
+  if (!machines)  // Programs of mpirun wait for each other.
+    if (auto writable = document::try_folder(what_if_folder(options)); !writable)
+      return tl::unexpected(writable.error());
   const unsigned jobs = options.jobs > 0 ? options.jobs : program::share_of_processors();
-  if (options.runs > 0) return run_deviations(*what_if, options.runs, what_if_folder(options), jobs, machines, out);
+  if (options.runs > 0) return run_deviations(*session, *what_if, options, jobs, machines, out);
   if (asked->range) return run_range(*what_if, *asked, what_if_folder(options), jobs, machines, out);
   return is_first ? run_one(*session, *what_if, *asked, what_if_folder(options), out) : 0;
 }

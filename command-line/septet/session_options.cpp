@@ -62,6 +62,11 @@ void add_session_commands(CLI::App& app, Options& options) {
                    "Of a drive with --motion: so many runs, each within the ± of its table (docs/given-motion.md)")
       ->default_str("none")
       ->check(CLI::Range(1, 1'000'000));
+  what_if
+      ->add_option("--sessions", options.what_if.sessions,
+                   "Of these runs, the first so many as sessions too, which septet film --ghost shows together")
+      ->default_str("none")
+      ->check(CLI::Range(1, 1000));
   what_if->add_option("--from", options.what_if.run.from_s, "Simulated second: collisions before it are passed over")
       ->check(program::number_between(0.0, 1e6));
   what_if

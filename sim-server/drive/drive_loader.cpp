@@ -12,10 +12,12 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/read/scenario_reader.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "engine/simulation/deviation_text.hpp"
 #include "engine/simulation/given_motion.hpp"
 #include "engine/simulation/lights_stage.hpp"
 #include "logging/study/lesson/lesson.hpp"
 #include "program/resources.hpp"
+#include "sim-server/drive/departing_drive.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
@@ -216,7 +218,13 @@ Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std:
   // Names the session first: the fault is in its copy of a file, and the file of that name on disk may be right.
   if (!drive && !drive.error().where.starts_with(where))
     return failure(drive.error().what, fmt::format("{}, its file {}", where, drive.error().where), altered);
-  return drive;
+  if (!drive) return drive;
+  const auto departs = session.other.find(motion_deviation_row);
+  if (departs == session.other.end()) return drive;
+  const auto deviation = simulation::read_deviation(departs->second, where);
+  if (!deviation) return failure(deviation.error().what, where, altered);
+  if (!drive->model->motion) return failure("it departs from a table that it does not hold", where, altered);
+  return departing_drive(std::move(*drive), *deviation);
 }
 
 }  // namespace septet::server

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "engine/core/expected.hpp"
 #include "logging/session/session_reader.hpp"
@@ -21,5 +22,11 @@ inline constexpr const char* variant_changes_row = "what_if_changes";
 Expected<std::filesystem::path> write_variant_session(const logging::SessionReader& source, const WhatIf& what_if,
                                                       std::span<const InputChange> changes,
                                                       const std::filesystem::path& folder);
+
+/// The same of one run of a drive by a table, from its start, with the table departing within its ±; written to `name`
+/// in the folder. The drive has a table.
+Expected<std::filesystem::path> write_run_session(const logging::SessionReader& source, const WhatIf& what_if,
+                                                  const simulation::MotionDeviation& deviation,
+                                                  const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace septet::server

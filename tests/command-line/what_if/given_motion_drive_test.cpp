@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/core.h>
@@ -15,6 +16,7 @@
 #include "command-line/command/replay_command.hpp"
 #include "command-line/command/what_if_command.hpp"
 #include "engine/simulation/given_motion.hpp"
+#include "logging/session/session_reader.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "tests/command-line/what_if/logged_crash.hpp"
@@ -115,6 +117,25 @@ TEST_CASE("such a drive is verified, and run again within the ± of its table, w
   CHECK(out.str().find(" of 24 variants collide") != std::string::npos);
   CHECK(out.str().find("\n0 of 24 variants") == std::string::npos);
   CHECK(out.str().find("\n24 of 24 variants") == std::string::npos);
+
+  // Runs as sessions of their own: each is that of its row, is verified with its departure, and differs from the next.
+  std::ostringstream told;
+  const auto kept = run_what_if(
+      {.session = session, .changes = {}, .runs = 2, .sessions = 2, .run = {}, .out = drive.folder / "runs"}, told);
+  REQUIRE_MESSAGE(kept.has_value(), why_not(kept));
+  std::vector<std::string> departures;
+  for (const char* name : {"run-1.sqlite", "run-2.sqlite"}) {
+    CAPTURE(std::string(name));
+    const auto file = drive.folder / "runs" / name;
+    CHECK(told.str().find(" --ghost " + file.string()) != std::string::npos);
+    const auto same = run_verify(file, 0.0);
+    CHECK_MESSAGE(same.has_value(), why_not(same));
+    const auto run = logging::SessionReader::open(file);
+    REQUIRE_MESSAGE(run.has_value(), why_not(run));
+    CHECK(run->shown_span_s()->second == doctest::Approx(4.0));  // As long as the session.
+    departures.push_back(run->info().other.at("motion_deviation"));
+  }
+  CHECK(departures[0] != departures[1]);
 
   std::ostringstream none;
   const LoggedCrash driven;

@@ -82,6 +82,21 @@ TEST_CASE("a range is a table, a plot and the share that collides, the same howe
   CHECK(last_mps > 1.0);
 }
 
+TEST_CASE("no variant of a range is run where its table could not be written") {
+  const LoggedCrash crash;
+  std::ostringstream out;
+  const auto done = run_what_if({.session = crash.session,
+                                 .changes = {"brake:-0.6s..0s/13"},
+                                 .run = {.seconds = 4.0},
+                                 .out = crash.session / "what-if",
+                                 .jobs = 1},
+                                out);
+  REQUIRE_FALSE(done.has_value());
+  CHECK(says(describe(done.error()), "choose a folder that can be written"));
+  CHECK(says(out.str(), "every state hash agrees"));
+  CHECK_FALSE(says(out.str(), "variants a minute"));
+}
+
 TEST_CASE("wrong changes and sessions are refused in a line, and nothing is written") {
   const LoggedCrash crash;
   const auto refusal = [&](const std::vector<std::string>& changes, const std::filesystem::path& session) {
