@@ -50,8 +50,9 @@ std::string_view told_model(const Entity& entity) {
 
 /// True for models that are never chosen by their measures alone.
 bool is_told_by_name_alone(std::string_view model) {
-  for (const std::string_view name : {"taxi", "police-car", "police-van", "fire-engine", "farm-tractor", "caravan",
-                                      "semitrailer", "tractor-unit", "bicycle-alone", "motorcycle-alone", "box"})
+  for (const std::string_view name :
+       {"taxi", "police-car", "police-van", "fire-engine", "farm-tractor", "caravan", "semitrailer", "tractor-unit",
+        "tanker", "tipper", "bicycle-alone", "motorcycle-alone", "box"})
     if (model == name) return true;
   return false;
 }

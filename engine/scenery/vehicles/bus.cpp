@@ -17,35 +17,37 @@ namespace {
 
 using geometry::MeshBuilder;
 
+constexpr float cooler_m = 0.12f;  ///< Height of the air conditioning over the roof, which is a bus's highest part.
+
 /// Lines of a bus in side view; heights from the ground.
 struct BusShape {
-  float front, rear, half, height, ground, window_low, window_high, lean;
+  float front, rear, half, roof, ground, window_low, window_high, lean;
   int doors;     ///< Number on the right side.
   bool lockers;  ///< True for lockers under a coach's high floor.
 };
 
 BusShape bus_shape(const VehicleModel& model) {
   const bool coach = model.name == "coach";
-  const auto height = static_cast<float>(model.height_m);
+  const float roof = static_cast<float>(model.height_m) - cooler_m;
   return {static_cast<float>(model.front_m()),
           static_cast<float>(-model.rear_overhang_m),
           static_cast<float>(model.width_m / 2),
-          height,
+          roof,
           0.34f,
           coach ? 1.95f : 1.15f,
-          coach ? height - 0.55f : height - 0.45f,
+          coach ? roof - 0.55f : roof - 0.45f,
           coach ? 0.45f : 0.12f,
           coach ? 1 : 3,
           coach};
 }
 
 geometry::PolygonMesh hull(const BusShape& s, DetailLevel level) {
-  geometry::PolygonMesh hull = geometry::box({s.rear, -s.half, s.ground}, {s.front, s.half, s.height},
+  geometry::PolygonMesh hull = geometry::box({s.rear, -s.half, s.ground}, {s.front, s.half, s.roof},
                                              level == DetailLevel::near     ? 0.14f
                                              : level == DetailLevel::middle ? 0.10f
                                                                             : 0.0f);
   for (glm::vec3& p : hull.vertices_m)
-    if (p.z > s.height - 0.5f) p.x += p.x > 0 ? -s.lean : 0.3f * s.lean;
+    if (p.z > s.roof - 0.5f) p.x += p.x > 0 ? -s.lean : 0.3f * s.lean;
   return hull;
 }
 
@@ -110,7 +112,7 @@ void add_faces(MeshBuilder& builder, const BusShape& s, const VehicleModel& mode
       patch(Finish::glass, face, low, high);
   };
   const float inner = s.half - 0.14f;
-  pane(Face::front, {-inner, s.lockers ? 1.35f : 1.0f}, {inner, s.height - 0.42f});
+  pane(Face::front, {-inner, s.lockers ? 1.35f : 1.0f}, {inner, s.roof - 0.42f});
   pane(Face::rear, {-inner, s.window_low + 0.2f}, {inner, s.window_high});
   if (!far) {
     patch(Finish::trim, Face::front, {-inner, 0.45f}, {inner, 0.62f});
@@ -152,7 +154,7 @@ void add_faces(MeshBuilder& builder, const BusShape& s, const VehicleModel& mode
                       {s.front + 0.08f - s.lean, std::max(a, b), s.window_high - 0.05f}, fine ? 0.04f : 0.0f),
         glm::mat4(1.0f), true);
   }
-  builder.append(geometry::box({1.0f, -0.7f, s.height - 0.03f}, {3.4f, 0.7f, s.height + 0.12f}), glm::mat4(1.0f), true);
+  builder.append(geometry::box({1.0f, -0.7f, s.roof - 0.03f}, {3.4f, 0.7f, s.roof + cooler_m}), glm::mat4(1.0f), true);
 }
 
 }  // namespace

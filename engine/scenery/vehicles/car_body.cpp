@@ -23,10 +23,10 @@ struct Lines {
   float rear, front, axle_front, radius, half_width, height;
 };
 
-Lines lines_of(const VehicleModel& model) {
+Lines lines_of(const VehicleModel& model, const CarShape& shape) {
   return {static_cast<float>(-model.rear_overhang_m), static_cast<float>(model.front_m()),
           static_cast<float>(model.wheelbase_m),      static_cast<float>(model.wheel_radius_m),
-          static_cast<float>(model.width_m / 2),      static_cast<float>(model.height_m)};
+          static_cast<float>(model.width_m / 2),      static_cast<float>(model.height_m) - shape.roof_below_m};
 }
 
 /// Stations of the lower body: tail, rear wheel arch (2…6), door, front wheel arch (8…12), nose.
@@ -163,6 +163,7 @@ CarShape car_shape(const VehicleModel& model) {
     // Cab with a low back, on which a bed or a box stands.
     s = {0.24f, 1.28f, 1.20f, 1.22f, 0.98f, 1.00f, 0.98f, 0.22f,
          1.02f, 3.00f, 2.72f, 0.82f, 0.82f, 0.98f, 0.05f, false};
+    if (model.name == "box-van") s.roof_below_m = 0.10f;
   } else if (model.name == "estate") {
     s = {0.17f, 0.93f, 0.96f, 0.96f, 0.78f, 1.00f, 0.90f, 0.58f, 1.42f, 0.34f, 0.12f, 0.69f, 0.76f, 0.88f, 0.04f, true};
   } else if (model.name == "suv") {
@@ -178,7 +179,7 @@ CarShape car_shape(const VehicleModel& model) {
 }
 
 PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape, std::uint32_t subdivision_level) {
-  const Lines l = lines_of(model);
+  const Lines l = lines_of(model, shape);
   MeshBuilder builder;
   builder.material = index_of(Finish::paint);
   // Ring order: left side upwards, the middle of the top, right side downwards.
@@ -220,14 +221,12 @@ PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape, std:
     for (const int i : {2, 9})
       geometry::crease_edge(cage, at(i, k + 1), at(i, k + 2 > 6 ? 6 : k + 2), crease_share(0.5f));
   }
-  fit_bounds(cage, subdivision_level,
-             {{l.rear, -l.half_width, shape.ground_m},
-              {l.front, l.half_width, l.height - (model.kind == ParticipantKind::ambulance ? 0.16f : 0.0f)}});
+  fit_bounds(cage, subdivision_level, {{l.rear, -l.half_width, shape.ground_m}, {l.front, l.half_width, l.height}});
   return cage;
 }
 
 PolygonMesh car_body_far(const VehicleModel& model, const CarShape& s) {
-  const Lines l = lines_of(model);
+  const Lines l = lines_of(model, s);
   const auto upper = upper_points(l, s);
   MeshBuilder builder;
   constexpr std::array<int, 6> stations{0, 2, 3, 8, 9, 14};

@@ -28,12 +28,13 @@ struct CarShape {
   float tail_half_width = 0.84f;
   float roof_arch_m = 0.045f;  ///< Height of the roof's middle over its rails.
   bool third_window = false;   ///< True for estates, which have one behind the rear doors.
+  float roof_below_m = 0.0f;   ///< Roof below the vehicle's height, where a box behind the cab is higher.
 };
 
 /// Shape of a model of the catalogue; lorry, motorcycle and pedestrian have no such shape (checked).
 CarShape car_shape(const VehicleModel& model);
 
-/// Control cage. After `subdivision_level` steps its bounds are those of the model.
+/// Control cage. After `subdivision_level` steps its bounds are those of the model, its top those of the shape's roof.
 geometry::PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape, std::uint32_t subdivision_level);
 
 /// Body of a few dozen polygons with its windows, for far away; materials are Finish indices.

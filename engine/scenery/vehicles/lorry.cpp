@@ -23,7 +23,7 @@ struct LorryShape {
   LoadBay bay;
   float front, cab_rear, cab_top = 3.05f;
   bool has_cab = true, articulated = false, fire = false;
-  bool deflector = true;            ///< Fairing over the cab, to the height of a box.
+  bool deflector = true;            ///< Fairing over the cab, to the top of a tractor unit or a little below a box.
   float chassis_front;              ///< Front end of the frame that carries the load.
   std::vector<float> driven, free;  ///< Axles with twin and with single wheels, besides the steered one.
 };
@@ -88,6 +88,22 @@ geometry::PolygonMesh cab_box(const LorryShape& s, bool fine) {
   return cab;
 }
 
+/// Adds the fairing on the cab's roof, which leans back and in.
+void add_deflector(MeshBuilder& builder, const LorryShape& s) {
+  // Nothing behind a tractor unit is higher.
+  const float top = s.bay.load == Load::none ? s.bay.height : std::min(s.bay.height, 3.85f) - 0.18f;
+  constexpr float back_m = 0.45f, in_m = 0.12f;
+  geometry::PolygonMesh fairing = geometry::box({s.cab_rear + 0.05f, -s.bay.half + 0.22f, s.cab_top - 0.02f},
+                                                {s.front - 0.55f, s.bay.half - 0.22f, top});
+  for (glm::vec3& p : fairing.vertices_m) {
+    if (p.z < s.cab_top) continue;
+    if (p.x > s.cab_rear + 1.0f) p.x -= back_m;
+    p.y += p.y > 0.0f ? -in_m : in_m;
+  }
+  builder.material = index_of(Finish::paint);
+  builder.append(fairing, glm::mat4(1.0f), true);
+}
+
 void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
   const bool fine = level == DetailLevel::near;
   const Finish paint = s.fire ? Finish::fire_red : Finish::paint;
@@ -135,9 +151,7 @@ void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
     add_box(builder, Finish::trim, {s.front - 0.42f, std::min(inner, outer), 1.85f},
             {s.front - 0.22f, std::max(inner, outer), 2.55f}, fine ? 0.05f : 0.0f);
   }
-  if (s.deflector)
-    add_box(builder, Finish::paint, {s.cab_rear + 0.05f, -s.bay.half + 0.22f, s.cab_top - 0.02f},
-            {s.front - 0.85f, s.bay.half - 0.22f, std::min(s.bay.height, 3.85f) - 0.18f}, fine ? 0.25f : 0.0f);
+  if (s.deflector) add_deflector(builder, s);
 }
 
 /// Driver with an empty seat beside him; in a fire engine the crew, too.
@@ -226,8 +240,7 @@ VehicleParts lorry_parts(const VehicleModel& model) {
         of_level.push_back(
             beacon_box({s.front - 0.6f, side * (far ? 0.45f : 0.62f), s.cab_top + 0.09f}, {0.28f, 0.75f, 0.2f}));
         if (!far)
-          of_level.push_back(
-              beacon_box({s.bay.rear + 0.25f, side * 0.95f, s.bay.height - 0.22f}, {0.22f, 0.22f, 0.2f}));
+          of_level.push_back(beacon_box({s.bay.rear + 0.25f, side * 0.95f, s.bay.height - 0.1f}, {0.22f, 0.22f, 0.2f}));
       }
     add_level(parts, std::move(of_level), level);
   }

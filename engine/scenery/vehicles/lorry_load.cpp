@@ -70,15 +70,16 @@ void add_cargo_box(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
 
 void add_tank(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   const std::uint32_t sides = level == DetailLevel::near ? 28 : level == DetailLevel::middle ? 14 : 8;
-  const glm::vec3 middle(0, 0, b.floor + 1.13f);
-  add_barrel(builder, Finish::white_panel, b.rear + 0.05f, b.front, middle, b.half - 0.03f, 1.05f, 0.12f, sides);
+  const float low = b.floor + 0.08f, top = b.height - 0.18f;
+  add_barrel(builder, Finish::white_panel, b.rear + 0.05f, b.front, {0, 0, (low + top) / 2}, b.half - 0.03f,
+             (top - low) / 2, 0.12f, sides);
   if (level == DetailLevel::far) return;
-  add_box(builder, Finish::trim, {b.rear + 0.6f, -0.32f, b.floor + 2.15f}, {b.front - 0.6f, 0.32f, b.floor + 2.24f});
+  add_box(builder, Finish::trim, {b.rear + 0.6f, -0.32f, top - 0.03f}, {b.front - 0.6f, 0.32f, top + 0.06f});
   if (level != DetailLevel::near) return;
   for (int k = 0; k < 4; ++k) {  // Manholes.
     const float x = std::lerp(b.rear + 1.5f, b.front - 1.2f, static_cast<float>(k) / 3.0f);
     builder.material = index_of(Finish::chrome);
-    builder.append(geometry::cylinder(0.26f, b.floor + 2.2f, b.floor + 2.36f, 12),
+    builder.append(geometry::cylinder(0.26f, top + 0.02f, b.height, 12),
                    glm::translate(glm::mat4(1.0f), glm::vec3(x, 0, 0)), true);
   }
   builder.material = index_of(Finish::fire_red);
@@ -87,7 +88,8 @@ void add_tank(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
 }
 
 void add_tipper(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
-  const float top = b.floor + 1.62f, wall = 0.09f;
+  // Walls below the shield over the cab.
+  const float top = b.height - 0.5f, wall = 0.09f;
   const auto side_wall = [&](float side) {
     const float inner = side * (b.half - wall), outer = side * (b.half - 0.01f);
     add_box(builder, Finish::livery_yellow, {b.rear, std::min(inner, outer), b.floor},
@@ -95,7 +97,7 @@ void add_tipper(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   };
   side_wall(1.0f), side_wall(-1.0f);
   add_box(builder, Finish::livery_yellow, {b.front - wall, -b.half + wall, b.floor},
-          {b.front, b.half - wall, top + 0.3f});
+          {b.front, b.half - wall, b.height});
   add_box(builder, Finish::livery_yellow, {b.rear, -b.half + wall, b.floor},
           {b.rear + wall, b.half - wall, top - 0.1f});
   add_box(builder, Finish::underbody, {b.rear + wall, -b.half + wall, b.floor},
@@ -108,23 +110,26 @@ void add_tipper(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
               {x + 0.1f, side > 0 ? b.half + 0.018f : -b.half + 0.02f, top});
   }
   // Shield over the cab.
-  add_box(builder, Finish::livery_yellow, {b.front, -b.half + 0.3f, top + 0.2f},
-          {b.front + 0.75f, b.half - 0.3f, top + 0.28f});
+  add_box(builder, Finish::livery_yellow, {b.front, -b.half + 0.3f, b.height - 0.08f},
+          {b.front + 0.75f, b.half - 0.3f, b.height});
 }
 
 void add_timber(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   const bool far = level == DetailLevel::far;
-  const float top = b.height - 0.5f, log = 0.28f;
-  add_box(builder, Finish::trim, {b.front - 0.1f, -b.half + 0.1f, b.floor}, {b.front, b.half - 0.1f, top + 0.2f});
+  const float top = b.height - 0.1f, log = 0.28f, row_m = 1.75f * log;
+  // As many rows of logs as lie between the posts, whose ends stand over them.
+  const float lowest = b.floor + 0.12f + log;
+  const int rows = 1 + static_cast<int>((top - log - lowest) / row_m);
+  add_box(builder, Finish::trim, {b.front - 0.1f, -b.half + 0.1f, b.floor}, {b.front, b.half - 0.1f, b.height});
   if (level != DetailLevel::near)
     add_box(builder, Finish::timber, {b.rear, -b.half + 0.15f, b.floor + 0.1f},
-            {b.front - 0.4f, b.half - 0.15f, far ? top : b.floor + 0.12f + 6.0f * log});
+            {b.front - 0.4f, b.half - 0.15f, far ? top : lowest + static_cast<float>(rows - 1) * row_m - 0.25f * log});
   if (!far) {
     const std::uint32_t sides = level == DetailLevel::near ? 9 : 5;
-    for (int row = level == DetailLevel::near ? 0 : 3; row < 4; ++row)
+    for (int row = level == DetailLevel::near ? 0 : rows - 1; row < rows; ++row)
       for (int k = 0; k < 4 - row % 2; ++k) {
         const float y = (static_cast<float>(k) - (row % 2 ? 1.0f : 1.5f)) * 2.0f * log;
-        const float z = b.floor + 0.12f + log + static_cast<float>(row) * 1.75f * log;
+        const float z = lowest + static_cast<float>(row) * row_m;
         const float uneven = 0.1f * static_cast<float>((row * 5 + k * 3) % 4);
         add_barrel(builder, Finish::timber, b.rear + uneven, b.front - 0.5f + 0.5f * uneven, {0, y, z}, log, log, 0.02f,
                    sides);
@@ -134,13 +139,13 @@ void add_timber(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
     const float x = std::lerp(b.rear + 0.6f, b.front - 1.2f, static_cast<float>(k) / 3.0f);
     for (const float side : {1.0f, -1.0f})
       add_box(builder, Finish::trim, {x, side > 0 ? b.half - 0.12f : -b.half, b.floor},
-              {x + 0.12f, side > 0 ? b.half : -b.half + 0.12f, top + 0.15f});
+              {x + 0.12f, side > 0 ? b.half : -b.half + 0.12f, b.height});
   }
 }
 
 /// Adds a fire engine's lockers behind roller shutters, its ladder on top.
 void add_lockers(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
-  const float top = b.height - 0.35f;
+  const float ladder_m = 0.22f, top = b.height - ladder_m;
   add_box(builder, Finish::fire_red, {b.rear, -b.half, 0.62f}, {b.front, b.half, top},
           level == DetailLevel::near ? 0.05f : 0.0f);
   for (const float side : {1.0f, -1.0f}) {
@@ -162,7 +167,7 @@ void add_lockers(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
   builder.patch({x, 0.6f, 1.1f}, {x, -0.6f, 1.1f}, {x, -0.6f, top - 0.2f}, {x, 0.6f, top - 0.2f});
   if (level == DetailLevel::far) return;
   for (const float y : {0.25f, 0.65f})
-    add_box(builder, Finish::rim, {b.rear, y, top + 0.12f}, {b.front + 0.9f, y + 0.06f, top + 0.22f});
+    add_box(builder, Finish::rim, {b.rear, y, top + 0.12f}, {b.front + 0.9f, y + 0.06f, b.height});
   for (int k = 0; k < 8; ++k) {
     const float at = std::lerp(b.rear + 0.2f, b.front + 0.7f, static_cast<float>(k) / 7.0f);
     add_box(builder, Finish::rim, {at, 0.25f, top + 0.14f}, {at + 0.05f, 0.71f, top + 0.19f});

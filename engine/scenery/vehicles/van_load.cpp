@@ -19,7 +19,7 @@ geometry::PolygonMesh van_load(const CarSurface& car) {
   };
   const bool near = car.level == DetailLevel::near;
   if (box) {
-    add(Finish::tarpaulin, {rear, -half, 0.9f}, {front - 0.04f, half, static_cast<float>(car.model.height_m) + 0.1f},
+    add(Finish::tarpaulin, {rear, -half, 0.9f}, {front - 0.04f, half, static_cast<float>(car.model.height_m)},
         near ? 0.03f : 0.0f);
     return builder.take();
   }

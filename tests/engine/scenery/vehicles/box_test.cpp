@@ -17,9 +17,10 @@
 namespace septet::scenery {
 namespace {
 
-/// Extent in plan of all that is drawn near by, without mirrors.
+/// Extent of what is drawn near by.
 struct Extent {
   Vec3 low_m{1e9}, high_m{-1e9};
+  void add(const Vec3& at) { low_m = glm::min(low_m, at), high_m = glm::max(high_m, at); }
 };
 
 /// True on a mirror's housing, which stands off the body.
@@ -34,9 +35,21 @@ bool is_mirror(const VehicleModel& model, const Vec3& at) {
   });
 }
 
-Extent drawn_extent(const VehicleModel& model) {
-  Extent extent;
+/// True for a taxi's sign and a police car's bar of blue lamps. They are no part of the box, whose top is the roof: by
+/// its height the front of a car that hits somebody is reckoned, which is that of cars without them. Higher vehicles
+/// carry their lamps within their box.
+bool stands_on_roof(const VehicleModel& model, const VehiclePart& part) {
+  return model.kind == ParticipantKind::car && (part.name == "taxi sign near" || part.name == "beacon near");
+}
+
+struct DrawnExtent {
+  Extent body, on_roof;  ///< Without mirrors, and without what stands on a car's roof; the latter alone.
+};
+
+DrawnExtent drawn_extent(const VehicleModel& model) {
+  DrawnExtent extent;
   for (const VehiclePart& part : vehicle_parts(model)) {
+    Extent& of_part = stands_on_roof(model, part) ? extent.on_roof : extent.body;
     const geometry::PolygonMesh surface = shown_surface(part.mesh, part.subdivision_level);
     for (const Placement& place : part.places) {
       if (place.visible_from_m > 0.0f) continue;
@@ -44,8 +57,7 @@ Extent drawn_extent(const VehicleModel& model) {
         for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k) {
           const Vec3 at = place.parent_from_object * (Vec3(place.scale) * Vec3(surface.vertices_m[corners[k]]));
           if (is_mirror(model, at)) continue;
-          extent.low_m = glm::min(extent.low_m, at);
-          extent.high_m = glm::max(extent.high_m, at);
+          of_part.add(at);
         }
     }
   }
@@ -54,17 +66,22 @@ Extent drawn_extent(const VehicleModel& model) {
 
 }  // namespace
 
-TEST_CASE("what is drawn of a vehicle and the box by which it is hit agree to two centimetres, mirrors excepted") {
-  constexpr double most_m = 0.0201;
+TEST_CASE(
+    "what is drawn of a vehicle and the box by which it is hit agree to two centimetres in length, width and height, "
+    "mirrors and what stands on a car's roof excepted") {
+  constexpr double most_m = 0.0201, most_on_roof_m = 0.12;
   for (const VehicleModel& model : vehicle_models()) {
     // A walker's box has room for a stride.
     if (model.kind == ParticipantKind::pedestrian) continue;
     CAPTURE(model.name);
-    const Extent drawn = drawn_extent(model);
+    const auto [drawn, on_roof] = drawn_extent(model);
     CHECK(std::abs(drawn.low_m.x + model.rear_overhang_m) < most_m);
     CHECK(std::abs(drawn.high_m.x - model.front_m()) < most_m);
     CHECK(std::abs(drawn.low_m.y + 0.5 * model.width_m) < most_m);
     CHECK(std::abs(drawn.high_m.y - 0.5 * model.width_m) < most_m);
+    CHECK(std::abs(drawn.low_m.z) < most_m);
+    CHECK(std::abs(drawn.high_m.z - model.height_m) < most_m);
+    CHECK(on_roof.high_m.z - model.height_m < most_on_roof_m);
   }
 }
 
