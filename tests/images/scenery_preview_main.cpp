@@ -1,6 +1,8 @@
 /// Draws the vehicles and the road world to PNG files, for people to judge.
 ///
 ///     scenery_preview OUT vehicles [MODEL…]              turntables; of the pedestrian also the phases of a step
+///     scenery_preview OUT eyes [MODEL…]                  out of the eyes of who drives, rides or walks: ahead, down,
+///                                                        left and right; glass of mirrors is blank
 ///     scenery_preview OUT road ROAD.xodr [ROAD@]S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…
 ///
 /// S and T place the eye on the road of that id, else on the first one; the view is 44° × 30°, that of one screen of
@@ -18,6 +20,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,6 +32,8 @@
 #include "engine/road/road_position.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scenery/vehicles/cockpit.hpp"
+#include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/scenery/world/road_world.hpp"
 #include "engine/world/paint.hpp"
@@ -142,6 +147,25 @@ void steps(render::Renderer& renderer, const scene::ResolvedScene& scene, const 
   must(image::write_png(out / "pedestrian-steps.png", drawn(renderer, input), image::PngEffort::fast));
 }
 
+/// Ahead, down, left and right, out of a model's eyes; a car and a walker stand ahead.
+void eyes(render::Renderer& renderer, const scene::ResolvedScene& scene, const VehicleModel& model,
+          const std::filesystem::path& out) {
+  if (!scenery::is_driven(model)) return;
+  image::Image sheet(width, height);
+  constexpr double headings_deg[]{0, 0, 60, -60}, pitches_deg[]{-8, -55, -10, -10};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    auto input = frame(camera(scenery::eye_in(model), headings_deg[i] * degree_rad, pitches_deg[i] * degree_rad), 90.0);
+    auto inside = vehicle(scene, "interior/" + std::string(model.name), {}, {0.30f, 0.035f, 0.03f});
+    inside.speed_mps = 1.4;
+    input.participants.push_back(inside);
+    for (const auto& [name, left_m] : {std::pair{"saloon", 3.0}, std::pair{"pedestrian", -3.0}})
+      input.participants.push_back(
+          vehicle(scene, name, {{model.front_m() + 8.0, left_m, 0.0}, Quat(1, 0, 0, 0)}, {0.02f, 0.06f, 0.20f}));
+    put(sheet, image::resize(drawn(renderer, input), width / 2, height / 2), (i % 2) * width / 2, (i / 2) * height / 2);
+  }
+  must(image::write_png(out / fmt::format("{}.png", model.name), sheet, image::PngEffort::fast));
+}
+
 /// Some traffic ahead of and beside the camera, so that scale can be judged.
 void add_traffic(instant::FrameInput& input, const scene::ResolvedScene& scene, const road::RoadNetwork& network,
                  double s) {
@@ -189,7 +213,7 @@ std::size_t wire_bytes(const scene::Store& store, bool table) {
   return all;
 }
 
-void vehicles(const std::filesystem::path& out, const std::vector<std::string>& names) {
+void vehicles(const std::filesystem::path& out, const std::vector<std::string>& names, bool from_eyes) {
   scene::Store store;
   scene::SceneBuilder builder(store);
   scenery::build_vehicles(builder);
@@ -199,7 +223,8 @@ void vehicles(const std::filesystem::path& out, const std::vector<std::string>& 
   must(renderer.upload(scene));
   for (const VehicleModel& model : vehicle_models())
     if (names.empty() || std::find(names.begin(), names.end(), model.name) != names.end())
-      turntable(renderer, scene, model, out);
+      (from_eyes ? eyes : turntable)(renderer, scene, model, out);
+  if (from_eyes) return;
   if (names.empty() || std::find(names.begin(), names.end(), "pedestrian") != names.end()) steps(renderer, scene, out);
 }
 
@@ -248,14 +273,14 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 2 || (words[1] == "road" && words.size() < 4)) {
     fmt::print(stderr,
-               "scenery_preview OUT vehicles [MODEL…] | OUT road ROAD.xodr "
+               "scenery_preview OUT vehicles [MODEL…] | OUT eyes [MODEL…] | OUT road ROAD.xodr "
                "[ROAD@]S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…\n");
     return 2;
   }
   std::filesystem::create_directories(words[0]);
   const std::vector<std::string> rest(words.begin() + 2, words.end());
-  if (words[1] == "vehicles")
-    septet::vehicles(words[0], rest);
+  if (words[1] == "vehicles" || words[1] == "eyes")
+    septet::vehicles(words[0], rest, words[1] == "eyes");
   else
     septet::road_views(words[0], rest);
 }
