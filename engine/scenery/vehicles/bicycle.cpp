@@ -49,6 +49,9 @@ void add_trunk(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
     add_limb(b, {0.68f, side * 0.26f, 1.20f}, bars + glm::vec3(0, side * 0.26f, 0.02f), 0.042f, 0.034f, sides);
   }
   b.material = index_of(Finish::skin);
+  if (splits > 0)
+    for (const float side : {1.0f, -1.0f})  // Hands round the grips.
+      add_blob(b, bars + glm::vec3(0.01f, side * 0.255f, 0.0f), {0.05f, 0.045f, 0.036f}, 1);
   add_limb(b, shoulders, {0.58f, 0, 1.50f}, 0.052f, 0.05f, sides);
   add_blob(b, {0.61f, 0, 1.59f}, {0.095f, 0.078f, 0.115f}, splits);
   b.material = index_of(Finish::white_panel);

@@ -69,7 +69,7 @@ struct Saloon {
     builder.material = index_of(Finish::paint);
     builder.append(open, glm::mat4(1.0f), true);
     builder.material = index_of(Finish::cabin);
-    add_lining(builder, open, s.window_low + 0.02f, s.rear - 1.0f, s.front + 1.0f);
+    add_lining(builder, open, s.window_low - 0.5f, s.rear - 1.0f, s.front + 1.0f);
     const float rear = s.rear + 0.12f, front = s.front - 0.25f, y = s.half - 0.08f, low = s.window_low - 0.5f,
                 top = s.window_low + 0.01f;
     builder.patch({rear, y, low}, {rear, -y, low}, {front, -y, low}, {front, y, low});

@@ -47,7 +47,7 @@ PolygonMesh cabin_lining(const CarSurface& car, const PolygonMesh& open) {
   // Lining of roof, pillars and doors: the cabin's enclosure, from behind and a little further in.
   MeshBuilder lining;
   lining.material = index_of(Finish::cabin);
-  add_lining(lining, open, cabin.belt - 0.02f, cabin.rear - 0.1f, cabin.front + 0.1f);
+  add_lining(lining, open, cabin.floor, cabin.rear - 0.1f, cabin.front + 0.1f);
   // Tub under the windows, as narrow at the rear as the tail.
   const float y = 0.88f * cabin.half, rear_y = std::min(y, 0.86f * car.half_width_m() * car.shape.tail_half_width);
   const bool goods = carries_goods(car.model);

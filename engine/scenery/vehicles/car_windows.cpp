@@ -13,10 +13,12 @@ void add_car_windows(std::vector<Window>& windows, const CarSurface& car, const 
   const auto add_end = [&](Face face, const PatchOutline& outline) { windows.push_back({face, outline}); };
   const float half = car.half_width_m(), height = car.height_m();
   const float middle_low = (g.low_front + g.low_rear) / 2;
+  // A windscreen that leans far back leaves no pillar at its head, unless the window beside it ends further back.
+  const float head = car.model.name == "mpv" ? 0.22f : 0.10f;
   add_side({{{{g.cowl - 0.20f, g.low_front},
               {g.pillar + 0.045f, middle_low},
               {g.pillar + 0.035f, g.high},
-              {g.roof_front - 0.10f, g.high}}}});
+              {g.roof_front - head, g.high}}}});
   const float rear_low =
       car.shape.third_window ? g.roof_rear + 0.62f : g.backlight * 0.35f + g.roof_rear * 0.65f + 0.02f;
   const float rear_high = car.shape.third_window ? g.roof_rear + 0.60f : g.roof_rear + 0.16f;

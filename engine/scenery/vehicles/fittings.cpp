@@ -9,11 +9,14 @@
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
+#include "engine/scenery/vehicles/cage.hpp"
 #include "engine/scenery/vehicles/car_body.hpp"
+#include "engine/scenery/vehicles/car_lines.hpp"
 #include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
+#include "engine/scenery/vehicles/surface_patch.hpp"
 #include "engine/scenery/vehicles/vehicle_mirrors.hpp"
 #include "engine/world/instrument_panel.hpp"
 
@@ -79,6 +82,25 @@ void add_dashboard(MeshBuilder& builder, const Dashboard& dash, float driver_y) 
           0.03f);
   add_box(builder, Finish::trim, {dash.rear + 0.02f, driver_y - half_hood_m, dash.top - 0.05f},
           {std::min(dash.front, dash.rear + 0.26f), driver_y + half_hood_m, dash.top + hood_m}, 0.02f);
+}
+
+/// Adds the slope from a car's or van's dashboard up to the bonnet at the windscreen's foot, past which daylight would
+/// come in between the two.
+void add_scuttle(MeshBuilder& builder, const VehicleModel& model, const Dashboard& dash) {
+  constexpr int strips = 8;
+  constexpr float deep_m = 0.3f, over_bonnet_m = 0.015f;
+  constexpr std::uint32_t level = 1;
+  const geometry::PolygonMesh body = shown_surface(car_body_cage(model, car_shape(model), level), level);
+  const auto foot = [&](float y) {
+    const auto bonnet = surface_point(body, Face::top, {dash.front, y});
+    return glm::vec3(dash.front, y, bonnet ? bonnet->z + over_bonnet_m : dash.top);
+  };
+  builder.material = index_of(Finish::dashboard);
+  for (int i = 0; i < strips; ++i) {
+    const float right = std::lerp(dash.right, dash.left, static_cast<float>(i) / strips),
+                left = std::lerp(dash.right, dash.left, static_cast<float>(i + 1) / strips), rear = dash.front - deep_m;
+    builder.patch({rear, right, dash.top}, foot(right), foot(left), {rear, left, dash.top});
+  }
 }
 
 /// Adds the glass, a piece of a sphere a little behind its place, where renderers that draw mirrors' pictures lay them;
@@ -161,6 +183,7 @@ VehicleParts fittings(const VehicleModel& model) {
   VehicleParts parts;
   if (const auto dash = dashboard_of(model)) {
     add_dashboard(builder, *dash, eye.y);
+    if (has_car_lines(model)) add_scuttle(builder, model, *dash);
     Placement place;
     place.role = scene::PartRole::steering_wheel;
     place.parent_from_object = {Vec3(dash->rear - 0.10, eye.y, dash->top - 0.10),

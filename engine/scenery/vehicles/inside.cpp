@@ -73,6 +73,15 @@ IsLeftOut hides_the_view(const VehicleModel& model, const std::string& part) {
     return [eye](std::uint32_t, const Extent& extent) {
       return extent.lies_in(eye - glm::vec3(0.75f, 0.40f, 2.0f), eye + glm::vec3(0.60f, 0.40f, 0.5f));
     };
+  if (model.kind == ParticipantKind::bus) {
+    // Housings of mirrors hang around the corners, where the pillars are from within.
+    const float x = static_cast<float>(model.front_m()) - 0.7f, y = static_cast<float>(model.width_m / 2) - 0.11f;
+    return [x, y](std::uint32_t material, const Extent& extent) {
+      const bool housing = material == index_of(Finish::trim) && extent.low.x > x && extent.low.z > 1.5f &&
+                           (extent.low.y > y || extent.high.y < -y);
+      return housing || material == index_of(Finish::clear_glass);
+    };
+  }
   if (model.name == "farm-tractor") {
     // Its cab is drawn as a closed box from outside; the roof above it stays.
     const glm::vec3 low(-0.77f, -0.74f, 1.24f), high(0.77f, 0.74f, static_cast<float>(model.height_m) - 0.09f);

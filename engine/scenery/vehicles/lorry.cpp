@@ -133,7 +133,7 @@ void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
   if (fine) {  // Roof, pillars and rear wall from inside, over a floor below the windows.
     constexpr float floor = 1.35f;
     builder.material = index_of(Finish::cabin);
-    add_lining(builder, open, 1.74f, s.cab_rear - 1.0f, s.front + 1.0f);
+    add_lining(builder, open, floor, s.cab_rear - 1.0f, s.front + 1.0f);
     const float front = s.front - 0.2f, rear = s.cab_rear + 0.05f, y = half - 0.05f, top = 1.74f;
     builder.patch({rear, y, floor}, {rear, -y, floor}, {front, -y, floor}, {front, y, floor});
     builder.patch({rear, y, floor}, {front, y, floor}, {front, y, top}, {rear, y, top});

@@ -36,6 +36,7 @@ void add_rider(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
     add_limb(b, {0.74f, side * 0.20f, 0.72f}, {0.46f, side * 0.19f, 0.32f}, 0.070f, 0.055f, sides);
     add_limb(b, {0.56f, side * 0.20f, 1.18f}, {0.82f, side * 0.30f, 1.04f}, 0.062f, 0.052f, sides);
     add_limb(b, {0.82f, side * 0.30f, 1.04f}, {1.10f, side * 0.29f, 1.04f}, 0.052f, 0.042f, sides);
+    if (splits > 0) add_blob(b, {1.125f, side * 0.30f, 1.025f}, {0.055f, 0.055f, 0.042f}, 1);  // Gloves.
   }
   b.material = index_of(Finish::cloth_bright);
   add_limb(b, {0.27f, 0, 0.90f}, {0.48f, 0, 1.16f}, 0.15f, 0.17f, sides + 2);

@@ -1,5 +1,6 @@
 // What is seen from the eye points of all kinds of vehicles, by rays against the meshes that are drawn around them.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -47,6 +48,7 @@ std::vector<InsideTriangle> triangles_of(const VehicleParts& parts) {
 struct Met {
   double distance_m;
   std::uint32_t finish;
+  bool from_behind;  ///< True where only the triangle's back is met, which is not drawn.
 };
 
 /// Nearest triangle on a ray, from either side (Möller and Trumbore).
@@ -60,7 +62,7 @@ std::optional<Met> met_by(const std::vector<InsideTriangle>& triangles, const Ve
     const double u = glm::dot(s, p) / determinant, v = glm::dot(along, q) / determinant,
                  distance_m = glm::dot(e2, q) / determinant;
     if (u < 0.0 || v < 0.0 || u + v > 1.0 || distance_m < 1e-6) continue;
-    if (!nearest || distance_m < nearest->distance_m) nearest = Met{distance_m, t.finish};
+    if (!nearest || distance_m < nearest->distance_m) nearest = Met{distance_m, t.finish, determinant < 0.0};
   }
   return nearest;
 }
@@ -77,6 +79,19 @@ bool is_enclosed(const VehicleModel& model) {
   return model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
          model.kind == ParticipantKind::ambulance || model.kind == ParticipantKind::lorry ||
          model.kind == ParticipantKind::bus;
+}
+
+/// Share of directions that may fall on the rims of panes, more of them where panes are small or near.
+double rim_share(ParticipantKind kind) {
+  switch (kind) {
+    case ParticipantKind::bus:
+      return 0.006;
+    case ParticipantKind::van:
+    case ParticipantKind::ambulance:
+      return 0.012;
+    default:
+      return 0.018;
+  }
 }
 
 }  // namespace
@@ -120,6 +135,30 @@ TEST_CASE(
     CHECK(pillars >= 2);  // At least one degree.
     CHECK(panes >= 60);   // At least 30 degrees free.
     for (const InsideTriangle& t : triangles) REQUIRE(t.finish != index_of(Finish::clear_glass));
+  }
+}
+
+TEST_CASE("no daylight comes through a body: from the eyes of those who sit in it every wall is met from within") {
+  for (const VehicleModel& model : vehicle_models()) {
+    if (!is_driven(model) || has_cockpit(model) || !is_enclosed(model) || model.name == "farm-tractor") continue;
+    CAPTURE(model.name);
+    const auto triangles = triangles_of(inside_parts(model));
+    const Vec3 eye_m = eye_in(model);
+    // The highest hole, and all; beside a pane the rim between lining and body counts, of 2 cm.
+    constexpr double step_deg = 0.5, most_deg = 4.5;
+    double highest_deg = 0.0;
+    int rays = 0, holes = 0;
+    for (double heading_deg = -105.0; heading_deg < 110.0; heading_deg += 15.0) {
+      double hole_deg = 0.0;
+      for (double pitch_deg = -60.0; pitch_deg < 30.0; pitch_deg += step_deg, ++rays) {
+        const auto met = met_by(triangles, eye_m, towards(heading_deg, pitch_deg));
+        hole_deg = met && met->from_behind ? hole_deg + step_deg : 0.0;
+        highest_deg = std::max(highest_deg, hole_deg);
+        holes += hole_deg > 0.0 ? 1 : 0;
+      }
+    }
+    CHECK(highest_deg < most_deg);
+    CHECK(holes <= rim_share(model.kind) * rays);
   }
 }
 
@@ -197,6 +236,38 @@ TEST_CASE("a rider sees handlebars and arms, a walker nothing of the own head, a
   }
   for (const char* name : {"caravan", "semitrailer", "volvo-s80"})
     CHECK(inside_parts(vehicle_models()[*find_vehicle_model(name)]).empty());
+}
+
+TEST_CASE("riders' hands hold the grips") {
+  struct Row {
+    const char* name;
+    Finish hand;
+    Vec3 grip_m;
+  };
+  for (const Row& row :
+       {Row{"bicycle", Finish::skin, {0.86, 0.27, 1.00}}, Row{"motorcycle", Finish::leather, {1.12, 0.31, 1.02}}}) {
+    CAPTURE(row.name);
+    const auto triangles = triangles_of(inside_parts(vehicle_models()[*find_vehicle_model(row.name)]));
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 grip_m(row.grip_m.x, side * row.grip_m.y, row.grip_m.z);
+      // Ahead of the bar as well: an arm alone ends behind it.
+      CHECK(std::ranges::any_of(triangles, [&](const InsideTriangle& t) {
+        return t.finish == index_of(row.hand) && glm::distance(t.a, grip_m) < 0.09 && t.a.x > grip_m.x + 0.025;
+      }));
+    }
+  }
+}
+
+TEST_CASE("a bus's driver sees the glass of the mirrors before the windscreen, and no housing on the pillars") {
+  for (const char* name : {"coach", "city-bus"}) {
+    CAPTURE(name);
+    const VehicleModel& model = vehicle_models()[*find_vehicle_model(name)];
+    VehicleParts parts = inside_parts(model);
+    std::erase_if(parts, [](const VehiclePart& part) { return part.name.starts_with("fittings"); });
+    for (const InsideTriangle& t : triangles_of(parts))
+      if (t.finish == index_of(Finish::trim) && t.a.x > model.front_m() - 0.7 && t.a.z > 1.5)
+        REQUIRE(std::abs(t.a.y) < 0.5 * model.width_m);
+  }
 }
 
 TEST_CASE("in the driver's car the bonnet is seen over the dashboard, and the road over the bonnet") {
