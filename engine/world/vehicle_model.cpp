@@ -7,8 +7,8 @@ namespace {
 using enum ParticipantKind;
 // Length, width, height, wheelbase, rear overhang, track, wheel radius. The S80's outer dimensions and tyre are those
 // of the 1999 model (4.822 × 1.831 × 1.435 m, wheelbase 2.791 m, 215/55 R16); the others are plain examples of their
-// class, no longer, wider or higher than 96/53/EC lets them be. All are those of what is drawn, to 2 cm, without mirrors
-// and what stands on the roofs of cars. Logs and sessions hold indices: new ones come last.
+// class, no longer, wider or higher than 96/53/EC lets them be. All are those of what is drawn, to 2 cm, without
+// mirrors and what stands on the roofs of cars. Logs and sessions hold indices: new ones come last.
 constexpr std::array<VehicleModel, 36> models{{
     {"volvo-s80", car, 4.822, 1.831, 1.435, 2.791, 1.10, 1.57, 0.321},
     {"hatchback", car, 4.05, 1.74, 1.46, 2.55, 0.68, 1.48, 0.305},

@@ -242,7 +242,14 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
       const VehicleModel& model = vehicle_models()[participant.model];
       const auto inside = prototype_of(scene, fmt::format("interior/{}", model.name));
       if (inside && views.show_interior && !scenery::has_cockpit(model)) {
-        // It is the whole vehicle but for the panes and the person whose eyes these are.
+        // It is the whole vehicle but for the panes and the person whose eyes these are, of whom a rider's or walker's
+        // head throws its shadow.
+        if (const auto head = prototype_of(scene, fmt::format("head/{}", model.name))) {
+          auto shadow = drawn;
+          shadow.prototype = *head;
+          shadow.raises_spray = false;
+          frame.participants.push_back(shadow);
+        }
         drawn.prototype = *inside;
         drawn.shown = instant::Shown::whole;
         drawn.steering_wheel_rad = steering_ratio * drawn.front_steer_rad;

@@ -119,4 +119,18 @@ VehicleParts inside_parts(const VehicleModel& model) {
   return parts;
 }
 
+VehicleParts own_head_parts(const VehicleModel& model) {
+  VehicleParts parts;
+  if (!is_astride_or_on_foot(model)) return parts;
+  for (VehiclePart& part : vehicle_parts(model)) {
+    if (part.places.empty() || part.places.front().visible_from_m > 0.0f) continue;
+    part.mesh =
+        without(part.mesh, [is_head = hides_the_view(model, part.name)](std::uint32_t material, const Extent& extent) {
+          return !is_head(material, extent);
+        });
+    if (!part.mesh.polygons.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 }  // namespace septet::scenery

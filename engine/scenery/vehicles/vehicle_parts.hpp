@@ -52,6 +52,8 @@ VehicleParts box_parts();  ///< Of a metre each way; frames stretch it (instant:
 /// without that person's head (of those who sit, body), with dashboard, steering wheel and mirrors. Empty for what is
 /// towed, and for the model with a cockpit (interior_parts).
 VehicleParts inside_parts(const VehicleModel& model);
+/// The head that inside_parts leaves out of a rider or walker, which throws its shadow all the same; empty for others.
+VehicleParts own_head_parts(const VehicleModel& model);
 /// Parts of the S80 that its driver sees: bonnet, dashboard, pillars, steering wheel. Materials are CockpitFinish
 /// indices, as in all functions below but the next.
 VehicleParts interior_parts();

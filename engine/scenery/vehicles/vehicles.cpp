@@ -68,9 +68,13 @@ void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models,
       add_prototype(builder, palette, known, model.name, vehicle_parts(model));
     }
   // What a person's own model looks like from within is not known: it has no inside.
-  for (const VehicleModel& model : vehicle_models())
-    if (const VehicleParts parts = inside_parts(model); !parts.empty() && !own.find(model.name))
+  for (const VehicleModel& model : vehicle_models()) {
+    if (own.find(model.name)) continue;
+    if (const VehicleParts parts = inside_parts(model); !parts.empty())
       add_prototype(builder, palette, known, "interior/" + std::string(model.name), parts);
+    if (const VehicleParts parts = own_head_parts(model); !parts.empty())
+      add_prototype(builder, palette, known, "head/" + std::string(model.name), parts);
+  }
   add_prototype(builder, palette, known, "shell/volvo-s80", shell_parts());
   build_parked_cars(builder, palette, parked);
   const Palette inside = add_cockpit_finishes(builder);

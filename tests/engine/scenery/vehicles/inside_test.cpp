@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -236,6 +237,25 @@ TEST_CASE("a rider sees handlebars and arms, a walker nothing of the own head, a
   }
   for (const char* name : {"caravan", "semitrailer", "volvo-s80"})
     CHECK(inside_parts(vehicle_models()[*find_vehicle_model(name)]).empty());
+}
+
+TEST_CASE("the head that a rider or walker does not see of themselves is there to throw its shadow") {
+  const auto polygons_of = [](const VehicleParts& parts) {
+    std::size_t count = 0;
+    for (const VehiclePart& part : parts)
+      if (!part.places.empty() && part.places.front().visible_from_m <= 0.0f && !part.name.starts_with("fittings"))
+        count += part.mesh.polygons.size();
+    return count;
+  };
+  for (const char* name : {"pedestrian", "bicycle", "motorcycle"}) {
+    CAPTURE(name);
+    const VehicleModel& model = vehicle_models()[*find_vehicle_model(name)];
+    const VehicleParts head = own_head_parts(model);
+    CHECK(polygons_of(head) > 50);
+    CHECK(polygons_of(head) + polygons_of(inside_parts(model)) == polygons_of(vehicle_parts(model)));
+    for (const InsideTriangle& t : triangles_of(head)) REQUIRE(glm::distance(t.a, eye_in(model)) < 0.3);
+  }
+  CHECK(own_head_parts(vehicle_models()[*find_vehicle_model("van")]).empty());
 }
 
 TEST_CASE("riders' hands hold the grips") {

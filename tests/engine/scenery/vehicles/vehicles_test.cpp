@@ -268,13 +268,15 @@ TEST_CASE("the scene holds a prototype for every model of the catalogue") {
   build_vehicles(builder);
   const scene::ResolvedScene scene = scene::resolve(store);
   CHECK(scene.instances.empty());
-  // Each but a caravan, a trailer and a box has an inside, and the driver's own model a shell, too.
-  constexpr std::ptrdiff_t without_inside = 3, shells = 1;
+  // Each but a caravan, a trailer and a box has an inside, the driver's own model a shell, and two riders and the
+  // walker have heads, too.
+  constexpr std::ptrdiff_t without_inside = 3, shells = 1, heads = 3;
   CHECK(std::ranges::count_if(scene.prototypes, [](const auto& p) { return !p.name.starts_with("cockpit/"); }) ==
-        2 * static_cast<std::ptrdiff_t>(vehicle_models().size()) - without_inside + shells);
+        2 * static_cast<std::ptrdiff_t>(vehicle_models().size()) - without_inside + shells + heads);
   for (const scene::Prototype& prototype : scene.prototypes) {
     CAPTURE(prototype.name);
-    CHECK(prototype.parts.size() >= (prototype.name.starts_with("cockpit/") ? 1 : 3));
+    const bool small = prototype.name.starts_with("cockpit/") || prototype.name.starts_with("head/");
+    CHECK(prototype.parts.size() >= (small ? 1 : 3));
   }
 }
 
