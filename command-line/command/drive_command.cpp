@@ -21,6 +21,7 @@
 #include "command-line/command/panorama_file.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/document/text_file.hpp"
+#include "engine/editor/edit_place.hpp"
 #include "engine/net/keys.hpp"
 #include "engine/rig/rig.hpp"
 #include "logging/session/drive_end.hpp"
@@ -291,7 +292,9 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
     if (!line->starts_with("ready ")) return true;
     was_ready = true;
     if (!options.editors.empty())
-      if (auto put = document::write_text_file(options.editors / address_file, ip + ':' + line->substr(6) + '\n'); !put)
+      if (auto put =
+              document::write_text_file(options.editors / editor::address_file, ip + ':' + line->substr(6) + '\n');
+          !put)
         program::say(describe(put.error()));
     if (!options.no_screens)
       for (const auto& screen : rig.screens)
@@ -316,7 +319,7 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   while (!last_words && listen(0ms)) {
   }
   std::error_code ignored;
-  if (!options.editors.empty()) fs::remove(options.editors / address_file, ignored);
+  if (!options.editors.empty()) fs::remove(options.editors / editor::address_file, ignored);
   // The screens have had Finish and their reports are in; one that still runs writes its last pictures, or hangs.
   for (int i = 0; i < 1500 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i)
     std::this_thread::sleep_for(20ms);

@@ -73,7 +73,7 @@ class Lines {
   bool from_input_ = false;
 };
 
-Expected<std::unique_ptr<EditClient>> connected(const EditOptions& options, const EditPlace& place,
+Expected<std::unique_ptr<EditClient>> connected(const EditOptions& options, const editor::EditPlace& place,
                                                 const EditOutput& output) {
   auto client = EditClient::open(place);
   if (!client) return client;
@@ -100,7 +100,7 @@ Expected<int> run_edit(const EditOptions& options) {
   const EditOutput output(std::cout, options.json);
   auto lines = Lines::open(options.files);
   if (!lines) return tl::unexpected(lines.error());
-  const auto place = find_edit_place(options.keys, options.key, options.server);
+  const auto place = editor::find_edit_place(options.keys, options.key, options.server);
   if (!place) return tl::unexpected(place.error());
   program::catch_stop_signals();
   const auto client = connected(options, *place, output);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/document/text_file.hpp"
+#include "engine/editor/edit_place.hpp"
 #include "engine/net/keys.hpp"
 #include "sim-server/host/remote_car.hpp"
 
@@ -164,7 +165,7 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
   for (const EditorKey& editor : editors) {
     put_rights(list, editor.name, editor.words);
     const std::string address = fmt::format("{}:{}\n", rig.network.server_address, rig.network.scene_port);
-    if (auto put = document::write_text_file(out / editor.name / address_file, address); !put)
+    if (auto put = document::write_text_file(out / editor.name / editor::address_file, address); !put)
       return tl::unexpected(put.error());
   }
   // Names in the list that are no longer in the rig stay: removing a key is the operator's decision.

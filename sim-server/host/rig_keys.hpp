@@ -36,9 +36,6 @@ struct EditorKey {
 /// From "NAME" or "NAME=WORDS". Error: a name that cannot be one of a file and of the list, a word that is no right.
 Expected<EditorKey> parse_editor_key(std::string_view text);
 
-/// File of an editor's folder with the server's address and port.
-inline constexpr const char* address_file = "address";
-
 /// Writes the missing files; returns one line for each machine with its new keys, and one for each key that replaced
 /// another in the list. The rights of an editor that is on the list already become those given.
 Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const std::filesystem::path& out,

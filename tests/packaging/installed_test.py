@@ -9,10 +9,12 @@ import json
 import os
 import pathlib
 import re
+import signal
 import sqlite3
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAMS = ("septet", "septet-server", "septet-screen", "septet-film", "septet-sound", "septet-sight", "septet-ice", "septet-car")
@@ -99,6 +101,29 @@ class Installed(unittest.TestCase):
             logged = log.execute("SELECT x_m, y_m, speed_mps * 3.6 FROM samples WHERE tick = ?", (int(tick),)).fetchone()
             for read_value, logged_value, delta in zip((x_m, y_m, speed_kmh), logged, (0.005, 0.005, 0.06)):
                 self.assertAlmostEqual(float(read_value), logged_value, delta=delta)
+
+    def test_the_sample_editor_changes_a_running_drive_and_saves_what_a_second_one_reads(self):
+        samples = pathlib.Path(prefix / "share/doc/libseptet-dev/samples")
+        run("cmake", "-G", "Ninja", "-S", samples, "-B", "editor", f"-DCMAKE_PREFIX_PATH={prefix}")
+        run("cmake", "--build", "editor", "--target", "edit_drive")
+        scenario = ["--virtual", "--rig", "desktop", "--scenario", "behind-ambulance"]
+        drive = subprocess.Popen([program("septet"), "drive", *scenario, "--seconds", "3000", "--editors", "keys", "--out", "edited"], cwd=work,
+                                 env=os.environ | {"LP_NUM_THREADS": "0"}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            while not (work / "keys/address").exists():
+                self.assertIsNone(drive.poll())
+                time.sleep(0.05)
+            run(work / "editor/edit_drive", "keys", "mine.edits")
+        finally:
+            drive.send_signal(signal.SIGINT)
+            drive.wait()
+        saved = (work / "mine.edits").read_text()
+        self.assertIn("mine/post", saved)
+        run(program("septet"), "drive", "--no-screens", *scenario[1:], "--seconds", "0.2", "--edits", "mine.edits", "--save", "again.edits", "--out", "second")
+        self.assertEqual((work / "again.edits").read_text(), saved)
+        refused = subprocess.run([work / "editor/edit_drive", "nowhere", "x.edits"], cwd=work, capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("nowhere", refused.stderr)
 
     def test_manual_pages_tell_every_command_and_option(self):
         for name in PROGRAMS:

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/editor/edit_place.hpp"
 #include "engine/net/keys.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -85,7 +86,7 @@ TEST_CASE("an editor's folder has all that it needs and its rights are those of 
   CHECK(net::describe(first.rights) == "may move, create below stimuli/");
   CHECK(fs::exists(folder.path() / "lab" / "server.public"));
   CHECK(net::load_identity(folder.path() / "lab" / "lab.key")->public_key() == first.key);
-  CHECK(text_of(folder.path() / "lab" / address_file) == "10.7.0.1:4750\n");
+  CHECK(text_of(folder.path() / "lab" / editor::address_file) == "10.7.0.1:4750\n");
   const net::AllowedClient second = keys_with("lab=look");
   CHECK(second.key == first.key);
   CHECK(net::describe(second.rights) == "looks");

@@ -6,7 +6,7 @@
 
 namespace septet::server {
 
-EditClient::EditClient(const EditPlace& place, net::UdpSocket lane, net::UdpSocket tick)
+EditClient::EditClient(const editor::EditPlace& place, net::UdpSocket lane, net::UdpSocket tick)
     : lane_(std::move(lane)),
       tick_(std::move(tick)),
       // The server names no group to a client that is no screen.
@@ -16,7 +16,7 @@ EditClient::EditClient(const EditPlace& place, net::UdpSocket lane, net::UdpSock
             },
             {place.name, tick_.local_address().port, {place.server, place.server_key, place.identity, {}}}) {}
 
-Expected<std::unique_ptr<EditClient>> EditClient::open(const EditPlace& place) {
+Expected<std::unique_ptr<EditClient>> EditClient::open(const editor::EditPlace& place) {
   const net::UdpOptions any{{place.server.ip == net::loopback_ip ? net::loopback_ip : 0, 0}};
   auto lane = net::UdpSocket::open(any);
   if (!lane) return tl::unexpected(lane.error());

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "command-line/command/edit/edit_place.hpp"
+#include "engine/editor/edit_place.hpp"
 #include "engine/net/udp_socket.hpp"
 #include "engine/scene/command.hpp"
 #include "sim-client/link/screen_link.hpp"
@@ -24,7 +24,7 @@ struct EditAnswer {
 
 class EditClient {
  public:
-  static Expected<std::unique_ptr<EditClient>> open(const EditPlace& place);
+  static Expected<std::unique_ptr<EditClient>> open(const editor::EditPlace& place);
 
   /// Receives and sends.
   void pump();
@@ -54,7 +54,7 @@ class EditClient {
   std::vector<std::string> take_messages() { return link_.take_messages(); }
 
  private:
-  EditClient(const EditPlace& place, net::UdpSocket lane, net::UdpSocket tick);
+  EditClient(const editor::EditPlace& place, net::UdpSocket lane, net::UdpSocket tick);
 
   net::UdpSocket lane_, tick_;
   screen::ScreenLink link_;

@@ -92,14 +92,14 @@ void EditSession::add(Batch& batch, const std::string& line, const std::vector<s
   batch.lines.push_back(line);
   const std::string thing = words.size() > 1 ? words[1].text : std::string();
   if (words.front().text == "lifetime") {
-    auto lifetime = lifetime_of(words, client_.store(), names_);
+    auto lifetime = editor::lifetime_of(words, client_.store(), names_);
     if (lifetime)
       batch.lifetimes.push_back(std::move(*lifetime));
     else if (!is_about(words, batch.not_made))
       batch.fail(thing, describe(lifetime.error()));
     return;
   }
-  auto edit = edit_of(words, client_.store(), names_);
+  auto edit = editor::edit_of(words, client_.store(), names_);
   if (!edit) {
     if (!is_about(words, batch.not_made)) batch.fail(thing, describe(edit.error()));
     if (makes(words)) batch.not_made.insert(thing);
@@ -198,9 +198,9 @@ void EditSession::forget_created(const Batch& batch) {
 
 /// The server keeps the removals until their ticks, whether this editor is still there or not.
 void EditSession::end_lifetimes(const Batch& batch, Tick from) {
-  for (const Lifetime& lifetime : batch.lifetimes) {
+  for (const editor::Lifetime& lifetime : batch.lifetimes) {
     const double ticks = std::max(1.0, std::round(lifetime.seconds * client_.link().welcome()->tick_rate_hz));
-    auto removal = removal_of(lifetime.node, client_.store(), names_.own_ids, batch.commands);
+    auto removal = editor::removal_of(lifetime.node, client_.store(), names_.own_ids, batch.commands);
     const auto number = client_.request(removal, from + static_cast<Tick>(ticks));
     if (number)
       ends_.emplace(*number, End{lifetime.thing, std::move(removal)});
@@ -215,7 +215,7 @@ void EditSession::hear() {
       if (answer.refused)
         output_.message(fmt::format("{} stays: {}", end.mapped().thing, why_of(*answer.refused)));
       else
-        forget_destroyed(names_, end.mapped().removal);
+        editor::forget_destroyed(names_, end.mapped().removal);
       continue;
     }
     if (hear_content(answer)) continue;
@@ -285,7 +285,7 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
     output_.done(++requests_, 0, {});
   } else if (verb == "find") {
     const std::uint64_t request = ++requests_;
-    const auto found = found_nodes(words, client_.store());
+    const auto found = editor::found_nodes(words, client_.store());
     if (found)
       output_.nodes(request, *found, names());
     else

@@ -13,8 +13,8 @@
 
 #include "command-line/command/edit/edit_client.hpp"
 #include "command-line/command/edit/edit_output.hpp"
-#include "command-line/command/edit/edit_verbs.hpp"
 #include "command-line/command/edit/watched_model.hpp"
+#include "engine/editor/edit_verbs.hpp"
 #include "engine/replication/message.hpp"
 
 namespace septet::server {
@@ -47,7 +47,7 @@ class EditSession {
     std::vector<scene::Command> commands;
     std::vector<std::size_t> line_of;  ///< Of each command.
     std::vector<std::string> messages;
-    std::vector<Lifetime> lifetimes;
+    std::vector<editor::Lifetime> lifetimes;
     std::vector<FailedLine> wrong;     ///< The lines that cannot be read: the first, as many as a server tells.
     std::uint64_t wrong_untold = 0;    ///< The lines that cannot be read either.
     std::set<std::string> not_made{};  ///< Things that lines of it failed to make.
@@ -96,7 +96,7 @@ class EditSession {
 
   EditClient& client_;
   const EditOutput& output_;
-  EditNames names_;
+  editor::EditNames names_;
   scene::Store before_;  ///< The scene as it was when the editor came.
   std::uint64_t requests_ = 0, refusals_ = 0;
   std::optional<Batch> batch_;

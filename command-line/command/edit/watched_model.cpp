@@ -10,8 +10,8 @@
 
 #include <fmt/core.h>
 
-#include "command-line/command/edit/shapes.hpp"
 #include "engine/core/printable.hpp"
+#include "engine/editor/shapes.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/difference.hpp"
 
@@ -32,9 +32,9 @@ WatchedModel::Stamp WatchedModel::stamp() const {
   return error ? Stamp{} : found;
 }
 
-Expected<EditedLine> WatchedModel::read() {
+Expected<editor::EditedLine> WatchedModel::read() {
   known_ = seen_ = stamp();
-  auto model = make_model(name_, file_, transform_, first_);
+  auto model = editor::make_model(name_, file_, transform_, first_);
   if (!model) return tl::unexpected(model.error());
   if (model->next - first_ > watched_ids)
     return failure(
@@ -43,7 +43,7 @@ Expected<EditedLine> WatchedModel::read() {
   scene::Store now;
   for (const scene::Command& command : model->commands)
     if (auto done = now.apply(command); !done) return tl::unexpected(done.error());
-  EditedLine line{{}, std::move(model->messages)};
+  editor::EditedLine line{{}, std::move(model->messages)};
   scene::describe_difference(made_, now, [&](scene::Command command) { line.commands.push_back(std::move(command)); });
   // Nobody may hang a node on another before it is there.
   std::stable_partition(line.commands.begin(), line.commands.end(), [](const scene::Command& command) {
@@ -67,9 +67,9 @@ bool WatchedModel::is_saved(double now_s) {
 }
 
 Expected<WatchedModel> watched_of(const std::vector<scene::TextWord>& words, const scene::Store& store,
-                                  EditNames& names) {
+                                  editor::EditNames& names) {
   constexpr std::string_view usage = "the line watch NAME FILE.glb [X Y Z [HEADING_DEG]]";
-  const auto transform = words.size() >= 3 ? transform_of(std::span(words).subspan(3)) : std::nullopt;
+  const auto transform = words.size() >= 3 ? editor::transform_of(std::span(words).subspan(3)) : std::nullopt;
   if (!transform)
     return failure("a name, a file and a place of three or four numbers are needed", std::string(usage),
                    "docs/editing.md shows the lines");

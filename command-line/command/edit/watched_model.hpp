@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "command-line/command/edit/edit_verbs.hpp"
 #include "engine/core/expected.hpp"
+#include "engine/editor/edit_verbs.hpp"
 #include "engine/scene/store.hpp"
 
 namespace septet::server {
@@ -24,7 +24,7 @@ class WatchedModel {
 
   /// The commands that bring the model to what the file holds now. Error: as of make_model, or too many nodes; nothing
   /// has changed then.
-  Expected<EditedLine> read();
+  Expected<editor::EditedLine> read();
   /// True once after each time when the file was saved and has rested since.
   bool is_saved(double now_s);
   const std::filesystem::path& file() const { return file_; }
@@ -48,6 +48,6 @@ class WatchedModel {
 
 /// By the line `watch NAME FILE.glb [X Y Z [HEADING]]`: ids are kept for its nodes, and its name is known.
 Expected<WatchedModel> watched_of(const std::vector<scene::TextWord>& words, const scene::Store& store,
-                                  EditNames& names);
+                                  editor::EditNames& names);
 
 }  // namespace septet::server

@@ -13,7 +13,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "command-line/command/edit/shapes.hpp"
+#include "engine/editor/shapes.hpp"
 #include "engine/gltf/gltf.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scenery/own_models.hpp"
@@ -37,10 +37,11 @@ void do_all(scene::Store& store, const std::vector<scene::Command>& commands) {
 /// A board with a picture, somewhere, hidden, and a smaller one on top of it.
 scene::Store two_boards() {
   scene::Store store;
+  do_all(store, editor::make_board("sign", 2.0, 1.0, {{100.0, 200.0, 3.0}, {0.6, 0.0, 0.0, 0.8}, glm::vec3(1.0f)}, 1000)
+                    .commands);
+  do_all(store, editor::make_picture(store, 1002, image::Image(4, 2, {10, 200, 30, 255}), 1100).commands);
   do_all(store,
-         make_board("sign", 2.0, 1.0, {{100.0, 200.0, 3.0}, {0.6, 0.0, 0.0, 0.8}, glm::vec3(1.0f)}, 1000).commands);
-  do_all(store, make_picture(store, 1002, image::Image(4, 2, {10, 200, 30, 255}), 1100).commands);
-  do_all(store, make_board("top", 0.5, 0.5, {{0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.0}, glm::vec3(1.0f)}, 1200).commands);
+         editor::make_board("top", 0.5, 0.5, {{0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.0}, glm::vec3(1.0f)}, 1200).commands);
   do_all(store, {scene::LinkSet{1002, 9, {"child", 1202, 0}}, scene::HideSet{1002, true}});
   return store;
 }
@@ -63,7 +64,7 @@ TEST_CASE("an object is exported with what hangs on it, about its own origin, an
   const TemporaryFolder folder;
   const auto file = folder.path() / "sign.glb";
   std::ofstream(file, std::ios::binary) << text_of(*bytes);
-  const auto made = make_model("again", file, {}, 5000);
+  const auto made = editor::make_model("again", file, {}, 5000);
   REQUIRE(made.has_value());
   scene::Store other;
   do_all(other, made->commands);

@@ -10,7 +10,7 @@
 #include "engine/scene/command.hpp"
 #include "engine/scene/store.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 
 /// Commands that make nodes with the ids from `first` on.
 struct Made {
@@ -33,4 +33,4 @@ Made make_colour(const scene::Store& store, scene::NodeId object, glm::vec3 line
 /// Text, as large as fits, on a picture of 256 lines.
 Expected<image::Image> painted_text(const std::string& text, image::Color ink, image::Color ground);
 
-}  // namespace septet::server
+}  // namespace septet::editor

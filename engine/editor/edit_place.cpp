@@ -1,4 +1,4 @@
-#include "command-line/command/edit/edit_place.hpp"
+#include "engine/editor/edit_place.hpp"
 
 #include <sstream>
 #include <system_error>
@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "engine/core/regular_file.hpp"
-#include "sim-server/host/rig_keys.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,4 +50,4 @@ Expected<EditPlace> find_edit_place(const fs::path& folder, const std::string& k
   return EditPlace{*address, *server_key, std::move(*identity), *name};
 }
 
-}  // namespace septet::server
+}  // namespace septet::editor

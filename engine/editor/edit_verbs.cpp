@@ -1,4 +1,4 @@
-#include "command-line/command/edit/edit_verbs.hpp"
+#include "engine/editor/edit_verbs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include <fmt/core.h>
 #include <glm/gtc/quaternion.hpp>
 
-#include "command-line/command/edit/shapes.hpp"
+#include "engine/editor/shapes.hpp"
 #include "engine/gltf/gltf.hpp"
 #include "engine/image/png.hpp"
 #include "engine/image/srgb.hpp"
@@ -26,7 +26,7 @@
 #include "engine/scene/participant_root.hpp"
 #include "engine/scene/solid_box.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 namespace {
 
 using namespace scene;
@@ -127,6 +127,7 @@ class Verbs {
     if (verb == "hide" || verb == "show") return hide(rest, verb == "hide");
     if (verb == "remove") return remove(rest);
     if (verb == "import") return import_model(rest);
+    if (verb == "like") return like(rest);
     if (verb == "board") return board(rest);
     if (verb == "picture") return picture(rest);
     if (verb == "text") return text(rest);
@@ -256,6 +257,30 @@ class Verbs {
     auto made = make_model(words[0].text, words[1].text, *transform, *first);
     if (!made) return tl::unexpected(made.error());
     return keep_in_place_of(words[0], std::move(*made));
+  }
+  /// The same shapes and children, not copies of them: both change with these.
+  Expected<EditedLine> like(Words words) {
+    constexpr std::string_view usage = "like NAME NODE [X Y Z [HEADING_DEG]]";
+    if (words.size() < 2) return wrong("a name and an object are needed", usage);
+    const auto transform = transform_of(words.subspan(2));
+    if (!transform) return wrong("a place is three or four numbers", usage);
+    const auto pattern = object(words[1]);
+    const Node* node = pattern ? store_.find(*pattern) : nullptr;
+    const auto* seen = node ? std::get_if<ObjectData>(&node->data) : nullptr;
+    if (!seen) return wrong(fmt::format("there is no object {:.80}", words[1].text), usage);
+    const auto first = free_ids(words[0].text);
+    if (!first) return tl::unexpected(first.error());
+    Transform placed = *transform;
+    placed.scale = seen->transform.scale;
+    Made made{{NodeCreate{*first, NodeType::object}, NodeNameSet{*first, words[0].text}, TransformSet{*first, placed}},
+              *first + 1};
+    for (const auto& [id, link] : seen->links) made.commands.emplace_back(LinkSet{*first, id, link});
+    for (const auto& [id, group] : node->tag_groups) {
+      if (group.name == solid_group || group.name == participant_tag_group) continue;
+      made.commands.emplace_back(TagGroupSet{*first, id, group.name});
+      for (const auto& [tag, value] : group.tags) made.commands.emplace_back(TagSet{*first, id, tag, value});
+    }
+    return keep_in_place_of(words[0], std::move(made));
   }
   Expected<EditedLine> board(Words words) {
     constexpr std::string_view usage = "board NAME WIDTH_M HEIGHT_M [X Y Z [HEADING_DEG]]";
@@ -484,4 +509,4 @@ Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, co
   return found;
 }
 
-}  // namespace septet::server
+}  // namespace septet::editor

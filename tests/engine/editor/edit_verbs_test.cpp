@@ -1,4 +1,4 @@
-#include "command-line/command/edit/edit_verbs.hpp"
+#include "engine/editor/edit_verbs.hpp"
 
 #include <fnmatch.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@
 #include "engine/scene/builder.hpp"
 #include "engine/scene/solid_box.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 namespace {
 
 constexpr scene::NodeId own_ids = 1000;
@@ -107,6 +107,36 @@ TEST_CASE("what is made under a name again takes the place of what had it, with 
   CHECK(editor.store.nodes().size() == 1);
   REQUIRE(editor.take("remove sign").has_value());
   CHECK(editor.store.nodes().empty());
+}
+
+TEST_CASE(
+    "a thing like another one shares its shape, children and looks, at a place of its own, and neither name nor "
+    "solidity") {
+  EditedWorld editor;
+  scene::SceneBuilder build(editor.store);
+  const scene::NodeId shape = build.add_mesh("oak", {}),
+                      near = build.add_object("tree/1/2", {.geometry = shape, .visible_to_m = 80.0f});
+  build.apply(scene::TransformSet{near, {{1.0, 2.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, glm::vec3(1.5f)}});
+  const scene::NodeId far = build.add_object("tree far", {.geometry = shape});
+  build.add_child(near, far);
+  REQUIRE(editor.take("solid tree/1/2").has_value());
+  const std::size_t nodes = editor.store.nodes().size();
+  REQUIRE(editor.take("like my/oak tree/1/2 10 20 3 90").has_value());
+  CHECK(editor.store.nodes().size() == nodes + 1);
+  const scene::Node* made = editor.store.find(scene::NodeType::object, "my/oak");
+  REQUIRE(made);
+  const auto& object = std::get<scene::ObjectData>(made->data);
+  CHECK(object.links == std::get<scene::ObjectData>(editor.store.find(near)->data).links);
+  CHECK(object.transform.position_m == Vec3(10.0, 20.0, 3.0));
+  CHECK(object.transform.scale == glm::vec3(1.5f));
+  CHECK((object.transform.rotation * Vec3(1.0, 0.0, 0.0)).y == doctest::Approx(1.0));
+  CHECK_FALSE(scene::is_tagged_solid(*made));
+  CHECK(made->tag_groups.size() == 1);  // How far it is seen.
+  // It is removed alone.
+  REQUIRE(editor.take("remove my/oak").has_value());
+  CHECK(editor.store.nodes().size() == nodes);
+  for (const char* line : {"like x", "like x nobody 1 2 3", "like x tree/1/2 1 2", "like x geometry:oak 1 2 3"})
+    CHECK_FALSE_MESSAGE(editor.take(line).has_value(), line);
 }
 
 TEST_CASE("a lifetime ends what a line before it in its batch makes, as it ends what is there, with all parts") {
@@ -214,4 +244,4 @@ TEST_CASE("an imported model's properties are tags of its object, by which it is
   CHECK(scene::find_tag(deer, "extras", "list") == nullptr);
 }
 
-}  // namespace septet::server
+}  // namespace septet::editor

@@ -1,5 +1,5 @@
 #pragma once
-/// The verbs of `septet edit` beside the bare node commands, each a few commands (docs/editing.md).
+/// The verbs of an editor's lines beside the bare node commands, each a few commands (docs/editing.md).
 
 #include <functional>
 #include <map>
@@ -15,7 +15,7 @@
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/store.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 
 /// What an editor's lines have made so far. The mirror may lag behind.
 struct EditNames {
@@ -56,4 +56,4 @@ std::optional<scene::Transform> transform_of(std::span<const scene::TextWord> wo
 /// a thousand.
 Expected<std::vector<scene::NodeId>> found_nodes(const std::vector<scene::TextWord>& words, const scene::Store& store);
 
-}  // namespace septet::server
+}  // namespace septet::editor

@@ -8,7 +8,10 @@
 #include "engine/net/address.hpp"
 #include "engine/net/keys.hpp"
 
-namespace septet::server {
+namespace septet::editor {
+
+/// File of an editor's folder with the server's address and port.
+inline constexpr const char* address_file = "address";
 
 struct EditPlace {
   net::Address server;
@@ -22,4 +25,4 @@ struct EditPlace {
 Expected<EditPlace> find_edit_place(const std::filesystem::path& folder, const std::string& key,
                                     const std::string& server);
 
-}  // namespace septet::server
+}  // namespace septet::editor

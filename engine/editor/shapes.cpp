@@ -1,4 +1,4 @@
-#include "command-line/command/edit/shapes.hpp"
+#include "engine/editor/shapes.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@
 #include "engine/scenery/model_size.hpp"
 #include "engine/scenery/own_models.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 namespace {
 
 /// What a builder does in a store of its own, whose next id is `first`.
@@ -158,4 +158,4 @@ Expected<image::Image> painted_text(const std::string& text, image::Color ink, i
   return picture;
 }
 
-}  // namespace septet::server
+}  // namespace septet::editor
