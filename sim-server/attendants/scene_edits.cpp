@@ -90,7 +90,7 @@ void SceneEdits::make(const SceneRequest& request, Tick from, double now_s) {
 }
 
 void SceneEdits::close(ServeResult&) {
-  if (!drive_.generated) return;
+  if (save_.empty() || !drive_.generated) return;
   const auto written = document::write_text_file(save_, scene::edits_between(*drive_.generated, drive_.store));
   program::say(written ? fmt::format("What differs from the generated world is in {}", save_.string())
                        : describe(written.error()));

@@ -92,7 +92,7 @@ Expected<void> build_scene(const ServerOptions& options, OpenedDrive& drive, pro
                             {.own = &own.models, .raised = drive.loaded.model->raised.get()});
   add_names(builder, *drive.loaded.model);
   if (const auto& obstacles = drive.loaded.model->obstacles) drive.standing = StandingThings(drive.store, *obstacles);
-  if (!options.save.empty()) drive.generated = drive.store;
+  if (!options.save.empty() || options.page_port || options.page_handover) drive.generated = drive.store;
   if (options.edits.empty()) return {};
   const auto edits = read_regular_file(options.edits);
   if (!edits) return tl::unexpected(edits.error());

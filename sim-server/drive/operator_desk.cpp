@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/simulation/car_faults.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
@@ -98,10 +99,14 @@ Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& 
   facts.speaks = speaker.is_there();
   auto no_restart = why_no_restart(options);
   if (!no_restart) facts.kept_states = {drive.state().time_s(), state_kept_every_s};
+  auto placing = std::make_unique<Placing>(
+      gate, *loaded.model,
+      std::vector{std::filesystem::path(options.scenario).parent_path(), std::filesystem::path(".")}, options.out);
+  facts.placing = placing->facts();
   auto page = page::OperatorPage::open(std::move(page_options), std::move(facts), loaded.model->roads);
   if (!page) return tl::unexpected(page.error());
-  std::unique_ptr<OperatorDesk> desk(
-      new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson), std::move(speaker), loaded, gate));
+  std::unique_ptr<OperatorDesk> desk(new OperatorDesk(std::move(*page), std::move(rating), std::move(lesson),
+                                                      std::move(speaker), std::move(placing), loaded, gate));
   desk->no_restart_ = std::move(no_restart);
   return desk;
 }
@@ -145,7 +150,7 @@ void OperatorDesk::attend(const std::shared_ptr<const TakenSnapshot>& newest, co
   from_ = gate_.shown_from(what);
   if (brake_until_s_ && now_s > *brake_until_s_) hold_brake({}, false);
   if (const auto trouble = speaker_.attend(); trouble && log_) log_->record_message("screen", *trouble);
-  for (const auto& wish : page_->take_wishes()) page_->answer(wish, fulfil(wish));
+  for (const auto& wish : page_->take_wishes()) answer(wish);
   // Two large pictures within one interval are both shown: a watched screen moves at the rate at which it is sent.
   if (!has_new_large_picture(screens) && shown_s_ && now_s - *shown_s_ < show_every_s) return;
   if (!shown_s_ || now_s - since_s_ >= 1.0) {
@@ -188,6 +193,7 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
   for (std::size_t fault = 0; fault < simulation::fault_names().size(); ++fault)
     view.faults.push_back(simulation::has_failed(fault, drive_.state()));
   if (lesson_) view.lesson = lesson_->view();
+  view.placed = placing_->view();
   view.triggers = simulation::triggers(loaded_.model->scenario, scenario);
   page_->show(std::move(view));
 }
@@ -203,6 +209,18 @@ void OperatorDesk::show_end(const std::string& text, const std::vector<HostedScr
 std::optional<logging::DriveEnd> OperatorDesk::end_requested() const {
   if (!is_ended_) return std::nullopt;
   return restart_at_s_ ? logging::DriveEnd::restart : logging::DriveEnd::by_operator;
+}
+
+void OperatorDesk::answer(const page::OperatorWish& wish) {
+  if (const auto* near = std::get_if<page::FindNear>(&wish.wish))
+    return page_->answer_found(wish, placing_->near({near->x_m, near->y_m}, near->within_m));
+  if (const auto* saving = std::get_if<page::SaveEdits>(&wish.wish)) {
+    const auto file = placing_->save(saving->name);
+    if (!file) return page_->answer(wish, file.error().what);
+    note(wish, "operator", "save_edits " + file->filename().string());
+    return page_->answer_saved(wish, file->string());
+  }
+  page_->answer(wish, fulfil(wish));
 }
 
 /// Executes a request; returns the reason for a refusal.
@@ -225,6 +243,8 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
     if (end->participant_stops && log_) log_->record_answer(logging::drop_out(drive_.state().time_s(), end->reason));
   } else if (const auto* changed = std::get_if<page::Change>(&wish.wish)) {
     return change(wish, changed->command);
+  } else if (const auto* edited = std::get_if<page::Edit>(&wish.wish)) {
+    return edit(wish, edited->lines);
   } else if (const auto* brake = std::get_if<page::Brake>(&wish.wish)) {
     return hold_brake(wish, brake->held);
   } else if (const auto* back = std::get_if<page::Back>(&wish.wish)) {
@@ -292,6 +312,12 @@ std::optional<std::string> OperatorDesk::change(const page::OperatorWish& wish, 
   const auto done = do_command(text, {wish.name, the_page()}, from_, gate_);
   if (!done) return done.error().what;
   if (!done->empty()) note(wish, "operator", *done);
+  return std::nullopt;
+}
+
+std::optional<std::string> OperatorDesk::edit(const page::OperatorWish& wish, const std::string& lines) {
+  if (auto done = placing_->take(lines, from_); !done) return done.error().what;
+  note(wish, "operator", "edit " + printable(lines));
   return std::nullopt;
 }
 

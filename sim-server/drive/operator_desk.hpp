@@ -14,6 +14,7 @@
 #include "sim-server/drive/driver_rating.hpp"
 #include "sim-server/drive/lesson_watch.hpp"
 #include "sim-server/drive/live_drive.hpp"
+#include "sim-server/drive/placing.hpp"
 #include "sim-server/drive/server_options.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "sim-server/drive/speaker.hpp"
@@ -56,17 +57,21 @@ class OperatorDesk {
 
  private:
   OperatorDesk(std::unique_ptr<page::OperatorPage> page, std::optional<DriverRating> rating,
-               std::unique_ptr<LessonWatch> lesson, Speaker speaker, const LoadedDrive& loaded, WorldGate& gate)
+               std::unique_ptr<LessonWatch> lesson, Speaker speaker, std::unique_ptr<Placing> placing,
+               const LoadedDrive& loaded, WorldGate& gate)
       : page_(std::move(page)),
         rating_(std::move(rating)),
         speaker_(std::move(speaker)),
         lesson_(std::move(lesson)),
+        placing_(std::move(placing)),
         loaded_(loaded),
         gate_(gate),
         drive_(gate.drive()),
         begun_s_(gate.drive().state().time_s()) {}
   std::optional<std::string> fulfil(const page::OperatorWish& wish);
   std::optional<std::string> change(const page::OperatorWish& wish, const std::string& command);
+  std::optional<std::string> edit(const page::OperatorWish& wish, const std::string& lines);
+  void answer(const page::OperatorWish& wish);
   void note(const page::OperatorWish& wish, const std::string& kind, const std::string& what);
   void show(const std::string& what, const std::vector<HostedScreen>& screens, double now_s);
 
@@ -82,11 +87,12 @@ class OperatorDesk {
   std::optional<DriverRating> rating_;  ///< Empty if the scale's file is not installed.
   Speaker speaker_;
   WayBack way_back_;
-  std::optional<double> brake_until_s_;            ///< On the clock of `attend`; empty: the instructor does not brake.
-  std::string word_;                               ///< To the student, shown until the time below.
-  double word_until_s_ = -1e9;                     ///< On the clock of `attend`.
-  double now_s_ = 0.0;                             ///< Time of the newest `attend`.
-  std::unique_ptr<LessonWatch> lesson_;            ///< Null if the drive is not a lesson.
+  std::optional<double> brake_until_s_;  ///< On the clock of `attend`; empty: the instructor does not brake.
+  std::string word_;                     ///< To the student, shown until the time below.
+  double word_until_s_ = -1e9;           ///< On the clock of `attend`.
+  double now_s_ = 0.0;                   ///< Time of the newest `attend`.
+  std::unique_ptr<LessonWatch> lesson_;  ///< Null if the drive is not a lesson.
+  std::unique_ptr<Placing> placing_;
   std::shared_ptr<const std::string> seen_ahead_;  ///< Newest picture of the screen ahead, handed to the lesson.
   std::vector<std::shared_ptr<const std::string>> large_pictures_;  ///< Newest one of each screen.
   const LoadedDrive& loaded_;

@@ -57,6 +57,8 @@ class WorldGate {
   /// The first tick that shows what is done now: a world that does not drive shows its tick on, with the changes.
   Tick shown_from(std::string_view doing) const { return drive_.live->state().tick + (doing == "driving" ? 1 : 0); }
   const scene::Store& scene() const { return drive_.store; }
+  /// The world before any edit; null where it was not kept.
+  const scene::Store* generated() const { return drive_.generated ? &*drive_.generated : nullptr; }
   LiveDrive& drive() { return *drive_.live; }
   /// What went wrong outside of a request, for the console.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }

@@ -10,6 +10,7 @@
 
 #include "engine/road/road_network.hpp"
 #include "engine/world/taken_snapshot.hpp"
+#include "sim-server/page/placing_view.hpp"
 
 namespace septet::page {
 
@@ -59,6 +60,7 @@ struct DriveFacts {
   bool speaks = false;                    ///< Words to the student can be spoken aloud.
   std::optional<KeptStates> kept_states;  ///< Empty: the drive cannot begin again at one.
   std::optional<LessonFacts> lesson;      ///< If the drive is a lesson.
+  PlacingFacts placing;
 };
 
 /// State of a task.
@@ -145,6 +147,7 @@ struct DriveView {
   bool instructor_brakes = false;
   std::vector<bool> faults;                  ///< States in the order of DriveFacts::faults: true if it has failed.
   std::shared_ptr<const LessonView> lesson;  ///< A new object whenever it changes; null: no lesson, or no marks.
+  std::shared_ptr<const PlacedView> placed;  ///< A new object whenever it changes; null: the drive has no scene.
 };
 
 }  // namespace septet::page

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -33,6 +34,18 @@ std::string text_member(const nlohmann::json& object, const char* name, std::siz
 std::uint64_t count_member(const nlohmann::json& object, const char* name) {
   const auto found = object.find(name);
   return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : ~std::uint64_t{0};
+}
+
+/// A finite number; not one if there is none.
+double number_member(const nlohmann::json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_number() ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A text member as it was written; empty if there is none.
+std::string raw_member(const nlohmann::json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 /// The drive of a message: members of a wrong type are skipped, and Septet's own command line checks the rest.
@@ -181,8 +194,13 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
   else if (wish == "mark")
     message.wish = Mark{text_member(json, "note", most_note_characters)};
   else if (wish == "change")
-    message.wish =
-        Change{json.value("command", nlohmann::json()).is_string() ? json["command"].get<std::string>() : ""};
+    message.wish = Change{raw_member(json, "command")};
+  else if (wish == "edit")
+    message.wish = Edit{raw_member(json, "lines")};
+  else if (wish == "find_near")
+    message.wish = FindNear{number_member(json, "x_m"), number_member(json, "y_m"), number_member(json, "within_m")};
+  else if (wish == "save_edits")
+    message.wish = SaveEdits{text_member(json, "name", most_name_characters)};
   else if (wish == "rate")
     message.wish = Rate{static_cast<int>(std::min<std::uint64_t>(count_member(json, "value"), 1000))};
   else if (wish == "start")

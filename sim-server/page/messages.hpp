@@ -39,6 +39,18 @@ struct Mark {
 struct Change {
   std::string command;
 };
+/// A change of the scene by an editor's lines, of which the map knows some (sim-server/drive/placing.hpp).
+struct Edit {
+  std::string lines;
+};
+/// Request for the things near a place, the nearest first.
+struct FindNear {
+  double x_m = 0.0, y_m = 0.0, within_m = 0.0;
+};
+/// What differs from the generated world is written to the file NAME.edits of the drive's folder.
+struct SaveEdits {
+  std::string name;
+};
 /// Answer on the drive's scale of well-being (MISC).
 struct Rate {
   int value = 0;
@@ -90,7 +102,7 @@ struct Watch {
   std::string screen;
 };
 using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look, Answer,
-                          Watch, Say, Brake, Back, Restart, Make, StopMaking>;
+                          Watch, Say, Brake, Back, Restart, Make, StopMaking, Edit, FindNear, SaveEdits>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Named in the reply.

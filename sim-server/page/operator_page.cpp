@@ -12,6 +12,7 @@
 
 #include "sim-server/page/helm.hpp"
 #include "sim-server/page/page_files.hpp"
+#include "sim-server/page/placing_messages.hpp"
 
 namespace septet::page {
 namespace {
@@ -41,8 +42,10 @@ struct OperatorPage::Shared {
   void opened(BrowserId browser) {
     helm.opened(browser);
     server->send(browser, shared_text(hello_text(facts, map, browser)));
+    server->send(browser, shared_text(placing_facts_text(facts.placing)));
     for (const Text& event : events) server->send(browser, event);
     send_state();
+    if (shown.placed) server->send_newest_picture(browser, "placed", shared_text(placed_text(*shown.placed)));
     for (const ScreenView& screen : shown.screens)
       if (screen.thumbnail)
         server->send_newest_picture(browser, screen.name, shared_text(thumbnail_text(screen.name, *screen.thumbnail)));
@@ -94,6 +97,10 @@ struct OperatorPage::Shared {
     send_state();
     if (shown.lesson && shown.lesson != before.lesson)
       for (const BrowserId browser : std::set(helm.browsers())) send_lesson(browser, before.lesson.get());
+    if (shown.placed && shown.placed != before.placed) {
+      const Text placed = shared_text(placed_text(*shown.placed));
+      for (const BrowserId browser : std::set(helm.browsers())) server->send_newest_picture(browser, "placed", placed);
+    }
     const auto large = watchers();
     for (const ScreenView& screen : shown.screens) {
       const auto last = std::ranges::find(before.screens, screen.name, &ScreenView::name);
@@ -176,6 +183,16 @@ std::vector<OperatorWish> OperatorPage::take_wishes() { return shared_->wishes.t
 
 void OperatorPage::answer(const OperatorWish& wish, const std::optional<std::string>& why_not) {
   send_answer(*shared_->server, wish, why_not);
+}
+
+void OperatorPage::answer_found(const OperatorWish& wish, const std::vector<PlacedThing>& found) {
+  shared_->server->post([server = shared_->server.get(), browser = wish.browser,
+                         words = shared_text(found_text(wish.id, found))] { server->send(browser, words); });
+}
+
+void OperatorPage::answer_saved(const OperatorWish& wish, const std::string& file) {
+  shared_->server->post([server = shared_->server.get(), browser = wish.browser,
+                         words = shared_text(saved_text(wish.id, file))] { server->send(browser, words); });
 }
 
 void OperatorPage::tell(const PageEvent& what) {

@@ -20,6 +20,7 @@
 #include "engine/core/expected.hpp"
 #include "sim-server/page/drive_view.hpp"
 #include "sim-server/page/messages.hpp"
+#include "sim-server/page/placing_view.hpp"
 #include "sim-server/page/web_server.hpp"
 #include "sim-server/page/wish_box.hpp"
 
@@ -46,6 +47,9 @@ class OperatorPage {
   std::vector<OperatorWish> take_wishes();
   /// `why_not`: reason for a refusal.
   void answer(const OperatorWish& wish, const std::optional<std::string>& why_not);
+  /// The answer to FindNear, and to a SaveEdits that was done.
+  void answer_found(const OperatorWish& wish, const std::vector<PlacedThing>& found);
+  void answer_saved(const OperatorWish& wish, const std::string& file);
   /// Screens being watched, by the names that browsers gave.
   std::set<std::string> watched() const;
   /// For the list of events on the page.

@@ -53,6 +53,12 @@ constexpr std::string_view sickness_js =
 constexpr std::string_view things_js =
 #include "sim-server/page/web/things.js.inc"
     ;
+constexpr std::string_view placing_js =
+#include "sim-server/page/web/placing.js.inc"
+    ;
+constexpr std::string_view placing_map_js =
+#include "sim-server/page/web/placing_map.js.inc"
+    ;
 constexpr std::string_view operator_js =
 #include "sim-server/page/web/operator.js.inc"
     ;
@@ -92,6 +98,8 @@ std::vector<Resource> page_files() {
           {"/map.js", script, map_js},
           {"/sickness.js", script, sickness_js},
           {"/things.js", script, things_js},
+          {"/placing.js", script, placing_js},
+          {"/placing_map.js", script, placing_map_js},
           {"/operator.js", script, operator_js},
           {"/start.js", script, start_js},
           {"/past.js", script, past_js},

@@ -50,7 +50,7 @@ function show_restart() {
 let putting = false;
 function set_putting(on) {
   putting = on;
-  if (on) set_placing(false);
+  if (on) { set_placing(false); set_placing_stock(false); set_picking(false); }
   $('put').setAttribute('aria-pressed', String(on));
   $('put').textContent = t(on ? 'controls.click_map' : 'controls.put');
   canvas.classList.toggle('placing', on || placing);

@@ -15,6 +15,7 @@ function make_drive() {
   tell_again();
   make_sickness();
   make_things();
+  make_placing();
   make_road();
 }
 

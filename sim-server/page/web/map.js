@@ -93,6 +93,7 @@ function draw() {
   pen.fillStyle = '#ff7a45';
   const half = Math.max(0.2, 3 / view.scale);
   for (const { x_m, y_m } of (state && state.lying) || []) pen.fillRect(x_m - half, y_m - half, 2 * half, 2 * half);
+  draw_placed();
   const nice = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000].find((m) => m * view.scale > 70) || 10000;
   $('scale').style.width = `${nice * view.scale}px`;
   $('scale').firstElementChild.textContent = nice < 1000 ? `${nice} m` : `${nice / 1000} km`;
@@ -115,24 +116,30 @@ function move(dx, dy) {
   view.y += dy / view.scale;
 }
 
+/// World metres under a pointer.
+const place_of = (event) => [view.x + (event.offsetX - canvas.clientWidth / 2) / view.scale, view.y - (event.offsetY - canvas.clientHeight / 2) / view.scale];
+
 let held = null;
 canvas.onpointerdown = (event) => {
-  const there = [view.x + (event.offsetX - canvas.clientWidth / 2) / view.scale, view.y - (event.offsetY - canvas.clientHeight / 2) / view.scale];
+  const there = place_of(event);
   if (placing && mine) return place_at(...there);
   if (putting && mine) return put_at(...there);
+  if (grasp(...there, event)) { if (grip) canvas.setPointerCapture(event.pointerId); return; }
   held = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId);
 };
 canvas.onpointermove = (event) => {
-  if (!held) return;
+  if (drag(...place_of(event), event) || !held) return;
   move(event.clientX - held[0], event.clientY - held[1]);
   held = [event.clientX, event.clientY];
 };
-canvas.onpointerup = canvas.onpointercancel = () => { held = null; };
+canvas.onpointerup = () => { let_go(); held = null; };
+canvas.onpointercancel = () => { grip = held = null; };
 canvas.addEventListener('wheel', (event) => { event.preventDefault(); zoom(event.deltaY < 0 ? 1.2 : 1 / 1.2, event.offsetX, event.offsetY); }, { passive: false });
 canvas.onkeydown = (event) => {
   const does = { ArrowLeft: () => move(60, 0), ArrowRight: () => move(-60, 0), ArrowUp: () => move(0, 60), ArrowDown: () => move(0, -60),
                  '+': () => zoom(1.3), '-': () => zoom(1 / 1.3), f: () => follow(true) }[event.key];
-  if (does) { event.preventDefault(); does(); }
+  if (placing_key(event)) event.preventDefault();
+  else if (does) { event.preventDefault(); does(); }
 };
 $('in').onclick = () => zoom(1.4);
 $('out').onclick = () => zoom(1 / 1.4);

@@ -90,6 +90,10 @@ function receive(message) {
     show_large_picture(message);
   } else if (message.type === 'lesson') {
     hear_lesson(message);
+  } else if (message.type === 'stock') {
+    hear_stock(message);
+  } else if (message.type === 'placed') {
+    hear_placed(message);
   } else if (message.type === 'still') {
     hear_still(message);
   } else if (message.type === 'moved') {

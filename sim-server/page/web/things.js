@@ -13,6 +13,7 @@ function make_things() {
 
 function set_placing(on) {
   placing = on;
+  if (on) { set_placing_stock(false); set_picking(false); }
   $('place').setAttribute('aria-pressed', String(on));
   $('place').textContent = t(on ? 'controls.click_map' : 'controls.place');
   canvas.classList.toggle('placing', on);

@@ -2,7 +2,7 @@
 """The page's files of a language: each has every key once, with the same {names} in its text, and the page asks for no other.
 
 Every word that Septet's own lessons and things bring onto it is told likewise, every refusal of a wish,
-why there is no sound, and which screens and cars connect and leave.
+why there is no sound, and which screens and cars connect and leave. No two scripts declare one name.
 
     language_test.py FOLDER_OF_THE_PAGE ROOT
 """
@@ -42,6 +42,7 @@ def brought_words(root):
 def refusals(root):
     """The keys of sentences by which a wish of the operator is refused, as the sources have them."""
     for file, sentence in (("sim-server/drive/operator_desk.cpp", r'return "([a-z][^"=]* [^"=]*)";'),
+                           ("sim-server/drive/placing.cpp", r'failure\("([^"]+)"'),
                            ("sim-server/page/messages.cpp", r'no_message\("([^"]+)"\)'),
                            ("engine/simulation/operator_command.cpp", r'failure\((?:[\w.]+ \? )?"([^"]+)"(?: : "([^"]+)")?')):
         found = re.findall(sentence, (root / file).read_text(encoding="utf-8"))
@@ -105,6 +106,9 @@ def main():
     mistakes += [f"the page asks for {key}" for key in asked - english.keys()]
     mistakes += [f"nothing asks for {key}" for key in english.keys() - asked if not key.startswith(MADE)]
     mistakes += [f"English tells {key} in other words" for key, text in english.items() if key.startswith("said.") and key != f"said.{text}"]
+    # All scripts share one scope: a name that two of them declare stops the second one.
+    declared = [name for file in folder.glob("*.js") for name in re.findall(r"(?m)^(?:const|let|function) (\w+)", file.read_text(encoding="utf-8"))]
+    mistakes += [f"two scripts declare {name}" for name in set(declared) if declared.count(name) > 1]
     if mistakes:
         sys.exit("\n".join(sorted(mistakes)))
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -29,6 +30,18 @@ TEST_CASE("each wish is read as it was written") {
   CHECK(std::holds_alternative<Release>(read_browser_message(R"({"id":7,"do":"release"})")->wish));
   CHECK(read_browser_message(R"({"id":18446744073709551615,"do":"pause"})")->id ==
         std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST_CASE("lines of an edit, a place on the map and a name to save by are read as they were written") {
+  CHECK(std::get<Edit>(read_browser_message(R"({"id":1,"do":"edit","lines":"hide \"a b\"\nshow c"})")->wish).lines ==
+        "hide \"a b\"\nshow c");
+  const auto near =
+      std::get<FindNear>(read_browser_message(R"({"id":2,"do":"find_near","x_m":-3.5,"y_m":4,"within_m":20})")->wish);
+  CHECK(near.x_m == -3.5);
+  CHECK(near.y_m == 4.0);
+  CHECK(near.within_m == 20.0);
+  CHECK(std::isnan(std::get<FindNear>(read_browser_message(R"({"id":2,"do":"find_near","x_m":"4"})")->wish).x_m));
+  CHECK(std::get<SaveEdits>(read_browser_message(R"({"id":3,"do":"save_edits","name":"town"})")->wish).name == "town");
 }
 
 TEST_CASE("answers to a questionnaire are read by item, and what is no whole number is kept as none") {
