@@ -5,12 +5,16 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "engine/core/check.hpp"
+#include "engine/effects/debris/inner_face.hpp"
+#include "engine/effects/debris/sheet_crack.hpp"
+#include "engine/effects/debris/sheet_stress.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/element.hpp"
 
@@ -33,26 +37,10 @@ struct DisjointSets {
   }
 };
 
-struct InnerFace {
-  int first, second;  ///< Elements.
-  std::array<int, 3> nodes;
-};
-
-std::vector<InnerFace> inner_faces(const elastic::ElasticBody& body) {
-  std::map<std::array<int, 3>, int> open;
-  std::vector<InnerFace> result;
-  for (int e = 0; e < static_cast<int>(body.elements.size()); ++e)
-    for (const auto& f : elastic::tetrahedron_faces) {
-      const auto& t = body.elements[e].nodes;
-      std::array<int, 3> face{t[f[0]], t[f[1]], t[f[2]]};
-      std::ranges::sort(face);
-      const auto [place, fresh] = open.try_emplace(face, e);
-      if (!fresh) result.push_back({place->second, e, face});
-    }
-  return result;
-}
-
 bool cracks_slowly(const Piece& piece) { return part_recipe(piece.part).material == Material::ice; }
+
+/// Share of its strength below which nothing happens to a piece.
+double least_overload(const Piece& piece) { return cracks_slowly(piece) ? least_cracking_share : 1.0; }
 
 /// Ratio of a stress to the strength of a face with this normal; below one it holds. Values below `least` may be
 /// returned as 0.
@@ -105,7 +93,7 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
                      const std::vector<Eigen::Matrix3d>& at_nodes_pa, const Eigen::Vector3d& normal) {
   Overload most;
   const auto& m = piece.material;
-  const double least = cracks_slowly(piece) ? least_cracking_share : 1.0;
+  const double least = least_overload(piece);
   // Pressure splits a brittle material where it bulges by more than its strength allows.
   const double splitting_pa = m.yield_pa > 0.0
                                   ? m.compressive_strength_pa
@@ -150,7 +138,8 @@ std::vector<double> reach_before(const Piece& piece, const std::vector<InnerFace
   return reach;
 }
 
-FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, const Blow& blow, double step_s) {
+FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, const std::optional<SheetStress>& sheet,
+                   const Blow& blow, double step_s) {
   const auto& x = piece.body.position_m;
   FaceFates fates{std::vector<bool>(faces.size(), false), reach_before(piece, faces), 0.0};
   const auto before = fates.reach;
@@ -162,6 +151,7 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
   };
   std::vector<Candidate> candidates;
   const bool slowly = cracks_slowly(piece);
+  std::vector<SheetLoad> loads(sheet ? faces.size() : 0);
   // Only an impact is judged by the mean around a face, and most steps have none.
   const auto at_nodes_pa = strikes(blow) ? stress_at_nodes_pa(piece.body) : std::vector<Eigen::Matrix3d>{};
   for (std::size_t k = 0; k < faces.size(); ++k) {
@@ -173,6 +163,11 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
     Overload overload = overload_of(piece, face, blow, at_nodes_pa, normal.normalized());
     overload.lasting /= whole, overload.blow /= whole;
     fates.opened[k] = overload.lasting >= 1.0;
+    if (sheet) {
+      loads[k] = sheet_load(*sheet, piece, face, least_running_share * whole);
+      loads[k].overload /= whole, loads[k].pull /= whole;
+      overload.lasting = std::max(overload.lasting, loads[k].overload);
+    }
     if (fates.opened[k]) continue;
     if (overload.blow >= 1.0) candidates.push_back({overload.blow, whole * area_m2[k] * energy_jpm2, k});
     if (slowly && overload.lasting >= least_cracking_share) {
@@ -180,6 +175,7 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
       fates.opened[k] = fates.reach[k] >= 1.0;
     }
   }
+  for (const std::size_t k : run_through(piece, faces, loads)) fates.opened[k] = true;
   std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::overload);
   fates.left_j = blow.lost_j + blow.pressed_j;
   for (const Candidate& c : candidates) {
@@ -289,18 +285,19 @@ FractureResult fracture(const Piece& piece, const Blow& blow, double step_s) {
   FractureResult result;
   result.cracks = piece.cracks;
   const auto& body = piece.body;
+  const double strength = least_overload(piece) * piece.material.strength_pa;
   const auto strained = [&](int e) {
-    const double strength = (cracks_slowly(piece) ? least_cracking_share : 1.0) * piece.material.strength_pa;
     return elastic::cauchy_stress_pa(body, e).norm() >= strength ||
            (!body.step_stress_pa.empty() && blow.stress_factor * body.step_stress_pa[e].norm() >= strength);
   };
-  bool any_strained = false;
+  const auto sheet = sheet_stress(piece);
+  bool any_strained = sheet && greatest_surface_stress_pa(*sheet) >= strength;
   for (int e = 0; e < static_cast<int>(body.elements.size()); ++e) any_strained = any_strained || strained(e);
   if (!any_strained) return result;
   const auto faces = inner_faces(body);
   const std::size_t count = body.elements.size();
   DisjointSets islands(count), corners(4 * count);
-  const FaceFates fates = fates_of(piece, faces, blow, step_s);
+  const FaceFates fates = fates_of(piece, faces, sheet, blow, step_s);
   result.cracks = cracks_of(faces, fates);
   result.cracked_j = fates.cracked_j;
   result.paid_j = fates.paid_j;

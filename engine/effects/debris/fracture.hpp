@@ -12,7 +12,8 @@
 /// strength allows (f_t/ν): within a wave's time they are free. Faces that only the impact opens cost their fracture
 /// energy, the most overloaded first, until the energy lost in the impact is used up; a share of the rest scatters the
 /// fragments. A face that a lasting pull opens takes its fracture energy from the deformation of the pieces
-/// (energy_bound.hpp).
+/// (energy_bound.hpp). A brittle sheet, one cube thick, cracks as well where its surfaces are bent beyond the strength,
+/// and straight through (sheet_crack.hpp).
 ///
 /// In ice a face cracks before it opens. Under a lasting pull σ a crack of reach a grows as damage does after Kachanov
 /// (1958), in which the rest of a section carries all of its load: ȧ = (σ/((1 − a) f_t))ⁿ/τ, so that after t of a
