@@ -6,7 +6,7 @@
 Who includes the lines defines SEPTET_ENTRY first; they end by undefining it.
 
 Every value stands as { value = …, source = "…" }, and its source begins with "sourced: ", "derived: " or "assumed: ". A bare text
-is the name of a C++ enumerator. A table within a table is a struct within a struct, an array of numbers a braced list. What is
+is the name of a C++ enumerator, and so is one with a source. A table within a table is a struct within a struct, an array of numbers a braced list. What is
 misspelt or left out is found by the compiler, which reads the lines into structs; what lacks a source is refused here.
 """
 
@@ -26,9 +26,11 @@ def literal(value, path):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
+    if isinstance(value, str) and "::" in value:
+        return value
     if isinstance(value, list):
         return "{" + ", ".join(literal(item, path) for item in value) + "}"
-    raise Refused(f"{path}: is neither a number, true, false nor a list of them")
+    raise Refused(f"{path}: is neither a number, true, false, an enumerator (Kind::name) nor a list of them")
 
 
 def initialiser(node, path):

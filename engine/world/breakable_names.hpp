@@ -7,7 +7,7 @@
 namespace septet {
 
 /// In the order of debris::Part.
-inline constexpr std::array<std::string_view, 7> breakable_names{
-    "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab"};
+inline constexpr std::array<std::string_view, 8> breakable_names{
+    "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab", "side-window"};
 
 }  // namespace septet

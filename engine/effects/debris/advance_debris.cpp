@@ -14,6 +14,7 @@
 #include "engine/effects/debris/energy_bound.hpp"
 #include "engine/effects/debris/energy_ledger.hpp"
 #include "engine/effects/debris/fracture.hpp"
+#include "engine/effects/debris/laminate.hpp"
 #include "engine/effects/debris/melt.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/shards.hpp"
@@ -132,7 +133,9 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
     FractureResult result = fracture(piece, blow, substep_s);
     if (ledger) book_fracture(*ledger, result);
     if (result.opened_faces == 0) {
-      piece.cracks = std::move(result.cracks);
+      const double unpaid_j = result.cracked_j - result.paid_j, slack_j = take_cracks(piece, result);
+      // Of what the shape had stored the cracks take their energy, and the film damps the rest.
+      if (ledger && slack_j > 0.0) ledger->viscous_loss_j += slack_j - std::min(unpaid_j, slack_j);
       continue;
     }
     report.fractures += result.opened_faces;

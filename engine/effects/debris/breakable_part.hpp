@@ -14,8 +14,8 @@
 
 namespace septet::debris {
 
-enum class Material : std::uint8_t { steel_sheet, bumper_plastic, glass, ice, rubber, concrete };
-inline constexpr int material_count = 6;
+enum class Material : std::uint8_t { steel_sheet, bumper_plastic, glass, ice, rubber, concrete, tempered_glass };
+inline constexpr int material_count = 7;
 
 struct MaterialData {
   elastic::ElasticMaterial elastic;
@@ -28,8 +28,15 @@ struct MaterialData {
 };
 const MaterialData& material_data(Material material);
 
-enum class Part : std::uint8_t { bumper, door, lamp, windscreen, traffic_cone, barrier_post, ice_slab };
-inline constexpr int part_count = 7;
+enum class Part : std::uint8_t { bumper, door, lamp, windscreen, traffic_cone, barrier_post, ice_slab, side_window };
+inline constexpr int part_count = 8;
+
+/// What becomes of a part whose material gives way.
+enum class Breakage : std::uint8_t {
+  pieces,    ///< It falls into elastic pieces, which may break further.
+  holds,     ///< Laminated: it cracks, and a film between its panes keeps it in one piece (laminate.hpp).
+  crumbles,  ///< Tempered: all of it falls into rigid shards at once, for it is the edge of the tension within it.
+};
 
 struct PartRecipe {
   Material material;
@@ -38,7 +45,7 @@ struct PartRecipe {
   double mass_kg;
   int splinters;  ///< Number of Voronoi cells into which it can break.
   double taper;   ///< Width of the top over that of the foot.
-  bool shards;    ///< Splinters fly on as rigid shards and not as elastic pieces.
+  Breakage breakage;
 };
 const PartRecipe& part_recipe(Part part);
 

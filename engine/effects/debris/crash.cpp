@@ -115,6 +115,32 @@ void release(Context& context, std::vector<Piece> pieces, const Vec3& push) {
   }
 }
 
+/// A laminated pane that is struck stays in its frame. Its cracks are drawn as a star (ice/glass.hpp); a few splinters
+/// come off them. Number, share of the mass and speed are assumed.
+void crack_in_frame(Context& context, const MountedPart& mounted, CrashBody& body, const Vec3& place_m,
+                    const Vec3& push) {
+  constexpr int splinters_of_pane = 8;
+  constexpr double splintered_share = 0.002, returned_share = 0.1;
+  const PartRecipe& recipe = part_recipe(mounted.part);
+  const double mass_kg = splintered_share * recipe.mass_kg / splinters_of_pane;
+  const double density_kgpm3 = material_data(recipe.material).elastic.density_kgpm3;
+  const Vec3 before = velocity_at(body.box, place_m);
+  for (int k = 0; k < splinters_of_pane; ++k) {
+    Shard shard;
+    shard.mass_kg = mass_kg;
+    shard.size_m = std::cbrt(mass_kg / density_kgpm3);
+    shard.shade_m2 = 1.5 * shard.size_m * shard.size_m;
+    Vec3 off(0.0);
+    for (int c = 0; c < 3; ++c) off[c] = 0.1 * context.random.normal();
+    shard.position_m = place_m + off;
+    shard.velocity_mps = before + returned_share * context.report.closing_speed_mps * way_out(context, off, push);
+    context.report.kinetic_j += 0.5 * mass_kg * glm::dot(shard.velocity_mps, shard.velocity_mps);
+    body.impulse_ns += mass_kg * (before - shard.velocity_mps);
+    context.state.shards.push_back(shard);
+  }
+  ++context.report.starred;
+}
+
 void break_off(Context& context, const Crash& crash, CrashBody& body, const CrashBody& other, double lost_speed_mps,
                const Vec3& push) {
   const double closing = context.report.closing_speed_mps;
@@ -124,8 +150,12 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
   for (const MountedPart& mounted : body.parts) {
     const RigidTransform place = body.box.world_from_box * mounted.box_from_part;
     const double mass = part_recipe(mounted.part).mass_kg;
-    const bool struck =
+    const bool reached =
         gap_to_box(other.box, place.position_m).gap_m < lost_speed_mps / frequency_radps + part_radius_m(mounted.part);
+    const bool holds = part_recipe(mounted.part).breakage == Breakage::holds;
+    if (reached && holds) crack_in_frame(context, mounted, body, place.position_m, push);
+    // A window does not outlast the door that it runs in.
+    const bool struck = (reached && !holds) || (body.torn & bit_of(carrier_of(mounted.mount))) != 0;
     const double peak_n = mass * lost_speed_mps * frequency_radps;
     if (!struck && peak_n <= mounted.mount_strength_n) {
       left.push_back(mounted);

@@ -6,7 +6,8 @@
 /// frequency of the crush, the speed that body k loses is ΔV_k (1 − cos ωt), its deceleration ΔV_k ω sin ωt, its crush
 /// ΔV_k/ω.
 /// - A part within the crush of the contact is struck at the closing speed: it breaks where its material cannot bear
-///   that, and its fragments are squeezed out sideways and upwards.
+///   that, and its fragments are squeezed out sideways and upwards. A laminated windscreen cracks and stays in its
+///   frame; a tempered side window crumbles, also when its door is broken off.
 /// - Any other part is held by its mounts until its mass times the deceleration passes their strength; from then on it
 ///   flies with the speed that the body had at that instant.
 ///
@@ -41,6 +42,7 @@ struct Crash {
 struct CrashReport {
   double closing_speed_mps = 0.0;     ///< Along the normal.
   int struck = 0, torn_off = 0;       ///< Parts broken loose by the contact, and by their inertia.
+  int starred = 0;                    ///< Laminated panes that cracked and stayed.
   int fragments = 0;                  ///< Pieces of broken-off parts, shards included.
   double kinetic_j = 0.0;             ///< Of all of these as they fly off.
   std::vector<std::uint32_t> pieces;  ///< Ids of those that are now in the state's pieces.

@@ -48,12 +48,12 @@ struct EnergyLedger {
   /// In contacts with ground and boxes, along the normal, less what an impact has paid. What the soft gap of a contact
   /// stores is a loss until the contact gives it back: its stiffness is by the step, so that it keeps nothing for the next.
   double pressing_loss_j = 0.0;
-  double friction_loss_j = 0.0;    ///< In contacts with ground and boxes, across the normal.
-  double meeting_loss_j = 0.0;     ///< Between two pieces, along the normal.
-  double rubbing_loss_j = 0.0;     ///< Between two pieces, across the normal.
-  double plastic_loss_j = 0.0;     ///< By flow: stress times the strain that has moved into the natural shape.
-  double fracture_loss_j = 0.0;    ///< In the surfaces of cracks: their area times the material's fracture energy.
-  double viscous_loss_j = 0.0;     ///< By the material's damping β.
+  double friction_loss_j = 0.0;  ///< In contacts with ground and boxes, across the normal.
+  double meeting_loss_j = 0.0;   ///< Between two pieces, along the normal.
+  double rubbing_loss_j = 0.0;   ///< Between two pieces, across the normal.
+  double plastic_loss_j = 0.0;   ///< By flow: stress times the strain that has moved into the natural shape.
+  double fracture_loss_j = 0.0;  ///< In the surfaces of cracks: their area times the material's fracture energy.
+  double viscous_loss_j = 0.0;  ///< By the material's damping β, and by the film of a pane that cracks (laminate.hpp).
   double numerical_loss_j = 0.0;   ///< By the implicit step; below zero where it makes energy.
   double bound_loss_j = 0.0;       ///< Taken out again by the bound of energy (energy_bound.hpp).
   double settling_loss_j = 0.0;    ///< Of pieces that were stopped to sleep, and of shards that were stopped.

@@ -13,6 +13,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/effects/debris/inner_face.hpp"
+#include "engine/effects/debris/laminate.hpp"
 #include "engine/effects/debris/sheet_crack.hpp"
 #include "engine/effects/debris/sheet_stress.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
@@ -156,7 +157,7 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
   const auto at_nodes_pa = strikes(blow) ? stress_at_nodes_pa(piece.body) : std::vector<Eigen::Matrix3d>{};
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
-    if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
+    if (piece.splinter[face.first] == piece.splinter[face.second] || fates.reach[k] >= cracked_through) continue;
     const Eigen::Vector3d normal = (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
     const double whole = 1.0 - fates.reach[k];
     area_m2[k] = 0.5 * normal.norm();
@@ -194,6 +195,21 @@ FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, cons
   for (std::size_t k = 0; k < faces.size(); ++k)
     fates.cracked_j += energy_jpm2 * area_m2[k] * ((fates.opened[k] ? 1.0 : fates.reach[k]) - before[k]);
   return fates;
+}
+
+/// The glass parts, and the film holds.
+void hold_together(FaceFates& fates) {
+  for (std::size_t k = 0; k < fates.opened.size(); ++k)
+    if (fates.opened[k]) fates.opened[k] = false, fates.reach[k] = cracked_through;
+}
+
+/// Once it begins anywhere, everywhere. The tension that tempering left within the glass pays for the cracks.
+void crumble(const Piece& piece, const std::vector<InnerFace>& faces, FaceFates& fates) {
+  if (std::ranges::find(fates.opened, true) == fates.opened.end()) return;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    fates.opened[k] = piece.splinter[faces[k].first] != piece.splinter[faces[k].second];
+  fates.left_j += fates.paid_j;
+  fates.cracked_j = fates.paid_j = 0.0;
 }
 
 std::vector<FaceCrack> cracks_of(const std::vector<InnerFace>& faces, const FaceFates& fates) {
@@ -297,7 +313,10 @@ FractureResult fracture(const Piece& piece, const Blow& blow, double step_s) {
   const auto faces = inner_faces(body);
   const std::size_t count = body.elements.size();
   DisjointSets islands(count), corners(4 * count);
-  const FaceFates fates = fates_of(piece, faces, sheet, blow, step_s);
+  FaceFates fates = fates_of(piece, faces, sheet, blow, step_s);
+  const Breakage breakage = part_recipe(piece.part).breakage;
+  if (breakage == Breakage::holds) hold_together(fates);
+  if (breakage == Breakage::crumbles) crumble(piece, faces, fates);
   result.cracks = cracks_of(faces, fates);
   result.cracked_j = fates.cracked_j;
   result.paid_j = fates.paid_j;

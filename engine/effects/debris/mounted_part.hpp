@@ -24,12 +24,19 @@ enum class Mount : std::uint8_t {
   rear_left_door,
   rear_right_door,
   windscreen,
+  front_left_window,
+  front_right_window,
+  rear_left_window,
+  rear_right_window,
 };
-inline constexpr int mount_count = 11;
+inline constexpr int mount_count = 15;
 
 /// A set of mounts, one bit each.
 using Mounts = std::uint16_t;
 inline constexpr Mounts bit_of(Mount mount) { return static_cast<Mounts>(1u << static_cast<unsigned>(mount)); }
+
+/// The door that carries a window's mount; of any other mount itself.
+Mount carrier_of(Mount mount);
 
 /// What a piece was part of before it was torn off: how it looks, not how it moves.
 struct PieceOrigin {
@@ -48,8 +55,8 @@ struct MountedPart {
   Mount mount = Mount::front_bumper;
 };
 
-/// Bumpers, head and tail lamps, four doors (two where the car is short) and the windscreen of a passenger car with a
-/// box of these half sizes. Strength of their mounts: mounts.toml.
+/// Bumpers, head and tail lamps, four doors (two where the car is short), each before its window, and the windscreen of a
+/// passenger car with a box of these half sizes. Strength of their mounts: mounts.toml.
 std::vector<MountedPart> passenger_car_parts(const Vec3& half_size_m);
 
 }  // namespace septet::debris

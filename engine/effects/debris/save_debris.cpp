@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/effects/debris/laminate.hpp"
 #include "engine/effects/debris/piece.hpp"
 #include "engine/physics/elastic/save_elastic.hpp"
 
@@ -34,7 +35,7 @@ void restore_piece(StateReader& reader, Piece& piece) {
                      piece.melted_m < piece.height_m,
                  wrong);
   piece.material = spread_material(recipe);
-  piece.body.material = piece.material.elastic;
+  piece.body.material = present_elastic(piece);
   constexpr int tetrahedra_per_cube = 5;
   elastic::restore_body(
       reader, static_cast<std::size_t>(recipe.cells.x * recipe.cells.y * recipe.cells.z * tetrahedra_per_cube),

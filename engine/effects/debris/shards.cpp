@@ -49,7 +49,7 @@ bool is_finite(const Shard& shard) {
 }  // namespace
 
 bool is_shard(const Piece& piece) {
-  return part_recipe(piece.part).shards &&
+  return part_recipe(piece.part).breakage == Breakage::crumbles &&
          std::ranges::all_of(piece.splinter, [&](int s) { return s == piece.splinter.front(); });
 }
 
@@ -64,7 +64,7 @@ Shard shard_of(const Piece& piece) {
   shard.mass_kg = elastic::total_mass_kg(piece.body);
   double volume = 0.0;
   for (const auto& e : piece.body.elements) volume += e.rest_volume_m3;
-  shard.size_m = std::cbrt(volume);
+  shard.size_m = std::cbrt(shard.mass_kg / material_data(part_recipe(piece.part).material).elastic.density_kgpm3);
   // A sheet, whose lattice is thicker than itself (breakable_part.hpp): it has two faces, and no edge to speak of.
   const Vec3& part_m = part_recipe(piece.part).size_m;
   shard.shade_m2 = 0.5 * volume / std::min({part_m.x, part_m.y, part_m.z});

@@ -75,6 +75,15 @@ std::optional<MountRegion> door(const Body& body, bool ahead, float side) {
   return region;
 }
 
+/// The panes of a door alone.
+std::optional<MountRegion> window(const Body& body, bool ahead, float side) {
+  std::optional<MountRegion> region = door(body, ahead, side);
+  if (!region) return region;
+  region->skin.reset();
+  region->carried.clear();
+  return region;
+}
+
 MountRegion windscreen(const Body& body) {
   const auto axle = static_cast<float>(body.model.wheelbase_m), high = static_cast<float>(body.model.height_m);
   MountRegion region;
@@ -112,6 +121,12 @@ std::optional<MountRegion> mount_region(const VehicleModel& model, Mount mount) 
     case Mount::rear_left_door:
     case Mount::rear_right_door:
       return door(body, false, mount == Mount::rear_left_door ? 1.0f : -1.0f);
+    case Mount::front_left_window:
+    case Mount::front_right_window:
+      return window(body, true, mount == Mount::front_left_window ? 1.0f : -1.0f);
+    case Mount::rear_left_window:
+    case Mount::rear_right_window:
+      return window(body, false, mount == Mount::rear_left_window ? 1.0f : -1.0f);
     case Mount::windscreen:
       break;
   }

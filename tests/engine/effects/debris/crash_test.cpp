@@ -94,9 +94,10 @@ TEST_CASE("the same crash throws the same debris") {
   CHECK(first == sum());
 }
 
-TEST_CASE("everything that can break does so in the crush of a crash at 70 kilometres per hour") {
+TEST_CASE("everything but a laminated pane falls apart in the crush of a crash at 70 kilometres per hour") {
   for (int i = 0; i < part_count; ++i)
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      if (part_recipe(static_cast<Part>(i)).breakage == Breakage::holds) continue;
       State state;
       Random random(seed);
       Crash crash = into_barrier(crash_speed_mps);
@@ -108,8 +109,8 @@ TEST_CASE("everything that can break does so in the crush of a crash at 70 kilom
     }
 }
 
-TEST_CASE("concrete and ice and glass break at the blow when thrown flat at a wall at 70 kilometres per hour") {
-  for (const Part part : {Part::barrier_post, Part::ice_slab, Part::windscreen}) {
+TEST_CASE("concrete and ice break at the blow when thrown flat at a wall at 70 kilometres per hour") {
+  for (const Part part : {Part::barrier_post, Part::ice_slab}) {
     State state;
     Random random(3);
     const double half = 0.5 * part_recipe(part).size_m.x;
