@@ -13,11 +13,13 @@ REFUSED = {
     "an empty source": '[ice]\ndensity_kgpm3 = { value = 917, source = "" }',
     "a source of no kind": '[ice]\ndensity_kgpm3 = { value = 917, source = "somebody said so" }',
     "a kind and no source": '[ice]\ndensity_kgpm3 = { value = 917, source = "sourced: " }',
+    "a text that is no enumerator": '[ice]\nbreakage = { value = "pieces", source = "assumed: by eye" }',
     "a unit beside the value": '[ice]\ndensity_kgpm3 = { value = 917, unit = "kg/m3", source = "sourced: tables" }',
     "no TOML": "[ice",
 }
-ACCEPTED = ('[ice]\nelastic.density_kgpm3 = { value = 917, source = "sourced: tables" }\nshards = { value = true, source = "assumed: by eye" }',
-            "SEPTET_ENTRY(ice, {.elastic = {.density_kgpm3 = 917}, .shards = true})")
+ACCEPTED = ('[ice]\nelastic.density_kgpm3 = { value = 917, source = "sourced: tables" }\nshards = { value = true, source = "assumed: by eye" }\n'
+            'breakage = { value = "Breakage::pieces", source = "assumed: by eye" }',
+            "SEPTET_ENTRY(ice, {.elastic = {.density_kgpm3 = 917}, .shards = true, .breakage = Breakage::pieces})")
 
 failures = []
 with tempfile.TemporaryDirectory() as folder:
