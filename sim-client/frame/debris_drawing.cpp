@@ -206,7 +206,8 @@ std::string_view debris_look(debris::Part part, debris::Material material) {
       break;
   }
   constexpr std::array<std::string_view, debris::material_count> looks{
-      "debris/steel-sheet", "debris/bumper-plastic", "debris/glass", "debris/ice", "debris/rubber", "debris/concrete"};
+      "debris/steel-sheet", "debris/bumper-plastic", "debris/glass", "debris/ice",
+      "debris/rubber",      "debris/concrete",       "debris/glass"};
   return looks[static_cast<std::size_t>(material)];
 }
 
