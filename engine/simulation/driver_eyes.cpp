@@ -18,7 +18,7 @@
 namespace septet::simulation {
 namespace {
 
-constexpr Tick look_ticks = 12;
+constexpr Tick eyes_ticks = 12;
 
 /// Those near the driver's eyes, in the order of all.
 std::vector<const Participant*> near_ones(const std::vector<Participant>& participants, const Vec3& eye_m) {
@@ -93,7 +93,7 @@ std::vector<ParticipantId> seen_ids(const std::vector<Sighting>& near) {
 
 void look_for_others(const Model& model, const std::vector<Participant>& participants, State& state,
                      std::vector<Event>& events) {
-  if (state.tick != 0 && state.tick % look_ticks != 1) return;
+  if (state.tick != 0 && state.tick % eyes_ticks != 1) return;
   const Participant& driver = participants.front();
   const Vec3 eye_m = driver.world_from_vehicle * driver_eyes_m(vehicle_models()[driver.model]);
   const auto near = near_ones(participants, eye_m);

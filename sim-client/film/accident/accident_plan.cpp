@@ -190,7 +190,7 @@ void add_crash_figures(const AccidentFacts& facts, const CrashRecord& crash, std
   add("kinetic energy after", "kJ", ledger.kinetic_after_j, kilo);
   add("energy of the crush", "kJ", ledger.crush_j, kilo);
   add("energy of friction", "kJ", ledger.friction_j, kilo);
-  add("energy of debris", "kJ", ledger.debris_j, kilo);
+  add("energy to debris, below zero: from it", "kJ", ledger.debris_j, kilo);
   add("energy to wheels and other contacts", "kJ", ledger.wheels_j, kilo);
 }
 
