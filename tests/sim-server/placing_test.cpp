@@ -33,7 +33,7 @@ geometry::PolygonMesh slab() {
 }
 
 /// A drive whose world has a vehicle's prototype, a tree and a piece of land, and the operator's map.
-struct Site {
+struct PlacingSite {
   TemporaryFolder folder;
   OpenedDrive opened{.loaded = shipped_drive("behind-ambulance", "desktop"), .store = scene::Store()};
   scene::NodeId tree = scene::no_node;
@@ -41,7 +41,7 @@ struct Site {
   std::optional<WorldGate> gate;
   std::optional<Placing> placing;
 
-  Site() {
+  PlacingSite() {
     scene::SceneBuilder build(opened.store);
     const scene::NodeId shape = build.add_mesh("oak", slab());
     build.add_child(build.add_prototype("hatchback"), build.add_object("hatchback/body near", {.geometry = shape}));
@@ -70,7 +70,7 @@ struct Site {
 }  // namespace
 
 TEST_CASE("the map's stock is the catalogue's vehicles and single things that stand in the world, not the land") {
-  const Site site;
+  const PlacingSite site;
   const auto facts = site.placing->facts();
   REQUIRE(facts.stock.size() == 2);
   CHECK(facts.stock[0].kind == "tree");
@@ -82,7 +82,7 @@ TEST_CASE("the map's stock is the catalogue's vehicles and single things that st
 }
 
 TEST_CASE("a thing of the stock is placed on the ground and solid in one batch, which one undo takes back") {
-  Site site;
+  PlacingSite site;
   const Vec2 beside(site.live->first()->snapshot().participants.front().world_from_vehicle.position_m.x + 300.0, 300.0);
   CHECK(site.take(fmt::format("like \"placed/car/1\" model/hatchback {} {} ground 90\nsolid \"placed/car/1\"", beside.x,
                               beside.y)) == "");
@@ -97,7 +97,7 @@ TEST_CASE("a thing of the stock is placed on the ground and solid in one batch, 
 }
 
 TEST_CASE("the map's lines name no file but the drive's own models, and are no others than it knows") {
-  Site site;
+  PlacingSite site;
   CHECK(site.take("import x /etc/passwd 0 0 0") == "no file of this name lies in the drive's folders");
   CHECK(site.take("import x ../ball.glb 0 0 0") == "no file of this name lies in the drive's folders");
   CHECK(site.take("import x note.txt 0 0 0") == "no file of this name lies in the drive's folders");
@@ -110,7 +110,7 @@ TEST_CASE("the map's lines name no file but the drive's own models, and are no o
 }
 
 TEST_CASE("what was placed and what of the world is otherwise is listed, anew when it has changed") {
-  Site site;
+  PlacingSite site;
   const auto none = site.placing->view();
   CHECK(none->things.empty());
   CHECK(site.placing->view() == none);
@@ -129,7 +129,7 @@ TEST_CASE("what was placed and what of the world is otherwise is listed, anew wh
 }
 
 TEST_CASE("what stands near a click is found, the nearest first, as far as it is a single thing") {
-  Site site;
+  PlacingSite site;
   REQUIRE(site.take("like \"placed/car/1\" model/hatchback 5006 10 2") == "");
   const auto found = site.placing->near({5001.0, 10.0}, 10.0);
   REQUIRE(found.size() == 2);
@@ -142,7 +142,7 @@ TEST_CASE("what stands near a click is found, the nearest first, as far as it is
 TEST_CASE(
     "what differs is saved in the drive's folder under a name that is no path, and another world becomes the same by "
     "it") {
-  Site site;
+  PlacingSite site;
   REQUIRE(site.take("like \"placed/car/1\" model/hatchback 5010 10 2 30\nsolid \"placed/car/1\"") == "");
   REQUIRE(site.take("move tree/5000.0/10.0 5001 11 0 45") == "");
   for (const char* bad : {"", "../x", "a/b", "a b", "a.edits"}) CHECK_FALSE(site.placing->save(bad).has_value());

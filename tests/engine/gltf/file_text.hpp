@@ -5,8 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <sodium.h>
+
+#include "engine/core/expected.hpp"
 
 namespace septet::gltf {
 
@@ -21,6 +24,15 @@ inline std::string base64(std::string_view bytes) {
 template <class T>
 std::string bytes_of(const std::vector<T>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)};
+}
+
+/// Why own.glb was refused; empty: it was read.
+template <class T>
+std::string why_refused(const Expected<T>& model) {
+  if (model) return "";
+  CHECK(model.error().where.starts_with("own.glb"));
+  CHECK_FALSE(model.error().remedy.empty());
+  return model.error().what;
 }
 
 /// Text of a file; each part is JSON, and defaults are those of one triangle.
