@@ -419,6 +419,7 @@ languages.de = {
   "said.door": "Tür",
   "said.lamp": "Lampe",
   "said.windscreen": "Windschutzscheibe",
+  "said.side window": "Seitenscheibe",
   "said.traffic cone": "Leitkegel",
   "said.barrier post": "Absperrpfosten",
   "said.ice slab": "Eisplatte",

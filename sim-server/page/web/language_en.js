@@ -419,6 +419,7 @@ languages.en = {
   "said.door": "door",
   "said.lamp": "lamp",
   "said.windscreen": "windscreen",
+  "said.side window": "side window",
   "said.traffic cone": "traffic cone",
   "said.barrier post": "barrier post",
   "said.ice slab": "ice slab",

@@ -419,6 +419,7 @@ languages.sv = {
   "said.door": "dörr",
   "said.lamp": "lampa",
   "said.windscreen": "vindruta",
+  "said.side window": "sidoruta",
   "said.traffic cone": "trafikkon",
   "said.barrier post": "avspärrningsstolpe",
   "said.ice slab": "isskiva",

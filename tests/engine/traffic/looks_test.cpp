@@ -13,6 +13,7 @@
 
 namespace septet::traffic {
 
+// Of heights each look has its own, which is met and drawn: traffic drives in plan.
 TEST_CASE("what a vehicle looks like has the outline, the axles and the mass of what drives") {
   for (ModelIndex model = 0; model < vehicle_models().size(); ++model)
     for (ParticipantId id = 0; id < 2000; ++id) {
@@ -20,7 +21,6 @@ TEST_CASE("what a vehicle looks like has the outline, the axles and the mass of 
       CAPTURE(shown.name);
       REQUIRE(shown.length_m == drives.length_m);
       REQUIRE(shown.width_m == drives.width_m);
-      REQUIRE(shown.height_m == drives.height_m);
       REQUIRE(shown.wheelbase_m == drives.wheelbase_m);
       REQUIRE(shown.rear_overhang_m == drives.rear_overhang_m);
       REQUIRE(shown.track_m == drives.track_m);
