@@ -10,4 +10,6 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 }  // namespace septet::document

@@ -14,5 +14,7 @@ Json number(double value);
 
 /// Text of a value, with a newline at its end. Bytes that are not UTF-8 are replaced.
 std::string text_of(const Json& json);
+/// The same on one line, without a newline.
+std::string line_of(const Json& json);
 
 }  // namespace septet::document

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <variant>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+
+#include "engine/core/bytes.hpp"
 
 namespace septet::scene {
 namespace {
@@ -24,21 +26,19 @@ std::array<float, numbers_a_key> numbers_of(const PoseKey& key) {
   return {at_s, p.x, p.y, p.z, r.w, r.x, r.y, r.z, s.x, s.y, s.z};
 }
 
-void append(Blob& blob, float number) {
-  const auto bits = std::bit_cast<std::uint32_t>(number);
-  for (int shift = 0; shift < 32; shift += 8) blob.push_back(static_cast<std::uint8_t>(bits >> shift));
+Blob blob_of(std::span<const PoseKey> keys) {
+  Bytes bytes;
+  ByteWriter out(bytes);
+  for (const PoseKey& key : keys)
+    for (const float number : numbers_of(key)) out.put(number);
+  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  return {first, first + bytes.size()};
 }
 
-float number_at(const Blob& blob, std::size_t at) {
-  std::uint32_t bits = 0;
-  for (std::size_t i = 0; i < 4; ++i) bits |= std::uint32_t{blob[at + i]} << (8 * i);
-  return std::bit_cast<float>(bits);
-}
-
-/// The key at a byte of a blob; empty where it is no pose.
-std::optional<PoseKey> key_at(const Blob& blob, std::size_t at) {
+/// Empty where what comes next is no pose.
+std::optional<PoseKey> read_key(ByteReader& in) {
   std::array<float, numbers_a_key> n{};
-  for (std::size_t i = 0; i < n.size(); ++i) n[i] = number_at(blob, at + 4 * i);
+  for (float& number : n) number = in.get_float();
   if (!std::ranges::all_of(n, [](float number) { return std::isfinite(number); })) return std::nullopt;
   PoseKey key{n[0], {n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7]}, {n[8], n[9], n[10]}};
   const float length = glm::length(key.rotation);
@@ -78,10 +78,11 @@ bool same_keys(const std::shared_ptr<const KeyedPart>& a, const std::shared_ptr<
 
 std::vector<Tag> tags_of_keys(const std::vector<PoseKey>& keys) {
   std::vector<Tag> tags;
-  const std::size_t count = std::min(keys.size(), max_pose_keys);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i % keys_a_tag == 0) tags.push_back({fmt::format("keys/{}", i / keys_a_tag), Blob{}});
-    for (const float number : numbers_of(keys[i])) append(std::get<Blob>(tags.back().value), number);
+  auto rest = std::span(keys).first(std::min(keys.size(), max_pose_keys));
+  while (!rest.empty()) {
+    const auto some = rest.first(std::min(rest.size(), keys_a_tag));
+    tags.push_back({fmt::format("keys/{}", tags.size()), blob_of(some)});
+    rest = rest.subspan(some.size());
   }
   return tags;
 }
@@ -93,8 +94,9 @@ std::vector<PoseKey> keys_of(const Node& object) {
     if (!value) break;
     const Blob* blob = std::get_if<Blob>(value);
     if (!blob || blob->size() % bytes_a_key != 0) return {};
-    for (std::size_t at = 0; at < blob->size(); at += bytes_a_key) {
-      const auto key = key_at(*blob, at);
+    ByteReader in(std::as_bytes(std::span(*blob)));
+    while (!in.at_end()) {
+      const auto key = read_key(in);
       if (!key || key->at_s < (keys.empty() ? 0.0f : keys.back().at_s)) return {};
       keys.push_back(*key);
     }

@@ -40,7 +40,6 @@ std::vector<sight::OpaqueBody> opaque_bodies(const std::vector<const Participant
 
 /// What the air leaves of things around the driver's eyes.
 struct Through {
-  const State& state;
   Air air;
   Vec3 eye_m{0.0};
   double lit_lx = 0.0;
@@ -61,7 +60,7 @@ struct Through {
 };
 
 Through through_air(const Model& model, const State& state, const Participant& driver, const Vec3& eye_m) {
-  Through through{.state = state, .air = air_of(state), .eye_m = eye_m};
+  Through through{.air = air_of(state), .eye_m = eye_m};
   through.lit_lx = through.air.natural_lx;
   if (state.car_road && is_roofed(model.roads, *state.car_road)) through.lit_lx = sight::full_light_lx;
   if (has_beams(driver)) through.beams_rad = heading_rad(driver.world_from_vehicle.orientation);

@@ -1,6 +1,8 @@
 #include "engine/world/car_warnings.hpp"
 
-#include <algorithm>
+#include <iterator>
+
+#include "engine/world/find_effect.hpp"
 
 namespace septet {
 namespace {
@@ -35,8 +37,8 @@ Expected<CarWarnings> decode_car_warnings(std::span<const std::byte> bytes) {
 }
 
 CarWarnings car_warnings_of(const Snapshot& snapshot) {
-  const auto found = std::ranges::find(snapshot.effects, car_warning_effect_id, &EffectKeyframe::id);
-  if (found == snapshot.effects.end() || found->kind != car_warning_keyframe_kind) return {};
+  const EffectKeyframe* found = find_effect(snapshot, car_warning_effect_id, car_warning_keyframe_kind);
+  if (!found) return {};
   return decode_car_warnings(found->data).value_or(CarWarnings{});
 }
 

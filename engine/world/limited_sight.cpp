@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/world/ascending_ids.hpp"
+#include "engine/world/find_effect.hpp"
+
 namespace septet {
 namespace {
 
@@ -17,11 +20,10 @@ Bytes encode_limited_sights(std::span<const LimitedSight> sights) {
   ByteWriter out(bytes);
   out.put(sights_version);
   out.put_varint(sights.size());
-  ParticipantId before = 0;
+  AscendingIdWriter drivers;
   for (const LimitedSight& sight : sights) {
-    out.put_varint(sight.driver - before);
+    drivers.put(sight.driver, out);
     out.put_varint(static_cast<std::uint64_t>(std::lround(10.0 * sight.seen_m)));
-    before = sight.driver;
   }
   return bytes;
 }
@@ -32,11 +34,12 @@ Expected<std::vector<LimitedSight>> decode_limited_sights(std::span<const std::b
   const std::uint64_t count = in.get_varint();
   if (count == 0 || count > most_sights) in.fail();
   std::vector<LimitedSight> sights;
-  std::uint64_t driver = 0;
+  AscendingIdReader drivers;
   for (std::uint64_t i = 0; in.ok() && i < count; ++i) {
-    const std::uint64_t gap = in.get_varint(), tenths = in.get_varint();
-    if ((gap == 0 && i > 0) || gap > 0xffffffffu || (driver += gap) > 0xffffffffu || tenths > most_tenths) in.fail();
-    sights.push_back({static_cast<ParticipantId>(driver), 0.1 * static_cast<double>(tenths)});
+    const ParticipantId driver = drivers.get(in);
+    const std::uint64_t tenths = in.get_varint();
+    if (tenths > most_tenths) in.fail();
+    sights.push_back({driver, 0.1 * static_cast<double>(tenths)});
   }
   if (!in.ok() || in.remaining() != 0)
     return failure("these are no drivers' sights", "limited sight keyframe",
@@ -45,8 +48,8 @@ Expected<std::vector<LimitedSight>> decode_limited_sights(std::span<const std::b
 }
 
 std::optional<double> limited_sight_m(const Snapshot& snapshot, ParticipantId driver) {
-  const auto found = std::ranges::find(snapshot.effects, limited_sight_effect_id, &EffectKeyframe::id);
-  if (found == snapshot.effects.end() || found->kind != limited_sight_keyframe_kind) return std::nullopt;
+  const EffectKeyframe* found = find_effect(snapshot, limited_sight_effect_id, limited_sight_keyframe_kind);
+  if (!found) return std::nullopt;
   const auto sights = decode_limited_sights(found->data);
   if (!sights) return std::nullopt;
   const auto own = std::ranges::find(*sights, driver, &LimitedSight::driver);

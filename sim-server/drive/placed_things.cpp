@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "engine/core/printable.hpp"
+#include "engine/math/angle_units.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/drawn_object.hpp"
 #include "engine/scene/edit_file.hpp"
@@ -23,11 +23,6 @@ constexpr std::size_t most_found = 8;
 const scene::ObjectData* standing(const scene::Node* node) {
   const auto* object = node ? std::get_if<scene::ObjectData>(&node->data) : nullptr;
   return object && !node->name.starts_with(scene::prototype_prefix) ? object : nullptr;
-}
-
-double heading_deg(const scene::Transform& transform) {
-  const Vec3 ahead = transform.rotation * Vec3(1.0, 0.0, 0.0);
-  return std::atan2(ahead.y, ahead.x) * 180.0 / std::numbers::pi;
 }
 
 }  // namespace
@@ -83,7 +78,7 @@ page::PlacedThing PlacedThings::thing_of(const scene::Node& node) {
                           .node = scene::word_of({store_}, node.id),
                           .x_m = at.position_m.x,
                           .y_m = at.position_m.y,
-                          .heading_deg = heading_deg(at),
+                          .heading_deg = degrees_per_radian * heading_rad(at.rotation),
                           .middle_x_m = at.position_m.x,
                           .middle_y_m = at.position_m.y,
                           .is_shown = !object.hidden,

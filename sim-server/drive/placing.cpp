@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/printable.hpp"
+#include "engine/document/table_line.hpp"
 #include "engine/document/text_file.hpp"
 #include "engine/editor/edit_verbs.hpp"
 #include "engine/road/road_locate.hpp"
@@ -41,18 +41,13 @@ struct Verb {
 constexpr std::array<Verb, 7> verbs{
     {{"like", 5}, {"import", 5}, {"move", 4}, {"hide"}, {"show"}, {"solid"}, {"remove"}}};
 
-std::optional<double> number_in(const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(number) ? std::optional(number)
-                                                                                           : std::nullopt;
-}
-
 /// The word `ground` behind x and y becomes the height there.
 void put_ground(std::vector<scene::TextWord>& words, std::size_t at, const simulation::Model& model) {
   if (at == 0 || words.size() <= at || words[at].text != "ground") return;
-  const auto x_m = number_in(words[at - 2].text), y_m = number_in(words[at - 1].text);
-  if (x_m && y_m) words[at].text = fmt::format("{:.3f}", ground_m(model, {*x_m, *y_m}));
+  const auto x_m = document::number_in<double>(words[at - 2].text),
+             y_m = document::number_in<double>(words[at - 1].text);
+  if (x_m && y_m && std::isfinite(*x_m) && std::isfinite(*y_m))
+    words[at].text = fmt::format("{:.3f}", ground_m(model, {*x_m, *y_m}));
 }
 
 bool is_file_name(const std::string& name) {

@@ -161,8 +161,6 @@ std::string picture_address(std::string_view picture) {
   return fmt::format("data:image/{};base64,{}", is_jpeg ? "jpeg" : "png", base64(picture));
 }
 
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 }  // namespace
 
 Expected<BrowserMessage> read_browser_message(std::string_view text) {
@@ -297,26 +295,26 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
               {"labels", facts.rating->labels}};
   Json restart = nullptr;
   if (facts.kept_states) restart = {{"from_s", facts.kept_states->from_s}, {"every_s", facts.kept_states->every_s}};
-  return dump({{"type", "hello"},
-               {"schema", schema},
-               {"you", browser},
-               {"lesson", lesson_of(facts)},
-               {"scenario", facts.scenario},
-               {"rig", facts.rig},
-               {"vehicle", facts.vehicle},
-               {"participant", facts.participant},
-               {"seed", std::to_string(facts.seed)},
-               {"planned_s", facts.planned_s},
-               {"driver", facts.driver},
-               {"has_traffic", facts.has_traffic},
-               {"rating", std::move(rating)},
-               {"speaks", facts.speaks},
-               {"restart", std::move(restart)},
-               {"faults", facts.faults},
-               {"things", facts.things},
-               {"conditions", std::move(conditions)},
-               {"models", std::move(models)},
-               {"road", std::move(shapes)}});
+  return document::line_of({{"type", "hello"},
+                            {"schema", schema},
+                            {"you", browser},
+                            {"lesson", lesson_of(facts)},
+                            {"scenario", facts.scenario},
+                            {"rig", facts.rig},
+                            {"vehicle", facts.vehicle},
+                            {"participant", facts.participant},
+                            {"seed", std::to_string(facts.seed)},
+                            {"planned_s", facts.planned_s},
+                            {"driver", facts.driver},
+                            {"has_traffic", facts.has_traffic},
+                            {"rating", std::move(rating)},
+                            {"speaks", facts.speaks},
+                            {"restart", std::move(restart)},
+                            {"faults", facts.faults},
+                            {"things", facts.things},
+                            {"conditions", std::move(conditions)},
+                            {"models", std::move(models)},
+                            {"road", std::move(shapes)}});
 }
 
 std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint64_t number,
@@ -356,7 +354,7 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
     json["leader"] = {{"id", view.leader->participant},
                       {"gap_m", rounded(view.leader->gap_m, 0.1)},
                       {"speed_mps", rounded(view.leader->speed_mps, 0.1)}};
-  if (!view.newest) return dump(json);
+  if (!view.newest) return document::line_of(json);
   const Snapshot& snapshot = view.newest->snapshot();
   const DriverCar& car = snapshot.driver_car;
   json["tick"] = snapshot.tick;
@@ -373,31 +371,31 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
                  {"lane_width_m", rounded(car.lane_width_m, 0.01)}};
   json["collisions"] = snapshot.diagnostics.collisions;
   json["everybody"] = everybody(snapshot);
-  return dump(json);
+  return document::line_of(json);
 }
 
 std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_not) {
   Json json = {{"type", "answer"}, {"id", id}, {"ok", !why_not}};
   if (why_not) json["why"] = *why_not;
-  return dump(json);
+  return document::line_of(json);
 }
 
 std::string thumbnail_text(const std::string& screen, std::string_view picture) {
-  return dump({{"type", "thumbnail"}, {"screen", screen}, {"picture", picture_address(picture)}});
+  return document::line_of({{"type", "thumbnail"}, {"screen", screen}, {"picture", picture_address(picture)}});
 }
 
 std::string large_picture_text(const std::string& screen, std::string_view picture) {
-  return dump({{"type", "large_picture"}, {"screen", screen}, {"picture", picture_address(picture)}});
+  return document::line_of({{"type", "large_picture"}, {"screen", screen}, {"picture", picture_address(picture)}});
 }
 
 std::string event_text(const PageEvent& event) {
   Json values = Json::object();
   for (const auto& [name, value] : event.values) values[name] = value;
-  return dump({{"type", "event"},
-               {"sim_s", rounded(event.simulated_s, 0.01)},
-               {"kind", event.kind},
-               {"values", std::move(values)},
-               {"text", event.text}});
+  return document::line_of({{"type", "event"},
+                            {"sim_s", rounded(event.simulated_s, 0.01)},
+                            {"kind", event.kind},
+                            {"values", std::move(values)},
+                            {"text", event.text}});
 }
 
 std::string lesson_text(const LessonView& lesson) {
@@ -414,15 +412,15 @@ std::string lesson_text(const LessonView& lesson) {
                       {"worst", rounded(fault.worst, 0.1)},
                       {"at", fault.at},
                       {"severity", fault.severity}});
-  return dump({{"type", "lesson"},
-               {"tasks", std::move(tasks)},
-               {"mark", lesson.mark ? rounded(*lesson.mark, 0.1) : Json(nullptr)},
-               {"passed", lesson.passed},
-               {"faults", std::move(faults)}});
+  return document::line_of({{"type", "lesson"},
+                            {"tasks", std::move(tasks)},
+                            {"mark", lesson.mark ? rounded(*lesson.mark, 0.1) : Json(nullptr)},
+                            {"passed", lesson.passed},
+                            {"faults", std::move(faults)}});
 }
 
 std::string still_text(std::uint32_t fault, std::string_view picture) {
-  return dump({{"type", "still"}, {"fault", fault}, {"picture", picture_address(picture)}});
+  return document::line_of({{"type", "still"}, {"fault", fault}, {"picture", picture_address(picture)}});
 }
 
 }  // namespace septet::page

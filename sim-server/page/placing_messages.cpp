@@ -12,8 +12,6 @@ namespace {
 
 using document::Json;
 
-std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 /// In hundredths, which is what a map shows.
 Json hundredths(double value) {
   return std::isfinite(value) && std::abs(value) < 1e9 ? Json(std::round(100.0 * value) / 100.0) : Json(nullptr);
@@ -48,22 +46,22 @@ std::string placing_facts_text(const PlacingFacts& facts) {
                      {"node", thing.node},
                      {"length_m", hundredths(thing.length_m)},
                      {"width_m", hundredths(thing.width_m)}});
-  return dumped({{"type", "stock"},
-                 {"has_scene", facts.has_scene},
-                 {"stock", std::move(stock)},
-                 {"own_models", facts.own_models}});
+  return document::line_of({{"type", "stock"},
+                            {"has_scene", facts.has_scene},
+                            {"stock", std::move(stock)},
+                            {"own_models", facts.own_models}});
 }
 
 std::string placed_text(const PlacedView& view) {
-  return dumped({{"type", "placed"}, {"things", list_of(view.things)}, {"more", view.more}});
+  return document::line_of({{"type", "placed"}, {"things", list_of(view.things)}, {"more", view.more}});
 }
 
 std::string found_text(std::uint64_t id, const std::vector<PlacedThing>& found) {
-  return dumped({{"type", "answer"}, {"id", id}, {"ok", true}, {"found", list_of(found)}});
+  return document::line_of({{"type", "answer"}, {"id", id}, {"ok", true}, {"found", list_of(found)}});
 }
 
 std::string saved_text(std::uint64_t id, const std::string& file) {
-  return dumped({{"type", "answer"}, {"id", id}, {"ok", true}, {"file", file}});
+  return document::line_of({{"type", "answer"}, {"id", id}, {"ok", true}, {"file", file}});
 }
 
 }  // namespace septet::page

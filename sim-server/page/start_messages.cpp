@@ -11,8 +11,6 @@ namespace {
 
 using document::Json;
 
-std::string words_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 Json json_of(const Choice& choice) {
   return {{"name", choice.name}, {"about", choice.about}, {"title", choice.title}, {"own", choice.is_own}};
 }
@@ -76,17 +74,17 @@ std::string start_hello_text(const Choices& choices, std::uint64_t browser) {
     questionnaires.push_back(
         {{"name", questionnaire.name}, {"about", questionnaire.about}, {"items", std::move(items)}});
   }
-  return words_of({{"type", "hello"},
-                   {"schema", schema},
-                   {"you", browser},
-                   {"choices",
-                    {{"scenarios", std::move(scenarios)},
-                     {"rigs", list_of(choices.rigs)},
-                     {"drivers", list_of(choices.drivers)},
-                     {"vehicles", list_of(choices.vehicles)},
-                     {"experiments", list_of(choices.experiments)},
-                     {"first_rig", choices.first_rig},
-                     {"questionnaires", std::move(questionnaires)}}}});
+  return document::line_of({{"type", "hello"},
+                            {"schema", schema},
+                            {"you", browser},
+                            {"choices",
+                             {{"scenarios", std::move(scenarios)},
+                              {"rigs", list_of(choices.rigs)},
+                              {"drivers", list_of(choices.drivers)},
+                              {"vehicles", list_of(choices.vehicles)},
+                              {"experiments", list_of(choices.experiments)},
+                              {"first_rig", choices.first_rig},
+                              {"questionnaires", std::move(questionnaires)}}}});
 }
 
 std::string start_state_text(const StartView& view, const std::optional<Commander>& commander, std::size_t browsers) {
@@ -110,13 +108,13 @@ std::string start_state_text(const StartView& view, const std::optional<Commande
                     {"failed", view.work->has_failed},
                     {"said", view.work->said}};
   if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
-  return words_of(json);
+  return document::line_of(json);
 }
 
 std::string look_text(std::uint64_t id, const std::string& path) {
-  return words_of({{"type", "answer"}, {"id", id}, {"ok", true}, {"path", path}});
+  return document::line_of({{"type", "answer"}, {"id", id}, {"ok", true}, {"path", path}});
 }
 
-std::string moved_text() { return words_of({{"type", "moved"}}); }
+std::string moved_text() { return document::line_of({{"type", "moved"}}); }
 
 }  // namespace septet::page

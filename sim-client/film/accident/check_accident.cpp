@@ -14,6 +14,7 @@
 
 #include "engine/core/regular_file.hpp"
 #include "engine/core/version.hpp"
+#include "engine/document/json.hpp"
 #include "engine/film_script/script_text.hpp"
 #include "engine/image/png.hpp"
 #include "program/stop_signal.hpp"
@@ -102,22 +103,19 @@ void compare_film(const Record& record, const fs::path& folder, std::vector<std:
     }
 }
 
-/// Sessions may hold bytes that are no text.
-std::string on_one_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 /// What differs of a member that session and plan decide: each input by itself, else the whole.
 void compare_member(const std::string& name, const Json& kept, const Json& found,
                     std::vector<std::string>& differences) {
   if (kept == found) return;
   if (name != "inputs" || kept.size() != found.size()) {
-    differences.push_back(fmt::format("{}: \"{}\" is {}, the session gives {}", manifest_name, name, on_one_line(kept),
-                                      on_one_line(found)));
+    differences.push_back(fmt::format("{}: \"{}\" is {}, the session gives {}", manifest_name, name,
+                                      document::line_of(kept), document::line_of(found)));
     return;
   }
   for (std::size_t n = 0; n < found.size(); ++n)
     if (kept[n] != found[n])
       differences.push_back(fmt::format("{}: input {} is {}, the session gives {}", manifest_name, n + 1,
-                                        on_one_line(kept[n]), on_one_line(found[n])));
+                                        document::line_of(kept[n]), document::line_of(found[n])));
 }
 
 /// Compares what the film was made of: the session's own words, its inputs, its contacts.

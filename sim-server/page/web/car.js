@@ -31,7 +31,6 @@ document.addEventListener('visibilitychange', () => { if (document.hidden) let_g
 
 $('back').onclick = () => command({ do: 'back', seconds: 0 });
 $('repeat').onclick = () => command({ do: 'back', seconds: repeat_s });
-$('put').onclick = () => set_putting(!putting);
 
 $('restartform').onsubmit = (event) => { event.preventDefault(); command({ do: 'restart', at_s: +$('restartat').value }); };
 
@@ -47,18 +46,9 @@ function show_restart() {
   if (chosen !== null) choice.value = chosen;
 }
 
-let putting = false;
-function set_putting(on) {
-  putting = on;
-  if (on) { set_placing(false); set_placing_stock(false); set_picking(false); }
-  $('put').setAttribute('aria-pressed', String(on));
-  $('put').textContent = t(on ? 'controls.click_map' : 'controls.put');
-  canvas.classList.toggle('placing', on || placing);
-}
-
 /// The map was clicked there: the car stands in the nearest lane that runs as it heads.
 function put_at(x, y) {
-  set_putting(false);
+  set_map_click(null);
   const own = (state.everybody || []).find((other) => other[0] === hello.driver);
   change(`put x_m=${+x.toFixed(2)} y_m=${+y.toFixed(2)} heading_rad=${own ? own[4] : 0} speed_mps=0`);
 }
@@ -67,7 +57,7 @@ function make_car() {
   $('restartform').hidden = !hello.restart;
   $('restartat').replaceChildren();
   $('repeat').textContent = t('controls.repeat', { seconds: repeat_s });
-  set_putting(false);
+  set_map_click(null);
   $('carfaults').replaceChildren(...hello.faults.map((name, i) => {
     const button = document.createElement('button');
     button.type = 'button';

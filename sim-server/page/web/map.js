@@ -119,11 +119,24 @@ function move(dx, dy) {
 /// World metres under a pointer.
 const place_of = (event) => [view.x + (event.offsetX - canvas.clientWidth / 2) / view.scale, view.y - (event.offsetY - canvas.clientHeight / 2) / view.scale];
 
+/// What the next click on the map does, by the button that was pressed for it; null: it moves the map.
+let map_click = null;
+const map_click_words = { place: 'controls.place', put: 'controls.put', placestock: 'controls.place', pick: 'placing.pick' };
+function set_map_click(does) {
+  map_click = does;
+  for (const [id, word] of Object.entries(map_click_words)) {
+    $(id).setAttribute('aria-pressed', String(id === does));
+    $(id).textContent = t(id === does ? 'controls.click_map' : word);
+  }
+  canvas.classList.toggle('placing', does !== null);
+}
+for (const id of Object.keys(map_click_words)) $(id).onclick = () => set_map_click(map_click === id ? null : id);
+
 let held = null;
 canvas.onpointerdown = (event) => {
   const there = place_of(event);
-  if (placing && mine) return place_at(...there);
-  if (putting && mine) return put_at(...there);
+  if (map_click === 'place' && mine) return place_at(...there);
+  if (map_click === 'put' && mine) return put_at(...there);
   if (grasp(...there, event)) { if (grip) canvas.setPointerCapture(event.pointerId); return; }
   held = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId);
 };

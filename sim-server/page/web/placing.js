@@ -6,7 +6,7 @@ let stock = { has_scene: false, stock: [], own_models: [] }, placed = { things: 
 let found = [];  // What was found near the last click.
 let selected = null;  // The thing that the buttons change, as it was heard last.
 let awaited = '';  // Name of a thing that is to be chosen once it is heard of.
-let placing_stock = false, picking = false, named = 0;
+let named = 0;
 
 const quoted = (text) => `"${text.replace(/[\\"]/g, '\\$&')}"`;
 const metres = (value) => +value.toFixed(2);
@@ -61,8 +61,7 @@ function edit(lines, then = () => {}) {
 
 function make_placing() {
   $('placingbox').hidden = !stock.has_scene;
-  set_placing_stock(false);
-  set_picking(false);
+  set_map_click(null);
   show_stock();
   show_placed();
   show_chosen();
@@ -114,25 +113,9 @@ function place_stock_at(x, y, heading) {
   edit(lines, () => said(t('placing.is_placed', { name: name_of_node(name) })));
 }
 
-function set_placing_stock(on) {
-  placing_stock = on;
-  if (on) { set_placing(false); set_putting(false); set_picking(false); }
-  $('placestock').setAttribute('aria-pressed', String(on));
-  $('placestock').textContent = t(on ? 'controls.click_map' : 'controls.place');
-  canvas.classList.toggle('placing', on);
-}
-
-function set_picking(on) {
-  picking = on;
-  if (on) { set_placing(false); set_putting(false); set_placing_stock(false); }
-  $('pick').setAttribute('aria-pressed', String(on));
-  $('pick').textContent = t(on ? 'controls.click_map' : 'placing.pick');
-  canvas.classList.toggle('placing', on || placing_stock);
-}
-
 /// Asks what stands near there, and chooses the nearest.
 function pick_at(x, y) {
-  set_picking(false);
+  set_map_click(null);
   ask({ do: 'find_near', x_m: metres(x), y_m: metres(y), within_m: Math.max(15, 24 / view.scale) }, (answer) => {
     found = answer.found || [];
     said(found.length ? '' : t('placing.found_none'), !found.length);
@@ -200,8 +183,6 @@ function look_at_chosen() {
 }
 
 $('stocksearch').oninput = show_stock;
-$('placestock').onclick = () => set_placing_stock(!placing_stock);
-$('pick').onclick = () => set_picking(!picking);
 $('chosenform').onsubmit = (event) => {
   event.preventDefault();
   move_chosen(+$('chosenx').value, +$('choseny').value, +$('chosenheading').value);

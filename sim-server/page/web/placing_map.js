@@ -29,8 +29,8 @@ function thing_at(x, y) {
 function grasp(x, y, event) {
   if (!mine || !stock.has_scene) return false;
   const held = (does, more = {}) => { grip = { does, pointer: event.pointerId, x, y, from: [x, y], screen: [event.clientX, event.clientY], ...more }; return true; };
-  if (placing_stock) return held('place', { heading: +$('placingheading').value || 0 });
-  if (picking) { pick_at(x, y); return true; }
+  if (map_click === 'placestock') return held('place', { heading: +$('placingheading').value || 0 });
+  if (map_click === 'pick') { pick_at(x, y); return true; }
   const near_handle = selected && Math.hypot(...handle_of(selected).map((at, i) => at - [x, y][i])) * view.scale < 18;
   if (near_handle) return held('turn', { heading: selected.heading_deg });
   const thing = thing_at(x, y);
@@ -55,7 +55,7 @@ function let_go() {
   if (!was) return;
   if (was.does === 'place') {
     $('placingheading').value = metres(was.heading);
-    set_placing_stock(false);
+    set_map_click(null);
     place_stock_at(...was.from, was.heading);
   } else if (was.moved && selected && was.does === 'move') {
     move_chosen(selected.x_m + was.x - was.from[0], selected.y_m + was.y - was.from[1], selected.heading_deg);
@@ -105,7 +105,7 @@ function draw_placed() {
     pen.arc(x, y, 7 / view.scale, 0, 2 * Math.PI);
     pen.fill();
   }
-  if (!placing_stock) return;
+  if (map_click !== 'placestock') return;
   const [length_m, width_m, ahead_m] = size_of_stock();
   const [x, y] = grip ? grip.from : [view.x, view.y], heading = grip ? grip.heading : +$('placingheading').value || 0, rad = heading * Math.PI / 180;
   draw_box({ middle_x_m: x + ahead_m * Math.cos(rad), middle_y_m: y + ahead_m * Math.sin(rad), heading_deg: heading, length_m, width_m, shown: true }, '#ffd98a', '#ffd98a40');
@@ -113,15 +113,16 @@ function draw_placed() {
 
 /// Keys of the map beside those that move it; true if the key was one.
 function placing_key(event) {
-  if (event.key === 'Escape' && (placing_stock || picking || grip || selected)) {
-    if (grip || placing_stock || picking) { grip = null; set_placing_stock(false); set_picking(false); } else choose(null);
+  const is_placing = map_click === 'placestock', is_picking = map_click === 'pick';
+  if (event.key === 'Escape' && (is_placing || is_picking || grip || selected)) {
+    if (is_placing || is_picking || grip) { grip = null; set_map_click(null); } else choose(null);
     return true;
   }
-  if (event.key === 'Enter' && placing_stock) {
-    set_placing_stock(false);
+  if (event.key === 'Enter' && is_placing) {
+    set_map_click(null);
     place_stock_at(view.x, view.y, +$('placingheading').value || 0);
     return true;
   }
-  if (event.key === 'Enter' && picking) { pick_at(view.x, view.y); return true; }
+  if (event.key === 'Enter' && is_picking) { pick_at(view.x, view.y); return true; }
   return false;
 }

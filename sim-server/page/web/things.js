@@ -1,27 +1,17 @@
 'use strict';
 // Things are placed by a click on the map and taken away again, and who belongs to the scenario is hidden and shown again.
 
-let placing = false;
-
 const name_of_thing = (name) => heard(name.replaceAll('-', ' '));
 
 function make_things() {
   $('thing').replaceChildren(...hello.things.map((name) => option(name, name_of_thing(name))));
   $('thing').value = hello.things.includes('traffic-cone') ? 'traffic-cone' : hello.things[0];
-  set_placing(false);
-}
-
-function set_placing(on) {
-  placing = on;
-  if (on) { set_placing_stock(false); set_picking(false); }
-  $('place').setAttribute('aria-pressed', String(on));
-  $('place').textContent = t(on ? 'controls.click_map' : 'controls.place');
-  canvas.classList.toggle('placing', on);
+  set_map_click(null);
 }
 
 /// The map was clicked there: world metres.
 function place_at(x, y) {
-  set_placing(false);
+  set_map_click(null);
   change(`place x_m=${+x.toFixed(2)} y_m=${+y.toFixed(2)} part=${$('thing').value}`);
 }
 
@@ -46,4 +36,3 @@ function show_entities() {
   show_buttons($('lying'), state.lying.slice(-12).map(({ id, name }) => [t('controls.take_away', { name: name_of_thing(name), id }), `remove thing=${id}`]));
 }
 
-$('place').onclick = () => { set_putting(false); set_placing(!placing); };

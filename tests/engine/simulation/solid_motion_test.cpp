@@ -11,7 +11,7 @@
 #include "engine/simulation/solids.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/world/solid.hpp"
-#include "tests/engine/simulation/crash_site.hpp"
+#include "tests/engine/simulation/stood_solid.hpp"
 #include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
@@ -19,9 +19,6 @@ namespace septet::simulation {
 namespace {
 
 constexpr ParticipantId solid_number = first_solid_participant + 3;
-
-/// The driver's car alone, at the origin, ahead along x.
-CrashSite alone(double speed_mps) { return {plane_model(0), {}, speed_mps, {}}; }
 
 /// A box of 2 × 1 × 1 m that stands there.
 StandSolid standing_box(double x_m, double y_m) {
@@ -37,15 +34,6 @@ StandSolid weighing(StandSolid box, double kg) {
   return box;
 }
 
-void stand_in(const StandSolid& solid, CrashSite& site) {
-  const auto done = stand_solid(site.model, solid, site.state);
-  REQUIRE_MESSAGE(done.has_value(), why_not(done));
-  site.participants.resize(1);
-  append_bodies(site.state, site.participants);
-}
-void pass(CrashSite& site, double time_s) {
-  for (int i = 0; i < static_cast<int>(time_s * tick_rate_hz); ++i) site.tick();
-}
 const LooseBody& solid(const CrashSite& site) { return *find_loose(site.state, solid_number); }
 bool shows_free(const CrashSite& site) { return is_free_solid(*find_participant(site.participants, solid_number)); }
 const Event& first_event(const CrashSite& site, std::string_view kind) {

@@ -10,7 +10,7 @@
 #include "engine/simulation/operator_command.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/world/participant_shape.hpp"
-#include "tests/engine/simulation/crash_site.hpp"
+#include "tests/engine/simulation/stood_solid.hpp"
 #include "tests/why_not.hpp"
 
 namespace septet::simulation {
@@ -29,20 +29,6 @@ std::string legs(int count) {
   std::string text;
   for (int i = 0; i < count; ++i) text += " leg=0,1,0,0,0,0,0,0";
   return text;
-}
-
-/// The driver's car, at the origin, drives along x; nobody else is there.
-CrashSite driven_alone(double speed_mps) { return {plane_model(0), {}, speed_mps, {}}; }
-
-void stand(const StandSolid& solid, CrashSite& site) {
-  const auto done = stand_solid(site.model, solid, site.state);
-  REQUIRE_MESSAGE(done.has_value(), why_not(done));
-  site.participants.resize(1);
-  append_bodies(site.state, site.participants);
-}
-
-void drive(CrashSite& site, double time_s) {
-  for (int i = 0; i < static_cast<int>(time_s * tick_rate_hz); ++i) site.tick();
 }
 
 double x_of_car_m(const CrashSite& site) { return site.car.participant.world_from_vehicle.position_m.x; }
@@ -108,7 +94,7 @@ TEST_CASE("a solid out of its bounds is refused as a text and as a value") {
                                   with("height_m=2", "height_m=-2")})
     CHECK_MESSAGE(!parse_operator_command(text).has_value(), text);
 
-  CrashSite site = driven_alone(0.0);
+  CrashSite site = alone(0.0);
   for (const double value :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
     StandSolid solid = wall_ahead;
@@ -136,39 +122,39 @@ TEST_CASE("a solid out of its bounds is refused as a text and as a value") {
 }
 
 TEST_CASE("a car that drives into a solid stops at it, and goes through where it was cleared") {
-  CrashSite stopped = driven_alone(12.0);
-  stand(wall_ahead, stopped);
-  drive(stopped, 3.0);
+  CrashSite stopped = alone(12.0);
+  stand_in(wall_ahead, stopped);
+  pass(stopped, 3.0);
   CHECK(x_of_car_m(stopped) < 20.0);
   CHECK(stopped.state.car.velocity_mps.x < 0.5);
   CHECK(stopped.count("collision") == 1);
   CHECK(find_loose(stopped.state, first_solid_participant + 3)->body.mass_centre_m == Vec2(20.0, 0.0));
 
-  CrashSite passed = driven_alone(12.0);
-  stand(wall_ahead, passed);
-  drive(passed, 0.5);
+  CrashSite passed = alone(12.0);
+  stand_in(wall_ahead, passed);
+  pass(passed, 0.5);
   REQUIRE(clear_solid({3}, passed.state).has_value());
   passed.participants.resize(1);
-  drive(passed, 2.5);
+  pass(passed, 2.5);
   CHECK(x_of_car_m(passed) > 25.0);
   CHECK(passed.count("collision") == 0);
   CHECK(passed.state.bodies.empty());
 }
 
 TEST_CASE("a solid that is stood again is met where it is now") {
-  CrashSite site = driven_alone(12.0);
-  stand(wall_ahead, site);
+  CrashSite site = alone(12.0);
+  stand_in(wall_ahead, site);
   StandSolid elsewhere = wall_ahead;
   elsewhere.y_m = 30.0;
-  stand(elsewhere, site);
+  stand_in(elsewhere, site);
   CHECK(site.state.bodies.bodies.size() == 1);
-  drive(site, 3.0);
+  pass(site, 3.0);
   CHECK(x_of_car_m(site) > 25.0);
   CHECK(site.count("collision") == 0);
 }
 
 TEST_CASE("a solid does not stand where the driver's car is") {
-  CrashSite site = driven_alone(0.0);
+  CrashSite site = alone(0.0);
   StandSolid solid = wall_ahead;
   solid.x_m = 1.0;
   const auto done = stand_solid(site.model, solid, site.state);
@@ -179,20 +165,20 @@ TEST_CASE("a solid does not stand where the driver's car is") {
 }
 
 TEST_CASE("solids that stand in each other rest, and nothing is told of them") {
-  CrashSite site = driven_alone(0.0);
-  stand(wall_ahead, site);
+  CrashSite site = alone(0.0);
+  stand_in(wall_ahead, site);
   StandSolid second = wall_ahead;
   second.solid = 4, second.x_m = 20.2, second.heading_rad = 0.3;
-  stand(second, site);
-  drive(site, 0.5);
+  stand_in(second, site);
+  pass(site, 0.5);
   CHECK(site.rests());
   CHECK(site.events.empty());
   CHECK(site.state.diagnostics.bad_numbers == 0);
 }
 
 TEST_CASE("traffic sees a solid as a box that stands, and another swarm leaves it standing") {
-  CrashSite site = driven_alone(0.0);
-  stand(wall_ahead, site);
+  CrashSite site = alone(0.0);
+  stand_in(wall_ahead, site);
   site.state.traffic = traffic::own_traffic(site.model.roads, 1);
   const auto foreign = foreign_vehicles(site.model, site.state, site.car.participant);
   REQUIRE(foreign.size() == 2);
