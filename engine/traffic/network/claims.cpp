@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -167,6 +168,26 @@ bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehic
   return true;
 }
 
+/// Index in its route of the first way of a junction that a vehicle has not reached; the route's size if there is none.
+std::size_t next_entry(const LaneGraph& graph, const TownVehicle& vehicle) {
+  double begin_m = 0.0;
+  for (std::size_t k = 0; k < vehicle.route.size(); ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    if (begin_m >= vehicle.front_m && way.in_junction()) return k;
+    begin_m += way.length_m;
+  }
+  return vehicle.route.size();
+}
+
+/// True where a vehicle waits to drive a way: it is in the passage that it is to claim next.
+bool waits_to_drive(const LaneGraph& graph, const TownVehicle& vehicle, WayIndex way) {
+  const std::size_t entry = next_entry(graph, vehicle);
+  if (entry >= vehicle.route.size()) return false;
+  const std::size_t last = passage_from(graph, vehicle, entry, 0.0).last;
+  const auto passage = std::span(vehicle.route).subspan(entry, last - entry + 1);
+  return std::ranges::find(passage, way) != passage.end();
+}
+
 /// True where somebody who comes to the same exit by another way has long waited for room on it: it is his turn.
 bool is_anothers_turn(const LaneGraph& graph, const Presences& presences, const TownState& town,
                       const TownVehicle& vehicle, const Passage& passage) {
@@ -178,7 +199,9 @@ bool is_anothers_turn(const LaneGraph& graph, const Presences& presences, const 
         const TownVehicle& rival = town.vehicles[static_cast<std::size_t>(other.who)];
         // Who waits for this vehicle to go on is no rival.
         const bool waits_for_it = std::ranges::find(rival.route, way_of_front(graph, vehicle)) != rival.route.end();
-        if (!waits_for_it && rival.is_held && rival.waits_s > std::max(courtesy_s * rival.urge, vehicle.waits_s))
+        // Nor is one who waits at a junction before this one: those ahead of it may wait for this vehicle.
+        if (!waits_for_it && rival.is_held && rival.waits_s > std::max(courtesy_s * rival.urge, vehicle.waits_s) &&
+            waits_to_drive(graph, rival, conflict.with))
           return true;
       }
     }
@@ -190,17 +213,6 @@ bool light_allows(LightState light, const TownVehicle& vehicle, double to_line_m
   if (light != LightState::amber) return true;
   constexpr double amber_mps2 = 3.0;
   return vehicle.speed_mps * vehicle.speed_mps > 2.0 * amber_mps2 * std::max(to_line_m, 0.0);
-}
-
-/// Index in its route of the first way of a junction that a vehicle has not reached; the route's size if there is none.
-std::size_t next_entry(const LaneGraph& graph, const TownVehicle& vehicle) {
-  double begin_m = 0.0;
-  for (std::size_t k = 0; k < vehicle.route.size(); ++k) {
-    const Way& way = graph.ways[vehicle.route[k]];
-    if (begin_m >= vehicle.front_m && way.in_junction()) return k;
-    begin_m += way.length_m;
-  }
-  return vehicle.route.size();
 }
 
 /// True where somebody else has a claim on the way on which a vehicle's front is: he counts on its going on.
@@ -327,10 +339,10 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
   return no_leader;
 }
 
-double wait_within_m(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t index) {
+double wait_within_mps2(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t index) {
   TownVehicle& vehicle = town.vehicles[index];
   const auto self = static_cast<std::int32_t>(index);
-  double begin_m = 0.0, nearest_m = no_leader;
+  double begin_m = 0.0, nearest_m = no_leader, most_mps2 = no_leader;
   for (std::size_t k = 0; k < vehicle.claims.size(); ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
     const double front_m = vehicle.front_m - begin_m;
@@ -338,13 +350,13 @@ double wait_within_m(const LaneGraph& graph, const Presences& presences, TownSta
     if (front_m > way.length_m) continue;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
       const double to_begin_m = conflict.whole_from_m - front_m;
-      if (conflict.kind == WayConflict::Kind::diverging || to_begin_m < 0.0 || to_begin_m > nearest_m) continue;
+      if (conflict.kind == WayConflict::Kind::diverging || to_begin_m < 0.0) continue;
       for (const Presence& other : presences.on(conflict.with)) {
         if (other.who == self || !other.claims || other.rear_m > conflict.with_whole_to_m) continue;
         const bool is_in_it = other.front_m > conflict.with_whole_from_m;
         TownVehicle* rival = other.who < 0 ? nullptr : &town.vehicles[static_cast<std::size_t>(other.who)];
         const auto is_before = [&] { return claim_on(*rival, conflict.with) < vehicle.claims[k]; };
-        if (!is_in_it && rival != nullptr && is_before())
+        if (to_begin_m <= nearest_m && !is_in_it && rival != nullptr && is_before())
           go_first_if_stuck(vehicle, vehicle.claims[k], *rival, claim_on(*rival, conflict.with));
         const bool is_earlier = is_in_it || rival == nullptr || is_before();
         if (!is_earlier) continue;
@@ -352,13 +364,16 @@ double wait_within_m(const LaneGraph& graph, const Presences& presences, TownSta
         const double braking = rival == nullptr ? 0.0 : std::min(rival->acceleration_mps2, 0.0);
         const double his_mps = std::max(0.1, other.speed_mps + braking);
         const double clears_s = (conflict.with_whole_to_m - other.rear_m) / his_mps;
-        const double arrives_s =
-            travel_s(to_begin_m, vehicle.speed_mps, vehicle.driver.following.acceleration_mps2, most_mps_on(way));
-        if (arrives_s < clears_s + behind_s) nearest_m = to_begin_m;
+        // One who is faster than the way's bends allow is still before them.
+        const double arrives_s = travel_s(to_begin_m, vehicle.speed_mps, vehicle.driver.following.acceleration_mps2,
+                                          std::max(vehicle.speed_mps, most_mps_on(way)));
+        if (arrives_s >= clears_s + behind_s) continue;
+        nearest_m = std::min(nearest_m, to_begin_m);
+        most_mps2 = std::min(most_mps2, acceleration_before(to_begin_m, clears_s + behind_s, vehicle.speed_mps));
       }
     }
   }
-  return nearest_m;
+  return most_mps2;
 }
 
 }  // namespace septet::traffic

@@ -66,16 +66,27 @@ Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownS
         if (conflict.kind == WayConflict::Kind::merging && other.front_m < conflict.with_from_m) continue;
         if (other.front_m + shift_m <= front_m) continue;
         const double gap_m = other.rear_m + shift_m - front_m;
-        // Up to where the ways meet there is room in any case.
-        consider(conflict.kind == WayConflict::Kind::merging ? std::max(gap_m, conflict.from_m - front_m) : gap_m,
-                 other);
+        // Up to where the ways meet there is room in any case: that is a line, and no bumper to keep a gap to.
+        const double to_line_m = conflict.from_m - front_m;
+        const double beyond_m = to_line_m > 0.0 ? vehicle.driver.following.standstill_gap_m : 0.0;
+        consider(conflict.kind == WayConflict::Kind::merging ? std::max(gap_m, to_line_m + beyond_m) : gap_m, other);
       }
     }
   }
   return leader;
 }
 
-double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const Leader& leader, double stop_m) {
+double acceleration_before(double stop_m, double free_in_s, double speed_mps) {
+  constexpr double stands_before_m = 0.2;
+  const double to_m = stop_m - stands_before_m, v = speed_mps;
+  if (to_m <= 0.0) return -before_line_mps2 - v / settles_s;
+  const bool rolls_on = v * free_in_s < 2.0 * to_m;
+  const double evenly = rolls_on ? 2.0 * (to_m - v * free_in_s) / (free_in_s * free_in_s) : -v * v / (2.0 * to_m);
+  return std::max(keeping_to(2.0 * before_line_mps2 * to_m, -before_line_mps2, v), evenly);
+}
+
+double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const Leader& leader, double stop_m,
+                       double within_mps2) {
   const double v = vehicle.speed_mps;
   const double hurry = std::clamp(1.0 / vehicle.urge, 0.9, 1.05);
   const double own_most = vehicle.driver.following.desired_speed_mps;
@@ -110,9 +121,8 @@ double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const
   double a = law.acceleration(v, leader.speed_mps, leader.gap_m);
   const double free = std::max(-coasting_mps2, law.acceleration(v, 0.0, no_leader));
   if (leader.gap_m == no_leader) a = free;
-  if (stop_m != no_leader)
-    bound = std::min(bound, stop_m > 0.2 ? keeping_to(2.0 * before_line_mps2 * (stop_m - 0.2), -before_line_mps2, v)
-                                         : -before_line_mps2 - v / settles_s);
+  if (stop_m != no_leader) bound = std::min(bound, acceleration_before(stop_m, no_leader, v));
+  bound = std::min(bound, within_mps2);
   return std::max(std::min(a, std::max(bound, -hardest_settling_mps2)), -hardest_braking_mps2);
 }
 

@@ -117,7 +117,10 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
   const double before_s = town.time_s;
   town.time_s += dt_s;
   for (TownVehicle& vehicle : town.vehicles)
-    if (!vehicle.outside) prolong_route(graph, random, vehicle);
+    if (!vehicle.outside) {
+      choose_anew_if_tired(graph, dt_s, random, vehicle);
+      prolong_route(graph, random, vehicle);
+    }
   Presences presences = find_presences(network, graph, foreign, dt_s, town);
   const std::vector<LightState> shown = light_states(network, lights);
   const bool any_adrift = std::ranges::any_of(foreign, &ForeignVehicle::adrift);
@@ -127,8 +130,8 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
     const double turn_out_at_m = any_adrift ? round_wrecks(network, graph, foreign, presences, town, i) : no_leader;
     const Leader leader = leader_of(graph, presences, town, i);
     const double line_m = negotiate(graph, shown, leader, dt_s, random, presences, town, i);
-    const double within_m = wait_within_m(graph, presences, town, i);
-    double a = acceleration_of(graph, vehicle, leader, std::min({line_m, within_m, turn_out_at_m}));
+    const double within_mps2 = wait_within_mps2(graph, presences, town, i);
+    double a = acceleration_of(graph, vehicle, leader, std::min(line_m, turn_out_at_m), within_mps2);
     if (const auto sight = std::ranges::find(town.sights, vehicle.id, &LimitedSight::driver);
         sight != town.sights.end())
       a = std::min(a, acceleration_within_sight(vehicle.driver.following, vehicle.speed_mps, sight->seen_m));

@@ -54,6 +54,10 @@ void add_swerve(const LaneGraph& graph, const TownVehicle& vehicle, std::int32_t
 /// Prolongs the route to the horizon, and to room beyond the last junction. Draws a random number at each fork.
 void prolong_route(const LaneGraph& graph, Random& random, TownVehicle& vehicle);
 
+/// Who has waited at a line for a minute, whatever for, draws another way there every 5 s: traffic may wait for each
+/// other in a circle, as round a roundabout whose ways out are full, that only one who leaves it opens.
+void choose_anew_if_tired(const LaneGraph& graph, double dt_s, Random& random, TownVehicle& vehicle);
+
 /// Stage 1: everybody's presences. Keeps up standing times of foreign vehicles.
 Presences find_presences(const road::RoadNetwork& network, const LaneGraph& graph,
                          std::span<const ForeignVehicle> foreign, double dt_s, TownState& town);
@@ -71,11 +75,17 @@ Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownS
 double negotiate(const LaneGraph& graph, std::span<const LightState> lights, const Leader& leader, double dt_s,
                  Random& random, Presences& presences, TownState& town, std::size_t vehicle);
 
-/// Distance to the point before which it waits for an earlier claim within a junction; infinite if there is none.
-double wait_within_m(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t vehicle);
+/// Acceleration that keeps a vehicle out of what earlier claims within a junction hold, until they have left it; infinite
+/// if there is none.
+double wait_within_mps2(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t vehicle);
 
-/// Stage 3: acceleration behind a leader, before a stop, in bends and below limits.
-double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const Leader& leader, double stop_m);
+/// Acceleration before a place that is free after a time (infinite: never). Who can stop there by 2 m/s² later is free;
+/// else it brakes evenly, so as to come to it when it is free, or to stand before it.
+double acceleration_before(double stop_m, double free_in_s, double speed_mps);
+
+/// Stage 3: acceleration behind a leader, before a stop, in bends and below limits, at most `within_mps2`.
+double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const Leader& leader, double stop_m,
+                       double within_mps2 = no_leader);
 
 /// Stage 4: vehicles leave beyond the swarm's rim and come in again there.
 void recycle_town(const TrafficParameters& parameters, const LaneGraph& graph, const Presences& presences,

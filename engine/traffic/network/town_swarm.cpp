@@ -178,6 +178,22 @@ void prolong_route(const LaneGraph& graph, Random& random, TownVehicle& vehicle)
   }
 }
 
+void choose_anew_if_tired(const LaneGraph& graph, double dt_s, Random& random, TownVehicle& vehicle) {
+  constexpr double after_s = 60.0, each_s = 5.0;
+  const double before_s = vehicle.waits_s - dt_s;
+  if (vehicle.waits_s < after_s || std::floor(vehicle.waits_s / each_s) == std::floor(before_s / each_s)) return;
+  // What it has a claim on it drives; who waits has reached no other junction.
+  double end_m = 0.0;
+  for (std::size_t k = 0; k < vehicle.route.size(); ++k) {
+    if (end_m >= vehicle.front_m && k > 0 && k >= vehicle.claims.size() && graph.ways[vehicle.route[k]].in_junction()) {
+      vehicle.route.resize(k);
+      prolong_route(graph, random, vehicle);
+      return;
+    }
+    end_m += graph.ways[vehicle.route[k]].length_m;
+  }
+}
+
 TownState populate_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
                         std::span<const ForeignVehicle> foreign, Random& random) {
   TownState town;

@@ -11,7 +11,8 @@
 
 namespace septet::traffic {
 
-/// Checks that no outlines overlap, that nobody stands for three minutes, and the acceleration across.
+/// Checks that no outlines overlap, that nobody stands for three minutes, how often somebody brakes hard, and the
+/// acceleration across.
 inline TownRun checked_town(const std::string& town, std::uint32_t count, double seconds, std::uint64_t seed) {
   CAPTURE(town);
   CAPTURE(count);
@@ -23,6 +24,7 @@ inline TownRun checked_town(const std::string& town, std::uint32_t count, double
                          << run.roads.size());
   CHECK(run.overlaps.empty());
   CHECK(run.longest_stand_s < 180.0);
+  CHECK(run.hard_brakings < 1.0 * run.vehicle_s / 3600.0);
   CHECK(run.most_sideways_mps2 < 3.0);  // In bends below most_bend_mps2; more where somebody brakes hard in one.
   return run;
 }
