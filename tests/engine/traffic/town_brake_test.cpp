@@ -9,7 +9,7 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double tick_s = 1.0 / 30.0;
+constexpr double line_tick_s = 1.0 / 30.0;
 
 struct Approached {
   double least_mps2 = 0.0, way_m = 0.0, speed_mps = 0.0;
@@ -18,11 +18,11 @@ struct Approached {
 /// Drives for a while towards a place `to_m` ahead that is free after a time, at most at this acceleration.
 Approached approach(double to_m, double free_in_s, double speed_mps, double seconds, double most_mps2) {
   Approached run{0.0, 0.0, speed_mps};
-  for (double t = 0.0; t < seconds - 1e-9; t += tick_s) {
+  for (double t = 0.0; t < seconds - 1e-9; t += line_tick_s) {
     const double a = std::min(most_mps2, acceleration_before(to_m - run.way_m, free_in_s - t, run.speed_mps));
-    const double after = std::max(0.0, run.speed_mps + a * tick_s);
+    const double after = std::max(0.0, run.speed_mps + a * line_tick_s);
     run.least_mps2 = std::min(run.least_mps2, a);
-    run.way_m += 0.5 * (run.speed_mps + after) * tick_s;
+    run.way_m += 0.5 * (run.speed_mps + after) * line_tick_s;
     run.speed_mps = after;
   }
   return run;
