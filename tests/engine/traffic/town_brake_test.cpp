@@ -31,9 +31,9 @@ Approached approach(double to_m, double free_in_s, double speed_mps, double seco
 }  // namespace
 
 TEST_CASE("who is too near to a line for 2 m/s2 brakes evenly and stands before it") {
-  // 14 m/s, 29.8 m to where it stands: 3.29 m/s².
+  // 14 m/s, 29.8 m to where it stands: 3.29 m/s²; to catch up with 2 m/s² in half a second would take 8.2.
   const Approached run = approach(30.0, no_leader, 14.0, 20.0, 1.5);
-  CHECK(run.least_mps2 > -3.4);
+  CHECK(run.least_mps2 > -3.5);
   CHECK(run.way_m < 30.0);
   CHECK(run.way_m > 29.0);
   CHECK(run.speed_mps < 0.1);
