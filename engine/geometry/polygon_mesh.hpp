@@ -30,8 +30,11 @@ inline std::uint32_t corner_count(const PolygonCorners& corners) { return is_tri
 struct PolygonMesh {
   std::vector<glm::vec3> vertices_m;
   std::vector<PolygonCorners> polygons;
-  std::vector<std::array<glm::vec2, 4>> corner_uvs;  ///< Empty, or one entry a polygon.
-  std::vector<std::uint32_t> polygon_materials;      ///< Empty (all 0), or one index a polygon.
+  std::vector<std::array<glm::vec2, 4>> corner_uvs;         ///< Empty, or one entry a polygon.
+  std::vector<std::array<glm::vec2, 4>> second_corner_uvs;  ///< The same, for images that lie otherwise than the first.
+  /// Empty, or one entry a polygon, as scene::SurfaceVertex packs them. A subdivided mesh has neither, nor second uvs.
+  std::vector<std::array<std::uint32_t, 4>> corner_colors, corner_tangents;
+  std::vector<std::uint32_t> polygon_materials;  ///< Empty (all 0), or one index a polygon.
 
   std::uint32_t default_vertex_crease = crease_smooth;
   std::uint32_t default_edge_crease = crease_smooth;  ///< `crease_sharp`: every facet is flat.

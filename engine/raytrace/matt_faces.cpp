@@ -27,7 +27,9 @@ Face World::matt_face(const PlacedSurface& placed, std::uint32_t triangle) const
   const float area = glm::length(across);
   if (!(area > 0.0f)) return {};
   for (const scene::SurfaceVertex* corner : {at.a, at.b, at.c})
-    if (!(glm::dot(corner->normal, across) > same_way * area * glm::length(corner->normal))) return {};
+    if (corner->color != scene::white_vertex ||
+        !(glm::dot(corner->normal, across) > same_way * area * glm::length(corner->normal)))
+      return {};
   return {placed.origin_m + placed.turned(a),
           placed.turned(second),
           placed.turned(third),

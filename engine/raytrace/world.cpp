@@ -205,6 +205,7 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
     return;
   }
   glm::vec3 base = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
+  base *= vertex_color(corners(placed, hit.triangle), hit.u, hit.v);
   if (nothing_lies_on_it_ && &material != &no_material_ &&
       index_.plain[static_cast<std::size_t>(&material - scene_.materials.data())]) {
     surface.diffuse = base;
@@ -224,11 +225,16 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   const glm::vec3 seen = -ray.direction;
   Finish finish{material.roughness, material.metallic,
                 material.roughness < rough_from || material.metallic > 0.2f || point.opacity < 1.0f};
-  if (material.maps != scene::no_surface_maps) apply_maps(placed, material, ray, hit, uv, point, finish);
+  const glm::vec2 second_uv =
+      (1.0f - hit.u - hit.v) * at.a->second_uv + hit.u * at.b->second_uv + hit.v * at.c->second_uv;
+  const MapPlaces lies{uv, material.by_second_uv != 0 ? second_uv : uv, material.by_second_uv};
+  if (material.maps != scene::no_surface_maps) apply_maps(placed, material, ray, hit, lies, point, finish);
   lay_weather(placed, material, finish, uv, base, seen, point);
   if ((point.from_front || material.two_sided) && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
     const scene::TextureImage* shining = image_at(material.maps[scene::SurfaceMap::emission]);
-    const glm::vec3 color = shining ? glm::vec3(texel(shining, uv)) : textured ? base : glm::vec3(1.0f);
+    const glm::vec3 color = shining    ? glm::vec3(texel(shining, lies.of(scene::SurfaceMap::emission)))
+                            : textured ? base
+                                       : glm::vec3(1.0f);
     give_off(placed, material, color, hit, seen, point);
   }
   if (!instant_.soot.cover.empty()) blacken(1.0f - soot(point.position_m), point);

@@ -179,11 +179,22 @@ class World : public Openings {
     float roughness = 1.0f, metallic = 0.0f;
     bool mirrors = false;
   };
+  /// Where a point lies on the images of its material.
+  struct MapPlaces {
+    glm::vec2 uv, second_uv;
+    std::uint32_t by_second_uv;  ///< See scene::SurfaceMaterial.
+
+    const glm::vec2& of(scene::SurfaceMap map) const {
+      return (by_second_uv >> static_cast<std::uint32_t>(map) & 1u) != 0 ? second_uv : uv;
+    }
+  };
+  /// Factor of the base colour at a point between three corners.
+  static glm::vec3 vertex_color(const Corners& at, float u, float v);
   /// Applies the images of properties and normals.
   void apply_maps(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const Ray& ray, const Hit& hit,
-                  const glm::vec2& uv, SurfacePoint& point, Finish& finish) const;
+                  const MapPlaces& lies, SurfacePoint& point, Finish& finish) const;
   glm::vec3 mapped_normal(const PlacedSurface& placed, const Ray& ray, const Hit& hit, const glm::vec3& texel,
-                          const glm::vec3& front) const;
+                          const glm::vec3& front, bool by_second_uv) const;
   glm::vec3 stand(const PlacedSurface& placed, const Ray& ray, const Hit& hit, SurfacePoint& point) const;
   void lay_weather(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const Finish& finish,
                    const glm::vec2& uv, const glm::vec3& base, const glm::vec3& seen, SurfacePoint& point) const;

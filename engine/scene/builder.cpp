@@ -65,6 +65,9 @@ NodeId SceneBuilder::create(NodeType type, std::string_view name) {
 NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh& mesh, const MeshOptions& options) {
   const auto optional = [](std::size_t size, std::size_t full) { return size == 0 || size == full; };
   SEPTET_CHECK(optional(mesh.corner_uvs.size(), mesh.polygons.size()) &&
+                   optional(mesh.second_corner_uvs.size(), mesh.polygons.size()) &&
+                   optional(mesh.corner_colors.size(), mesh.polygons.size()) &&
+                   optional(mesh.corner_tangents.size(), mesh.polygons.size()) &&
                    optional(mesh.polygon_materials.size(), mesh.polygons.size()) &&
                    optional(mesh.edge_creases.size(), mesh.polygons.size()) &&
                    optional(mesh.vertex_creases.size(), mesh.vertices_m.size()),
@@ -102,19 +105,25 @@ NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh
       apply(LayerIntegersSet{id, layer, first, std::move(run)});
     });
   };
-  if (!mesh.corner_uvs.empty()) {
+  const auto add_uvs = [&](const std::vector<std::array<glm::vec2, 4>>& uvs, const std::array<const char*, 2>& names) {
+    if (uvs.empty()) return;
     for (const int axis : {0, 1}) {
       const PartId layer = next_layer++;
-      apply(GeometryLayerSet{id, layer, axis == 0 ? "map_u" : "map_v", LayerType::corner_real, 0, 0.0f});
+      apply(GeometryLayerSet{id, layer, names[static_cast<std::size_t>(axis)], LayerType::corner_real, 0, 0.0f});
       std::vector<float> values;
-      values.reserve(mesh.corner_uvs.size() * 4);
-      for (const auto& corners : mesh.corner_uvs)
+      values.reserve(uvs.size() * 4);
+      for (const auto& corners : uvs)
         for (const glm::vec2& uv : corners) values.push_back(rounded(uv[axis], 1.0f / uv_steps));
       in_runs(values, 4, [&](std::uint32_t first, std::vector<float> run) {
         apply(LayerRealsSet{id, layer, first, std::move(run)});
       });
     }
-  }
+  };
+  add_uvs(mesh.corner_uvs, {"map_u", "map_v"});
+  add_uvs(mesh.second_corner_uvs, {"second_map_u", "second_map_v"});
+  if (!mesh.corner_colors.empty())
+    add_integers("color", LayerType::corner_integer, white_vertex, flat(mesh.corner_colors));
+  if (!mesh.corner_tangents.empty()) add_integers("tangent", LayerType::corner_integer, 0, flat(mesh.corner_tangents));
   if (std::any_of(mesh.polygon_materials.begin(), mesh.polygon_materials.end(), [](auto m) { return m != 0; }))
     add_integers("material", LayerType::face_integer, 0, mesh.polygon_materials);
   Crease vertex_crease{"", mesh.default_vertex_crease}, edge_crease{"", mesh.default_edge_crease};
@@ -219,6 +228,7 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
   for (std::size_t map = 0; map < surface_map_count; ++map)
     if (const NodeId bitmap = parameters.maps.values[map]; bitmap != no_node)
       apply(TagSet{id, surface_group, tag++, {surface_map_tags[map], NodeReference{bitmap}}});
+  if (parameters.by_second_uv != 0) apply(TagSet{id, surface_group, tag++, {"by_second_uv", parameters.by_second_uv}});
   return id;
 }
 

@@ -31,6 +31,7 @@ struct MaterialParameters {
   glm::vec3 base_color{0.8f};  ///< Linear Rec. 709.
   NodeId base_color_bitmap = no_node;
   BySurfaceMap<NodeId> maps{{no_node, no_node, no_node}};  ///< Bitmaps.
+  std::uint32_t by_second_uv = 0;                          ///< See SurfaceMaterial.
   float roughness = 0.7f;
   float metallic = 0.0f;
   float opacity = 1.0f;

@@ -224,6 +224,7 @@ SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int
   for (std::size_t map = 0; map < surface_map_count; ++map)
     if (const NodeId bitmap = tag_or(node, surface_map_tags[map], NodeReference{}).node; bitmap != no_node)
       material.maps.values[map] = image_of(bitmap);
+  material.by_second_uv = tag_or(node, "by_second_uv", 0u) & ((1u << surface_map_count) - 1u);
   return material;
 }
 

@@ -22,12 +22,13 @@ constexpr std::size_t most_separate_changes = 2000;
 
 bool same(const SurfaceMaterial& a, const SurfaceMaterial& b) {
   return a.base_color == b.base_color && a.base_color_image == b.base_color_image && a.maps == b.maps &&
-         a.roughness == b.roughness && a.metallic == b.metallic && a.opacity == b.opacity &&
-         a.refraction_index == b.refraction_index && a.emission == b.emission && a.takes_paint == b.takes_paint &&
-         a.wettable == b.wettable && a.stripe == b.stripe && a.retroreflection == b.retroreflection &&
-         a.picture_columns == b.picture_columns && a.picture_rows == b.picture_rows &&
-         a.share_of_sky == b.share_of_sky && a.clear_coat == b.clear_coat && a.two_sided == b.two_sided &&
-         a.ambient_share == b.ambient_share && a.lit_by_night == b.lit_by_night && a.in_street == b.in_street;
+         a.by_second_uv == b.by_second_uv && a.roughness == b.roughness && a.metallic == b.metallic &&
+         a.opacity == b.opacity && a.refraction_index == b.refraction_index && a.emission == b.emission &&
+         a.takes_paint == b.takes_paint && a.wettable == b.wettable && a.stripe == b.stripe &&
+         a.retroreflection == b.retroreflection && a.picture_columns == b.picture_columns &&
+         a.picture_rows == b.picture_rows && a.share_of_sky == b.share_of_sky && a.clear_coat == b.clear_coat &&
+         a.two_sided == b.two_sided && a.ambient_share == b.ambient_share && a.lit_by_night == b.lit_by_night &&
+         a.in_street == b.in_street;
 }
 
 }  // namespace

@@ -24,10 +24,18 @@
 
 namespace septet::scene {
 
+inline constexpr std::uint32_t white_vertex = 0xFFFFFFFFu;
+
 struct SurfaceVertex {
   glm::vec3 position_m;
   glm::vec3 normal;
   glm::vec2 uv;
+  std::uint32_t color =
+      white_vertex;  ///< Multiplies the base colour. Linear, 8 bits each: red lowest, then green, blue.
+  /// Direction of a normal map's red, in 8 bits with sign each: x lowest, y, z, and w, the side of its green: w · (normal
+  /// × tangent). 0: both follow from how the texture coordinates lie.
+  std::uint32_t tangent = 0;
+  glm::vec2 second_uv{0.0f};  ///< Of the images that SurfaceMaterial::by_second_uv names.
 };
 
 /// A run of triangles with one material; `material` indexes ResolvedScene::materials.
@@ -61,6 +69,7 @@ struct SurfaceMaterial {
   /// Indexes ResolvedScene::images; multiplies base_color; alpha cuts out below ½.
   std::int32_t base_color_image = -1;
   SurfaceMapImages maps = no_surface_maps;  ///< Indices of ResolvedScene::images.
+  std::uint32_t by_second_uv = 0;           ///< Bit n: SurfaceMap n lies by SurfaceVertex::second_uv.
   float roughness = 0.7f;
   float metallic = 0.0f;
   float opacity = 1.0f;

@@ -1,7 +1,7 @@
 #pragma once
 /// Images of a material beside that of its base colour: one table instead of a member for each.
 ///
-/// All of a material's images lie by the same texture coordinates.
+/// Each lies by the texture coordinates of the base colour's image, or by a second set that all others share.
 
 #include <array>
 #include <cstddef>

@@ -156,15 +156,19 @@ std::vector<glm::vec3> group_normals(const PolygonMesh& mesh, const SmoothGroups
   return sums;
 }
 
-/// The vertices of the triangles: one for every group and texture coordinate.
+/// The vertices of the triangles: one for every group, texture coordinate, colour and tangent.
 class VertexPool {
  public:
   VertexPool(SurfaceMesh& surface, std::size_t corners) : surface_(surface), first_(corners, none) {}
 
   std::uint32_t index(std::uint32_t group, const SurfaceVertex& vertex) {
     for (std::uint32_t i = first_[group]; i != none; i = next_[i]) {
-      const glm::vec2 difference = glm::abs(surface_.vertices[i].uv - vertex.uv);
-      if (difference.x < same_uv && difference.y < same_uv) return i;
+      const SurfaceVertex& known = surface_.vertices[i];
+      const glm::vec2 difference =
+          glm::max(glm::abs(known.uv - vertex.uv), glm::abs(known.second_uv - vertex.second_uv));
+      if (difference.x < same_uv && difference.y < same_uv && known.color == vertex.color &&
+          known.tangent == vertex.tangent)
+        return i;
     }
     const auto added = static_cast<std::uint32_t>(surface_.vertices.size());
     surface_.vertices.push_back(vertex);
@@ -190,6 +194,10 @@ geometry::PolygonMesh polygons_of(const GeometryData& geometry) {
   const auto* edges = layer_of_type(geometry, geometry.edge_crease.layer, LayerType::corner_integer);
   const auto* map_u = layer_of_type(geometry, "map_u", LayerType::corner_real);
   const auto* map_v = layer_of_type(geometry, "map_v", LayerType::corner_real);
+  const auto* second_u = layer_of_type(geometry, "second_map_u", LayerType::corner_real);
+  const auto* second_v = layer_of_type(geometry, "second_map_v", LayerType::corner_real);
+  const auto* colors = layer_of_type(geometry, "color", LayerType::corner_integer);
+  const auto* tangents = layer_of_type(geometry, "tangent", LayerType::corner_integer);
   const auto* material = layer_of_type(geometry, "material", LayerType::face_integer);
   if (!material) material = layer_of_type(geometry, "material", LayerType::face_byte);
   for (std::size_t p = 0; p < geometry.polygons.size(); ++p) {
@@ -197,9 +205,15 @@ geometry::PolygonMesh polygons_of(const GeometryData& geometry) {
     mesh.polygons.push_back(geometry.polygons[p]);
     if (edges) mesh.edge_creases.push_back(four(edges->integers, p));
     if (material) mesh.polygon_materials.push_back(material->integers[p]);
-    if (!map_u || !map_v) continue;
-    auto& uvs = mesh.corner_uvs.emplace_back();
-    for (std::size_t k = 0; k < 4; ++k) uvs[k] = {map_u->reals[p * 4 + k], map_v->reals[p * 4 + k]};
+    if (colors) mesh.corner_colors.push_back(four(colors->integers, p));
+    if (tangents) mesh.corner_tangents.push_back(four(tangents->integers, p));
+    const auto uvs_of = [p](const GeometryLayer& u, const GeometryLayer& v) {
+      std::array<glm::vec2, 4> uvs{};
+      for (std::size_t k = 0; k < 4; ++k) uvs[k] = {u.reals[p * 4 + k], v.reals[p * 4 + k]};
+      return uvs;
+    };
+    if (map_u && map_v) mesh.corner_uvs.push_back(uvs_of(*map_u, *map_v));
+    if (second_u && second_v) mesh.second_corner_uvs.push_back(uvs_of(*second_u, *second_v));
   }
   return mesh;
 }
@@ -231,7 +245,11 @@ SurfaceMesh triangulate(const PolygonMesh& mesh, const std::function<std::uint32
     for (std::uint32_t k = 0; k < count; ++k) {
       const glm::vec3 position_m = mesh.vertices_m[corners[k]];
       const glm::vec2 uv = mesh.corner_uvs.empty() ? glm::vec2(0.0f) : mesh.corner_uvs[p][k];
-      at[k] = pool.index(groups.of(p, k), {position_m, normals[groups.of(p, k)], uv});
+      SurfaceVertex vertex{position_m, normals[groups.of(p, k)], uv};
+      if (!mesh.corner_colors.empty()) vertex.color = mesh.corner_colors[p][k];
+      if (!mesh.corner_tangents.empty()) vertex.tangent = mesh.corner_tangents[p][k];
+      if (!mesh.second_corner_uvs.empty()) vertex.second_uv = mesh.second_corner_uvs[p][k];
+      at[k] = pool.index(groups.of(p, k), vertex);
       surface.bounds_min_m = glm::min(surface.bounds_min_m, position_m);
       surface.bounds_max_m = glm::max(surface.bounds_max_m, position_m);
     }

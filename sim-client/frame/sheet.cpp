@@ -118,7 +118,7 @@ class Cutting {
     const bool mirrored = scale_.x * scale_.y * scale_.z < 0.0f;
     const auto in_vehicle = [&](const Corner& corner) {
       const Vec3 normal = place_.orientation * glm::normalize(Vec3(corner.vertex.normal) / Vec3(scale_));
-      return SurfaceVertex{corner.at, glm::vec3(normal), corner.vertex.uv};
+      return SurfaceVertex{corner.at, glm::vec3(normal), corner.vertex.uv, corner.vertex.color};
     };
     for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
       SheetTriangle triangle{{in_vehicle(polygon[0]), in_vehicle(polygon[k]), in_vehicle(polygon[k + 1])}, material};
@@ -208,7 +208,7 @@ void append(const Sheet& sheet, const RigidTransform& vehicle_from_object, const
     for (const SurfaceVertex& vertex : triangle.corners) {
       const Vec3 normal = (object_from_vehicle.orientation * Vec3(vertex.normal)) * Vec3(scale);
       mesh.vertices.push_back({glm::vec3((object_from_vehicle * Vec3(vertex.position_m)) / Vec3(scale)),
-                               glm::vec3(glm::normalize(normal)), vertex.uv});
+                               glm::vec3(glm::normalize(normal)), vertex.uv, vertex.color});
     }
     for (const std::uint32_t corner : {0u, mirrored ? 2u : 1u, mirrored ? 1u : 2u})
       mesh.indices.push_back(first + corner);

@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include "engine/scene/resolved_scene.hpp"
 
@@ -15,8 +16,13 @@ namespace septet::frame {
 inline scene::SurfaceVertex between(const scene::SurfaceVertex& a, const scene::SurfaceVertex& b, float share = 0.5f) {
   const glm::vec3 normal = glm::mix(a.normal, b.normal, share);
   const float length = glm::length(normal);
-  return {glm::mix(a.position_m, b.position_m, share), length > 1e-6f ? normal / length : a.normal,
-          glm::mix(a.uv, b.uv, share)};
+  scene::SurfaceVertex vertex{glm::mix(a.position_m, b.position_m, share), length > 1e-6f ? normal / length : a.normal,
+                              glm::mix(a.uv, b.uv, share)};
+  vertex.second_uv = glm::mix(a.second_uv, b.second_uv, share);
+  vertex.tangent = share < 0.5f ? a.tangent : b.tangent;
+  if (a.color != scene::white_vertex || b.color != scene::white_vertex)
+    vertex.color = glm::packUnorm4x8(glm::mix(glm::unpackUnorm4x8(a.color), glm::unpackUnorm4x8(b.color), share));
+  return vertex;
 }
 
 /// True if every index and every run of a mesh lies within it.

@@ -80,6 +80,7 @@ DeviceMaterial device_material(const SurfaceMaterial& material, std::span<const 
       result.map_bits |= 1u << map;
       result.square_root_bits |= std::uint32_t{texture->square_roots} << (map + 1);
     }
+  result.second_uv_bits = material.by_second_uv & result.map_bits;
   result.blended = material.opacity < 0.999f;
   result.cut = textured && !result.blended && base->holes;
   const bool mapped = result.maps[scene::SurfaceMap::properties] >= 0;

@@ -26,8 +26,9 @@ struct DeviceMaterial {
   MaterialConstants constants{};
   std::int32_t image = -1;                                ///< Index of its texture; −1: no texture.
   scene::SurfaceMapImages maps = scene::no_surface_maps;  ///< Indices of textures.
-  /// Bits of shaders/surface.frag: the maps that there are, and the images that hold square roots.
-  std::uint32_t map_bits = 0, square_root_bits = 1;
+  /// Bits of shaders/surface.frag: the maps that there are, those by the second coordinates, and the images that hold
+  /// square roots.
+  std::uint32_t map_bits = 0, second_uv_bits = 0, square_root_bits = 1;
   bool cut = false, blended = false, glossy = false, coated = false, wettable = false, stripe = false,
        two_sided = false, in_street = false;  ///< two_sided: opaque, and drawn from both sides.
 };

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+#include <glm/matrix.hpp>
 
 #include "engine/core/parallel_for.hpp"
 #include "engine/render/passes/stripes.hpp"
@@ -61,6 +64,15 @@ bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t firs
   return true;
 }
 
+/// A mirroring turn changes the side of a normal map's green.
+std::uint32_t turned_tangent(std::uint32_t packed, const glm::mat3& turn) {
+  const glm::vec4 tangent = glm::unpackSnorm4x8(packed);
+  const glm::vec3 along_u = turn * glm::vec3(tangent);
+  const float length = glm::length(along_u);
+  if (!(length > 0.0f)) return 0;
+  return glm::packSnorm4x8(glm::vec4(along_u / length, glm::determinant(turn) < 0.0f ? -tangent.w : tangent.w));
+}
+
 /// Writes an instance's vertices at their places in its block.
 void fill_vertices(StaticBlock& block, std::uint32_t first_vertex, const Vec3& position_m, const glm::mat3& turn,
                    const SurfaceMesh& mesh) {
@@ -69,8 +81,13 @@ void fill_vertices(StaticBlock& block, std::uint32_t first_vertex, const Vec3& p
   const glm::vec3 squares(glm::dot(turn[0], turn[0]), glm::dot(turn[1], turn[1]), glm::dot(turn[2], turn[2]));
   const glm::mat3 normal_turn(turn[0] / squares.x, turn[1] / squares.y, turn[2] / squares.z);
   SurfaceVertex* target = block.vertices.data() + first_vertex;
-  for (const SurfaceVertex& vertex : mesh.vertices)
-    *target++ = {origin + turn * vertex.position_m, normal_turn * vertex.normal, vertex.uv};
+  for (const SurfaceVertex& vertex : mesh.vertices) {
+    *target = vertex;
+    target->position_m = origin + turn * vertex.position_m;
+    target->normal = normal_turn * vertex.normal;
+    if (vertex.tangent != 0) target->tangent = turned_tangent(vertex.tangent, turn);
+    ++target;
+  }
 }
 
 void fill_clumps(StaticGeometry& geometry, const StaticPiece& piece) {

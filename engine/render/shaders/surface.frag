@@ -40,6 +40,8 @@ layout(constant_id = 12) const uint over_frames = 0;  // See surface.vert.
 layout(constant_id = 18) const uint maps = 0;
 // Images that hold square roots of linear light, others hold linear numbers. Bits: 1 base colour, 2, 4, 8 the maps.
 layout(constant_id = 19) const uint square_roots = 1;
+// Maps that lie by the second coordinates, by the same bits as `maps`.
+layout(constant_id = 20) const uint by_second_uv = 0;
 layout(set = 0, binding = 21) uniform sampler2D emission_map;
 layout(set = 0, binding = 22) uniform sampler2D properties_map;
 layout(set = 0, binding = 23) uniform sampler2D normal_map;
@@ -51,12 +53,16 @@ const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of the surroundings
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-layout(location = 3) flat in vec4 color;
+layout(location = 3) in vec4 color;
 layout(location = 4) flat in vec4 emission;
 layout(location = 5) in vec3 fog_light;
 layout(location = 6) flat in float snowed;
 layout(location = 7) flat in vec2 shown;
+layout(location = 8) in vec2 second_uv;
+layout(location = 9) in vec4 tangent;
 layout(location = 0) out vec4 result;
+
+vec2 uv_of(uint map) { return (by_second_uv & map) != 0 ? second_uv : uv; }
 
 layout(set = 0, binding = 1, std430) readonly buffer Soot { uint soot[]; };  // Four cells each.
 
@@ -153,13 +159,19 @@ vec3 layer_reflectance(float cosine, vec3 f0, float roughness) {
   return f0 * (1.0 - 0.15 * roughness) + (1.0 - f0) * (fifth_power(1.0 - cosine) / (1.0 + 20.0 * roughness * roughness * roughness));
 }
 
-// Normal of the material's map; how the place moves along u and v follows from neighbouring pixels.
+// Normal of the material's map. How the place moves along u and v is the vertices' own, or else follows from
+// neighbouring pixels.
 vec3 normal_in_map(vec3 n) {
+  vec2 at = uv_of(4);
   vec3 across = dFdx(relative), down = dFdy(relative);
-  vec2 uv_across = dFdx(uv), uv_down = dFdy(uv);
+  vec2 uv_across = dFdx(at), uv_down = dFdy(at);
   float side = uv_across.x * uv_down.y < uv_down.x * uv_across.y ? -1.0 : 1.0;
-  return mapped_normal(in_linear(texture(normal_map, uv), 8).rgb, n, side * (across * uv_down.y - down * uv_across.y),
-                       side * (down * uv_across.x - across * uv_down.x));
+  vec3 along_u = side * (across * uv_down.y - down * uv_across.y), along_v = side * (down * uv_across.x - across * uv_down.x);
+  if (tangent.w != 0.0) {
+    along_u = tangent.xyz;
+    along_v = cross(n, along_u) * -tangent.w;
+  }
+  return mapped_normal(in_linear(texture(normal_map, at), 8).rgb, n, along_u, along_v);
 }
 
 void main() {
@@ -186,7 +198,7 @@ void main() {
   vec3 albedo = base.rgb;
   float roughness = material.emission.w, metallic = material.surface.x, from_around = material.more.x;
   if ((maps & 2) != 0) {
-    vec3 properties = in_linear(texture(properties_map, uv), 4).rgb;
+    vec3 properties = in_linear(texture(properties_map, uv_of(2)), 4).rgb;
     from_around *= properties.r;
     roughness = max(least_mapped_roughness, roughness * properties.g);
     metallic *= properties.b;
@@ -275,7 +287,7 @@ void main() {
     }
   }
   vec3 shining = textured != 0 ? base.rgb : vec3(1.0);
-  if ((maps & 1) != 0) shining = in_linear(texture(emission_map, uv), 2).rgb;
+  if ((maps & 1) != 0) shining = in_linear(texture(emission_map, uv_of(1)), 2).rgb;
   radiance += emission.rgb * shining * view.light_irradiance.w;
   if (sooty != 0) radiance *= 1.0 - soot_cover();
 

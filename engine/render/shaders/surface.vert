@@ -13,15 +13,20 @@ layout(constant_id = 12) const uint over_frames = 0;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec3 normal;
+layout(location = 9) in vec4 vertex_color;
+layout(location = 10) in vec4 tangent;  // All 0: it follows from the coordinates.
+layout(location = 11) in vec2 second_uv;
 
 layout(location = 0) out vec3 out_relative;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec2 out_uv;
-layout(location = 3) flat out vec4 out_color;     // Base colour and opacity.
+layout(location = 3) out vec4 out_color;          // Base colour and opacity.
 layout(location = 4) flat out vec4 out_emission;  // rgb, w: share of the sky.
 layout(location = 5) out vec3 out_fog;
 layout(location = 6) flat out float out_snowed;
 layout(location = 7) flat out vec2 out_shown;
+layout(location = 8) out vec2 out_second_uv;
+layout(location = 9) out vec4 out_tangent;
 
 // Moves a stripe's edge (see passes/stripes.hpp) outwards until the stripe reaches beyond the area that it covers by
 // 0.75 pixels, so that every covered pixel has a sample. Returns the share by which it is drawn nearer to the eye,
@@ -60,7 +65,11 @@ void main() {
   float nearer = 0.0;
   if (stripe != 0) nearer = widen_stripe();
   vec3 paint = material.surface.w > 0.5 ? tint.rgb : vec3(1.0);
-  out_color = vec4(material.base_color.rgb * paint, material.base_color.a);
+  out_color = vec4(material.base_color.rgb * paint * vertex_color.rgb, material.base_color.a);
+  out_second_uv = second_uv;
+  // A mirrored instance changes the side of a normal map's green.
+  bool mirrored = dot(cross(row0.xyz, row1.xyz), row2.xyz) < 0.0;
+  out_tangent = vec4(turned(tangent.xyz), mirrored ? -tangent.w : tangent.w);
   out_emission = vec4(material.emission.rgb * (tint.a * mix(1.0, view.ground_irradiance.w, material.more.y)), material.light.x * light.x);
   out_fog = fog_radiance(out_relative / max(length(out_relative), 1e-3), out_emission.w);
   vec3 drawn = mirror_of_road != 0 ? below_road(out_relative) : out_relative * (1.0 - nearer);

@@ -103,7 +103,7 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   const std::array<VkVertexInputBindingDescription, 2> buffers{
       {{0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX},
        {1, sizeof(InstanceRecord), VK_VERTEX_INPUT_RATE_INSTANCE}}};
-  const std::array<VkVertexInputAttributeDescription, 9> attributes{{
+  const std::array<VkVertexInputAttributeDescription, 12> attributes{{
       {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, position_m)},
       {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SurfaceVertex, uv)},
       {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, row0)},
@@ -114,6 +114,9 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
       {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, normal)},
       {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, tint)},
       {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, light)},
+      {9, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(SurfaceVertex, color)},
+      {10, 0, VK_FORMAT_R8G8B8A8_SNORM, offsetof(SurfaceVertex, tangent)},
+      {11, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SurfaceVertex, second_uv)},
   }};
   VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   using ice::IceVertex;
@@ -130,7 +133,7 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   } else if (description.vertex_input != VertexInput::none) {
     vertices.vertexBindingDescriptionCount = buffers.size();
     vertices.pVertexBindingDescriptions = buffers.data();
-    vertices.vertexAttributeDescriptionCount = description.vertex_input == VertexInput::surface ? 9 : 6;
+    vertices.vertexAttributeDescriptionCount = description.vertex_input == VertexInput::surface ? attributes.size() : 6;
     vertices.pVertexAttributeDescriptions = attributes.data();
   }
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};

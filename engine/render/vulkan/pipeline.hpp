@@ -74,7 +74,7 @@ struct PipelineDescription {
   bool marks = false;  ///< Alpha is stored, too: blended by itself, whatever the blending of the colours.
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 20> constants{};  ///< Specialization constants 0 to 19 of both stages.
+  std::array<std::uint32_t, 21> constants{};  ///< Specialization constants 0 to 20 of both stages.
 };
 
 /// Creates a pipeline. Viewport, scissor, cull mode and front face are dynamic.

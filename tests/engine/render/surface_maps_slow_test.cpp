@@ -9,7 +9,9 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include "engine/image/png.hpp"
 #include "engine/image/srgb.hpp"
@@ -238,6 +240,68 @@ TEST_CASE("an image that ends goes on as its edge is, and a sharp one has even p
   for (const Quarters& quarters : {sharp.rasterised, sharp.traced}) {
     CHECK(quarters[0].g < 0.1f * quarters[0].r);
     CHECK(quarters[1].r < 0.1f * quarters[1].g);
+  }
+}
+
+TEST_CASE("the colours of vertices multiply the base colour between them, in both renderers") {
+  scene::ResolvedScene scene = plate(grey(0.5f));
+  const Both white = both(scene, "maps vertices white");
+  // From dark on the left to white on the right, and no red.
+  for (scene::SurfaceVertex& vertex : scene.meshes[0].vertices) {
+    const float share = glm::clamp(vertex.uv.x, 0.0f, 1.0f);
+    vertex.color = glm::packUnorm4x8(glm::vec4(0.0f, share, share, 1.0f));
+  }
+  const Both seen = both(scene, "maps vertices coloured");
+  const auto check = [](const Quarters& coloured, const Quarters& plain) {
+    for (std::size_t q = 0; q < 4; ++q) {
+      CAPTURE(q);
+      CHECK(coloured[q].r < 0.02f * plain[q].r);
+      const double share = double(coloured[q].g) / double(plain[q].g);
+      CHECK(share == doctest::Approx(q % 2 == 0 ? 0.25 : 0.75).epsilon(0.12));
+    }
+  };
+  check(seen.rasterised, white.rasterised);
+  check(seen.traced, white.traced);
+}
+
+TEST_CASE("a vertex's own tangent turns the normals of an image, in both renderers") {
+  scene::ResolvedScene scene = plate(grey(0.5f));
+  // All lean along the image's red, which the coordinates have on the right, towards the sun.
+  const std::array<std::uint8_t, 3> along{218, 128, 218};
+  set_map(scene, SurfaceMap::normal, quarters_image({{along, along, along, along}}, false));
+  const Both right = both(scene, "maps tangent by coordinates");
+  const auto with_tangent = [&](const glm::vec4& tangent, const std::string& name) {
+    for (scene::SurfaceVertex& vertex : scene.meshes[0].vertices) vertex.tangent = glm::packSnorm4x8(tangent);
+    return both(scene, name);
+  };
+  const Both same = with_tangent({0, -1, 0, 1}, "maps tangent right"),
+             left = with_tangent({0, 1, 0, 1}, "maps tangent left"), up = with_tangent({0, 0, 1, 1}, "maps tangent up");
+  check_alike(left, 0.08);
+  check_alike(up, 0.08);
+  for (const auto which : {&Both::rasterised, &Both::traced}) {
+    CHECK((same.*which)[0].g == relative(double((right.*which)[0].g), 0.02));
+    CHECK((left.*which)[0].g < 0.6f * (right.*which)[0].g);
+    CHECK((up.*which)[0].g > 1.1f * (left.*which)[0].g);
+  }
+  // The side of green: the image leans up, and with −1 down.
+  scene.images.back() = quarters_image({{{128, 218, 218}, {128, 218, 218}, {128, 218, 218}, {128, 218, 218}}}, false);
+  const Both upwards = with_tangent({0, -1, 0, 1}, "maps green up"),
+             downwards = with_tangent({0, -1, 0, -1}, "maps green down");
+  for (const auto which : {&Both::rasterised, &Both::traced})
+    CHECK((upwards.*which)[0].g > 1.2f * (downwards.*which)[0].g);
+}
+
+TEST_CASE("an image lies by the second coordinates where the material says so, in both renderers") {
+  scene::SurfaceMaterial look = grey(0.0f);
+  look.emission = glm::vec3(4.0f);
+  look.by_second_uv = 1;
+  scene::ResolvedScene scene = plate(look);
+  set_map(scene, SurfaceMap::emission, quarters_image({{{255, 0, 0}, {0, 255, 0}, {255, 0, 0}, {0, 255, 0}}}, true));
+  for (scene::SurfaceVertex& vertex : scene.meshes[0].vertices) vertex.second_uv = {1.0f - vertex.uv.x, vertex.uv.y};
+  const Both seen = both(scene, "maps second coordinates");
+  for (const Quarters& quarters : {seen.rasterised, seen.traced}) {
+    CHECK(quarters[0].r < 0.1f * quarters[0].g);
+    CHECK(quarters[1].g < 0.1f * quarters[1].r);
   }
 }
 

@@ -6,6 +6,7 @@
 /// ice.pfm is white at ice. peer_scenes.hpp lists the scenes' content.
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -62,8 +63,9 @@ std::string ply(const Group& group) {
       "property float nx\nproperty float ny\nproperty float nz\nproperty float u\nproperty float v\n"
       "element face {}\nproperty list uchar int vertex_index\nend_header\n",
       group.vertices.size(), group.vertices.size() / 3);
-  bytes.append(reinterpret_cast<const char*>(group.vertices.data()),
-               group.vertices.size() * sizeof(scene::SurfaceVertex));
+  // Of a vertex what `property` lines name: it begins with them.
+  for (const scene::SurfaceVertex& vertex : group.vertices)
+    bytes.append(reinterpret_cast<const char*>(&vertex), offsetof(scene::SurfaceVertex, color));
   for (std::uint32_t n = 0; n + 2 < group.vertices.size(); n += 3) {
     const std::uint32_t corners[3] = {n, n + 1, n + 2};
     bytes += '\3';
