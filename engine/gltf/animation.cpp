@@ -26,6 +26,7 @@ namespace {
 using Interpolation = Channel::Interpolation;
 
 constexpr std::size_t most_times = 10'000, most_times_in_all = 1'000'000;
+constexpr std::size_t most_weights = 256;
 constexpr float longest_s = 3600.0f;
 constexpr double taken_apart_s = 1.0 / 60.0;
 
@@ -34,7 +35,8 @@ struct NotPlayed {
   std::string weights, twice, other;
 };
 
-Expected<Channel> read_channel(const Container& container, const Json& sampler, std::size_t width,
+/// A row of the file has `width` numbers; `joined` of them are one of the channel.
+Expected<Channel> read_channel(const Container& container, const Json& sampler, std::size_t width, std::size_t joined,
                                const std::string& where) {
   Channel channel;
   const std::string interpolation = text_in(sampler, "interpolation");
@@ -43,13 +45,15 @@ Expected<Channel> read_channel(const Container& container, const Json& sampler, 
   auto times = read_rows(container, index_in(sampler, "input"), 1, 1, most_times);
   if (!times) return tl::unexpected(times.error());
   channel.times_s = std::move(times->numbers);
-  auto values = read_rows(container, index_in(sampler, "output"), width, width, 3 * most_times);
+  auto values = read_rows(container, index_in(sampler, "output"), width, width, 3 * most_times * joined);
   if (!values) return tl::unexpected(values.error());
   channel.values = std::move(*values);
   const std::size_t rows_a_time = channel.interpolation == Interpolation::cubic ? 3 : 1;
-  if (channel.times_s.empty() || channel.values.count != rows_a_time * channel.times_s.size())
+  if (channel.times_s.empty() || channel.values.count != rows_a_time * joined * channel.times_s.size())
     return failure(fmt::format("it has {} values at {} times", channel.values.count, channel.times_s.size()), where,
                    export_anew);
+  channel.values.count /= joined;
+  channel.values.width *= joined;
   float before_s = -1.0f;
   for (const float time_s : channel.times_s) {
     if (!(time_s >= 0.0f && time_s > before_s && time_s <= longest_s))
@@ -61,63 +65,111 @@ Expected<Channel> read_channel(const Container& container, const Json& sampler, 
   return channel;
 }
 
-/// The value at a time; `before`: just before it. Outside of its times that of the nearest (3.11).
-glm::vec4 value_at(const Channel& channel, double time_s, bool before, bool is_turn) {
+/// Row of a value by its time, and what it counts.
+struct WeightedRow {
+  std::size_t row;
+  float factor;
+};
+
+/// Rows whose sum is the value at a time, where nothing turns; `before`: just before it. Outside of its times that of the
+/// nearest (3.11).
+std::vector<WeightedRow> rows_at(const Channel& channel, double time_s, bool before) {
   const auto& times = channel.times_s;
   const bool is_cubic = channel.interpolation == Interpolation::cubic;
-  const auto row = [&](std::size_t time, std::size_t part) {
-    const std::size_t width = channel.values.width, at = (is_cubic ? 3 * time + part : time) * width;
-    glm::vec4 value(0.0f);
-    for (std::size_t k = 0; k < width; ++k) value[static_cast<glm::length_t>(k)] = channel.values.numbers[at + k];
-    return value;
-  };
   constexpr std::size_t slope_before = 0, value = 1, slope_behind = 2;
+  const auto row = [&](std::size_t time, std::size_t part) { return is_cubic ? 3 * time + part : time; };
   const auto from_s = [](float at_s) { return double{at_s}; };
   const auto next = before ? std::ranges::lower_bound(times, time_s, {}, from_s)
                            : std::ranges::upper_bound(times, time_s, {}, from_s);
   const auto after = static_cast<std::size_t>(next - times.begin());
-  if (after == 0) return row(0, value);
-  if (after == times.size() || channel.interpolation == Interpolation::step) return row(after - 1, value);
+  if (after == 0) return {{row(0, value), 1.0f}};
+  if (after == times.size() || channel.interpolation == Interpolation::step) return {{row(after - 1, value), 1.0f}};
   const double length_s = double{times[after]} - double{times[after - 1]};
-  const double share = (time_s - double{times[after - 1]}) / length_s;
-  const glm::vec4 from = row(after - 1, value), to = row(after, value);
-  const auto t = static_cast<float>(share), length = static_cast<float>(length_s);
-  if (is_cubic) {  // Appendix C.5.
-    const float t2 = t * t, t3 = t2 * t;
-    return (2.0f * t3 - 3.0f * t2 + 1.0f) * from + length * (t3 - 2.0f * t2 + t) * row(after - 1, slope_behind) +
-           (3.0f * t2 - 2.0f * t3) * to + length * (t3 - t2) * row(after, slope_before);
-  }
-  if (!is_turn) return from + t * (to - from);
-  const auto turn_of = [](const glm::vec4& v) {
-    const Quat turn(double{v.w}, double{v.x}, double{v.y}, double{v.z});
-    const double size = glm::length(turn);
-    return size > 1e-6 ? turn / size : Quat(1.0, 0.0, 0.0, 0.0);
+  const auto t = static_cast<float>((time_s - double{times[after - 1]}) / length_s),
+             length = static_cast<float>(length_s);
+  if (!is_cubic) return {{row(after - 1, value), 1.0f - t}, {row(after, value), t}};
+  const float t2 = t * t, t3 = t2 * t;  // Appendix C.5.
+  return {{row(after - 1, value), 2.0f * t3 - 3.0f * t2 + 1.0f},
+          {row(after - 1, slope_behind), length * (t3 - 2.0f * t2 + t)},
+          {row(after, value), 3.0f * t2 - 2.0f * t3},
+          {row(after, slope_before), length * (t3 - t2)}};
+}
+
+/// The value at a time; `before`: just before it.
+glm::vec4 value_at(const Channel& channel, double time_s, bool before, bool is_turn) {
+  const std::vector<WeightedRow> rows = rows_at(channel, time_s, before);
+  const auto value_of = [&](std::size_t row) {
+    glm::vec4 value(0.0f);
+    for (std::size_t k = 0; k < channel.values.width; ++k)
+      value[static_cast<glm::length_t>(k)] = channel.values.numbers[row * channel.values.width + k];
+    return value;
   };
-  const Quat turn = slerp_quadratic(turn_of(from), turn_of(to), 0.0, share);  // Appendix C.4.
-  return {glm::vec3(turn.x, turn.y, turn.z), static_cast<float>(turn.w)};
+  if (is_turn && rows.size() == 2) {
+    const auto turn_of = [](const glm::vec4& v) {
+      const Quat turn(double{v.w}, double{v.x}, double{v.y}, double{v.z});
+      const double size = glm::length(turn);
+      return size > 1e-6 ? turn / size : Quat(1.0, 0.0, 0.0, 0.0);
+    };
+    const Quat turn = slerp_quadratic(turn_of(value_of(rows[0].row)), turn_of(value_of(rows[1].row)), 0.0,
+                                      double{rows[1].factor});  // Appendix C.4.
+    return {glm::vec3(turn.x, turn.y, turn.z), static_cast<float>(turn.w)};
+  }
+  if (rows.size() == 2) {
+    const glm::vec4 from = value_of(rows[0].row);
+    return from + rows[1].factor * (value_of(rows[1].row) - from);
+  }
+  glm::vec4 sum(0.0f);
+  for (const WeightedRow& row : rows) sum += row.factor * value_of(row.row);
+  return sum;
 }
 
 std::array<float, 3> three_of(const glm::vec4& v) { return {v.x, v.y, v.z}; }
+
+NodePose pose_at(const Animations& animations, std::int64_t node, double time_s, bool before) {
+  NodePose pose;
+  const auto moved = animations.by_node.find(node);
+  if (moved == animations.by_node.end()) return pose;
+  const NodeChannels& by = moved->second;
+  if (by.translation) pose.translation = three_of(value_at(*by.translation, time_s, before, false));
+  if (by.scale) pose.scale = three_of(value_at(*by.scale, time_s, before, false));
+  if (by.rotation) {
+    const glm::vec4 turn = value_at(*by.rotation, time_s, before, true);
+    pose.rotation = {turn.x, turn.y, turn.z, turn.w};
+  }
+  return pose;
+}
 
 /// `before`: just before the time.
 glm::mat4 model_from_node(const Container& container, const Animations& animations,
                           const std::vector<std::int64_t>& chain, double time_s, bool before) {
   const Json& nodes = list_of(*container.json, "nodes");
   glm::mat4 placed(1.0f);
-  for (const std::int64_t node : chain) {
-    NodePose pose;
-    if (const auto moved = animations.by_node.find(node); moved != animations.by_node.end()) {
-      const NodeChannels& by = moved->second;
-      if (by.translation) pose.translation = three_of(value_at(*by.translation, time_s, before, false));
-      if (by.scale) pose.scale = three_of(value_at(*by.scale, time_s, before, false));
-      if (by.rotation) {
-        const glm::vec4 turn = value_at(*by.rotation, time_s, before, true);
-        pose.rotation = {turn.x, turn.y, turn.z, turn.w};
-      }
-    }
-    placed = placed * parent_from_node(nodes[static_cast<std::size_t>(node)], pose);
-  }
+  for (const std::int64_t node : chain)
+    placed =
+        placed * parent_from_node(nodes[static_cast<std::size_t>(node)], pose_at(animations, node, time_s, before));
   return placed;
+}
+
+/// Places a node and those below it, of which none is its own ancestor.
+void place_below(const Container& container, const Animations& animations, std::int64_t index,
+                 const glm::mat4& model_from_parent, double time_s, PlacedNodes& placed) {
+  const Json& node = list_of(*container.json, "nodes")[static_cast<std::size_t>(index)];
+  const glm::mat4 model_from_node =
+      model_from_parent * parent_from_node(node, pose_at(animations, index, time_s, false));
+  placed.model_from_node[static_cast<std::size_t>(index)] = model_from_node;
+  for (const Json& child : list_of(node, "children"))
+    place_below(container, animations, node_index(*container.json, child), model_from_node, time_s, placed);
+}
+
+/// The number of morph targets of a node's mesh.
+std::size_t targets_of(const Container& container, std::int64_t node) {
+  const Json& nodes = list_of(*container.json, "nodes");
+  const Json& meshes = list_of(*container.json, "meshes");
+  const Json& json = nodes[static_cast<std::size_t>(node)];
+  const std::int64_t mesh = json.is_object() ? index_in(json, "mesh") : -1;
+  if (mesh < 0 || static_cast<std::uint64_t>(mesh) >= meshes.size()) return 0;
+  const Json& primitives = list_of(meshes[static_cast<std::size_t>(mesh)], "primitives");
+  return primitives.empty() ? 0 : list_of(primitives[0], "targets").size();
 }
 
 /// A matrix as place, turn and size; what it shears is lost.
@@ -192,9 +244,9 @@ Expected<Animations> read_animations(const Container& container, std::vector<std
       const Json& target = member_of(channels[c], "target");
       const std::string path = text_in(target, "path");
       const bool is_turn = path == "rotation";
-      if (!is_turn && path != "translation" && path != "scale") {
-        std::string& first = path == "weights" ? not_played.weights : not_played.other;
-        if (first.empty()) first = called;
+      const bool is_weights = path == "weights";
+      if (!is_turn && !is_weights && path != "translation" && path != "scale") {
+        if (not_played.other.empty()) not_played.other = called;
         continue;
       }
       if (!target.contains("node")) continue;  // 3.11: such a channel is ignored.
@@ -204,13 +256,23 @@ Expected<Animations> read_animations(const Container& container, std::vector<std
         return failure(fmt::format("its sampler is none of {}", samplers.size()), where, export_anew);
       if (node < 0 || static_cast<std::uint64_t>(node) >= list_of(*container.json, "nodes").size())
         return failure("it moves no node of the file", where, export_anew);
+      const std::size_t targets = is_weights ? targets_of(container, node) : 0;
+      if (is_weights && (targets == 0 || targets > most_weights)) {
+        if (not_played.weights.empty()) not_played.weights = called;
+        continue;
+      }
       NodeChannels& of_node = read.by_node[node];
-      auto& moved = is_turn ? of_node.rotation : path == "scale" ? of_node.scale : of_node.translation;
+      auto& moved = is_weights        ? of_node.weights
+                    : is_turn         ? of_node.rotation
+                    : path == "scale" ? of_node.scale
+                                      : of_node.translation;
       if (moved) {
         if (not_played.twice.empty()) not_played.twice = called;
         continue;
       }
-      auto channel = read_channel(container, samplers[static_cast<std::size_t>(sampler)], is_turn ? 4 : 3, where);
+      const Json& sampling = samplers[static_cast<std::size_t>(sampler)];
+      auto channel = is_weights ? read_channel(container, sampling, 1, targets, where)
+                                : read_channel(container, sampling, is_turn ? 4 : 3, 1, where);
       if (!channel) return tl::unexpected(channel.error());
       times += channel->times_s.size();
       if (times > most_times_in_all)
@@ -224,8 +286,7 @@ Expected<Animations> read_animations(const Container& container, std::vector<std
     if (!which.empty()) left_out.push_back(fmt::format("{} {}", which, what));
   };
   tell(not_played.twice, "moves what an earlier one moves: there the earlier one is played");
-  tell(not_played.weights,
-       "moves the weights of morph targets, which is not played: they stay as they are in the file");
+  tell(not_played.weights, "moves the weights of no morph targets, or of more than 256, which is not played");
   tell(not_played.other, "moves something else than nodes, which is not played");
   return read;
 }
@@ -240,6 +301,24 @@ std::vector<PoseKey> keys_of_chain(const Container& container, const Animations&
     keys.push_back(key_of(model_from_node(container, animations, chain, at_s, false), at_s));
   }
   return keys;
+}
+
+PlacedNodes placed_at(const Container& container, const Animations& animations, const PlacedNodes& placed,
+                      double time_s) {
+  PlacedNodes then{placed.roots, std::vector<std::optional<glm::mat4>>(placed.model_from_node.size())};
+  for (const std::int64_t root : placed.roots) place_below(container, animations, root, glm::mat4(1.0f), time_s, then);
+  return then;
+}
+
+std::vector<float> weights_at(const Animations& animations, std::int64_t node, double time_s) {
+  const auto found = animations.by_node.find(node);
+  if (found == animations.by_node.end() || !found->second.weights) return {};
+  const Channel& channel = *found->second.weights;
+  std::vector<float> weights(channel.values.width, 0.0f);
+  for (const WeightedRow& row : rows_at(channel, time_s, false))
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      weights[k] += row.factor * channel.values.numbers[row.row * weights.size() + k];
+  return weights;
 }
 
 }  // namespace septet::gltf

@@ -61,8 +61,8 @@ struct Picture : image::Image {
   bool is_sharp = false;  ///< Near to, a place has the colour of one pixel (3.8.4.4).
 };
 
-/// A material. Colours are linear Rec. 709. Pictures are indices of Model::pictures, −1 where there is none; all of a
-/// look lie by the same coordinates. They are those of scene::SurfaceMap, the strengths of a file worked in.
+/// A material. Colours are linear Rec. 709. Pictures are indices of Model::pictures, −1 where there is none; each lies by
+/// one of two sets of coordinates. They are those of scene::SurfaceMap, the strengths of a file worked in.
 struct Look {
   std::string name;
   glm::vec3 base_color{1.0f};
@@ -71,6 +71,9 @@ struct Look {
   std::int32_t properties_picture = -1;  ///< Red: share of the light from around; green, blue: times the two below.
   std::int32_t normal_picture = -1;
   PictureMapping mapping;               ///< Mapping of the pictures' coordinates.
+  PictureMapping second_mapping;        ///< Of the pictures that `by_second_uv` names.
+  std::uint32_t by_second_uv = 0;       ///< See scene::SurfaceMaterial.
+  bool is_unlit = false;                ///< Shines with its base colour, whatever the light.
   bool ends_u = false, ends_v = false;  ///< One of its pictures does.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
   glm::vec3 emission{0.0f};  ///< A picture of the base colour does not colour it.

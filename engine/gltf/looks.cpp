@@ -104,7 +104,9 @@ class Looks {
     look.emission = factor_of(material, "emissiveFactor", glm::vec3(0.0f), 1.0f) *
                     static_cast<float>(std::clamp(strength, 0.0, most_strength));
     const bool is_unlit = member_of(material, "extensions").contains("KHR_materials_unlit");
+    look.is_unlit = is_unlit;
     mapping_.reset();
+    second_mapping_.reset();
     if (auto added = add_base_color(metallic_roughness, mode, look); !added) return tl::unexpected(added.error());
     if (is_unlit) {
       if (auto shining = shine(metallic_roughness, look); !shining) return tl::unexpected(shining.error());
@@ -116,6 +118,7 @@ class Looks {
       if (auto added = add_normal(material, look); !added) return tl::unexpected(added.error());
     }
     look.mapping = mapping_.value_or(PictureMapping{});
+    look.second_mapping = second_mapping_.value_or(PictureMapping{});
     for (const std::int32_t shown :
          {look.picture, look.emission_picture, look.properties_picture, look.normal_picture}) {
       if (shown < 0) continue;
@@ -126,27 +129,45 @@ class Looks {
   }
 
  private:
-  /// Lays the first texture of a material; others have to lie like it, for a triangle has one set of coordinates.
-  bool lies_alike(const Json& texture, const Look& look, const char* what) {
+  /// An image, and whether it lies by the second set of coordinates.
+  struct Laid {
+    std::int64_t image = -1;
+    bool by_second = false;
+  };
+
+  /// By which of its triangles' two sets of coordinates a texture of a material lies: the first is that of the first
+  /// texture, the second that of the first other one. Empty, and told: by neither.
+  std::optional<bool> lies_by_second(const Json& texture, const Look& look, const char* what) {
     const PictureMapping mapping = pictures_.mapping_of(texture);
     if (!mapping_) mapping_ = mapping;
-    if (*mapping_ == mapping) return true;
-    model_.left_out.push_back(fmt::format(
-        "material \"{}\" lays its {} texture otherwise than its first, which is not done: it is drawn without it",
-        look.name, what));
-    return false;
+    if (*mapping_ == mapping) return false;
+    if (!second_mapping_) second_mapping_ = mapping;
+    if (*second_mapping_ == mapping) return true;
+    model_.left_out.push_back(
+        fmt::format("material \"{}\" lays its {} texture in a third way, which is not done: it is drawn without it",
+                    look.name, what));
+    return std::nullopt;
   }
 
   /// The image of a texture that is used; empty, and told, where it is not.
-  std::optional<std::int64_t> image_of(const Json& owner, const char* name, const Look& look, const char* what) {
+  std::optional<Laid> image_of(const Json& owner, const char* name, const Look& look, const char* what) {
     if (!owner.is_object() || !owner.contains(name)) return std::nullopt;
     const Json& texture = member_of(owner, name);
     const auto image = pictures_.image_of(texture);
-    if (!image)
+    if (!image) {
       model_.left_out.push_back(
           fmt::format("material \"{}\" has {} {} texture without an image that is read: it is drawn without it",
                       look.name, what[0] == 'e' || what[0] == 'o' ? "an" : "a", what));
-    return image && lies_alike(texture, look, what) ? image : std::nullopt;
+      return std::nullopt;
+    }
+    const auto by_second = lies_by_second(texture, look, what);
+    return by_second ? std::optional(Laid{*image, *by_second}) : std::nullopt;
+  }
+
+  /// Bits of Look::by_second_uv, in the order of scene::SurfaceMap.
+  static constexpr std::uint32_t emission_bit = 1, properties_bit = 2, normal_bit = 4;
+  static void lay(const Laid& laid, std::uint32_t bit, std::int32_t picture, Look& look) {
+    if (laid.by_second && picture >= 0) look.by_second_uv |= bit;
   }
 
   PictureKey key_of(const Json& texture, Use use, std::int64_t image) const {
@@ -178,7 +199,7 @@ class Looks {
       if (!*picture) return {};
       look.picture = pictures_.keep(key, std::move(**picture));
     }
-    lies_alike(texture, look, "base colour");
+    lies_by_second(texture, look, "base colour");
     return {};
   }
 
@@ -202,16 +223,40 @@ class Looks {
       if (look.picture >= 0) look.emission_picture = kept({.use = Use::white}, Image(1, 1, {255, 255, 255, 255}));
       return {};
     }
-    const PictureKey key = key_of(member_of(material, "emissiveTexture"), Use::emission, *image);
-    return add(key, look, "emission", look.emission_picture, [](Image&) {});
+    const PictureKey key = key_of(member_of(material, "emissiveTexture"), Use::emission, image->image);
+    auto added = add(key, look, "emission", look.emission_picture, [](Image&) {});
+    lay(*image, emission_bit, look.emission_picture, look);
+    return added;
   }
 
   /// Roughness and metallic in green and blue of one texture, occlusion in red of another, often of the same image.
   Expected<void> add_properties(const Json& material, Look& look) {
-    const auto rough_image =
+    const Json& dark_texture = member_of(material, "occlusionTexture");
+    const auto rough =
         image_of(member_of(material, "pbrMetallicRoughness"), "metallicRoughnessTexture", look, "metallic-roughness");
-    const auto dark_image = image_of(material, "occlusionTexture", look, "occlusion");
-    if (!rough_image && !dark_image) return {};
+    std::optional<Laid> dark;
+    if (rough && material.contains("occlusionTexture") &&
+        pictures_.mapping_of(dark_texture) !=
+            pictures_.mapping_of(member_of(member_of(material, "pbrMetallicRoughness"), "metallicRoughnessTexture")))
+      model_.left_out.push_back(
+          fmt::format("material \"{}\" lays its occlusion texture otherwise than its metallic-roughness one, which is "
+                      "not done: it is drawn without it",
+                      look.name));
+    else
+      dark = image_of(material, "occlusionTexture", look, "occlusion");
+    if (!rough && !dark) return {};
+    auto added = add_packed(material, rough, dark, look);
+    lay(rough ? *rough : *dark, properties_bit, look.properties_picture, look);
+    return added;
+  }
+
+  /// Adds one picture of both; at least one is there.
+  Expected<void> add_packed(const Json& material, const std::optional<Laid>& rough_laid,
+                            const std::optional<Laid>& dark_laid, Look& look) {
+    const auto image_in = [](const std::optional<Laid>& laid) {
+      return laid ? std::optional(laid->image) : std::optional<std::int64_t>();
+    };
+    const auto rough_image = image_in(rough_laid), dark_image = image_in(dark_laid);
     const Json& dark_texture = member_of(material, "occlusionTexture");
     const Json& texture =
         rough_image ? member_of(member_of(material, "pbrMetallicRoughness"), "metallicRoughnessTexture") : dark_texture;
@@ -246,11 +291,13 @@ class Looks {
     constexpr double most_scale = 100.0;
     const Json& texture = member_of(material, "normalTexture");
     const auto scale = static_cast<float>(std::clamp(number_in(texture, "scale", 1.0), -most_scale, most_scale));
-    PictureKey key = key_of(texture, Use::normal, *image);
+    PictureKey key = key_of(texture, Use::normal, image->image);
     key.strength = scale;
-    return add(key, look, "normal", look.normal_picture, [&](Image& picture) {
+    auto added = add(key, look, "normal", look.normal_picture, [&](Image& picture) {
       if (scale != 1.0f) scale_normals(picture, scale);
     });
+    lay(*image, normal_bit, look.normal_picture, look);
+    return added;
   }
 
   /// The picture of one image, changed by `change`, as the look's `index`.
@@ -276,7 +323,7 @@ class Looks {
   const Container& container_;
   Model& model_;
   Pictures pictures_;
-  std::optional<PictureMapping> mapping_;  ///< Of the material that is read.
+  std::optional<PictureMapping> mapping_, second_mapping_;  ///< Of the material that is read.
 };
 
 }  // namespace

@@ -182,6 +182,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     for (const scene::Instance& resting : parts) {
       const std::optional<scene::Instance> moved = scene::moved(resting, simulated_time_s);
       const scene::Instance& part = moved ? *moved : resting;
+      if (moved && moved->scale == glm::vec3(0.0f)) continue;  // Its animation has taken it away.
       if (part.mesh >= meshes.size() || distance_m - margin_m >= gone_from_m(part.visible_to_m)) continue;
       const MeshSummary& mesh = meshes[part.mesh];
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);

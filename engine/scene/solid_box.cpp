@@ -79,7 +79,7 @@ class Parts {
     return node;
   }
   void add_geometry(NodeId id, const Vec3& origin_m, const Quat& turn, const Vec3& scale) {
-    if (id == no_node) return;
+    if (id == no_node || scale == Vec3(0.0)) return;
     const Node* node = note(id);
     const auto* geometry = node ? std::get_if<GeometryData>(&node->data) : nullptr;
     if (!geometry) return;

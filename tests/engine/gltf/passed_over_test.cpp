@@ -41,18 +41,22 @@ TEST_CASE("each kind of contents that is passed over is told in one sentence") {
         Sentences{"mesh 0 has points or lines, which are not drawn"});
 }
 
-TEST_CASE("vertices of several colours are told with their material, and those of one colour are not") {
-  for (const float other : {0.2f, 0.9f}) {
-    const Sentences sentences =
-        told(File{.positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2f, 0, 0, 0.2f, 0, 0, other, 0, 0}),
-                  .primitives = R"([{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}])",
-                  .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
-                               R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}])",
-                  .more = R"("materials":[{"name":"leaf"}],)"});
-    CHECK(sentences == (other > 0.5f ? Sentences{"material \"leaf\" lies on vertices of several colours, of which the "
-                                                 "mean is drawn"}
-                                     : Sentences{}));
-  }
+TEST_CASE("of vertices' colours what an unlit material does not show, and alpha, are told with the material") {
+  const auto told_of = [](const char* material, float other, float alpha) {
+    return told(File{
+        .positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.2f, 0, 0, 1, 0.2f, 0, 0, 1, other, 0, 0, alpha}),
+        .primitives = R"([{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}])",
+        .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                     R"({"bufferView":0,"byteOffset":40,"componentType":5126,"count":3,"type":"VEC4"}])",
+        .more = fmt::format(R"("materials":[{{"name":"leaf"{}}}],)", material)});
+  };
+  const char* unlit = R"(,"extensions":{"KHR_materials_unlit":{}})";
+  CHECK(told_of("", 0.9f, 1.0f) == Sentences{});
+  CHECK(told_of(unlit, 0.2f, 1.0f) == Sentences{});
+  CHECK(told_of(unlit, 0.9f, 1.0f) ==
+        Sentences{"unlit material \"leaf\" lies on vertices of several colours, of which the mean is drawn"});
+  CHECK(told_of("", 0.9f, 0.5f) ==
+        Sentences{"material \"leaf\" lies on vertices with alpha of their own, which is not drawn"});
 }
 
 TEST_CASE("of a file that names more extensions than anybody reads the first twenty are told") {

@@ -438,4 +438,21 @@ TEST_CASE("a part with keys is placed where they are at the instant that is draw
   }
 }
 
+TEST_CASE("a part that its keys leave no size is not placed") {
+  PoseKey there, gone;
+  gone.scale = glm::vec3(0.0f);
+  std::vector<PoseKey> keys{there, there, gone, gone};
+  keys[1].at_s = keys[2].at_s = 1.0f;
+  keys[3].at_s = 2.0f;
+  scene::Prototype pose;
+  pose.parts.emplace_back().keyed = std::make_shared<const scene::KeyedPart>(scene::KeyedPart{{}, {}, keys});
+  const std::vector<MeshSummary> meshes(1);
+  const DrawnParticipant drawn;
+  for (const double time_s : {0.5, 0.99, 1.0, 1.5, 2.5}) {
+    CAPTURE(time_s);
+    const auto placed = place_participants({&drawn, 1}, {&pose, 1}, meshes, time_s, {}, in_the_open);
+    CHECK(placed.meshes.size() == (std::fmod(time_s, 2.0) < 1.0 ? 1 : 0));
+  }
+}
+
 }  // namespace septet::instant

@@ -90,3 +90,27 @@ TEST_CASE("whoever asks for more than four levels of subdivision gets four") {
   const NodeId node = build.add_mesh("", mesh, {.subdivision_level = 9});
   CHECK(surface_of_geometry(*store.find(node), same_material).indices.size() == 256 * 6);
 }
+
+TEST_CASE("colours, tangents and second coordinates of corners come through the scene, and part vertices") {
+  PolygonMesh mesh;
+  mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.polygons = {{0, 1, 2, no_vertex}, {0, 2, 3, no_vertex}};
+  mesh.corner_colors.assign(2, {1, 2, 3, white_vertex});
+  mesh.corner_tangents.assign(2, {7, 7, 7, 0});
+  mesh.second_corner_uvs.assign(2, {glm::vec2(0.25f), {0.5f, 0.25f}, {0.5f, 0.5f}, {0, 0}});
+  Store store;
+  SceneBuilder builder(store);
+  const Node* node = store.find(builder.add_mesh("plate", mesh));
+  REQUIRE(node);
+  const SurfaceMesh surface = surface_of_geometry(*node, same_material);
+  // Corners 0 and 2 of the first are corners 0 and 1 of the second: the last of these has other values.
+  REQUIRE(surface.vertices.size() == 5);
+  CHECK(surface.vertices[1].color == 2);
+  CHECK(surface.vertices[1].tangent == 7);
+  CHECK(surface.vertices[1].second_uv == glm::vec2(0.5f, 0.25f));
+  mesh.corner_colors.clear();
+  mesh.corner_tangents.clear();
+  const SurfaceMesh plain = triangulate(mesh, same_material);
+  CHECK(plain.vertices[0].color == white_vertex);
+  CHECK(plain.vertices[0].tangent == 0);
+}
