@@ -5,7 +5,6 @@
 /// All of a file's animations play together and repeat after the longest; of two that move one thing of a node the
 /// first does.
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -13,20 +12,12 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
-#include "engine/gltf/accessors.hpp"
+#include "engine/gltf/channel.hpp"
 #include "engine/gltf/container.hpp"
 #include "engine/gltf/nodes.hpp"
 #include "engine/math/pose_keys.hpp"
 
 namespace septet::gltf {
-
-/// Numbers by time.
-struct Channel {
-  enum class Interpolation : std::uint8_t { linear, step, cubic };
-  Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times_s;  ///< Rising, from 0 on.
-  Rows values;                 ///< One row a time; of a cubic one three: the slope before, the value, the slope behind.
-};
 
 struct NodeChannels {
   std::optional<Channel> translation, rotation, scale;

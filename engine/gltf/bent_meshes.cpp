@@ -12,6 +12,7 @@ namespace septet::gltf {
 namespace {
 
 constexpr double poses_a_second = 30.0;
+constexpr std::size_t most_placed_nodes = 1'000'000;  ///< In all poses.
 
 /// Adds a node and those below it that move: of themselves, or with one above.
 void add_moving(const Container& container, const Animations& animations, std::int64_t index, bool moves,
@@ -51,13 +52,14 @@ BentMeshes find_bent_meshes(const Container& container, const Animations& animat
     if (mesh < 0 || static_cast<std::uint64_t>(mesh) >= meshes.size()) continue;
     if (!has_weights(animations, index) && !has_moving_joint(container, nodes[i], moving)) continue;
     bent.nodes.insert(index);
+    size = std::min(size + 1, most_bent_size + 1);  // An empty one takes time, too.
     for (const Json& primitive : list_of(meshes[static_cast<std::size_t>(mesh)], "primitives"))
       size = std::min(size + std::min(size_of(container, primitive), most_bent_size + 1), most_bent_size + 1);
   }
   if (bent.nodes.empty() || !(animations.period_s > 0.0f)) return bent;
   const double wanted = std::ceil(double{animations.period_s} * poses_a_second);
   const auto by_time = static_cast<std::size_t>(std::clamp(wanted, 2.0, static_cast<double>(most_bent_poses)));
-  bent.poses = std::min(by_time, most_bent_size / std::max<std::size_t>(size, 1));
+  bent.poses = std::min({by_time, most_bent_size / size, most_placed_nodes / nodes.size()});
   return bent;
 }
 

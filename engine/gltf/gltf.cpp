@@ -10,11 +10,9 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 #include <nlohmann/json.hpp>
 

@@ -23,7 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     const geometry::PolygonMesh& mesh = part.mesh;
     if (mesh.polygons.empty() || mesh.polygons.size() > gltf::most_triangles) std::abort();
     if (mesh.polygon_materials.size() != mesh.polygons.size()) std::abort();
-    if (!mesh.corner_uvs.empty() && mesh.corner_uvs.size() != mesh.polygons.size()) std::abort();
+    for (const std::size_t corners : {mesh.corner_uvs.size(), mesh.second_corner_uvs.size(), mesh.corner_colors.size(),
+                                      mesh.corner_tangents.size()})
+      if (corners != 0 && corners != mesh.polygons.size()) std::abort();
     for (const auto& corners : mesh.polygons)
       for (int k = 0; k < 3; ++k)
         if (corners[static_cast<std::size_t>(k)] >= mesh.vertices_m.size()) std::abort();
@@ -40,9 +42,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         if (!std::isfinite(key.position_m[k]) || !std::isfinite(key.scale[k])) std::abort();
       if (!(std::abs(glm::dot(key.rotation, key.rotation) - 1.0f) < 1e-3f)) std::abort();
     }
-    for (const auto& uvs : mesh.corner_uvs)
-      for (const glm::vec2& uv : uvs)
-        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) std::abort();
+    for (const auto& layer : {mesh.corner_uvs, mesh.second_corner_uvs})
+      for (const auto& uvs : layer)
+        for (const glm::vec2& uv : uvs)
+          if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) std::abort();
   }
   for (const gltf::Look& look : model->looks)
     for (const std::int32_t picture :
