@@ -30,7 +30,7 @@ std::string movement_of(const gltf::Model& model) {
   std::size_t moving = 0;
   float period_s = 0.0f;
   for (const gltf::Part& part : model.parts) {
-    if (part.keys.empty()) continue;
+    if (part.keys.empty() || !part.is_there_at_first()) continue;
     ++moving;
     period_s = part.keys.back().at_s;
   }

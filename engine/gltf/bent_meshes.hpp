@@ -3,7 +3,7 @@
 /// that is there for its share of the period.
 ///
 /// Between two poses nothing is blended, so a file says by its length and its triangles how fine the steps are: 30 poses
-/// a second, no more than 60, and no more than `most_bent_size` triangles in all of them.
+/// a second, no more than 120, and no more than `most_bent_size` triangles in all of them.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace septet::gltf {
 
-inline constexpr std::size_t most_bent_poses = 60, most_bent_size = 100'000;
+inline constexpr std::size_t most_bent_poses = 120, most_bent_size = 200'000;
 
 struct BentMeshes {
   std::set<std::int64_t> nodes;  ///< Those of the scene that have such a mesh.

@@ -338,8 +338,7 @@ class Reader {
     for (GrowingPart& growing : growing_) {
       if (growing.part.mesh.polygons.empty()) continue;
       Part part = finished(std::move(growing));
-      const bool is_gone = !part.keys.empty() && part.keys.front().scale == glm::vec3(0.0f);
-      if (!is_gone)
+      if (part.is_there_at_first())
         for (const glm::vec3& p : part.mesh.vertices_m) {
           const glm::vec3 at = part.keys.empty() ? part.origin_m + p
                                                  : part.keys.front().position_m +

@@ -92,6 +92,9 @@ struct Part {
   /// Poses of a part that an animation moves, in the model's frame and by their time in the animation, which repeats;
   /// the mesh is then relative to them, and `origin_m` zero. Empty for any other.
   std::vector<PoseKey> keys{};
+
+  /// False for one that its animation gives no size at the beginning, as all but one pose of a bent mesh.
+  bool is_there_at_first() const { return keys.empty() || keys.front().scale != glm::vec3(0.0f); }
 };
 
 using ExtraValue = std::variant<bool, double, std::string, glm::dvec3>;

@@ -9,7 +9,8 @@ namespace septet::scenery {
 
 std::string told_size(const gltf::Model& model) {
   std::size_t triangles = 0;
-  for (const gltf::Part& part : model.parts) triangles += part.mesh.polygons.size();
+  for (const gltf::Part& part : model.parts)
+    if (part.is_there_at_first()) triangles += part.mesh.polygons.size();
   const glm::vec3 size_m = model.most_m - model.least_m;
   return fmt::format(
       "{} triangles; {:.2f} m long (glTF's z, forward), {:.2f} m wide (x, left), {:.2f} m high (y, up), from {:.2f} m "

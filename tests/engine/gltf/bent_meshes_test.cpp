@@ -114,8 +114,8 @@ TEST_CASE("a bent mesh of many vertices has fewer poses, and one of too many sta
                     first, vertices, first + 12 * vertices);
     return bent_model(file);
   };
-  CHECK(poses_of(10'000).parts.size() == 9);
-  const Model large = poses_of(60'000);
+  CHECK(poses_of(10'000).parts.size() == 19);
+  const Model large = poses_of(150'000);
   CHECK(large.parts.size() == 1);
   CHECK(large.left_out == std::vector<std::string>{
                               "mesh 0 is bent by joints or morph targets, and too large to be kept in several poses: "

@@ -1,9 +1,11 @@
 #include "engine/scenery/own_models.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -99,6 +101,38 @@ TEST_CASE("a part that an animation moves takes its keys into the scene, placed 
   REQUIRE(after_a_second.has_value());
   CHECK(after_a_second->world_from_object.position_m == Vec3(10, 0, 4));
   CHECK(after_a_second->scale == glm::vec3(2.0f));
+}
+
+TEST_CASE("of the poses of a bent mesh the scene shows one at any time") {
+  gltf::Model model = box_on_a_wheel(glm::vec3(2.0f), glm::vec3(0.0f));
+  PoseKey there, gone;
+  gone.scale = glm::vec3(0.0f);
+  model.parts = {model.parts[0], model.parts[0]};
+  model.parts[0].keys = {there, there, gone, gone};
+  model.parts[1].keys = {gone, gone, there, there};
+  for (gltf::Part& part : model.parts) {
+    part.keys[1].at_s = part.keys[2].at_s = 1.0f;
+    part.keys[3].at_s = 2.0f;
+  }
+  const OwnModels own{{"flag", std::move(model)}};
+  scene::Store store;
+  scene::SceneBuilder builder(store);
+  OwnShapes(builder, &own).place("flag", {.scale = glm::vec3(2.0f)}, builder.add_object("thing", {}));
+  const scene::ResolvedScene scene = scene::resolve(store);
+  REQUIRE(scene.prototypes.size() == 1);
+  REQUIRE(scene.prototypes[0].parts.size() == 2);
+  for (const double time_s : {0.0, 0.99, 1.0, 1.99, 2.5}) {
+    CAPTURE(time_s);
+    std::vector<bool> shown;
+    for (const scene::Instance& part : scene.prototypes[0].parts) {
+      const auto moved = scene::moved(part, time_s);
+      REQUIRE(moved.has_value());
+      shown.push_back(moved->scale == glm::vec3(2.0f));
+      CHECK((shown.back() || moved->scale == glm::vec3(0.0f)));
+    }
+    const bool first = std::fmod(time_s, 2.0) < 1.0;
+    CHECK(shown == std::vector<bool>{first, !first});
+  }
 }
 
 }  // namespace septet::scenery
