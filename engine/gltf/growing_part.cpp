@@ -6,9 +6,9 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/packing.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace septet::gltf {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
 #include <glm/matrix.hpp>
+#include <glm/packing.hpp>
 
 #include "engine/light/surface_maps.hpp"
 #include "engine/raytrace/facing_viewer.hpp"

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include "engine/scene/resolved_scene.hpp"
 

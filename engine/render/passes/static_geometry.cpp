@@ -9,8 +9,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
 #include <glm/matrix.hpp>
+#include <glm/packing.hpp>
 
 #include "engine/core/parallel_for.hpp"
 #include "engine/render/passes/stripes.hpp"

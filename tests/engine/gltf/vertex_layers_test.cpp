@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include "engine/gltf/gltf.hpp"
 #include "engine/image/png.hpp"

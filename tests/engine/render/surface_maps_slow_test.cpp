@@ -11,7 +11,7 @@
 #include <doctest/doctest.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include "engine/image/png.hpp"
 #include "engine/image/srgb.hpp"
