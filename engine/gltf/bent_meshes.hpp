@@ -2,8 +2,8 @@
 /// Meshes that an animation bends, by joints or by the weights of morph targets: a row of poses, each a part of its own
 /// that is there for its share of the period.
 ///
-/// Between two poses nothing is blended, so a file says by its length and its triangles how fine the steps are: 30 poses
-/// a second, no more than 120, and no more than `most_bent_size` triangles in all of them.
+/// Between two poses nothing is blended, so a file says by its length and its triangles how fine the steps are: 30
+/// poses a second, no more than 120, and no more than `most_bent_size` triangles in all of them.
 
 #include <cstddef>
 #include <cstdint>

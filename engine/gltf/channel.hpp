@@ -32,8 +32,8 @@ struct WeightedRow {
   float factor;
 };
 
-/// Rows whose sum is the value at a time, where nothing turns; `before`: just before it. Outside of its times that of the
-/// nearest (3.11).
+/// Rows whose sum is the value at a time, where nothing turns; `before`: just before it. Outside of its times that of
+/// the nearest (3.11).
 std::vector<WeightedRow> rows_at(const Channel& channel, double time_s, bool before);
 
 /// The value at a time, of a channel with at most four numbers a row; `is_turn`: unit quaternions, x first.

@@ -1,14 +1,14 @@
 #pragma once
 /// A user's own glTF 2.0 file as scenery: meshes by node, and their materials' numbers.
 ///
-/// Read from a file: the default scene's nodes with their transforms, and the animations that move them (animation.hpp);
-/// triangles, strips and fans with positions, normals, texture coordinates, the first vertex colours and tangents, sparse
-/// accessors too; of materials base colour, metallic, roughness, emissive (with KHR_materials_emissive_strength),
-/// normals, occlusion, by factor and PNG or JPEG texture, which may name its set of coordinates and transform them, in
-/// two ways for one material; alpha, transmission as transparency, and unlit ones as emission. Skinned meshes stand as
-/// their joints do, morph targets by their weights, and in motion both move in steps (bent_meshes.hpp); cameras and
-/// lights are skipped. A file is self-contained: a .glb, or a .gltf whose buffers are data: URIs. External files that it
-/// names are never opened.
+/// Read from a file: the default scene's nodes with their transforms, and the animations that move them
+/// (animation.hpp); triangles, strips and fans with positions, normals, texture coordinates, the first vertex colours
+/// and tangents, sparse accessors too; of materials base colour, metallic, roughness, emissive (with
+/// KHR_materials_emissive_strength), normals, occlusion, by factor and PNG or JPEG texture, which may name its set of
+/// coordinates and transform them, in two ways for one material; alpha, transmission as transparency, and unlit ones as
+/// emission. Skinned meshes stand as their joints do, morph targets by their weights, and in motion both move in steps
+/// (bent_meshes.hpp); cameras and lights are skipped. A file is self-contained: a .glb, or a .gltf whose buffers are
+/// data: URIs. External files that it names are never opened.
 ///
 /// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres.
 /// Vertices are joined where position and normal agree, so that edges which the file keeps sharp stay sharp.
@@ -61,8 +61,8 @@ struct Picture : image::Image {
   bool is_sharp = false;  ///< Near to, a place has the colour of one pixel (3.8.4.4).
 };
 
-/// A material. Colours are linear Rec. 709. Pictures are indices of Model::pictures, −1 where there is none; each lies by
-/// one of two sets of coordinates. They are those of scene::SurfaceMap, the strengths of a file worked in.
+/// A material. Colours are linear Rec. 709. Pictures are indices of Model::pictures, −1 where there is none; each lies
+/// by one of two sets of coordinates. They are those of scene::SurfaceMap, the strengths of a file worked in.
 struct Look {
   std::string name;
   glm::vec3 base_color{1.0f};

@@ -40,8 +40,8 @@ struct GrowingPart {
 /// False for a place further than `furthest_m` along an axis.
 bool is_near(const glm::vec3& p);
 
-/// Adds a primitive's triangles. `look`: Model::looks at `look_index`. `takes_colors`: their vertices' colours are added.
-/// False: a vertex is far away.
+/// Adds a primitive's triangles. `look`: Model::looks at `look_index`. `takes_colors`: their vertices' colours are
+/// added. False: a vertex is far away.
 bool add_triangles(const Primitive& primitive, const Look& look, std::uint32_t look_index, bool takes_colors,
                    const glm::mat4& model_from_node, GrowingPart& growing);
 

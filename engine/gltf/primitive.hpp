@@ -1,6 +1,6 @@
 #pragma once
-/// A mesh's primitive (glTF 2.0, 3.7.2): its triangles, and what their corners carry, in one pose of its joints and morph
-/// targets.
+/// A mesh's primitive (glTF 2.0, 3.7.2): its triangles, and what their corners carry, in one pose of its joints and
+/// morph targets.
 
 #include <array>
 #include <cstdint>

@@ -32,8 +32,8 @@ struct SurfaceVertex {
   glm::vec2 uv;
   std::uint32_t color =
       white_vertex;  ///< Multiplies the base colour. Linear, 8 bits each: red lowest, then green, blue.
-  /// Direction of a normal map's red, in 8 bits with sign each: x lowest, y, z, and w, the side of its green: w · (normal
-  /// × tangent). 0: both follow from how the texture coordinates lie.
+  /// Direction of a normal map's red, in 8 bits with sign each: x lowest, y, z, and w, the side of its green: w ·
+  /// (normal × tangent). 0: both follow from how the texture coordinates lie.
   std::uint32_t tangent = 0;
   glm::vec2 second_uv{0.0f};  ///< Of the images that SurfaceMaterial::by_second_uv names.
 };

@@ -17,8 +17,8 @@
 namespace septet::gltf {
 namespace {
 
-/// A triangle that follows joint 1, which goes 4 m along z in 2 s; the joint hangs on node 2, a target moves the triangle
-/// by 3 m along y. `path` says which of the two the animation moves.
+/// A triangle that follows joint 1, which goes 4 m along z in 2 s; the joint hangs on node 2, a target moves the
+/// triangle by 3 m along y. `path` says which of the two the animation moves.
 File bent(const char* node, const char* path, const std::vector<float>& values) {
   const std::vector<float> places{0, 0, 0, 1, 0, 0, 0, 1, 0}, target{0, 3, 0, 0, 3, 0, 0, 3, 0}, times_s{0, 2};
   const std::vector<std::uint8_t> joints(12, 0);

@@ -15,7 +15,8 @@
 namespace septet::gltf {
 namespace {
 
-/// A triangle with two sets of coordinates, tangents along x with w = `side`, and colours; its node is scaled by `scale`.
+/// A triangle with two sets of coordinates, tangents along x with w = `side`, and colours; its node is scaled by
+/// `scale`.
 File layered(const char* scale, float side, const char* attributes, const char* material) {
   const std::vector<float> numbers{0, 0, 0, 1,    0, 0, 0,    1,    0,              // Positions.
                                    0, 0, 1, 0,    0, 1,                             // Coordinates.
