@@ -15,7 +15,7 @@
 namespace septet::server {
 namespace {
 
-/// Of all batches that wait for a tick.
+/// Of one editor's batches that wait for a tick: what one fills is no other's.
 constexpr std::size_t most_bytes_ahead = 64u << 20;
 
 std::size_t bytes_of(const SceneRequest& request) {
@@ -62,11 +62,11 @@ void SceneEdits::take_requests(Tick from, double now_s) {
   for (SceneRequest& request : host_->take_scene_requests()) {
     if (!gate_) {
       host_->refuse_scene(request, "a session that is shown again cannot be changed: edit a drive", now_s);
-    } else if (bytes_ahead_ + bytes_of(request) > most_bytes_ahead) {
+    } else if (bytes_ahead_[request.editor.name] + bytes_of(request) > most_bytes_ahead) {
       host_->refuse_scene(request, "the changes of later ticks fill their queue: send these when it is their time",
                           now_s);
     } else {
-      bytes_ahead_ += bytes_of(request);
+      bytes_ahead_[request.editor.name] += bytes_of(request);
       const Tick tick = std::max(request.batch.tick, from);
       ahead_.emplace(tick, std::move(request));
     }
@@ -74,7 +74,7 @@ void SceneEdits::take_requests(Tick from, double now_s) {
   while (!ahead_.empty() && ahead_.begin()->first <= from) {
     const SceneRequest request = std::move(ahead_.begin()->second);
     ahead_.erase(ahead_.begin());
-    bytes_ahead_ -= bytes_of(request);
+    bytes_ahead_[request.editor.name] -= bytes_of(request);
     make(request, from, now_s);
   }
 }

@@ -42,8 +42,8 @@ class SceneEdits final : public Attendant {
   DriveLog* log_;
   WorldGate* gate_;
   std::filesystem::path save_;
-  std::multimap<Tick, SceneRequest> ahead_;  ///< By the tick that is to show them first.
-  std::size_t bytes_ahead_ = 0;
+  std::multimap<Tick, SceneRequest> ahead_;         ///< By the tick that is to show them first.
+  std::map<std::string, std::size_t> bytes_ahead_;  ///< By the names of the editors' keys.
   std::vector<std::string> messages_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -49,6 +50,13 @@ void pump_scene(replication::ReplicationServer& scene, net::SecureServer& lane, 
   });
 }
 
+/// In lockstep the next tick waits for a screen that lacks this one's baseline, however long it was silent before.
+net::BaselineOptions baselines_for(bool lockstep) {
+  if (!lockstep) return {};
+  constexpr double forever_s = std::numeric_limits<double>::infinity();
+  return {.silence_s = forever_s, .patience_s = forever_s};
+}
+
 /// True if lockstep need not wait for this screen at `tick`.
 bool keeps_up(const HostedScreen& screen, Tick tick) {
   if (screen.left_behind) return true;
@@ -64,6 +72,7 @@ ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
     : options_(std::move(options)),
       lane_(lane_socket, {options_.identity, options_.session, options_.allowed, options_.limits}),
       publisher_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}),
+      baselines_(baselines_for(options_.welcome.lockstep)),
       store_(store),
       scene_(store, instance_of(options_.session)),
       planner_(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz) {
@@ -204,15 +213,15 @@ void ScreenHost::on_scene(const net::ServerEvent& event, double now_s) {
   if (!rights)
     return refuse_scene(
         request, fmt::format("the key of {0} may look, not edit: allowed-clients needs `KEY {0} edit`", name), now_s);
-  if (request.batch.changes.size() > most_edits - edits_waiting_)
-    return refuse_scene(request, fmt::format("{} changes wait for this tick already: send fewer", edits_waiting_),
-                        now_s);
-  edits_waiting_ += request.batch.changes.size();
+  std::size_t& waiting = edits_waiting_[event.client];
+  if (request.batch.changes.size() > most_edits - waiting)
+    return refuse_scene(request, fmt::format("{} changes wait for this tick already: send fewer", waiting), now_s);
+  waiting += request.batch.changes.size();
   scene_requests_.push_back(std::move(request));
 }
 
 std::vector<SceneRequest> ScreenHost::take_scene_requests() {
-  edits_waiting_ = 0;
+  edits_waiting_.clear();
   return std::exchange(scene_requests_, {});
 }
 

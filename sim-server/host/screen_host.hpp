@@ -64,7 +64,7 @@ struct OperatorRequest {
 };
 /// Lines that may wait for the next tick.
 inline constexpr std::size_t most_operator_lines = 64;
-/// Commands that may wait for the next tick.
+/// Commands of one editor that may wait for the next tick.
 inline constexpr std::size_t most_edits = 50'000;
 
 /// Maximum number of moments kept of each kind.
@@ -237,7 +237,8 @@ class ScreenHost {
   std::vector<std::string> messages_;
   std::vector<OperatorRequest> operator_requests_;
   std::vector<SceneRequest> scene_requests_;
-  std::size_t edits_waiting_ = 0;  ///< Their commands.
+  std::map<net::ClientId, std::size_t>
+      edits_waiting_;  ///< Their commands, by editors: one that floods takes no other's room.
 };
 
 /// The host's screens; empty without a host.

@@ -104,6 +104,27 @@ TEST_CASE("in lockstep a screen that comes up is waited for and misses no tick a
   CHECK(lockstep.shown[1].front() == newest_at_start + draw_every_ticks);
 }
 
+TEST_CASE("in lockstep a screen that comes up and is silent until the next tick can read that tick") {
+  LockstepRig lockstep(3);
+  std::optional<double> started_s, silent_from_s;
+  const auto served = lockstep.serve(2.0, [&] {
+    const double now_s = lockstep.rig.now_s();
+    if (!started_s && lockstep.shown[0].size() == 10) {
+      started_s = now_s;
+      lockstep.rig.start_screen(1);
+      lockstep.shown[1].clear();
+    }
+    // Another one draws so long that the new one, which has the scene, is silent for longer than a baseline waits.
+    if (started_s && !silent_from_s && lockstep.rig.screen(1).link->scene_arrived()) silent_from_s = now_s;
+    lockstep.is_drawing[2] = started_s && (!silent_from_s || now_s < *silent_from_s + 0.8);
+    lockstep.rig.screen(1).hung = silent_from_s && now_s > *silent_from_s + 0.05 && now_s < *silent_from_s + 0.9;
+  });
+  REQUIRE(silent_from_s);
+  CHECK(served.wall_s < 20.0);  // A minute where it cannot read the tick.
+  REQUIRE_FALSE(lockstep.shown[1].empty());
+  CHECK(lockstep.shown[1].back() == 240);
+}
+
 TEST_CASE("in lockstep a screen that hangs is waited for once and shows again what comes after") {
   LockstepRig lockstep(3);
   const auto served = lockstep.serve(

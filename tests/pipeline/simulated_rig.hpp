@@ -95,6 +95,7 @@ class SimulatedRig {
       options.drivers.insert(screen.name);
     }
     options.welcome.rig = "rig";
+    options.welcome.lockstep = !options_.real_time;
     if (options_.multicast) {
       options.welcome.group_ip = group_.ip;
       options.welcome.group_port = group_.port;

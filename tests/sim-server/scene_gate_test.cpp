@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -298,6 +299,35 @@ TEST_CASE("an editor that floods is refused beyond what waits for one tick and t
   for (const SceneRequest& request : stage.host.take_scene_requests()) most += request.batch.changes.size();
   CHECK(refused == 7);
   CHECK(most == 30'000);
+}
+
+TEST_CASE("an editor that floods takes no room of another one's") {
+  Stage stage;
+  stage.host.set_allowed({{stage.editor_key.public_key(), "lab", {true, net::EditRights{}}},
+                          {stage.looker_key.public_key(), "guest", {true, net::EditRights{}}}});
+  REQUIRE(stage.all_equal());
+  const std::vector<Command> many(30'000, scene::HideSet{stage.tree, true});
+  for (int i = 0; i < 3; ++i) REQUIRE(stage.editor.scene.request_batch(many).has_value());
+  const auto pump = [&] {
+    const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage.begun).count();
+    stage.host.pump(now_s), stage.editor.pump(now_s), stage.looker.pump(now_s);
+  };
+  const auto until_refused = [&](Client& client, std::size_t batches) {
+    std::size_t refused = 0;
+    for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+         std::chrono::steady_clock::now() < end && refused < batches;) {
+      pump();
+      refused += client.scene.take_refusals().size();
+    }
+    return refused;
+  };
+  REQUIRE(until_refused(stage.editor, 2) == 2);
+  // Of the other one there is room for the first.
+  for (int i = 0; i < 2; ++i) REQUIRE(stage.looker.scene.request_batch(many).has_value());
+  REQUIRE(until_refused(stage.looker, 1) == 1);
+  std::set<std::string> heard;
+  for (const SceneRequest& request : stage.host.take_scene_requests()) heard.insert(request.editor.name);
+  CHECK(heard == std::set<std::string>{"guest", "lab"});
 }
 
 }  // namespace septet::server
