@@ -10,6 +10,7 @@
 
 #include "engine/control/control_message.hpp"
 #include "engine/core/whole_file.hpp"
+#include "engine/editor/content_ahead.hpp"
 #include "engine/editor/edit_verbs.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/udp_socket.hpp"
@@ -166,11 +167,15 @@ Expected<Taken> EditorClient::take(const std::vector<std::string>& lines) {
     taken.messages.insert(taken.messages.end(), edit->messages.begin(), edit->messages.end());
   }
   if (commands.empty()) return taken;
-  const auto batch = state_->scene.request_batch(commands);
-  if (!batch) return tl::unexpected(batch.error());
-  const auto tick = state_->answer_of(*batch);
-  if (!tick) return tl::unexpected(tick.error());
-  taken.tick = *tick;
+  SplitBatch split = split_content(commands);
+  if (!split.rest.empty()) split.ahead.push_back(std::move(split.rest));
+  for (const std::vector<scene::Command>& batch : split.ahead) {
+    const auto number = state_->scene.request_batch(batch);
+    if (!number) return tl::unexpected(number.error());
+    const auto tick = state_->answer_of(*number);
+    if (!tick) return tl::unexpected(tick.error());
+    taken.tick = *tick;
+  }
   return taken;
 }
 

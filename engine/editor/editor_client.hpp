@@ -40,7 +40,8 @@ class EditorClient {
   static Expected<std::unique_ptr<EditorClient>> connect(EditPlace place, Clock clock, double within_s = 30.0);
   ~EditorClient();
 
-  /// Has the lines done from one tick on, all or none. Error: a line that cannot be read, or why the server refuses it.
+  /// Has the lines done from one tick on, all or none. Shapes and pictures beyond 2 MiB go ahead in batches of their own,
+  /// of which nothing is seen (content_ahead.hpp). Error: a line that cannot be read, or why the server refuses it.
   Expected<Taken> take(const std::vector<std::string>& lines);
   /// Writes what differs from the world as this editor found it, as bare commands for `septet drive --edits`.
   Expected<void> save(const std::filesystem::path& file);

@@ -11,10 +11,10 @@
 
 #include <fmt/core.h>
 
-#include "command-line/command/edit/content_ahead.hpp"
 #include "command-line/command/edit/exported_model.hpp"
 #include "engine/core/whole_file.hpp"
 #include "engine/document/text_file.hpp"
+#include "engine/editor/content_ahead.hpp"
 #include "engine/scene/command_validation.hpp"
 #include "engine/scene/edit_file.hpp"
 #include "engine/world/call.hpp"
@@ -132,7 +132,7 @@ void EditSession::send(Batch batch) {
 void EditSession::send_later() {
   while (!later_.empty()) {
     Batch& batch = later_.front().batch;
-    SplitBatch split = split_content(batch.commands);
+    editor::SplitBatch split = editor::split_content(batch.commands);
     std::string why_not;
     for (const std::vector<scene::Command>& content : split.ahead)
       if (const auto number = client_.request(content, 0))

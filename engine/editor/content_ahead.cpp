@@ -1,4 +1,4 @@
-#include "command-line/command/edit/content_ahead.hpp"
+#include "engine/editor/content_ahead.hpp"
 
 #include <numeric>
 #include <set>
@@ -8,7 +8,7 @@
 #include "engine/replication/message.hpp"
 #include "engine/scene/command_codec.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 namespace {
 
 std::size_t bytes_of(const scene::Command& command) {
@@ -58,4 +58,4 @@ SplitBatch split_content(std::span<const scene::Command> batch) {
   return split;
 }
 
-}  // namespace septet::server
+}  // namespace septet::editor

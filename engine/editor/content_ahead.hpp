@@ -8,7 +8,7 @@
 
 #include "engine/scene/command.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 
 struct SplitBatch {
   std::vector<std::vector<scene::Command>> ahead;  ///< Each within a batch's bytes.
@@ -19,4 +19,4 @@ struct SplitBatch {
 /// `ahead` is empty where the batch is small enough as it is.
 SplitBatch split_content(std::span<const scene::Command> batch);
 
-}  // namespace septet::server
+}  // namespace septet::editor

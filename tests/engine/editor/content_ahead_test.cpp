@@ -1,4 +1,4 @@
-#include "command-line/command/edit/content_ahead.hpp"
+#include "engine/editor/content_ahead.hpp"
 
 #include <cstddef>
 #include <variant>
@@ -10,7 +10,7 @@
 #include "engine/replication/message.hpp"
 #include "engine/scene/command_codec.hpp"
 
-namespace septet::server {
+namespace septet::editor {
 namespace {
 
 using namespace scene;
@@ -53,4 +53,4 @@ TEST_CASE("of a larger one the contents go ahead in batches that a message holds
   CHECK(split.rest_from.back() == commands.size() - 1);
 }
 
-}  // namespace septet::server
+}  // namespace septet::editor
