@@ -32,6 +32,7 @@ void settle(const impact::Body& now, impact::Body& last, OpenCrash& crash) {
 
 void note_poses(const Model& model, const std::vector<Participant>& participants, State& state) {
   for (OpenCrash& crash : state.open_crashes) {
+    if (crash.is_impact_over) continue;
     const Participant* first = find_participant(participants, crash.record.first);
     const Participant* second = crash.record.second ? find_participant(participants, *crash.record.second) : nullptr;
     if (first) crash.record.of_first.mass_centre_above_m = mass_centre_above_m(model, *first);

@@ -12,6 +12,11 @@ namespace {
 constexpr Tick quiet_ticks = 6;  ///< 50 ms without a push: the impact is over.
 constexpr Tick longest_ticks = 120;
 static_assert(longest_ticks < most_pulse_ticks);
+/// 0.25 s without a push: the two have parted. Pushes of a car that shoves a wreck come 42 ms apart at most, and one
+/// thrown back at 0.25 m/s that drives on by 2 m/s² is there again after this time; more would join a second blow, and
+/// delay what is told.
+constexpr Tick parted_ticks = 30;
+static_assert(parted_ticks > quiet_ticks);
 /// A record of less is not told: bodies that lean on each other.
 constexpr double least_mps = 0.5;
 
@@ -49,6 +54,7 @@ CrashRecord finished(const OpenCrash& crash) {
   CrashRecord record = crash.record;
   record.ticks = static_cast<std::uint32_t>(crash.last_push - record.tick);
   if (!was_pushed(crash)) return record;
+  record.contact_s = static_cast<double>(crash.last_in_contact - record.tick) * tick_s;
   if (crash.first_moves) tell_change(crash.first_at, crash.first, record.of_first);
   if (crash.second_moves) tell_change(crash.second_at, crash.second, record.of_second);
   if (!crash.has_ledger) return record;
@@ -62,7 +68,7 @@ CrashRecord finished(const OpenCrash& crash) {
   return record;
 }
 
-bool is_over(const OpenCrash& crash, Tick now) {
+bool ends_its_impact(const OpenCrash& crash, Tick now) {
   return now > crash.last_push + quiet_ticks || now >= crash.record.tick + longest_ticks;
 }
 
@@ -71,8 +77,20 @@ bool is_worth_telling(const CrashRecord& record) {
   return std::max({record.closing_speed_mps, speed(record.of_first), speed(record.of_second)}) >= least_mps;
 }
 
+/// Nothing more is to come of it. A contact that nobody is told of is not waited for: what follows may be told.
+bool is_over(const OpenCrash& crash, Tick now) {
+  if (!crash.is_impact_over) return false;
+  return now > crash.last_in_contact + parted_ticks || !is_worth_telling(finished(crash));
+}
+
 void tell(const CrashRecord& record, std::vector<Event>& events) {
   if (is_worth_telling(record)) events.push_back({std::string(crash_event), record.first, text_of(record)});
+}
+
+template <class Is>
+OpenCrash* latest(std::vector<OpenCrash>& crashes, const Is& is) {
+  const auto found = std::ranges::find_if(crashes.rbegin(), crashes.rend(), is);
+  return found == crashes.rend() ? nullptr : &*found;
 }
 
 /// By how much cuts have taken an outline back along a way that turns with it.
@@ -84,7 +102,7 @@ double crush_m(const impact::Side& side, const impact::Cuts& cuts, const impact:
 
 OpenCrash& open_crash(const CrashTouch& touch, State& state) {
   OpenCrash& crash = state.open_crashes.emplace_back();
-  crash.record.tick = crash.last_push = state.tick;
+  crash.record.tick = crash.last_push = crash.last_in_contact = state.tick;
   crash.record.first = touch.first;
   crash.record.second = touch.second;
   crash.record.point_m = Vec3(touch.place.point_m, touch.height_m);
@@ -94,17 +112,14 @@ OpenCrash& open_crash(const CrashTouch& touch, State& state) {
 }
 
 OpenCrash* find_open_crash(State& state, ParticipantId first, ParticipantId second) {
-  const auto found = std::ranges::find_if(state.open_crashes, [&](const OpenCrash& crash) {
-    return crash.record.first == first && crash.record.second == second;
-  });
-  return found == state.open_crashes.end() ? nullptr : &*found;
+  return latest(state.open_crashes,
+                [&](const OpenCrash& crash) { return crash.record.first == first && crash.record.second == second; });
 }
 
 OpenCrash* find_open_crash_with_run(State& state, ParticipantId first, std::uint32_t run) {
-  const auto found = std::ranges::find_if(state.open_crashes, [&](const OpenCrash& crash) {
+  return latest(state.open_crashes, [&](const OpenCrash& crash) {
     return crash.record.first == first && !crash.record.second && crash.run == run;
   });
-  return found == state.open_crashes.end() ? nullptr : &*found;
 }
 
 void note_first(const impact::Body& body, double ahead_m, bool is_pushed, OpenCrash& crash) {
@@ -128,6 +143,8 @@ void note_overlap(const impact::Side& first, const impact::Side& second, OpenCra
 }
 
 void note_push(Tick now, const CrashPush& push, OpenCrash& crash) {
+  crash.last_in_contact = now;
+  if (crash.is_impact_over) return;
   crash.wheels_j += impact::kinetic_loss_j(crash.first, push.first) +
                     impact::kinetic_loss_j(crash.second, push.second) - push.work.kinetic_j - push.debris_j;
   crash.first = push.first;
@@ -147,7 +164,7 @@ void note_broken_off(const BrokenOff& broken, const std::optional<PushedByPieces
                      const std::optional<PushedByPieces>& second, State& state) {
   OpenCrash* crash = broken.second ? find_open_crash(state, broken.first, *broken.second)
                                    : find_open_crash_with_run(state, broken.first, broken.run);
-  if (!crash) return;
+  if (!crash || crash->is_impact_over) return;
   crash->record.pieces_kinetic_j = crash->record.pieces_kinetic_j.value_or(0.0) + broken.kinetic_j;
   CrashPush push{.first = crash->first, .second = crash->second};
   bool is_pushed = false;
@@ -165,22 +182,29 @@ void note_broken_off(const BrokenOff& broken, const std::optional<PushedByPieces
 
 void note_crush(const impact::Engagement& engagement, const impact::Side& first, const impact::Side& second,
                 OpenCrash& crash) {
+  if (crash.is_impact_over) return;
   const Vec2 normal(std::cos(crash.record.normal_rad), std::sin(crash.record.normal_rad));
   if (crash.first_moves) crash.record.of_first.crush_m = crush_m(first, engagement.first, crash.first_at, normal);
   if (crash.second_moves) crash.record.of_second.crush_m = crush_m(second, engagement.second, crash.second_at, -normal);
 }
 
 void close_crashes(State& state, std::vector<Event>& events) {
-  for (const OpenCrash& crash : state.open_crashes)
+  for (OpenCrash& crash : state.open_crashes) {
+    crash.is_impact_over = crash.is_impact_over || ends_its_impact(crash, state.tick);
     if (is_over(crash, state.tick)) tell(finished(crash), events);
+  }
   std::erase_if(state.open_crashes, [&](const OpenCrash& crash) { return is_over(crash, state.tick); });
+}
+
+bool is_impact_running(const State& state) {
+  return !std::ranges::all_of(state.open_crashes, &OpenCrash::is_impact_over);
 }
 
 std::vector<Event> unfinished_crashes(const State& state) {
   std::vector<Event> events;
   for (const OpenCrash& crash : state.open_crashes) {
     CrashRecord record = finished(crash);
-    record.is_unfinished = true;
+    record.is_unfinished = !crash.is_impact_over;
     tell(record, events);
   }
   return events;

@@ -3,8 +3,11 @@
 /// (engine/world/crash_record.hpp), told as the event `crash`.
 ///
 /// Those who push bodies (collisions, the car's hull, thrown people, pieces that break off) tell it of each push; it
-/// changes nothing of the drive. A record is closed when nothing has pushed for 50 ms, and after a second at the latest:
-/// what touches longer slides, or leans.
+/// changes nothing of the drive. The impact is over when nothing has pushed for 50 ms, and after a second at the latest:
+/// what touches longer slides, leans or pushes. Then the record changes no more but for how long the contact lasts, and
+/// it is told when both have parted, which is when neither has pushed the other for a quarter of a second. Until then
+/// they have no second record: a push of ten seconds is one crash. What came to less than 0.5 m/s is neither told nor
+/// waited for.
 
 #include <optional>
 #include <vector>
@@ -26,9 +29,9 @@ struct CrashTouch {
 /// Begins a record; the bodies' numbers, and what the outlines tell, are for the caller to add.
 OpenCrash& open_crash(const CrashTouch& touch, State& state);
 
-/// The record that runs between these two; null where there is none.
+/// The record of these two, who are in contact; null where there is none.
 OpenCrash* find_open_crash(State& state, ParticipantId first, ParticipantId second);
-/// Likewise of one and what stands.
+/// Likewise of one and what stands, of whom each touch has its own: the latest.
 OpenCrash* find_open_crash_with_run(State& state, ParticipantId first, std::uint32_t run);
 
 /// Notes a side at the touch. `ahead_m`: of its mass centre from the vehicle's origin; `is_pushed`: its pushes will be
@@ -59,9 +62,11 @@ struct PushedByPieces {
 void note_broken_off(const BrokenOff& broken, const std::optional<PushedByPieces>& first,
                      const std::optional<PushedByPieces>& second, State& state);
 
-/// Tells of the records that are over, and drops them.
+/// Tells of the crashes whose two have parted, and drops them.
 void close_crashes(State& state, std::vector<Event>& events);
-/// The records of a drive that ends now, as far as they are; the state keeps them.
+/// True while an impact is being recorded.
+bool is_impact_running(const State& state);
+/// The records of a drive that ends now, as far as they are, marked where the impact is not over; the state keeps them.
 std::vector<Event> unfinished_crashes(const State& state);
 
 }  // namespace septet::simulation

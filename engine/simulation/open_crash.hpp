@@ -12,7 +12,9 @@ namespace septet::simulation {
 struct OpenCrash {
   CrashRecord record;                              ///< As far as it is known.
   std::uint32_t run = 0;                           ///< Of what stands (Obstacle::run).
-  Tick last_push = 0;                              ///< Tick of it; at first that of the touch.
+  Tick last_push = 0;                              ///< Of the impact; at first the tick of the touch.
+  Tick last_in_contact = 0;                        ///< Tick of the last push of all, the impact's or a later one.
+  bool is_impact_over = false;                     ///< The record is whole but for how long the contact lasts.
   impact::Body first_at, second_at;                ///< At the touch.
   impact::Body first, second;                      ///< As the last push has left them.
   impact::Ledger of_contact;                       ///< Sum of all pushes of this contact.

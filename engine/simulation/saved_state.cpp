@@ -52,8 +52,8 @@ namespace septet {
 SEPTET_MEMBERS(CrashedBody, mass_kg, yaw_inertia_kgm2, mass_centre_ahead_m, mass_centre_above_m, before_mps,
                yaw_rate_before_radps, delta_v_mps, delta_yaw_rate_radps, principal_direction_rad, crush_m)
 SEPTET_MEMBERS(CrashLedger, kinetic_before_j, kinetic_after_j, crush_j, friction_j, debris_j, wheels_j)
-SEPTET_MEMBERS(CrashRecord, tick, ticks, first, second, stands, point_m, normal_rad, closing_speed_mps, sliding_mps,
-               overlap_m, overlap_share, depth_m, of_first, of_second, ledger, pieces_kinetic_j, pulse_ns,
+SEPTET_MEMBERS(CrashRecord, tick, ticks, contact_s, first, second, stands, point_m, normal_rad, closing_speed_mps,
+               sliding_mps, overlap_m, overlap_share, depth_m, of_first, of_second, ledger, pieces_kinetic_j, pulse_ns,
                is_unfinished)
 }  // namespace septet
 
@@ -84,8 +84,8 @@ SEPTET_MEMBERS(LooseBody, id, model, box_size_m, paint, lamps, front_steer_rad, 
                climb_mps, acceleration_mps2, road, hull)
 SEPTET_MEMBERS(BodyContact, first, second, engagement)
 SEPTET_MEMBERS(BodiesState, bodies, contacts)
-SEPTET_MEMBERS(OpenCrash, record, run, last_push, first_at, second_at, first, second, of_contact, debris_j, wheels_j,
-               deepest_m, first_moves, second_moves, has_ledger)
+SEPTET_MEMBERS(OpenCrash, record, run, last_push, last_in_contact, is_impact_over, first_at, second_at, first, second,
+               of_contact, debris_j, wheels_j, deepest_m, first_moves, second_moves, has_ledger)
 SEPTET_MEMBERS(CrashMemory, struck_vehicles, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(Sighting, id, seen, was_seen, since)
@@ -228,8 +228,8 @@ bool is_sound(const SolidMotion& moving) {
 /// The record is within what its ticks allow; its numbers are told and reckoned with, and index nothing.
 bool is_sound(const OpenCrash& crash, Tick now) {
   const Tick begun = crash.record.tick;
-  return begun <= crash.last_push && crash.last_push <= now && now - begun < most_pulse_ticks &&
-         crash.record.pulse_ns.size() <= now - begun + 1;
+  return begun <= crash.last_push && crash.last_push <= crash.last_in_contact && crash.last_in_contact <= now &&
+         crash.last_push - begun < most_pulse_ticks && crash.record.pulse_ns.size() <= crash.last_push - begun + 1;
 }
 
 void restore_effects(const Model& model, StateReader& reader, EffectsState& state) {

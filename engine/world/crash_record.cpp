@@ -35,6 +35,7 @@ void visit_numbers(Crash& crash, const Visit& visit) {
   visit("overlap_m", crash.overlap_m);
   visit("overlap_share", crash.overlap_share);
   visit("depth_m", crash.depth_m);
+  visit("contact_s", crash.contact_s);
   visit_body("", crash.of_first, visit);
   visit_body("its_", crash.of_second, visit);
   visit("pieces_kinetic_j", crash.pieces_kinetic_j);

@@ -43,8 +43,10 @@ struct CrashLedger {
 };
 
 struct CrashRecord {
-  Tick tick = 0;                        ///< Of the touch.
-  std::uint32_t ticks = 0;              ///< From it to the last push.
+  Tick tick = 0;            ///< Of the touch.
+  std::uint32_t ticks = 0;  ///< From it to the last push of the impact, which lasts a second at most.
+  /// From it to the last push before the two parted: longer than the impact where one pushes the other along.
+  std::optional<double> contact_s;
   ParticipantId first = 0;              ///< The lesser number.
   std::optional<ParticipantId> second;  ///< Empty: what stands.
   std::string stands;  ///< "guard rail", "tree", …; of a second that is a solid, its name or nothing.
@@ -68,6 +70,8 @@ struct CrashRecord {
 inline constexpr std::string_view crash_event = "crash";
 inline constexpr int crash_record_version = 1;
 inline constexpr std::size_t most_pulse_ticks = 240;
+/// No impact is recorded for longer: from here on a contact is a push that lasts, and words tell how long.
+inline constexpr double lasting_contact_s = 1.0;
 
 /// Sum of the pulse: the impulse on the second; empty where there is no pulse.
 std::optional<Vec2> impulse_ns(const CrashRecord& crash);

@@ -313,6 +313,8 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
     if (auto warning = log_->take_warning()) messages_.push_back(std::move(*warning));
   }
   end_ = natural_end(*model_, state_);
+  // Who has not parted yet will not be waited for: the driver reads of it now.
+  if (end_) word_.take(newest_->snapshot(), simulation::unfinished_crashes(state_));
   return newest_;
 }
 

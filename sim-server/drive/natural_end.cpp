@@ -1,6 +1,7 @@
 #include "sim-server/drive/natural_end.hpp"
 
 #include "engine/road/plan_curve.hpp"
+#include "engine/simulation/crash_recording.hpp"
 
 namespace septet::server {
 namespace {
@@ -8,8 +9,8 @@ constexpr double beyond_m = 10.0;  // More than a car's length: no part of a car
 }
 
 std::optional<logging::DriveEnd> natural_end(const simulation::Model& model, const simulation::State& state) {
-  // A crash that has begun is driven to its end, so that its record is whole.
-  if (!state.open_crashes.empty()) return std::nullopt;
+  // An impact that has begun is driven to its end, so that its record is whole. A push may last as long as it likes.
+  if (simulation::is_impact_running(state)) return std::nullopt;
   if (state.game && state.game->standing.end != GameEnd::none) return logging::DriveEnd::game_over;
   if (state.scenario.finished) return logging::DriveEnd::stop_trigger;
   if (state.car_road && is_beyond_road_end(model.roads, *state.car_road, state.car.world_from_body.position_m))

@@ -11,7 +11,7 @@
 namespace septet::server {
 
 /// The game is over, the storyboard's StopTrigger has fired, or the driver's car is beyond the road's end. Empty: the
-/// drive goes on, as it does while a crash is being recorded.
+/// drive goes on, as it does while an impact is being recorded.
 std::optional<logging::DriveEnd> natural_end(const simulation::Model& model, const simulation::State& state);
 
 /// True if the point is more than 10 m beyond an end of the road without a successor. `road`: the nearest road

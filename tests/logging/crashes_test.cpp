@@ -108,6 +108,23 @@ TEST_CASE("a crash's sentence has what was measured, and nothing of what was not
   CHECK(sentences[0].row->title == "collisions");
 }
 
+TEST_CASE(
+    "of a contact that lasts sentence and report tell how long, of a blow and of earlier builds' records nothing") {
+  CrashRecord crash = crash_at(120, 1, 3);
+  const auto section = [&] { return crash_section({&crash, 1}, 120.0, {}); };
+  for (const std::optional<double> contact_s : {std::optional<double>(), std::optional(0.4)}) {
+    crash.contact_s = contact_s;
+    CHECK(crash_text(crash).find("in contact") == std::string::npos);
+    CHECK(section().find("in contact") == std::string::npos);
+  }
+  crash.contact_s = 4.25;
+  const auto read = read_crash(1, text_of(crash));
+  REQUIRE(read.has_value());
+  CHECK(read->contact_s == 4.25);
+  CHECK(crash_text(*read).find("; in contact for 4.2 s") != std::string::npos);
+  CHECK(section().find("they stayed in contact for 4.2 s") != std::string::npos);
+}
+
 TEST_CASE("the report shows each crash with its energies and its pulse, and a dash for what was not measured") {
   const std::vector<CrashRecord> crashes{crash_at(240, 1, 3)};
   const std::string html = crash_section(crashes, 120.0, {{3, "crosser"}});

@@ -283,4 +283,49 @@ TEST_CASE("five that pile up are told pair by pair, and every ledger closes") {
   CHECK(site.state.open_crashes.empty());
 }
 
+TEST_CASE(
+    "a car that pushes another for seconds is one crash with its contact's time, and a blow after they parted a "
+    "second") {
+  CrashSite site(plane_model(1), {{0.0, 0.0, 0.0}, {}}, 4.0,
+                 {placed_participant(first_struck, "saloon", 5.5, 0.0, 0.0, 0.0)});
+  const auto drive_at = [&](double mps, int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      site.state.car.velocity_mps = Vec3(mps + 0.01 * i, 0.0, 0.0);
+      site.tick();
+    }
+  };
+  drive_at(4.0, 600);
+  CHECK(site.count(crash_event) == 0);
+  CHECK_FALSE(is_impact_running(site.state));
+  const auto so_far = record_among(unfinished_crashes(site.state));
+  REQUIRE(so_far.has_value());
+  CHECK_FALSE(so_far->is_unfinished);
+  CHECK(so_far->contact_s.value_or(0.0) > 4.5);
+  drive_at(-3.0, 120);
+  CHECK(site.count(crash_event) == 1);
+  CHECK(site.state.open_crashes.empty());
+  const auto pushed = record_among(site.events);
+  REQUIRE(pushed.has_value());
+  CHECK(pushed->ticks <= 120);
+  CHECK(pushed->contact_s == so_far->contact_s);
+  CHECK(pushed->pulse_ns == so_far->pulse_ns);
+  CHECK(pushed->of_first == so_far->of_first);
+  drive_at(8.0, 240);
+  drive_at(-3.0, 120);
+  CHECK(site.count(crash_event) == 2);
+}
+
+TEST_CASE("a blow is told a quarter of a second after its last push, with a contact no longer than its impact") {
+  CrashSite site = site_of(pairs[0]);
+  Tick last_push = 0;
+  while (site.count(crash_event) == 0) {
+    site.tick();
+    if (!site.state.open_crashes.empty()) last_push = site.state.open_crashes.front().last_in_contact;
+  }
+  const auto record = record_among(site.events);
+  REQUIRE(record.has_value());
+  CHECK(site.state.tick == last_push + 31);
+  CHECK(record->contact_s.value_or(0.0) == relative(static_cast<double>(record->ticks) * tick_s, 1e-6));
+}
+
 }  // namespace septet::simulation
