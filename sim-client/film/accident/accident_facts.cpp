@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "engine/physics/impact/outline.hpp"
 #include "engine/world/participant_shape.hpp"
 #include "engine/world/solid.hpp"
 #include "logging/session/participants.hpp"
@@ -28,8 +29,33 @@ WayPoint way_point(const Participant& participant, double time_s) {
           glm::length(Vec2(participant.velocity_mps))};
 }
 
-Vec2 middle_m(const Participant& participant) {
-  return Vec2(participant.world_from_vehicle * Vec3(vehicle_models()[participant.model].centre_x_m(), 0.0, 0.0));
+/// Somebody's body: a rectangle in plan, of their own length and width, from the ground to their height.
+struct Standing {
+  impact::Outline outline;
+  double low_m = 0.0, high_m = 0.0;
+};
+
+Standing standing(const Participant& participant) {
+  const VehicleModel shape = shape_of(participant);
+  const RigidTransform& place = participant.world_from_vehicle;
+  const double heading = heading_rad(place.orientation);
+  return {
+      impact::box_outline(Vec2(place * Vec3(shape.centre_x_m(), 0.0, 0.0)), Vec2(std::cos(heading), std::sin(heading)),
+                          0.5 * Vec2(shape.length_m, shape.width_m), 0.0),
+      place.position_m.z, place.position_m.z + shape.height_m};
+}
+
+/// Below zero: the outlines overlap so far. One who is on a bridge is as far from who is below it as the bridge is high.
+double distance_m(const Standing& one, const Standing& other) {
+  const double in_plan_m = impact::nearest(one.outline, other.outline).gap_m;
+  const double above_m = std::max(one.low_m - other.high_m, other.low_m - one.high_m);
+  return above_m > 0.0 ? std::hypot(std::max(0.0, in_plan_m), above_m) : in_plan_m;
+}
+
+/// No outlines of these two are nearer than this.
+double least_distance_m(const Standing& one, const Standing& other) {
+  return glm::length(one.outline.centre_m - other.outline.centre_m) - glm::length(one.outline.half_m) -
+         glm::length(other.outline.half_m);
 }
 
 /// The two that came nearest, and when: the driver's car and another one, or without it somebody whom the scenario
@@ -44,10 +70,13 @@ void look_for_nearest(const Snapshot& world, const logging::ParticipantNames& na
   for (const Participant& one : world.participants) {
     if (has_driver ? one.id != world.driver_car.participant : !names.contains(one.id)) continue;
     if (!nearest.first) nearest.first = one.id, nearest.time_s = world.simulated_time_s;
+    const Standing own = standing(one);
     for (const Participant& other : world.participants) {
-      const double distance_m = glm::length(middle_m(one) - middle_m(other));
-      if (other.id != one.id && distance_m < nearest.distance_m)
-        nearest = {one.id, other.id, world.simulated_time_s, distance_m};
+      if (other.id == one.id) continue;
+      const Standing its = standing(other);
+      if (least_distance_m(own, its) >= nearest.distance_m) continue;
+      const double apart_m = distance_m(own, its);
+      if (apart_m < nearest.distance_m) nearest = {one.id, other.id, world.simulated_time_s, apart_m};
     }
   }
 }
@@ -148,7 +177,7 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
     if (nearest.second) {
       numbers.push_back(*nearest.second);
       facts.nearest_s = middle_s = nearest.time_s;
-      facts.nearest_m = nearest.distance_m;
+      facts.nearest_m = std::max(0.0, nearest.distance_m);
     }
   }
   facts.window_s = {std::max(span_s->first, middle_s - before_contact_s),

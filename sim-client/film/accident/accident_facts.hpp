@@ -57,7 +57,7 @@ struct AccidentFacts {
   std::vector<Contact> contacts;        ///< All of the session, by time.
   std::optional<std::size_t> chosen;    ///< Index of the film's contact; empty: there is none.
   std::optional<double> nearest_s;      ///< Without a contact: when two came nearest to each other,
-  double nearest_m = 0.0;               ///< and the distance between their outlines' middles.
+  double nearest_m = 0.0;               ///< and the distance of their outlines; 0: they overlap.
   std::vector<Involved> involved;       ///< One or two, the contact's first before its second.
   std::vector<Involved> bystanders;     ///< Everybody else who comes within `bystanders_within_m` of the first.
   std::string driver;                   ///< Kind of the simulated driver; empty: a person.

@@ -154,7 +154,7 @@ std::string what_happens(const AccidentFacts& facts) {
                        contact.second ? "somebody who is not in the log" : printable(contact.stands, longest_name));
   }
   if (two)
-    return fmt::format("no contact: {} and {} come within {:.1f} m", first, short_name(facts.involved[1]),
+    return fmt::format("no contact: {} and {} come within {:.2f} m", first, short_name(facts.involved[1]),
                        facts.nearest_m);
   return "no contact: " + first + " alone";
 }
@@ -172,6 +172,7 @@ void add_crash_figures(const AccidentFacts& facts, const CrashRecord& crash, std
   };
   add("overlap, of the narrower one", "%", crash.overlap_share, 100.0);
   add("depth to which the outlines came into each other", "m", crash.depth_m, 1.0);
+  add("contact, from the touch to the last push", "s", crash.contact_s, 1.0);
   const CrashedBody* bodies[] = {&crash.of_first, &crash.of_second};
   for (std::size_t i = 0; i < std::min(facts.involved.size(), std::size(bodies)); ++i) {
     const CrashedBody& body = *bodies[i];
@@ -208,7 +209,7 @@ void add_figures(const AccidentFacts& facts, AccidentPlan& plan, double contact_
           kmh_per_mps * *contact.delta_v_mps, "logged event, computed");
   } else if (facts.nearest_s) {
     add("instant of the nearest approach", "s", *facts.nearest_s, "logged, ten times a second");
-    add("distance of the two middles then", "m", facts.nearest_m, "logged, ten times a second");
+    add("distance of the two outlines then", "m", facts.nearest_m, "logged, ten times a second");
   }
   for (const Involved& one : facts.involved) {
     const std::string name = short_name(one);
@@ -300,6 +301,7 @@ AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, dou
     told += fmt::format(": closing at {:.0f} km/h", kmh_per_mps * *contact->closing_mps);
   if (const auto delta_v_mps = contact ? delta_v_of(*contact) : std::nullopt)
     told += fmt::format(", velocity of {} changed by {:.0f} km/h", short_name(first), kmh_per_mps * *delta_v_mps);
+  if (!facts.chosen && facts.nearest_s) told += fmt::format(": {:.2f} m between their outlines", facts.nearest_m);
   planner.add_clear(slow, told + ".");
   Shot beside{.from_s = planner.window_from(0.5),
               .to_s = planner.window_to(1.0),

@@ -15,6 +15,7 @@
 #include "sim-client/film/accident/read_plan.hpp"
 #include "sim-client/film/film.hpp"
 #include "tests/logging/session_fixture.hpp"
+#include "tests/relative.hpp"
 #include "tests/why_not.hpp"
 
 namespace septet::film {
@@ -176,6 +177,58 @@ TEST_CASE("without a contact the nearest approach is planned and said to be one"
   CHECK(one.facts.involved[0].name == "ego");  // 2 and 3 come as near to each other.
   CHECK(one.plan.script.overlay.contact == "the nearest approach");
   CHECK(one.plan.script.overlay.notes[2].find("impact") == std::string::npos);
+}
+
+TEST_CASE(
+    "the nearest approach is that of the outlines, not of the middles, and its distance stands in title, words and "
+    "figures") {
+  const TemporaryFolder folder;
+  const auto file = folder / "session.sqlite";
+  auto info = logging::example_info();
+  info.other["participant_names"] = R"({"1":"ego","2":"lorry","3":"walker","4":"above"})";
+  auto writer = logging::SessionWriter::create(file, info);
+  REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
+  const VehicleModel &saloon = vehicle_models()[*find_vehicle_model("saloon")],
+                     &lorry = vehicle_models()[*find_vehicle_model("lorry")];
+  // The lorry's rear passes 0.4 m ahead of the car's front at 8 s, its middle far away; at 4 s the walker is 1.5 m beside
+  // the car's flank, much nearer to its middle. Somebody crosses 6 m higher.
+  const double rear_gap_m = 0.4, beside_m = 1.5;
+  for (Tick tick = 0; tick <= 1200; ++tick) {
+    Snapshot world;
+    world.tick = tick;
+    world.simulated_time_s = static_cast<double>(tick) / 120.0;
+    const auto add = [&](ParticipantId id, const char* model, const Vec3& position_m) {
+      Participant participant;
+      participant.id = id;
+      participant.model = *find_vehicle_model(model);
+      participant.world_from_vehicle.position_m = position_m;
+      world.participants.push_back(participant);
+    };
+    const double lorry_from_s = std::abs(world.simulated_time_s - 8.0),
+                 walker_from_s = std::abs(world.simulated_time_s - 4.0);
+    add(1, "saloon", Vec3(0.0));
+    add(2, "lorry", Vec3(saloon.front_m() + rear_gap_m + lorry.rear_overhang_m + lorry_from_s, 0.0, 0.0));
+    const double walker_half_m = 0.5 * vehicle_models()[*find_vehicle_model("pedestrian")].width_m;
+    add(3, "pedestrian",
+        Vec3(saloon.centre_x_m(), 0.5 * saloon.width_m + beside_m + walker_half_m + walker_from_s, 0.0));
+    add(4, "saloon", Vec3(0.0, 0.0, 6.0));
+    world.driver_car.participant = 1;
+    writer->record(logging::taken(world));
+  }
+  REQUIRE(writer->finish().has_value());
+  const auto plan = read_plan(logging::must_open(file), std::nullopt, picture_shape);
+  REQUIRE_MESSAGE(plan.has_value(), why_not(plan));
+  REQUIRE(plan->facts.involved.size() == 2);
+  CHECK(plan->facts.involved[1].name == "lorry");
+  CHECK(std::abs(plan->facts.nearest_s.value_or(0.0) - 8.0) < 0.1);
+  CHECK(plan->facts.nearest_m == relative(rear_gap_m, 1e-3));
+  CHECK(plan->plan.title == "no contact: ego and lorry come within 0.40 m, 8.00 s");
+  CHECK(std::ranges::any_of(plan->plan.words, [](const std::string& words) {
+    return words == "The nearest approach: 0.40 m between their outlines.";
+  }));
+  const auto told = std::ranges::find(plan->plan.figures, "distance of the two outlines then", &Figure::name);
+  REQUIRE(told != plan->plan.figures.end());
+  CHECK(told->value == plan->facts.nearest_m);
 }
 
 TEST_CASE("a contact with a solid is labelled by the name that the event has, else by its number") {
