@@ -139,8 +139,9 @@ Expected<void> settle(const CLI::App& app, FilmArguments& arguments) {
   if (options.session.empty())
     return failure("it is not said which session", "septet film", "give the session file of a drive");
   if (options.ghosts.size() > most_ghost_sessions)
-    return failure(fmt::format("more than {} sessions are shown as ghosts", most_ghost_sessions), "--ghost",
-                   "leave some out");
+    return failure(fmt::format("{} sessions are given, and a film has numbers for the participants of {} as ghosts",
+                               options.ghosts.size(), most_ghost_sessions),
+                   "--ghost", fmt::format("give {} at most", most_ghost_sessions));
   options.renderer = renderer_named(arguments.renderer);
   options.filter = arguments.filter == "box"         ? raytrace::Filter::box
                    : arguments.filter == "tent"      ? raytrace::Filter::tent

@@ -190,7 +190,8 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   std::size_t ghosts_named = 0;
   if (state->cast.font)
     for (const ParticipantId driver : state->ghosts.drivers())
-      state->cast.people.push_back({driver, fmt::format("ghost {}", ++ghosts_named)});
+      if (ghosts_named < most_ghosts_named)
+        state->cast.people.push_back({driver, fmt::format("ghost {}", ++ghosts_named)});
   if (auto begun = state->bring_scene_to(0); !begun) return tl::unexpected(begun.error());
   return FilmFrames(std::move(state));
 }

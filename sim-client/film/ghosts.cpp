@@ -14,7 +14,6 @@ namespace septet::film {
 namespace {
 
 constexpr double elsewhere_m = 0.3;
-constexpr ParticipantId most_number = 0x0100'0000u;
 /// Yellow, blue, red, green of the palette.
 constexpr std::array<std::uint8_t, 4> paints{11, 4, 5, 9};
 
@@ -95,7 +94,7 @@ Expected<void> Ghosts::add_to(Snapshot& world, double instant_s) {
     auto there = other.instants->at(instant_s);
     if (!there) return tl::unexpected(there.error());
     for (Participant& participant : there->participants) {
-      if (participant.id >= most_number || !is_elsewhere(participant, world)) continue;
+      if (participant.id >= numbers_a_ghost_session || !is_elsewhere(participant, world)) continue;
       participant.id = ghost_number(n, participant.id);
       participant.paint = paints[n % paints.size()];
       ghosts.push_back(participant);

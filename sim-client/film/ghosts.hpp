@@ -16,11 +16,17 @@
 
 namespace septet::film {
 
-inline constexpr std::size_t most_ghost_sessions = 8;
+/// Numbers of ghosts lie above all numbers of a drive, and below those of a scene's moving objects
+/// (engine/scene/placed_objects.cpp): as many for each session as a drive may have.
+inline constexpr ParticipantId first_ghost_number = 0x4000'0000u, numbers_a_ghost_session = 0x0100'0000u,
+                               first_moving_object = 0x8000'0000u;
+inline constexpr std::size_t most_ghost_sessions = (first_moving_object - first_ghost_number) / numbers_a_ghost_session;
+/// In the overlay's list, one line each; those of 8 take 39 % of a picture's height. Later ones are shown unnamed.
+inline constexpr std::size_t most_ghosts_named = 8;
 
-/// Number in the film's world of a participant of the n-th other session; above all numbers of a drive.
+/// Number in the film's world of a participant of the n-th other session.
 constexpr ParticipantId ghost_number(std::size_t n, ParticipantId id) {
-  return 0x4000'0000u + static_cast<ParticipantId>(n) * 0x0100'0000u + id;
+  return first_ghost_number + static_cast<ParticipantId>(n) * numbers_a_ghost_session + id;
 }
 
 /// One thread. Instants of one shot ascend; `begin_shot` begins anew.

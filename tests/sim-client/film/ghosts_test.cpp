@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "program/command_line.hpp"
+#include "sim-client/film/film_arguments.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/relative.hpp"
 #include "tests/temporary_folder.hpp"
@@ -66,6 +68,22 @@ TEST_CASE("who is missing in the film's own session is a ghost, and an instant a
   Snapshot late = logging::drive_snapshot(last + 30, 1);
   REQUIRE(ghosts->add_to(late, late.simulated_time_s).has_value());
   CHECK(late.participants.size() == 1);
+}
+
+TEST_CASE("as many sessions are ghosts as have numbers of their own below those of a scene's moving objects") {
+  CHECK(most_ghost_sessions == 64);
+  CHECK(ghost_number(most_ghost_sessions - 1, numbers_a_ghost_session - 1) < first_moving_object);
+  FilmArguments arguments;
+  CLI::App app;
+  add_film_options(app, arguments);
+  arguments.film.session = "session.sqlite";
+  arguments.film.ghosts.assign(most_ghost_sessions, "other.sqlite");
+  CHECK(settle(app, arguments).has_value());
+  arguments.film.ghosts.emplace_back("one-more.sqlite");
+  const auto refused = settle(app, arguments);
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(why_not(refused).find("65 sessions") != std::string::npos);
+  CHECK(why_not(refused).find("give 64 at most") != std::string::npos);
 }
 
 TEST_CASE("a session of other roads, and a file that is no session, are no ghosts") {
