@@ -1,5 +1,7 @@
 /// `septet`: the command people type.
 
+#include <string>
+
 #include <fmt/core.h>
 
 #include "command-line/septet/options.hpp"
@@ -9,13 +11,16 @@
 
 int main(int argc, char** argv) {
   using namespace septet;
-  CLI::App app{"Septet: a driving simulator that surrounds a real car with seven screens."};
+  CLI::App app{"Septet: a driving simulator that surrounds a real car with seven screens.", "septet"};
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 finished, 1 failed, 2 wrong use, 3 a drive or replay that somebody stopped before its end.");
   app.failure_message([](const CLI::App* self, const CLI::Error& error) {
-    return fmt::format("septet: {}; {} --help shows the options\n", error.what(), self->get_display_name());
+    std::string command = "septet";
+    for (auto chosen = self->get_subcommands(); !chosen.empty(); chosen = chosen.front()->get_subcommands())
+      command += " " + chosen.front()->get_name();
+    return fmt::format("septet: {}; {} --help shows the options\n", error.what(), command);
   });
   app.option_defaults()->always_capture_default();
   server::Options options;

@@ -1,7 +1,8 @@
-/// `septet-film`: a recorded session to the pictures of a film, and the queue of films that wait. `septet film` starts
-/// it.
+/// `septet-film`: a recorded session to the pictures of a film, the queue of films that wait, and the film of an
+/// accident. `septet film` starts it, and `septet accident` with the word `accident` before all others.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
@@ -37,9 +38,24 @@ Expected<int> queue(const film::QueueArguments& arguments) {
   });
 }
 
+/// `septet accident`: a command of its own to those who type it.
+int accident(int argc, char** argv) {
+  film::AccidentOptions options;
+  CLI::App app{"Plan and make the film of a contact, from the log alone, or check one (docs/accident.md).",
+               "septet accident"};
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("septet: {}; septet accident --help shows the options\n", error.what());
+  });
+  app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", version_text());
+  film::add_accident_options(app, options);
+  return program::run("septet", app, argc, argv, [&] { return film::run_accident(options); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && argv[1] == std::string_view("accident")) return accident(argc - 1, argv + 1);
   film::FilmArguments arguments;
   film::QueueArguments of_queue;
   CLI::App app{
@@ -75,17 +91,12 @@ int main(int argc, char** argv) {
       app.add_subcommand("cancel", "Take films out of the queue, also one that is being made");
   add_folder(cancel_command);
   cancel_command->add_option("number", of_queue.numbers, "As septet film status tells")->required();
-  film::AccidentOptions accident;
-  CLI::App* const accident_command = app.add_subcommand(
-      "accident", "Plan and make the film of a contact, from the log alone: septet accident (docs/accident.md)");
-  film::add_accident_options(*accident_command, accident);
   return film::run_alone_or_by_mpirun([&](film::Machines* others) {
     const int status = program::run("septet", app, argc, argv, [&]() -> Expected<int> {
       of_queue.film = queue_command->remaining();
       if (*queue_command) return queue(of_queue);
       if (*status_command) return film::show_queue(of_queue);
       if (*cancel_command) return film::cancel_films(of_queue);
-      if (*accident_command) return film::run_accident(accident);
       if (auto settled = film::settle(app, arguments); !settled) return tl::unexpected(settled.error());
       return film::run_film(arguments, {argv + 1, argv + argc}, others);
     });

@@ -9,14 +9,16 @@ import sys
 import tempfile
 
 GOOD = {
-    "tests/architecture/layers.txt": "engine/high | engine/beside\nengine/low\n\n[engine/low]\nabove\nbelow*\n",
+    "tests/architecture/layers.txt": "command-line\nengine/high | engine/beside\nengine/low\n\n[engine/low]\nabove\nbelow*\n",
     "engine/high/a.hpp": '#include "engine/low/above.hpp"\n',
     "engine/beside/b.hpp": "",
     "engine/low/above.hpp": '#include "engine/low/below_it.hpp"\n',
     "engine/low/above.cpp": '#include "engine/low/above.hpp"\n',
     "engine/low/below_it.hpp": '#include "engine/low/below_too.hpp"\n',
     "engine/low/below_too.hpp": "",
-    "NOTES.md": "engine/low holds `low/above` and engine/low/below_it.hpp; whose file is engine/low/NAME.hpp?\n",
+    "command-line/septet/options.cpp": 'void add() {\n' + "".join(f'  app.add_subcommand("go-{c}");\n' for c in "abcdefghij") +
+    '  auto* way = app.add_subcommand(\n      "way");\n  way->require_subcommand(1);\n  way->add_subcommand("keys");\n}\n',
+    "NOTES.md": "engine/low holds `low/above` and engine/low/below_it.hpp; whose file is engine/low/NAME.hpp?\n`septet go-a FILE`, `septet way keys`; septet is\n",
 }
 # The file that is written, what it says, the test that finds it, and what that says.
 BREACHES = {
@@ -37,6 +39,10 @@ BREACHES = {
     "a header that is not the first": ("engine/low/above.cpp", '#include <map>\n#include "engine/low/above.hpp"\n', "own_header", "does not include engine/low/above.hpp first"),
     "a standard header left out": ("engine/low/above.cpp", '#include "engine/low/above.hpp"\nstd::vector<int> a;\n', "standard_headers", "uses std::vector and does not include <vector>"),
     "a loose tolerance": ("tests/a_test.cpp", "CHECK(x == doctest::Approx(f(0.1)).epsilon(0.1));\n", "tolerances", "tests/a_test.cpp:1: an epsilon without its scale"),
+    "a command that is not there": ("NOTES.md", "    septet go-z FILE\n", "named_commands", "NOTES.md:1: there is no command septet go-z"),
+    "one in a help text": ("engine/low/above.cpp", 'const char* help = "as septet gone does";\n', "named_commands", "above.cpp:1: there is no command septet gone"),
+    "a command behind another one": ("NOTES.md", "`septet go-a go-b FILE`\n", "named_commands", "NOTES.md:1: septet go-a has no command go-b"),
+    "a command's command that is not there": ("NOTES.md", "`septet way gone`\n", "named_commands", "NOTES.md:1: septet way has no command gone"),
     "a folder's name with a slash": ("NOTES.md", "(`engine/gone/`.)\n", "named_paths", "there is no engine/gone"),
 }
 
@@ -55,7 +61,7 @@ def check(what, files, test, expected):
             failures.append(f"{what}: exit {result.returncode}, {result.stdout!r} {result.stderr!r}")
 
 
-for test in ("layers", "named_paths", "own_header", "tolerances"):
+for test in ("layers", "named_paths", "named_commands", "own_header", "tolerances"):
     check(f"no breach, {test}", GOOD, test, "")
 for what, (name, text, test, expected) in BREACHES.items():
     check(what, GOOD | {name: text}, test, expected)
