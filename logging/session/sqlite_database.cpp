@@ -165,13 +165,15 @@ Expected<Database> Database::open(const std::filesystem::path& path, OpenMode mo
                      "choose another name or remove it");
     return open_with(where, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, where);
   }
+  if (std::filesystem::is_directory(path, ignored))
+    return failure("this is a folder", where, "give the session file in it, such as session.sqlite");
   if (!std::filesystem::is_regular_file(path, ignored))
     return std::filesystem::exists(path, ignored)
                ? failure("this is no file that can be read as a log", where, "give the log itself")
                : failure("there is no such file", where, "check the path");
   // SQLite deletes the files beside an empty file.
   if (std::filesystem::file_size(path, ignored) == 0)
-    return failure("this is not an SQLite file", where, "give a session file that Septet wrote");
+    return failure("this file is empty, not an SQLite file", where, "give a session file that Septet wrote");
   // SQLite looks for side files beside the target of a link; so does Septet.
   const std::filesystem::path real = std::filesystem::canonical(path, ignored);
   if (ignored) return failure(ignored.message(), where, "check the path");

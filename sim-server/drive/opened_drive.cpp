@@ -29,7 +29,7 @@
 namespace septet::server {
 namespace {
 
-Expected<void> open_replay(const ServerOptions& options, OpenedDrive& drive) {
+Expected<void> open_replay(const ServerOptions& options, OpenedDrive& drive, program::ProgressLine& line) {
   auto session = logging::SessionReader::open(options.replay);
   if (!session) return tl::unexpected(session.error());
   drive.session.emplace(std::move(*session));
@@ -48,6 +48,10 @@ Expected<void> open_replay(const ServerOptions& options, OpenedDrive& drive) {
   if (!scene) return tl::unexpected(scene.error());
   drive.recorded_scene.emplace(std::move(*scene));
   if (auto begun = drive.recorded_scene->advance(0, drive.store); !begun) return begun;
+  if (drive.store.nodes().empty())
+    line.message(printable(options.replay.string()) +
+                 ": it keeps no scene, so the screens show sky and instruments, no road and nobody; replay a session "
+                 "that septet drive recorded");
   auto source = ReplaySource::start(*drive.session, options.replay_from_s);
   if (!source) return tl::unexpected(source.error());
   drive.source = std::move(*source);
@@ -179,7 +183,7 @@ Expected<void> open_live(const ServerOptions& options, OpenedDrive& drive, progr
 
 Expected<std::unique_ptr<OpenedDrive>> open_drive(const ServerOptions& options, program::ProgressLine& line) {
   auto drive = std::make_unique<OpenedDrive>();
-  auto opened = options.replay.empty() ? open_live(options, *drive, line) : open_replay(options, *drive);
+  auto opened = options.replay.empty() ? open_live(options, *drive, line) : open_replay(options, *drive, line);
   if (!opened) return tl::unexpected(opened.error());
   return drive;
 }

@@ -140,6 +140,11 @@ TEST_CASE("foreign files are refused with one error") {
     REQUIRE_FALSE(reader.has_value());
     CHECK(reader.error().remedy == "give a session file that Septet wrote");
   }
+  CHECK(SessionReader::open(folder / "empty").error().what.find("empty") != std::string::npos);
+  const auto of_folder = SessionReader::open(folder.path());
+  REQUIRE_FALSE(of_folder.has_value());
+  CHECK(of_folder.error().what == "this is a folder");
+  CHECK(of_folder.error().remedy.find("session.sqlite") != std::string::npos);
   CHECK_FALSE(SessionReader::open(folder / "missing").has_value());
   CHECK_FALSE(std::filesystem::exists(folder / "missing"));
 }

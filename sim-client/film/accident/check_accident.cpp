@@ -209,6 +209,9 @@ Expected<AccidentCheck> check_accident(const fs::path& film, const fs::path& ses
   const fs::path folder = fs::is_directory(film, ignored) ? film
                           : film.has_parent_path()        ? film.parent_path()
                                                           : fs::path(".");
+  if (!fs::exists(folder / manifest_name, ignored))
+    return failure(fmt::format("there is no {} beside it, which says what a film was made of", manifest_name),
+                   film.string(), "give the folder that septet accident made, or the film in it");
   const auto record = read_manifest(folder, session_file);
   if (!record) return tl::unexpected(record.error());
   AccidentCheck check;
