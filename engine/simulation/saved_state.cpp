@@ -375,6 +375,7 @@ Expected<State> restore(const Model& model, std::unique_ptr<traffic::TrafficEngi
 
   State state;
   state.traffic = std::move(traffic);
+  if (model.obstacles) state.traffic->see_walls(model.obstacles->walls());
   scenario::StepResult init;
   auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
   if (!started) return tl::unexpected(started.error());

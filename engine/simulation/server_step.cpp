@@ -101,6 +101,7 @@ Snapshot capture(const Model& model, const State& state, const DrivenCar& car, s
 Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic) {
   State state;
   state.traffic = std::move(traffic);
+  if (model.obstacles) state.traffic->see_walls(model.obstacles->walls());
   scenario::StepResult init;
   auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
   if (!started) return tl::unexpected(started.error());
@@ -135,6 +136,9 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});
+  for (const traffic::ViewOpening& opening : state.traffic->take_openings())
+    events.push_back({"junction_sight", opening.driver,
+                      fmt::format("line_m={:.1f} hidden_s={:.1f}", opening.line_m, opening.hidden_s)});
   advance_bodies(model, state, events);
   auto participants = participants_now(model, state, car.participant, std::move(old.participants));
   advance_thrown(model, car, participants, state, events);

@@ -91,6 +91,7 @@ class CrossingTraffic final : public TrafficEngine {
   CrossingTraffic(const road::RoadNetwork& network, LaneGraph graph, std::uint64_t seed)
       : none_(network, seed), network_(network_traffic(network, std::move(graph), seed)) {}
 
+  void see_walls(const sight::Walls& walls) override { network_->see_walls(walls); }
   void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     is_started_ = true;
     network_->start(parameters, foreign);
@@ -116,6 +117,7 @@ class CrossingTraffic final : public TrafficEngine {
   }
   std::uint32_t take_bad_numbers() override { return now().take_bad_numbers(); }
   std::optional<std::string> take_remark() override { return now().take_remark(); }
+  std::vector<ViewOpening> take_openings() override { return now().take_openings(); }
 
  private:
   TrafficEngine& now() {

@@ -76,6 +76,12 @@ struct ForeignVehicle {
   VehicleModel shape() const { return shape_of(model, box_size_m); }
 };
 
+/// A driver comes to see those to whom he gives way at a junction, so far before its line, after they had been hidden.
+struct ViewOpening {
+  ParticipantId driver = 0;
+  double line_m = 0.0, hidden_s = 0.0;
+};
+
 /// An emergency vehicle's demand on a driver.
 enum class MakingWay : std::uint8_t { no, hold_lane, leave_lane };
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Interface to a drive's traffic: Septet's own models, or another simulator.
 ///
+///     engine.see_walls(walls)                    once, before all else, where there are any
 ///     engine.start(parameters, foreign)          when the scenario requests a swarm
 ///     engine.show_lights(lights)                 each tick, where the roads have lights
 ///     engine.advance(foreign, tick_s)            each tick
@@ -18,6 +19,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/core/hash.hpp"
+#include "engine/sight/walls.hpp"
 #include "engine/traffic/traffic.hpp"
 #include "engine/world/traffic_light.hpp"
 
@@ -31,6 +33,8 @@ namespace septet::traffic {
 class TrafficEngine {
  public:
   virtual ~TrafficEngine() = default;
+  /// Walls past which drivers do not see. An engine without this ability, or without junctions, ignores them.
+  virtual void see_walls(const sight::Walls& /*walls*/) {}
   /// Starts a swarm around the first foreign vehicle; an earlier one is removed.
   virtual void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) = 0;
   /// Removes all vehicles.
@@ -62,6 +66,8 @@ class TrafficEngine {
   /// % or more than 105 % of the requested vehicles are there. Returned once; by Septet's own traffic again, each ten
   /// seconds at most, where a further tenth is gone: at the ends of a road shorter than the swarm's radius.
   virtual std::optional<std::string> take_remark() { return std::nullopt; }
+  /// Drivers who in the last step came to see a junction that had been hidden from them.
+  virtual std::vector<ViewOpening> take_openings() { return {}; }
   /// Failure outside of Septet, once. From then on the engine stands still; the drive is to end.
   virtual std::optional<Error> take_error() { return std::nullopt; }
 };

@@ -4,7 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
+#include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town_stages.hpp"
+#include "engine/world/participant_sight.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -16,7 +20,6 @@ constexpr double patience_s = 3.0;   ///< Then somebody who stands before his ow
 constexpr double courtesy_s = 25.0;  ///< Then those who can stop let him in.
 constexpr double tired_s = 5.0;      ///< Each time another way is chosen, if what lies beyond this one is full.
 constexpr double at_line_m = 8.0, stands_mps = 0.5;
-constexpr double turning_rad = 0.5;
 
 /// What a claim covers: ways [first, last] of the route, up to the first stretch beyond that holds the vehicle.
 struct Passage {
@@ -92,14 +95,6 @@ bool has_room_beyond(const LaneGraph& graph, const Presences& presences, const T
   return ends_here || room_m - taken_m >= needed_m;
 }
 
-/// Least gap in traffic with right of way for a vehicle that stands: HCM 2010, table 19-10.
-double critical_gap_s(const Way& way) {
-  const double keeps = way.left_hand ? -1.0 : 1.0;
-  const double left_rad = keeps * way.turns_rad;
-  if (way.rank == Rank::priority || (way.rank == Rank::equal && left_rad > turning_rad)) return 4.1;
-  return left_rad > turning_rad ? 7.1 : left_rad < -turning_rad ? 6.2 : 6.5;
-}
-
 /// Where a way lies on the passage, and the vehicle's speeds there.
 struct Approach {
   const TownVehicle& vehicle;
@@ -107,11 +102,6 @@ struct Approach {
   double front_m = 0.0;  ///< Of the vehicle, from the way's begin.
   double most_mps = 0.0;
 };
-
-/// The greatest speed all along a way.
-double most_mps_on(const Way& way) {
-  return std::min(way.limit_mps, std::sqrt(town_bend_mps2 / std::max(way.tightest_per_m, 1e-6)));
-}
 
 /// True where this presence on the other way of a conflict leaves the vehicle free to go.
 bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, const WayConflict& conflict,
@@ -205,6 +195,33 @@ bool is_anothers_turn(const LaneGraph& graph, const Presences& presences, const 
           return true;
       }
     }
+  return false;
+}
+
+/// True where something hides from the driver some of those to whom he gives way in the passage's first junction.
+bool is_hidden(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
+               const Passage& passage, double line_m) {
+  constexpr double looks_s = 2.0;  // Who stands so long before it does not get any nearer.
+  if (line_m <= at_stop_line_m || vehicle.waits_s > looks_s) return false;
+  constexpr double around_m = 60.0;
+  std::vector<sight::Box> around;
+  const auto here = [&] { return place_on_route(graph, vehicle, vehicle.front_m - eye_behind_m).position_m; };
+  const Vec3 eye_m =
+      presences.high.empty() ? Vec3(0.0) : here() + Vec3(0.0, 0.0, driver_eyes_m(vehicle_models()[vehicle.model]).z);
+  for (const HighBody& body : presences.high)
+    if (body.who != self && glm::distance(body.box.world_from_box.position_m, eye_m) < around_m)
+      around.push_back(body.box);
+  const std::uint32_t junction = graph.ways[vehicle.route[passage.first]].junction;
+  for (std::size_t k = passage.first; k <= passage.last; ++k) {
+    const Way& mine = graph.ways[vehicle.route[k]];
+    if (mine.junction != junction) break;
+    for (const WayConflict& conflict : graph.conflicts_of(mine)) {
+      if (line_m > conflict.seen_from_m) return true;
+      const Way& his = graph.ways[conflict.with];
+      if (around.empty() || conflict.kind == WayConflict::Kind::diverging || !yields_to(mine, his)) continue;
+      if (is_hidden_by(around, graph, eye_m, his, looked_for_back_m(mine, conflict, his))) return true;
+    }
+  }
   return false;
 }
 
@@ -319,6 +336,14 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
       lights.empty() || !before.has_light ? LightState::dark : lights[2 * before.road + (before.along_s ? 0 : 1)];
   if (!light_allows(light, vehicle, line_m)) return stop_m;
   const Passage passage = passage_from(graph, vehicle, first, begin_m);
+  // Who has green gives way to the oncoming alone, whom he has before him.
+  if (light != LightState::green && light != LightState::amber &&
+      is_hidden(graph, presences, vehicle, self, passage, line_m)) {
+    vehicle.hidden_s += dt_s;
+    return stop_m;
+  }
+  if (const double hidden_s = std::exchange(vehicle.hidden_s, 0.0); hidden_s > 0.0)
+    town.openings.push_back({vehicle.id, line_m, hidden_s});
   if (leader.speed_mps < stands_mps && stands_within(graph, vehicle, passage, vehicle.front_m + leader.gap_m))
     return stop_m;
   if (!has_room_beyond(graph, presences, vehicle, self, passage)) {

@@ -10,6 +10,7 @@
 /// Immutable once built; pure functions; safe from many threads. World frame, metres, radians.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -82,6 +83,9 @@ struct WayConflict {
   /// beyond its end it lies on other sections. It is held by one at a time.
   double whole_from_m = 0.0, whole_to_m = 0.0;
   double with_whole_from_m = 0.0, with_whole_to_m = 0.0;
+  /// Distance from the own stop line from which those who come by the other way are in view past the walls
+  /// (approach_view.hpp); infinite: they always are.
+  double seen_from_m = std::numeric_limits<double>::infinity();
 };
 
 struct LaneGraph {

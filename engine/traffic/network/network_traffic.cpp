@@ -6,17 +6,18 @@
 #include <vector>
 
 #include "engine/traffic/driver_members.hpp"
+#include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town.hpp"
 
 namespace septet::traffic {
 
 SEPTET_MEMBERS(Swerve, own, over, from_m, to_m, left_m)
-// Kept are a vehicle's constants, drawn when it came in.
+// Kept are a vehicle's constants, drawn when it came in, and what is for the log alone.
 SEPTET_MEMBER_GROUPS(TownVehicle, hashed(id), kept(model, paint, driver, law, urge),
                      hashed(outside, route, front_m, speed_mps, acceleration_mps2), kept(rolled_m),
-                     hashed(claims, unused_s, waits_s), kept(stands_s), hashed(swerve, is_held))
-// Sights are given anew each tick.
-SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights), hashed(claims, foreign_stands_s),
+                     hashed(claims, unused_s, waits_s), kept(stands_s, hidden_s), hashed(swerve, is_held))
+// Sights are given anew each tick, openings taken in it.
+SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights, openings), hashed(claims, foreign_stands_s),
                      kept(bad_numbers, next_id))
 
 namespace {
@@ -52,6 +53,7 @@ class NetworkTraffic final : public TrafficEngine {
   NetworkTraffic(const road::RoadNetwork& network, LaneGraph graph, std::uint64_t seed)
       : network_(network), graph_(std::move(graph)), random_(seed, 1) {}
 
+  void see_walls(const sight::Walls& walls) override { look_past_walls(walls, graph_); }
   void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     parameters_ = parameters;
     town_ = populate_town(parameters_, network_, graph_, foreign, random_);
@@ -76,6 +78,7 @@ class NetworkTraffic final : public TrafficEngine {
     if (!town_.vehicles.empty()) worsen_town(parameters_, graph_, more_vehicles, random_, town_);
   }
   std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
+  std::vector<ViewOpening> take_openings() override { return std::exchange(town_.openings, {}); }
   std::uint32_t take_bad_numbers() override { return std::exchange(town_.bad_numbers, 0); }
   void append_participants(std::vector<Participant>& participants) const override {
     traffic::append_participants(graph_, town_, participants);

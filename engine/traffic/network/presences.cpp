@@ -4,7 +4,9 @@
 #include <glm/geometric.hpp>
 
 #include "engine/road/road_locate.hpp"
+#include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town_stages.hpp"
+#include "engine/world/participant_sight.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -122,6 +124,34 @@ void add_foreign(const road::RoadNetwork& network, const LaneGraph& graph, const
   }
 }
 
+/// Adds a body where it stands and hides what is behind it from a car's driver.
+void add_if_high(const Participant& body, double speed_mps, std::int32_t who, std::vector<HighBody>& high) {
+  constexpr double stands_below_mps = 0.5;
+  if (speed_mps > stands_below_mps || opaque_height_m(shape_of(body)) < eye_height_m) return;
+  if (const auto box = opaque_box_of(body)) high.push_back({who, *box});
+}
+
+void add_own_if_high(const LaneGraph& graph, const TownVehicle& vehicle, std::int32_t who,
+                     std::vector<HighBody>& high) {
+  const VehicleModel& model = vehicle_models()[vehicle.model];
+  if (opaque_height_m(model) < eye_height_m) return;
+  const double rear_m = vehicle.front_m - model.front_m();
+  const Vec3 rear = place_on_route(graph, vehicle, rear_m).position_m;
+  const Vec3 axles = place_on_route(graph, vehicle, rear_m + model.wheelbase_m).position_m - rear;
+  Participant body;
+  body.model = vehicle.model;
+  body.world_from_vehicle = {rear, orientation_from_angles(std::atan2(axles.y, axles.x), 0.0, 0.0)};
+  add_if_high(body, vehicle.speed_mps, who, high);
+}
+
+void add_foreign_if_high(const ForeignVehicle& vehicle, std::int32_t who, std::vector<HighBody>& high) {
+  Participant body;
+  body.model = vehicle.model;
+  body.world_from_vehicle = vehicle.world_from_vehicle;
+  if (vehicle.box_size_m) set_box_size(*vehicle.box_size_m, body);
+  add_if_high(body, glm::length(vehicle.velocity_mps), who, high);
+}
+
 }  // namespace
 
 Presences find_presences(const road::RoadNetwork& network, const LaneGraph& graph,
@@ -131,6 +161,7 @@ Presences find_presences(const road::RoadNetwork& network, const LaneGraph& grap
   for (std::size_t i = 0; i < town.vehicles.size(); ++i)
     if (!town.vehicles[i].outside) {
       add_own(graph, town.vehicles[i], static_cast<std::int32_t>(i), all);
+      add_own_if_high(graph, town.vehicles[i], static_cast<std::int32_t>(i), found.high);
       if (town.vehicles[i].swerve) add_swerve(graph, town.vehicles[i], static_cast<std::int32_t>(i), all);
     }
   town.foreign_stands_s.resize(foreign.size(), 0.0);
@@ -138,6 +169,7 @@ Presences find_presences(const road::RoadNetwork& network, const LaneGraph& grap
     double& stands_s = town.foreign_stands_s[k];
     stands_s = glm::length(foreign[k].velocity_mps) < 0.3 ? stands_s + dt_s : 0.0;
     add_foreign(network, graph, foreign[k], -1 - static_cast<std::int32_t>(k), stands_s, all);
+    add_foreign_if_high(foreign[k], -1 - static_cast<std::int32_t>(k), found.high);
   }
   // Counted by way, then put in its place: the order within a way is that of vehicles.
   found.first.assign(graph.ways.size() + 1, 0);

@@ -46,22 +46,6 @@ void put_aside(const Swerve& swerve, double at_m, PlaceOnWay& place) {
   place.curvature_per_m += curvature_per_m;
 }
 
-PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double route_m) {
-  double at_m = route_m;
-  for (std::size_t k = 0;; ++k) {
-    const Way& way = graph.ways[vehicle.route[k]];
-    if (at_m <= way.length_m || k + 1 == vehicle.route.size()) {
-      PlaceOnWay place = place_on_way(graph, way, at_m);
-      // Before its begin and beyond its end a way goes straight on.
-      const double beyond_m = at_m < 0.0 ? at_m : std::max(0.0, at_m - way.length_m);
-      place.position_m += beyond_m * place.tangent;
-      if (vehicle.swerve) put_aside(*vehicle.swerve, route_m, place);
-      return place;
-    }
-    at_m -= way.length_m;
-  }
-}
-
 /// 1: it turns left at the junction that it is in or comes to, or turns out to the left; −1: right.
 int indicated_turn(const LaneGraph& graph, const TownVehicle& vehicle) {
   if (vehicle.swerve && vehicle.front_m < vehicle.swerve->from_m) return vehicle.swerve->left_m > 0.0 ? 1 : -1;
@@ -111,11 +95,28 @@ void show_vehicle(const LaneGraph& graph, const TownVehicle& vehicle, double tim
 
 }  // namespace
 
+PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double route_m) {
+  double at_m = route_m;
+  for (std::size_t k = 0;; ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    if (at_m <= way.length_m || k + 1 == vehicle.route.size()) {
+      PlaceOnWay place = place_on_way(graph, way, at_m);
+      // Before its begin and beyond its end a way goes straight on.
+      const double beyond_m = at_m < 0.0 ? at_m : std::max(0.0, at_m - way.length_m);
+      place.position_m += beyond_m * place.tangent;
+      if (vehicle.swerve) put_aside(*vehicle.swerve, route_m, place);
+      return place;
+    }
+    at_m -= way.length_m;
+  }
+}
+
 void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
                   std::span<const TrafficLight> lights, std::span<const ForeignVehicle> foreign, double dt_s,
                   Random& random, TownState& town) {
   const double before_s = town.time_s;
   town.time_s += dt_s;
+  town.openings.clear();
   for (TownVehicle& vehicle : town.vehicles)
     if (!vehicle.outside) {
       choose_anew_if_tired(graph, dt_s, random, vehicle);

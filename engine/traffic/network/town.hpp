@@ -15,6 +15,9 @@
 /// claims never wait in a circle. Who has waited long is let in by those who can stop, and of several who each let the
 /// next one pass one goes first (courtesy).
 ///
+/// Nobody claims a junction before its driver has those in view to whom he gives way: past walls, which the graph knows
+/// (approach_view.hpp), and past vans, lorries and the like that stand. At the line he is taken to see them.
+///
 /// Foreign vehicles are bodies on whatever ways their outline touches, and come to junctions like others; where they
 /// are going is told by their indicator at most.
 ///
@@ -66,6 +69,7 @@ struct TownVehicle {
   double unused_s = 0.0;  ///< For which it has stood with its claim.
   double waits_s = 0.0;   ///< At a stop line without a claim.
   double stands_s = 0.0;  ///< Below walking speed, for whatever cause.
+  double hidden_s = 0.0;  ///< For which it has kept back from a junction that its driver does not see.
   std::optional<Swerve> swerve;
   bool is_held = false;  ///< It could go, but what lies beyond its junction has no room for it.
 
@@ -76,6 +80,7 @@ struct TownState {
   std::vector<TownVehicle> vehicles;
   double time_s = 0.0;
   std::vector<LimitedSight> sights;      ///< The caller's, of this tick.
+  std::vector<ViewOpening> openings;     ///< Of this tick.
   std::uint64_t claims = 0;              ///< Given so far.
   std::vector<double> foreign_stands_s;  ///< One a foreign vehicle.
   std::uint32_t bad_numbers = 0;

@@ -1,8 +1,12 @@
 #pragma once
 /// The stages of one tick of a town's traffic and their shared data. Used by engine/traffic/network only.
 
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
+#include "engine/sight/line_of_sight.hpp"
 #include "engine/traffic/network/town.hpp"
 
 namespace septet::traffic {
@@ -19,10 +23,17 @@ struct Presence {
   bool is_there() const { return front_m > 0.0; }
 };
 
+/// A body that stands and is higher than drivers' eyes. `who` as of a presence.
+struct HighBody {
+  std::int32_t who = 0;
+  sight::Box box;
+};
+
 /// All presences, by way.
 struct Presences {
   std::vector<Presence> all;
   std::vector<std::uint32_t> first;  ///< By way; one more at the end.
+  std::vector<HighBody> high;
 
   std::span<const Presence> on(WayIndex way) const { return {all.data() + first[way], first[way + 1] - first[way]}; }
 };
@@ -58,6 +69,9 @@ void prolong_route(const LaneGraph& graph, Random& random, TownVehicle& vehicle)
 /// other in a circle, as round a roundabout whose ways out are full, that only one who leaves it opens.
 void choose_anew_if_tired(const LaneGraph& graph, double dt_s, Random& random, TownVehicle& vehicle);
 
+/// Where a vehicle is at a place of its route, which goes straight on before its begin and beyond its end.
+PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double route_m);
+
 /// Stage 1: everybody's presences. Keeps up standing times of foreign vehicles.
 Presences find_presences(const road::RoadNetwork& network, const LaneGraph& graph,
                          std::span<const ForeignVehicle> foreign, double dt_s, TownState& town);
@@ -70,7 +84,7 @@ struct Leader {
 };
 Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownState& town, std::size_t vehicle);
 
-/// Stage 2: claims a vehicle's next junction if it is due and free. Returns the distance from its front to the line at
+/// Stage 2: claims a vehicle's next junction if it is due, in view and free. Returns the distance from its front to the line at
 /// which it is to stop; infinite if there is none.
 double negotiate(const LaneGraph& graph, std::span<const LightState> lights, const Leader& leader, double dt_s,
                  Random& random, Presences& presences, TownState& town, std::size_t vehicle);

@@ -125,7 +125,7 @@ bool try_to_enter(const TrafficParameters& parameters, const LaneGraph& graph, c
   vehicle.acceleration_mps2 = 0.0;
   vehicle.rolled_m = front_m;
   vehicle.claims.clear();
-  vehicle.waits_s = vehicle.stands_s = vehicle.unused_s = 0.0;
+  vehicle.waits_s = vehicle.stands_s = vehicle.unused_s = vehicle.hidden_s = 0.0;
   vehicle.is_held = false;
   prolong_route(graph, random, vehicle);
   return true;
@@ -136,7 +136,7 @@ void take_away(TownVehicle& vehicle) {
   vehicle.route.clear();
   vehicle.front_m = vehicle.speed_mps = vehicle.acceleration_mps2 = 0.0;
   vehicle.claims.clear();
-  vehicle.waits_s = vehicle.stands_s = vehicle.unused_s = 0.0;
+  vehicle.waits_s = vehicle.stands_s = vehicle.unused_s = vehicle.hidden_s = 0.0;
   vehicle.is_held = false;
   vehicle.swerve.reset();
 }

@@ -9,6 +9,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/traffic/network/town.hpp"
 #include "engine/traffic/traffic_engine.hpp"
+#include "tests/engine/traffic/crossing_cars.hpp"
 #include "tests/engine/traffic/crossing_road.hpp"
 #include "tests/engine/traffic/public_town.hpp"
 #include "tests/engine/traffic/town_run.hpp"
@@ -17,33 +18,6 @@ namespace septet::traffic {
 namespace {
 
 constexpr double dt_s = 1.0 / 30.0;
-constexpr ParticipantId first_id = 1000;
-
-WayIndex way_of_road(const road::RoadNetwork& network, const LaneGraph& graph, const std::string& id, bool along_s) {
-  const auto road = road::find_road(network, id);
-  REQUIRE(road.has_value());
-  for (WayIndex index = 0; index < graph.ways.size(); ++index)
-    if (graph.ways[index].road == *road && graph.ways[index].along_s == along_s) return index;
-  FAIL("no way of road " << id);
-  return no_way;
-}
-
-/// A car on an arm, `before_m` from its end, that will drive this connection.
-void add_car(const road::RoadNetwork& network, const LaneGraph& graph, const std::string& from, const std::string& to,
-             double before_m, TownState& town) {
-  const TrafficParameters parameters = motorway_traffic(1, 1000.0);
-  TownVehicle car;
-  car.id = first_id + static_cast<ParticipantId>(town.vehicles.size());
-  car.model = parameters.classes.front().model;
-  car.driver = parameters.classes.front().middle;
-  car.law = FollowingLaw(car.driver.following);
-  car.outside = false;
-  car.route = {way_of_road(network, graph, from, true), way_of_road(network, graph, from + "-" + to, true),
-               way_of_road(network, graph, to, false)};
-  car.front_m = graph.ways[car.route.front()].length_m - before_m;
-  car.speed_mps = 10.0;
-  town.vehicles.push_back(std::move(car));
-}
 
 /// Names of the arms in the order in which their cars come to the crossing's inside.
 std::vector<std::string> order_of_entry(const road::RoadNetwork& network, const LaneGraph& graph, TownState town,
@@ -60,7 +34,7 @@ std::vector<std::string> order_of_entry(const road::RoadNetwork& network, const 
     append_participants(graph, town, shown);
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const bool is_inside = glm::length(Vec2(shown[i].world_from_vehicle.position_m)) < arm_end_m - 1.0;
-      const std::string& arm = arms[shown[i].id - first_id];
+      const std::string& arm = arms[shown[i].id - first_car_id];
       if (is_inside && std::ranges::find(order, arm) == order.end()) order.push_back(arm);
       for (std::size_t j = i + 1; j < shown.size(); ++j) CHECK_FALSE(outlines_overlap(shown[i], shown[j]));
     }

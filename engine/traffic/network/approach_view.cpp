@@ -1,0 +1,142 @@
+#include "engine/traffic/network/approach_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace septet::traffic {
+namespace {
+
+constexpr double turns_from_rad = 0.5;
+/// Between two places that are looked at; two hidden ones in a row can hide a car.
+constexpr double look_step_m = 4.0;
+constexpr double most_back_m = 100.0;
+constexpr double always = std::numeric_limits<double>::infinity();
+
+/// The way on which most come to this one: straight on.
+WayIndex straight_before(const LaneGraph& graph, const Way& way) {
+  WayIndex best = no_way;
+  for (const WayIndex index : graph.before_of(way))
+    if (best == no_way || std::abs(graph.ways[index].turns_rad) < std::abs(graph.ways[best].turns_rad)) best = index;
+  return best;
+}
+
+/// The place so far before a way's begin, back along those who come straight on; empty beyond a road's open end.
+std::optional<Vec3> place_before(const LaneGraph& graph, WayIndex index, double back_m) {
+  constexpr int most_ways = 40;
+  for (int k = 0; k < most_ways; ++k) {
+    index = straight_before(graph, graph.ways[index]);
+    if (index == no_way) return std::nullopt;
+    const Way& way = graph.ways[index];
+    if (back_m <= way.length_m) return place_on_way(graph, way, way.length_m - back_m).position_m;
+    back_m -= way.length_m;
+  }
+  return std::nullopt;
+}
+
+/// How far back all of the way to `entry` is seen, where no stretch as long as a car is hidden.
+template <class IsHidden>
+double seen_back_m(const LaneGraph& graph, WayIndex entry, double back_m, const IsHidden& is_hidden) {
+  double seen_m = 0.0;
+  bool before_is_hidden = false;
+  for (double m = 0.0; m <= back_m; m += look_step_m) {
+    const auto place = place_before(graph, entry, m);
+    if (!place) return always;
+    const bool hides = is_hidden(*place + Vec3(0.0, 0.0, looked_for_height_m));
+    if (hides && before_is_hidden) return seen_m;
+    if (!hides) seen_m = m;
+    before_is_hidden = hides;
+  }
+  return always;
+}
+
+using SeenBack = std::array<double, looks_before_m.size()>;
+
+/// What is seen of the way to his entry from each distance before the stop line of the way to mine.
+SeenBack seen_from_each(const sight::Walls& walls, const LaneGraph& graph, WayIndex mine, double line_before_m,
+                        WayIndex his) {
+  SeenBack seen;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const auto place = place_before(graph, mine, looks_before_m[k] + line_before_m + eye_behind_m);
+    const auto hides = [&](const Vec3& there) { return walls.hide(*place + Vec3(0.0, 0.0, eye_height_m), there); };
+    // Who begins nearer than that has seen nothing from there.
+    seen[k] = place ? seen_back_m(graph, his, most_back_m, hides) : always;
+  }
+  return seen;
+}
+
+/// The farthest distance from which on enough is seen all the way to the line.
+double seen_from(const SeenBack& seen, double needed_m) {
+  double from_m = 0.0;
+  for (std::size_t k = seen.size(); k-- > 0;) {
+    if (seen[k] < needed_m) return from_m;
+    from_m = looks_before_m[k];
+  }
+  return always;
+}
+
+}  // namespace
+
+double critical_gap_s(const Way& way) {
+  const double keeps = way.left_hand ? -1.0 : 1.0;
+  const double left_rad = keeps * way.turns_rad;
+  if (way.rank == Rank::priority || (way.rank == Rank::equal && left_rad > turns_from_rad)) return 4.1;
+  return left_rad > turns_from_rad ? 7.1 : left_rad < -turns_from_rad ? 6.2 : 6.5;
+}
+
+double most_mps_on(const Way& way) {
+  return std::min(way.limit_mps, std::sqrt(town_bend_mps2 / std::max(way.tightest_per_m, 1e-6)));
+}
+
+double looked_for_back_m(const Way& mine, const WayConflict& conflict, const Way& his) {
+  const double within_m = his.from_entry_m + conflict.with_whole_from_m;
+  return std::clamp(critical_gap_s(mine) * most_mps_on(his) - within_m, look_step_m, most_back_m);
+}
+
+void look_past_walls(const sight::Walls& walls, LaneGraph& graph) {
+  // Connections share the roads by which they are reached.
+  std::map<std::pair<WayIndex, WayIndex>, SeenBack> known;
+  for (const Way& mine : graph.ways)
+    for (std::uint32_t k = 0; k < mine.conflicts.count; ++k) {
+      WayConflict& conflict = graph.conflicts[mine.conflicts.first + k];
+      conflict.seen_from_m = always;
+      const Way& his = graph.ways[conflict.with];
+      if (walls.empty() || conflict.kind == WayConflict::Kind::diverging || !yields_to(mine, his)) continue;
+      const WayIndex before = straight_before(graph, graph.ways[mine.entry]);
+      const WayIndex his_before = straight_before(graph, graph.ways[his.entry]);
+      if (before == no_way || his_before == no_way) continue;
+      auto at = known.find({before, his_before});
+      if (at == known.end()) {
+        const Way& way = graph.ways[before];
+        const double line_before_m = way.in_junction() ? 0.0 : way.line_before_m;
+        at = known
+                 .emplace(std::pair(before, his_before),
+                          seen_from_each(walls, graph, mine.entry, line_before_m, his.entry))
+                 .first;
+      }
+      conflict.seen_from_m = seen_from(at->second, looked_for_back_m(mine, conflict, his));
+    }
+}
+
+bool is_hidden_by(std::span<const sight::Box> boxes, const LaneGraph& graph, const Vec3& eye_m, const Way& his,
+                  double back_m) {
+  const auto hides = [&](const Vec3& there) {
+    const double away_m = glm::distance(eye_m, there);
+    if (!(away_m > 0.0)) return false;
+    const sight::Line line{eye_m, (there - eye_m) / away_m};
+    return std::ranges::any_of(boxes, [&](const sight::Box& box) {
+      const auto entry_m = sight::entry_m(box, line);
+      if (!entry_m || !(*entry_m > 0.0) || *entry_m >= away_m) return false;
+      // A place within a body is not behind it.
+      return sight::entry_m(box, {there, line.direction}) != 0.0;
+    });
+  };
+  return seen_back_m(graph, his.entry, back_m, hides) < back_m;
+}
+
+}  // namespace septet::traffic
