@@ -7,8 +7,9 @@
 namespace septet::car_io {
 
 SimulatedDriverCar::SimulatedDriverCar(driver::DriverParameters parameters, std::uint64_t seed,
-                                       const road::RoadNetwork& network)
+                                       const road::RoadNetwork& network, const sight::Walls* walls)
     : driver_(std::move(parameters), seed), network_(&network) {
+  if (walls) driver_.hidden = traffic::hidden_connections(network, *walls);
   port_.plug();
 }
 

@@ -11,13 +11,16 @@
 
 #include "car-io/simulated_hid_device.hpp"
 #include "engine/driver/simulated_driver.hpp"
+#include "engine/sight/walls.hpp"
 
 namespace septet::car_io {
 
 /// The network must live as long.
 class SimulatedDriverCar {
  public:
-  SimulatedDriverCar(driver::DriverParameters parameters, std::uint64_t seed, const road::RoadNetwork& network);
+  /// `walls` hide junctions from the driver; null: there are none.
+  SimulatedDriverCar(driver::DriverParameters parameters, std::uint64_t seed, const road::RoadNetwork& network,
+                     const sight::Walls* walls = nullptr);
   /// Looks, acts, and sends one input report.
   void drive(const Snapshot& snapshot, double dt_s);
   OpenHidDevice opener() const { return port_.opener(); }

@@ -28,6 +28,7 @@ constexpr double doubt_s = 0.5;
 /// A driver indicates after the previous exit has been passed, or at the fork.
 constexpr double farthest_signal_m = 40.0, turn_before_m = 16.0;
 constexpr double stands_before_m = 1.2, overrun_m = 1.0;
+constexpr double always_seen = std::numeric_limits<double>::infinity();
 
 /// Permitted excess of the squared speed here over the squared target so far ahead.
 double slower_m2ps2(const CourseParameters& course, const OwnPlace& own, double ahead_m) {
@@ -80,6 +81,14 @@ bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, s
   });
 }
 
+/// Of the piece that begins beyond a line.
+double seen_from_m(std::span<const traffic::HiddenConnection> hidden, const traffic::CorridorPiece& beyond) {
+  const auto found = std::ranges::find_if(hidden, [&](const traffic::HiddenConnection& connection) {
+    return connection.road == beyond.road && connection.along_s == beyond.along_s;
+  });
+  return found == hidden.end() ? always_seen : found->seen_from_m;
+}
+
 /// True if the driver sees that this line requires a stop.
 bool waits(const CourseLine& ahead, const CourseState& state, const DriverParameters& driver,
            const road::RoadNetwork& network, const Snapshot& snapshot, std::span<const Participant> around,
@@ -92,6 +101,7 @@ bool waits(const CourseLine& ahead, const CourseState& state, const DriverParame
     if (lamps.has(Lamp::signal_red)) return true;
     return lamps.has(Lamp::signal_amber) && needs_mps2 < hardest_for_amber_mps2;
   }
+  if (left_m > std::max(ahead.seen_from_m, traffic::at_stop_line_m)) return true;
   const auto self = std::ranges::find(around, snapshot.driver_car.participant, &Participant::id);
   if (self == around.end()) return false;
   const auto conflict = traffic::first_conflict(ahead.line.kind, way_at(ahead, network, own), around, *self);
@@ -104,13 +114,19 @@ bool waits(const CourseLine& ahead, const CourseState& state, const DriverParame
 
 }  // namespace
 
-CourseState read_course(const road::RoadNetwork& network, const traffic::Corridor& corridor) {
+CourseState read_course(const road::RoadNetwork& network, const traffic::Corridor& corridor,
+                        std::span<const traffic::HiddenConnection> hidden) {
   CourseState state;
   const std::vector<traffic::YieldLine> lines = traffic::yield_lines(network);
-  for (const traffic::CorridorPiece& piece : corridor.pieces) {
-    for (const traffic::YieldLine& line : lines)
-      if (line.road == piece.road && line.along_s == piece.along_s)
-        state.lines.push_back({piece.x_m + (piece.along_s ? line.s_m : piece.length_m - line.s_m), line});
+  for (std::size_t k = 0; k < corridor.pieces.size(); ++k) {
+    const traffic::CorridorPiece& piece = corridor.pieces[k];
+    for (const traffic::YieldLine& line : lines) {
+      if (line.road != piece.road || line.along_s != piece.along_s) continue;
+      const double x_m = piece.x_m + (piece.along_s ? line.s_m : piece.length_m - line.s_m);
+      const bool is_last = k + 1 == corridor.pieces.size();
+      const bool gives_way = line.kind == LineKind::give_way && !is_last;
+      state.lines.push_back({x_m, line, gives_way ? seen_from_m(hidden, corridor.pieces[k + 1]) : always_seen});
+    }
     const int side = road::turn_through(network, piece.road, piece.side, piece.along_s);
     if (side != 0) state.turns.push_back({piece.x_m, piece.x_m + piece.length_m, side});
   }

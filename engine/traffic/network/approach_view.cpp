@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -121,6 +122,26 @@ void look_past_walls(const sight::Walls& walls, LaneGraph& graph) {
       }
       conflict.seen_from_m = seen_from(at->second, looked_for_back_m(mine, conflict, his));
     }
+}
+
+std::vector<HiddenConnection> hidden_connections(const road::RoadNetwork& network, const sight::Walls& walls) {
+  std::vector<HiddenConnection> hidden;
+  if (walls.empty() || network.junctions.empty()) return hidden;
+  LaneGraph graph = build_lane_graph(network);
+  look_past_walls(walls, graph);
+  for (const Way& way : graph.ways) {
+    double seen_from_m = always;
+    for (const WayConflict& conflict : graph.conflicts_of(way))
+      seen_from_m = std::min(seen_from_m, conflict.seen_from_m);
+    if (seen_from_m == always) continue;
+    const auto known = std::ranges::find_if(
+        hidden, [&](const HiddenConnection& other) { return other.road == way.road && other.along_s == way.along_s; });
+    if (known == hidden.end())
+      hidden.push_back({way.road, way.along_s, seen_from_m});
+    else
+      known->seen_from_m = std::min(known->seen_from_m, seen_from_m);
+  }
+  return hidden;
 }
 
 bool is_hidden_by(std::span<const sight::Box> boxes, const LaneGraph& graph, const Vec3& eye_m, const Way& his,

@@ -13,7 +13,9 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
+#include "engine/road/road_network.hpp"
 #include "engine/sight/line_of_sight.hpp"
 #include "engine/sight/walls.hpp"
 #include "engine/traffic/network/lane_graph.hpp"
@@ -39,6 +41,16 @@ double looked_for_back_m(const Way& mine, const WayConflict& conflict, const Way
 
 /// Sets `seen_from_m` of every conflict.
 void look_past_walls(const sight::Walls& walls, LaneGraph& graph);
+
+/// A road through a junction on the way to which some of those who have right of way are hidden at first.
+struct HiddenConnection {
+  road::RoadIndex road = 0;
+  bool along_s = true;
+  double seen_from_m = 0.0;  ///< As of a conflict; the least of any lane.
+};
+
+/// All of a network, by road; none without walls.
+std::vector<HiddenConnection> hidden_connections(const road::RoadNetwork& network, const sight::Walls& walls);
 
 /// True where boxes hide a stretch of the way to `his` as long as a car from an eye, up to `back_m` before the junction.
 bool is_hidden_by(std::span<const sight::Box> boxes, const LaneGraph& graph, const Vec3& eye_m, const Way& his,

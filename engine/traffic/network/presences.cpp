@@ -124,32 +124,32 @@ void add_foreign(const road::RoadNetwork& network, const LaneGraph& graph, const
   }
 }
 
-/// Adds a body where it stands and hides what is behind it from a car's driver.
-void add_if_high(const Participant& body, double speed_mps, std::int32_t who, std::vector<HighBody>& high) {
+/// True for one that stands and hides what is behind it from a car's driver.
+bool stands_high(const VehicleModel& model, double speed_mps) {
   constexpr double stands_below_mps = 0.5;
-  if (speed_mps > stands_below_mps || opaque_height_m(shape_of(body)) < eye_height_m) return;
-  if (const auto box = opaque_box_of(body)) high.push_back({who, *box});
+  return speed_mps < stands_below_mps && opaque_height_m(model) > eye_height_m;
 }
 
 void add_own_if_high(const LaneGraph& graph, const TownVehicle& vehicle, std::int32_t who,
                      std::vector<HighBody>& high) {
   const VehicleModel& model = vehicle_models()[vehicle.model];
-  if (opaque_height_m(model) < eye_height_m) return;
+  if (!stands_high(model, vehicle.speed_mps)) return;
   const double rear_m = vehicle.front_m - model.front_m();
   const Vec3 rear = place_on_route(graph, vehicle, rear_m).position_m;
   const Vec3 axles = place_on_route(graph, vehicle, rear_m + model.wheelbase_m).position_m - rear;
   Participant body;
   body.model = vehicle.model;
   body.world_from_vehicle = {rear, orientation_from_angles(std::atan2(axles.y, axles.x), 0.0, 0.0)};
-  add_if_high(body, vehicle.speed_mps, who, high);
+  if (const auto box = opaque_box_of(body)) high.push_back({who, *box});
 }
 
 void add_foreign_if_high(const ForeignVehicle& vehicle, std::int32_t who, std::vector<HighBody>& high) {
+  if (!stands_high(vehicle.shape(), glm::length(vehicle.velocity_mps))) return;
   Participant body;
   body.model = vehicle.model;
   body.world_from_vehicle = vehicle.world_from_vehicle;
   if (vehicle.box_size_m) set_box_size(*vehicle.box_size_m, body);
-  add_if_high(body, glm::length(vehicle.velocity_mps), who, high);
+  if (const auto box = opaque_box_of(body)) high.push_back({who, *box});
 }
 
 }  // namespace

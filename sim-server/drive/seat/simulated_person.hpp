@@ -16,7 +16,8 @@ class SimulatedPerson final : public SeatDevice {
   /// The driver keeps the model alive, whose road they see.
   SimulatedPerson(const driver::DriverParameters& parameters, std::uint64_t seed,
                   std::shared_ptr<const simulation::Model> model)
-      : model_(std::move(model)), car_(parameters, seed, model_->roads) {}
+      : model_(std::move(model)),
+        car_(parameters, seed, model_->roads, model_->obstacles ? &model_->obstacles->walls() : nullptr) {}
 
   /// Opens its device, which is read like a real one.
   car_io::OpenHidDevice opener() const { return car_.opener(); }

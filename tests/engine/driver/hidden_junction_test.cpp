@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/driver/course.hpp"
+#include "engine/driver/driver_parameters.hpp"
+#include "engine/driver/pedals.hpp"
+#include "engine/sight/walls.hpp"
+#include "engine/traffic/corridor.hpp"
+#include "engine/traffic/network/approach_view.hpp"
+#include "tests/engine/traffic/crossing_road.hpp"
+
+namespace septet::driver {
+namespace {
+
+constexpr double glance_s = 0.05, comes_mps = 12.0, sign_at_m = 198.0;
+
+/// A house between the arms of west and south, up to so far before the middle of the crossing, by its two sides there.
+std::vector<traffic::HiddenConnection> hidden_by_house(const road::RoadNetwork& network, double from_middle_m) {
+  const Vec2 corner(-from_middle_m, -6.0);
+  return traffic::hidden_connections(
+      network, sight::Walls({{{-90.0, -6.0}, corner, -1.0, 8.0}, {corner, {-from_middle_m, -90.0}, -1.0, 8.0}}));
+}
+
+struct Approach {
+  double line_mps = 0.0;          ///< As the line is passed.
+  double most_needed_mps2 = 0.0;  ///< Braking that stopping at the line would have taken, until 2 m before it.
+  bool passes = false;
+};
+
+/// A drive from the arm in the west, by which one gives way, along the first connection; nobody else is there.
+Approach approach(const road::RoadNetwork& network, std::span<const traffic::HiddenConnection> hidden) {
+  const DriverParameters driver = *find_driver("experienced");
+  const auto west = road::find_road(network, "west");
+  REQUIRE(west.has_value());
+  const traffic::Corridor corridor = traffic::build_corridor(network, {*west, -1, 50.0, 0.0});
+  CourseState course = read_course(network, corridor, hidden);
+  REQUIRE(course.lines.size() == 1);
+  Snapshot snapshot;
+  Participant self;
+  self.id = snapshot.driver_car.participant;
+  OwnPlace own;
+  own.lane = 1, own.x_m = 60.0, own.speed_mps = comes_mps, own.front_m = 3.0;
+  Random random(1);
+  Approach made;
+  for (double t = 0.0; t < 60.0 && !made.passes; t += glance_s) {
+    look_at_course(course, driver, network, corridor, snapshot, std::span(&self, 1), own, t, glance_s, random);
+    const double wish = std::min(comes_mps, course.speed_mps);
+    const double a = wished_acceleration_mps2(driver.speed, own.speed_mps, wish, line_ahead(course, own, driver.speed));
+    own.speed_mps = std::max(0.0, own.speed_mps + a * glance_s);
+    own.x_m += own.speed_mps * glance_s;
+    const double left_m = sign_at_m - own.x_m - own.front_m;
+    made.passes = left_m < 0.0;
+    made.line_mps = own.speed_mps;
+    if (left_m > traffic::at_stop_line_m)
+      made.most_needed_mps2 = std::max(made.most_needed_mps2, 0.5 * own.speed_mps * own.speed_mps / left_m);
+  }
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("a driver comes to a hidden give-way line so that he can stop there, and passes it once it is in view") {
+  const road::RoadNetwork network = traffic::crossing(false, traffic::Posted::signs);
+  const Approach open = approach(network, {}), at_line = approach(network, hidden_by_house(network, 10.0)),
+                 at_20_m = approach(network, hidden_by_house(network, 35.0));
+  CHECK(open.passes);
+  CHECK(at_line.passes);
+  CHECK(at_20_m.passes);
+  CHECK(at_line.line_mps < 3.0);
+  CHECK(at_line.most_needed_mps2 < 4.0);
+  CHECK(open.most_needed_mps2 > 8.0);
+  CHECK(at_20_m.line_mps > at_line.line_mps + 1.0);
+  CHECK(at_20_m.line_mps < open.line_mps - 1.0);
+}
+
+}  // namespace septet::driver
