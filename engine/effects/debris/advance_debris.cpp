@@ -38,10 +38,24 @@ void update_sleep(Piece& piece, double step_s, EnergyLedger* ledger) {
           [&] { std::ranges::fill(piece.body.velocity_mps, Eigen::Vector3d::Zero()); });
 }
 
-/// A step is linear in the motion; where contact would move a node by much of an element's size in one, the piece makes
-/// several.
+/// Greatest speed of a node beside the piece's motion as a rigid body.
+double deforming_mps(const Piece& piece) {
+  const auto motion = elastic::rigid_motion(piece.body);
+  double most_mps = 0.0;
+  for (int i = 0; i < piece.body.node_count(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    const Eigen::Vector3d arm_m = piece.body.position_m[node] - motion.centre_m;
+    const Eigen::Vector3d rigid_mps = motion.velocity_mps + motion.angular_velocity_radps.cross(arm_m);
+    most_mps = std::max(most_mps, (piece.body.velocity_mps[node] - rigid_mps).norm());
+  }
+  return most_mps;
+}
+
+/// A step is linear in the motion; where contact would move a node by much of an element's size in one, or a sheet turns
+/// so far within itself, the piece makes several.
 int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, double step_s) {
-  constexpr double share_of_element = 0.15;
+  // What turns by an angle in a step is stretched by half its square, which thin sheet bears less than a lattice does.
+  const double share_of_element = piece.body.shell.empty() ? 0.15 : 0.03;
   constexpr int most = 24;
   double size = INFINITY, closing = 0.0;
   for (const auto& e : piece.body.elements) size = std::min(size, std::cbrt(6.0 * e.rest_volume_m3));
@@ -49,6 +63,7 @@ int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, 
     const Eigen::Vector3d relative = piece.body.velocity_mps[f.contact.node] - f.contact.surface_velocity_mps;
     closing = std::max(closing, relative.norm());
   }
+  if (!piece.body.shell.empty()) closing = std::max(closing, deforming_mps(piece));
   const double wanted = closing * step_s / (share_of_element * size);
   return std::clamp(static_cast<int>(std::ceil(std::min(wanted, double{most}))), 1, most);
 }

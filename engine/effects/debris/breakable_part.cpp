@@ -16,12 +16,25 @@ const MaterialData& material_data(Material material) {
   SEPTET_CHECK(false, "material {}", static_cast<int>(material));
 }
 
+int axis_across(const PartRecipe& recipe) { return recipe.cells.x == 1 ? 0 : recipe.cells.y == 1 ? 1 : 2; }
+
+namespace {
+
+PartRecipe with_mass(PartRecipe recipe) {
+  if (!(recipe.sheet_m > 0.0)) return recipe;
+  const double area_m2 = recipe.size_m.x * recipe.size_m.y * recipe.size_m.z / recipe.size_m[axis_across(recipe)];
+  recipe.mass_kg = material_data(recipe.material).elastic.density_kgpm3 * area_m2 * recipe.sheet_m;
+  return recipe;
+}
+
+}  // namespace
+
 const PartRecipe& part_recipe(Part part) {
   switch (part) {
-#define SEPTET_ENTRY(name, ...)                   \
-  case Part::name: {                              \
-    static constexpr PartRecipe data __VA_ARGS__; \
-    return data;                                  \
+#define SEPTET_ENTRY(name, ...)                                       \
+  case Part::name: {                                                  \
+    static const PartRecipe data = with_mass(PartRecipe __VA_ARGS__); \
+    return data;                                                      \
   }
 #include "engine/effects/debris/parts.toml.inc"
   }

@@ -3,7 +3,8 @@
 ///
 /// Thin parts are lattices thicker than the real sheet. Mass, stiffness and strength are those of the sheet, spread
 /// over the thicker section: they, and the energy of a crack, are multiplied by the fill, the sheet's volume over the
-/// lattice's. The values and their sources stand in materials.toml and parts.toml beside this file.
+/// lattice's. A part with a thickness of its own (`sheet_m`) has its mass from it, and bends as that sheet does
+/// (engine/physics/elastic/shell.hpp). The values and their sources stand in materials.toml and parts.toml beside this file.
 
 #include <cstdint>
 
@@ -40,16 +41,20 @@ enum class Breakage : std::uint8_t {
 
 struct PartRecipe {
   Material material;
-  glm::ivec3 cells;  ///< Lattice cubes along x, y, z; five tetrahedra each.
-  Vec3 size_m;       ///< Outer box; x forward, y left, z up, centred on the part's origin.
-  double mass_kg;
-  int splinters;  ///< Number of Voronoi cells into which it can break.
-  double taper;   ///< Width of the top over that of the foot.
+  glm::ivec3 cells;      ///< Lattice cubes along x, y, z; five tetrahedra each.
+  Vec3 size_m;           ///< Outer box; x forward, y left, z up, centred on the part's origin.
+  double mass_kg = 0.0;  ///< Of a sheet: by its thickness.
+  int splinters;         ///< Number of Voronoi cells into which it can break.
+  double taper;          ///< Width of the top over that of the foot.
   Breakage breakage;
+  double sheet_m = 0.0;  ///< Thickness of a sheet, across the axis along which it is one cube; 0: it is none.
 };
 const PartRecipe& part_recipe(Part part);
 
 /// The material of a part's lattice: spread over its section, as above.
 MaterialData spread_material(const PartRecipe& recipe);
+
+/// The axis along which a sheet is one cube.
+int axis_across(const PartRecipe& recipe);
 
 }  // namespace septet::debris

@@ -15,6 +15,7 @@
 #include "engine/effects/debris/inner_face.hpp"
 #include "engine/effects/debris/laminate.hpp"
 #include "engine/effects/debris/sheet_crack.hpp"
+#include "engine/effects/debris/sheet_flow.hpp"
 #include "engine/effects/debris/sheet_stress.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/element.hpp"
@@ -233,14 +234,6 @@ double mean_stress_work_jpm3(const Eigen::Matrix3d& first, const Eigen::Matrix3d
   return elastic::second_piola_stress(0.5 * (first + last), lame).cwiseProduct(first - last).sum();
 }
 
-/// The strain that an impact's lost energy pays: the stress of flow times it over the overloaded elements. The shape
-/// takes the strain as well, for the stress has come and gone within the step; what this stores, and gives back later, is
-/// paid too: μ s² + σ s = energy a volume.
-double strain_paid_by(double energy_j, double flow_stress_pa, double mu_pa, double volume_m3) {
-  const double energy_jpm3 = energy_j / volume_m3;
-  return 2.0 * energy_jpm3 / (flow_stress_pa + std::sqrt(flow_stress_pa * flow_stress_pa + 4.0 * mu_pa * energy_jpm3));
-}
-
 /// Cuts out the elements of one island as a separate piece.
 Piece cut_out(const Piece& from, const std::vector<int>& elements, const std::vector<FaceCrack>& cracks,
               const std::vector<std::array<int, 4>>& corner_group) {
@@ -281,6 +274,13 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements, const std::ve
     piece.splinter.push_back(from.splinter[elements[k]]);
     piece.plastic_strain.push_back(from.plastic_strain[elements[k]]);
   }
+  if (!old.shell.empty()) {
+    elastic::Shell& shell = piece.body.shell = shell_of(part_recipe(from.part));
+    for (std::size_t k = 0; k < elements.size(); k += elastic::tetrahedra_per_cell)
+      shell.natural.push_back(old.shell.natural[static_cast<std::size_t>(elements[k] / elastic::tetrahedra_per_cell)]);
+    elastic::derive_structure(piece.body);
+    SEPTET_CHECK(!shell.empty(), "a broken sheet of {} elements is none", elements.size());
+  }
   // Elements ascend, so that those of a crack do as well.
   const auto now = [&](int element) {
     const auto found = std::ranges::lower_bound(elements, element);
@@ -296,6 +296,11 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements, const std::ve
 }
 
 }  // namespace
+
+double strain_paid_by(double energy_j, double flow_stress_pa, double mu_pa, double volume_m3) {
+  const double energy_jpm3 = energy_j / volume_m3;
+  return 2.0 * energy_jpm3 / (flow_stress_pa + std::sqrt(flow_stress_pa * flow_stress_pa + 4.0 * mu_pa * energy_jpm3));
+}
 
 FractureResult fracture(const Piece& piece, const Blow& blow, double step_s) {
   FractureResult result;
@@ -349,10 +354,11 @@ FractureResult fracture(const Piece& piece, const Blow& blow, double step_s) {
 }
 
 Flow flow(Piece& piece, const Blow& blow) {
-  constexpr double most_plastic_strain = 0.5, most_per_step = 0.1;
+  constexpr double most_plastic_strain = 0.5;
   const double yield = piece.material.yield_pa;
   Flow result;
   if (yield <= 0.0) return result;
+  if (!piece.body.shell.empty()) return flow_sheet(piece, blow);
   const auto lame = elastic::lame_constants(piece.body.material);
   const auto deviator_of = [](const Eigen::Matrix3d& m) -> Eigen::Matrix3d {
     return m - m.trace() / 3.0 * Eigen::Matrix3d::Identity();
@@ -386,7 +392,7 @@ Flow flow(Piece& piece, const Blow& blow) {
   const double strain =
       struck.empty()
           ? 0.0
-          : std::min(most_per_step, strain_paid_by(blow.lost_j, flow_stress_pa, lame.mu_pa, struck_volume_m3));
+          : std::min(most_strain_of_blow, strain_paid_by(blow.lost_j, flow_stress_pa, lame.mu_pa, struck_volume_m3));
   for (const std::size_t k : struck) {
     Element& e = piece.body.elements[k];
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);

@@ -21,7 +21,8 @@
 /// the rest, at a = 1 − σ/f_t. In an impact, the face that its energy no longer pays for in full cracks as far as it
 /// reaches; the next impact has only the rest to pay.
 ///
-/// Plastic flow is multiplicative: F = Fe·Fp, and the strain beyond the yield stress moves from Fe to Fp.
+/// Plastic flow is multiplicative: F = Fe·Fp, and the strain beyond the yield stress moves from Fe to Fp. A part that
+/// bends as a sheet flows by its section (sheet_flow.hpp).
 
 #include <vector>
 
@@ -58,5 +59,13 @@ struct Flow {
 
 /// Lets the overloaded elements flow. Elements overloaded by an impact flow as far as its lost energy reaches.
 Flow flow(Piece& piece, const Blow& blow = {});
+
+/// The strain that an impact's lost energy pays: the stress of flow times it over the overloaded elements. The shape
+/// takes the strain as well, for the stress has come and gone within the step; what this stores, and gives back later, is
+/// paid too: μ s² + σ s = energy a volume.
+double strain_paid_by(double energy_j, double flow_stress_pa, double mu_pa, double volume_m3);
+
+/// Most that flows under one blow.
+inline constexpr double most_strain_of_blow = 0.1;
 
 }  // namespace septet::debris

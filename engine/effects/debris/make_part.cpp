@@ -11,6 +11,15 @@ namespace septet::debris {
 
 constexpr std::size_t tetrahedra_per_cube = 5;  // In sequence in lattice_mesh.
 
+elastic::Shell shell_of(const PartRecipe& recipe) {
+  elastic::Shell shell;
+  shell.across = axis_across(recipe);
+  shell.height_m = recipe.size_m[shell.across];
+  shell.thickness_m = recipe.sheet_m;
+  shell.yield_npm = material_data(recipe.material).yield_pa * recipe.sheet_m;
+  return shell;
+}
+
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                 const Vec3& angular_velocity_radps, Random& random, double height_left) {
   const PartRecipe& recipe = part_recipe(part);
@@ -30,6 +39,8 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
   auto made = elastic::make_elastic_body(mesh, piece.material.elastic);
   SEPTET_CHECK(made.has_value(), "part {}: {}", static_cast<int>(part), made.error().what);
   piece.body = std::move(*made);
+  piece.body.shell = shell_of(recipe);
+  elastic::derive_structure(piece.body);
 
   std::vector<Eigen::Vector3d> seeds;
   for (int i = 0; i < recipe.splinters; ++i) {
@@ -38,8 +49,8 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
     seeds.push_back(seed);
   }
   // A part one cube thick along the car breaks into whole cubes: a crash presses it flat, it splits across, and the
-  // inner faces of a flat cube lie nearly along it.
-  const std::size_t together = recipe.cells.x == 1 ? tetrahedra_per_cube : 1;
+  // inner faces of a flat cube lie nearly along it. So does a sheet, whose cubes bend as wholes.
+  const std::size_t together = recipe.cells.x == 1 || recipe.sheet_m > 0.0 ? tetrahedra_per_cube : 1;
   std::vector<elastic::Tetrahedron> tetrahedra;
   for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
     const auto& e = piece.body.elements[k];

@@ -14,6 +14,7 @@
 #include "engine/effects/debris/mounted_part.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
+#include "engine/physics/elastic/shell.hpp"
 
 namespace septet::debris {
 
@@ -38,6 +39,9 @@ struct Piece {
   double calm_s = 0.0;    ///< Time for which it has hardly moved.
   bool asleep = false;    ///< Neither stepped nor broken until touched.
 };
+
+/// The sheet that a part is, flat (make_part.cpp); without thickness where it is none.
+elastic::Shell shell_of(const PartRecipe& recipe);
 
 inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 inline Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }

@@ -36,6 +36,7 @@ void restore_piece(StateReader& reader, Piece& piece) {
                  wrong);
   piece.material = spread_material(recipe);
   piece.body.material = present_elastic(piece);
+  piece.body.shell = shell_of(recipe);
   constexpr int tetrahedra_per_cube = 5;
   elastic::restore_body(
       reader, static_cast<std::size_t>(recipe.cells.x * recipe.cells.y * recipe.cells.z * tetrahedra_per_cube),

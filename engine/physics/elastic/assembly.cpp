@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/shell_assembly.hpp"
 
 namespace septet::elastic {
 namespace {
@@ -190,6 +191,27 @@ void add_volume_constraint(const ElasticBody& body, const Element& e, double dt,
   for (int a = 0; a < 3; ++a) w.right_side[e.nodes[a + 1]] += padded(impulse.col(a));
 }
 
+void guard_volume(const ElasticBody& body, const Element& e, double determinant, double dt, double scale,
+                  StepWorkspace& w, StepReport& report) {
+  if (!(determinant < least_determinant)) return;
+  add_volume_constraint(body, e, dt, scale, w);
+  if (determinant <= 0.0) ++report.inverted;
+}
+
+/// The shell and its elements' guard.
+void assemble_sheet(ElasticBody& body, const StepSettings& settings, bool mean_deformation, StepReport& report) {
+  StepWorkspace& w = body.workspace;
+  assemble_shell(body, settings, report);
+  const double dt = settings.step_s, scale = dt * dt / gamma_of(settings);
+  for (const Element& e : body.elements) {
+    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
+    guard_volume(body, e, f.determinant(), dt, scale, w, report);
+    if (!mean_deformation) continue;
+    for (const int node : e.nodes)
+      for (int c = 0; c < 3; ++c) w.mean_deformation[node].column[c] += e.rest_volume_m3 * padded(f.col(c));
+  }
+}
+
 }  // namespace
 
 void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deformation, StepReport& report) {
@@ -205,6 +227,10 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
     w.right_side[i] = padded(m * body.velocity_mps[i] + dt * (body.force_n[i] + m * settings.gravity_mps2));
   }
   if (mean_deformation) w.mean_deformation.assign(static_cast<std::size_t>(n), zero_block());
+  if (!body.shell.empty()) {
+    assemble_sheet(body, settings, mean_deformation, report);
+    return;
+  }
   const double limit_factor = tension_limit * body.material.density_kgpm3 / (dt * dt);
   for (std::size_t first = 0; first < body.elements.size(); first += lanes) {
     const Batch b = load(body.elements, first);
@@ -244,11 +270,7 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
     }
     add_forces(b, impulse, w.right_side);
     if (!(determinant >= least_determinant).all())
-      for (int k = 0; k < b.count; ++k) {
-        if (!(determinant[k] < least_determinant)) continue;
-        add_volume_constraint(body, *b.element[k], dt, scale, w);
-        if (determinant[k] <= 0.0) ++report.inverted;
-      }
+      for (int k = 0; k < b.count; ++k) guard_volume(body, *b.element[k], determinant[k], dt, scale, w, report);
     if (!mean_deformation) continue;
     LaneMatrix weighted = f;
     for (int c = 0; c < 9; ++c) weighted(c % 3, c / 3) *= b.volume;

@@ -22,12 +22,13 @@ double kinetic_energy_j(const ElasticBody& body) {
 
 double elastic_energy_j(const ElasticBody& body) {
   const LameConstants lame = lame_constants(body.material);
-  double energy = 0.0;
+  const double stretch = body.shell.empty() ? 1.0 : 0.0;  // Elements of a sheet have their guard alone.
+  double energy = shell_energy_j(body);
   for (const Element& e : body.elements) {
     const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
     const double missing = std::max(0.0, least_determinant - f.determinant());
-    energy += e.rest_volume_m3 *
-              (energy_density(green_strain(f), lame) + 0.5 * (lame.lambda_pa + 2 * lame.mu_pa) * missing * missing);
+    energy += e.rest_volume_m3 * (stretch * energy_density(green_strain(f), lame) +
+                                  0.5 * (lame.lambda_pa + 2 * lame.mu_pa) * missing * missing);
   }
   return energy;
 }
@@ -72,6 +73,7 @@ RigidMotion rigid_motion(const ElasticBody& body) {
 }
 
 Eigen::Matrix3d cauchy_stress_pa(const ElasticBody& body, int element) {
+  if (!body.shell.empty()) return shell_stress_pa(body, element);
   const Eigen::Matrix3d f = deformation_gradient(body.elements[element], body.position_m);
   const Eigen::Matrix3d s = second_piola_stress(green_strain(f), lame_constants(body.material));
   return f * s * f.transpose() / std::max(f.determinant(), least_determinant);

@@ -21,12 +21,17 @@ Expected<void> validate(const ElasticMaterial& m) {
   return {};
 }
 
-std::vector<std::pair<int, int>> edges_of(const std::vector<Tetrahedron>& tetrahedra) {
+std::vector<std::pair<int, int>> edges_of(const std::vector<Tetrahedron>& tetrahedra,
+                                          const std::vector<ShellCell>& cells = {}) {
   std::vector<std::pair<int, int>> edges;
-  edges.reserve(6 * tetrahedra.size());
-  for (const auto& t : tetrahedra)
-    for (int a = 1; a < 4; ++a)
-      for (int b = 0; b < a; ++b) edges.emplace_back(std::max(t[a], t[b]), std::min(t[a], t[b]));
+  edges.reserve(6 * tetrahedra.size() + 28 * cells.size());
+  const auto add_pairs = [&](const auto& nodes) {
+    for (std::size_t a = 1; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        edges.emplace_back(std::max(nodes[a], nodes[b]), std::min(nodes[a], nodes[b]));
+  };
+  for (const auto& t : tetrahedra) add_pairs(t);
+  for (const auto& cell : cells) add_pairs(cell.nodes);
   std::ranges::sort(edges);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -75,7 +80,8 @@ Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh, const Elast
 void derive_structure(ElasticBody& body) {
   std::vector<Tetrahedron> tetrahedra;
   for (const Element& element : body.elements) tetrahedra.push_back(element.nodes);
-  body.pattern = block_pattern(body.node_count(), edges_of(tetrahedra));
+  derive_cells(body);
+  body.pattern = block_pattern(body.node_count(), edges_of(tetrahedra, body.shell.cells));
   body.factor_structure = factor_pattern(body.pattern);
   for (Element& element : body.elements) {
     std::size_t slot = 0;
@@ -83,6 +89,13 @@ void derive_structure(ElasticBody& body) {
       for (int b = 0; b < a; ++b)
         element.slots[slot++] =
             body.pattern.slot(element.nodes[static_cast<std::size_t>(a)], element.nodes[static_cast<std::size_t>(b)]);
+  }
+  for (ShellCell& cell : body.shell.cells) {
+    std::size_t slot = 0;
+    for (std::size_t a = 1; a < cell.nodes.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        cell.slots[slot++] =
+            body.pattern.slot(std::max(cell.nodes[a], cell.nodes[b]), std::min(cell.nodes[a], cell.nodes[b]));
   }
   invalidate_rest_factor(body);
 }

@@ -13,6 +13,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/physics/elastic/block_cholesky.hpp"
 #include "engine/physics/elastic/elastic_material.hpp"
+#include "engine/physics/elastic/shell.hpp"
 #include "engine/physics/elastic/tetrahedral_mesh.hpp"
 
 namespace septet::elastic {
@@ -63,6 +64,7 @@ struct ElasticBody {
   std::vector<double> mass_kg;
   std::vector<Element> elements;
   std::vector<int> body_node_of_mesh_node;
+  Shell shell;  ///< Of a sheet, whose elements then carry nothing. Call derive_structure after setting it.
 
   // Derived from the elements.
   BlockPattern pattern;

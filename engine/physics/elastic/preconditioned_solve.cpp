@@ -5,6 +5,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/shell_assembly.hpp"
 
 namespace septet::elastic {
 namespace {
@@ -23,7 +24,10 @@ void prepare_rest_factor(ElasticBody& body, const StepSettings& settings) {
   BlockMatrix matrix;
   matrix.set_zero(body.pattern);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  for (const Element& e : body.elements) add_stiffness(e, identity, lame, scale, matrix);
+  if (body.shell.empty())
+    for (const Element& e : body.elements) add_stiffness(e, identity, lame, scale, matrix);
+  else
+    add_rest_stiffness_of_shell(body, scale, matrix);
   double stiffest = 0.0;
   for (int i = 0; i < body.node_count(); ++i) {
     Block& d = matrix.diagonal[i];

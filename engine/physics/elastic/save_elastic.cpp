@@ -8,11 +8,13 @@ namespace septet::elastic {
 
 // Left out are the positions in the equations.
 SEPTET_MEMBER_GROUPS(Element, hashed(nodes, rest_inverse, rest_volume_m3), left_out(slots))
+// Left out are what is made of a part's recipe, and the cells.
+SEPTET_MEMBER_GROUPS(Shell, left_out(across, height_m, thickness_m, yield_npm), hashed(natural), left_out(cells))
 // Left out are the material and data derived from the elements; the factor at rest is made again when it is needed.
 // Kept are the body's construction, and results of hashed members.
 SEPTET_MEMBER_GROUPS(ElasticBody, hashed(position_m, velocity_mps),
                      kept(force_n, fixed, contact_impulse_ns, step_stress_pa), left_out(material),
-                     kept(rest_position_m, mass_kg, elements, body_node_of_mesh_node),
+                     kept(rest_position_m, mass_kg, elements, body_node_of_mesh_node, shell),
                      left_out(pattern, factor_structure), kept(rotation), left_out(rest_factor, workspace))
 
 namespace {
@@ -55,16 +57,29 @@ void require_whole(const ElasticBody& body, std::size_t most_elements, StateRead
   }
 }
 
+void require_whole(const Shell& shell, std::size_t elements, StateReader& reader) {
+  constexpr auto wrong = "an elastic sheet in it does not fit together";
+  const std::size_t cells = shell.thickness_m > 0.0 ? elements / tetrahedra_per_cell : 0;
+  reader.require(shell.cells.size() == cells && shell.natural.size() == cells, wrong);
+  for (const CellStrain& natural : shell.natural)
+    for (const ShellStrain& strain : natural) reader.require(strain.cwiseAbs().maxCoeff() <= most, wrong);
+}
+
 }  // namespace
 
 void save_body(const ElasticBody& body, StateWriter& writer) { transfer(writer, body); }
 
-void add_to_hash(const ElasticBody& body, StateHash& hash) { hash_members(hash, body); }
+void add_to_hash(const ElasticBody& body, StateHash& hash) {
+  hash_members(hash, body);
+  if (!body.shell.empty()) hash_members(hash, body.shell);
+}
 
 void restore_body(StateReader& reader, std::size_t most_elements, ElasticBody& body) {
   transfer(reader, body);
   require_whole(body, most_elements, reader);
-  if (reader.ok()) derive_structure(body);
+  if (!reader.ok()) return;
+  derive_structure(body);
+  require_whole(body.shell, body.elements.size(), reader);
 }
 
 }  // namespace septet::elastic

@@ -193,6 +193,11 @@ void keep_step_stress(ElasticBody& body, const StepSettings& settings) {
   const LameConstants lame = lame_constants(body.material);
   const double lead_s = settings.step_s / gamma_of(settings);
   body.step_stress_pa.clear();
+  if (!body.shell.empty()) {
+    for (int e = 0; e < static_cast<int>(body.elements.size()); ++e)
+      body.step_stress_pa.push_back(shell_stress_pa(body, e, lead_s));
+    return;
+  }
   for (const Element& e : body.elements) {
     const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
     const Eigen::Matrix3d rate = f.transpose() * deformation_gradient(e, body.velocity_mps);

@@ -8,6 +8,7 @@
 #include "engine/physics/elastic/assembly.hpp"
 #include "engine/physics/elastic/element.hpp"
 #include "engine/physics/elastic/pivot.hpp"
+#include "engine/physics/elastic/shell_cell.hpp"
 
 namespace septet::elastic {
 namespace {
@@ -49,25 +50,41 @@ struct Strained {
   double stored_j = 0.0, viscous_j = 0.0;
 };
 
+/// The same of a sheet: its strains are forms of places as well.
+void add_shell_strains(const ElasticBody& before, const ElasticBody& after, const StepSettings& settings,
+                       const Vectors& solved_mps, const Vectors& mean_mps, Strained& sum) {
+  const double beta_s = settings.damping_ratio * settings.step_s;
+  sum.stored_j += shell_energy_j(after) - shell_energy_j(before);
+  for_each_sample(before, before.position_m, [&](const ShellCell& cell, const auto& sample) {
+    const auto rate_of = [&](const Vectors& velocity_mps) {
+      return (sample.jacobian.transpose() * places_of(cell, velocity_mps).reshaped()).eval();
+    };
+    sum.viscous_j += settings.step_s * beta_s * rate_of(solved_mps).dot(sample.stiffness_j * rate_of(mean_mps));
+  });
+}
+
 /// The mean stress of the step's two ends times the change of strain is the change of St. Venant–Kirchhoff's energy.
 Strained strained(const ElasticBody& before, const ElasticBody& after, const StepSettings& settings,
                   const Vectors& solved_mps, const Vectors& mean_mps) {
   const LameConstants lame = lame_constants(before.material);
   const double beta_s = settings.damping_ratio * settings.step_s, volume_pa = lame.lambda_pa + 2.0 * lame.mu_pa;
   Strained sum;
+  if (!before.shell.empty()) add_shell_strains(before, after, settings, solved_mps, mean_mps, sum);
+  const double stretch = before.shell.empty() ? 1.0 : 0.0;  // Elements of a sheet have their guard alone.
   for (const Element& e : before.elements) {
     const Eigen::Matrix3d f = deformation_gradient(e, before.position_m), g = deformation_gradient(e, after.position_m);
     const Eigen::Matrix3d first = green_strain(f), last = green_strain(g);
     const double mean_work_pa = second_piola_stress(0.5 * (first + last), lame).cwiseProduct(last - first).sum();
     const double flat = std::max(0.0, least_determinant - f.determinant()),
                  flat_after = std::max(0.0, least_determinant - g.determinant());
-    sum.stored_j += e.rest_volume_m3 * (mean_work_pa + 0.5 * volume_pa * (flat_after + flat) * (flat_after - flat));
+    sum.stored_j +=
+        e.rest_volume_m3 * (stretch * mean_work_pa + 0.5 * volume_pa * (flat_after + flat) * (flat_after - flat));
     const auto rate_of = [&](const Vectors& velocity_mps) -> Eigen::Matrix3d {
       const Eigen::Matrix3d half = 0.5 * f.transpose() * deformation_gradient(e, velocity_mps);
       return half + half.transpose();
     };
     const Eigen::Matrix3d stress_pa = beta_s * second_piola_stress(rate_of(solved_mps), lame);
-    sum.viscous_j += settings.step_s * e.rest_volume_m3 * stress_pa.cwiseProduct(rate_of(mean_mps)).sum();
+    sum.viscous_j += stretch * settings.step_s * e.rest_volume_m3 * stress_pa.cwiseProduct(rate_of(mean_mps)).sum();
   }
   return sum;
 }
