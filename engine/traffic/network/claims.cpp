@@ -198,31 +198,50 @@ bool is_anothers_turn(const LaneGraph& graph, const Presences& presences, const 
   return false;
 }
 
-/// True where something hides from the driver some of those to whom he gives way in the passage's first junction.
-bool is_hidden(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
-               const Passage& passage, double line_m) {
+/// True where, by a function of a way and its conflict, one of those in the passage's first junction is hidden from a
+/// driver who has not come to its line yet.
+template <class Hides>
+bool hides_any(const LaneGraph& graph, const TownVehicle& vehicle, const Passage& passage, double line_m,
+               const Hides& hides) {
   constexpr double looks_s = 2.0;  // Who stands so long before it does not get any nearer.
   if (line_m <= at_stop_line_m || vehicle.waits_s > looks_s) return false;
-  constexpr double around_m = 60.0;
-  std::vector<sight::Box> around;
-  const auto here = [&] { return place_on_route(graph, vehicle, vehicle.front_m - eye_behind_m).position_m; };
-  const Vec3 eye_m =
-      presences.high.empty() ? Vec3(0.0) : here() + Vec3(0.0, 0.0, driver_eyes_m(vehicle_models()[vehicle.model]).z);
-  for (const HighBody& body : presences.high)
-    if (body.who != self && glm::distance(body.box.world_from_box.position_m, eye_m) < around_m)
-      around.push_back(body.box);
   const std::uint32_t junction = graph.ways[vehicle.route[passage.first]].junction;
   for (std::size_t k = passage.first; k <= passage.last; ++k) {
     const Way& mine = graph.ways[vehicle.route[k]];
     if (mine.junction != junction) break;
-    for (const WayConflict& conflict : graph.conflicts_of(mine)) {
-      if (line_m > conflict.seen_from_m) return true;
-      const Way& his = graph.ways[conflict.with];
-      if (around.empty() || conflict.kind == WayConflict::Kind::diverging || !yields_to(mine, his)) continue;
-      if (is_hidden_by(around, graph, eye_m, his, looked_for_back_m(mine, conflict, his))) return true;
-    }
+    for (const WayConflict& conflict : graph.conflicts_of(mine))
+      if (hides(mine, conflict)) return true;
   }
   return false;
+}
+
+bool walls_hide(const LaneGraph& graph, const TownVehicle& vehicle, const Passage& passage, double line_m) {
+  return hides_any(graph, vehicle, passage, line_m,
+                   [&](const Way&, const WayConflict& conflict) { return line_m > conflict.seen_from_m; });
+}
+
+bool bodies_hide(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
+                 const Passage& passage, double line_m) {
+  if (presences.high.empty()) return false;
+  constexpr double around_m = 60.0;
+  const double up_m = driver_eyes_m(vehicle_models()[vehicle.model]).z;
+  const Vec3 eyes_m = place_on_route(graph, vehicle, vehicle.front_m - eye_behind_m).position_m + Vec3(0.0, 0.0, up_m);
+  std::vector<sight::Box> around;
+  for (const HighBody& body : presences.high)
+    if (body.who != self && glm::distance(body.box.world_from_box.position_m, eyes_m) < around_m)
+      around.push_back(body.box);
+  if (around.empty()) return false;
+  return hides_any(graph, vehicle, passage, line_m, [&](const Way& mine, const WayConflict& conflict) {
+    const Way& his = graph.ways[conflict.with];
+    return conflict.kind != WayConflict::Kind::diverging && yields_to(mine, his) &&
+           is_hidden_by(around, graph, eyes_m, his, looked_for_back_m(mine, conflict, his));
+  });
+}
+
+/// Tells that a driver has come to see a junction that was hidden.
+void see_junction(double line_m, TownState& town, TownVehicle& vehicle) {
+  if (const double hidden_s = std::exchange(vehicle.hidden_s, 0.0); hidden_s > 0.0)
+    town.openings.push_back({vehicle.id, line_m, hidden_s});
 }
 
 bool light_allows(LightState light, const TownVehicle& vehicle, double to_line_m) {
@@ -337,13 +356,11 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
   if (!light_allows(light, vehicle, line_m)) return stop_m;
   const Passage passage = passage_from(graph, vehicle, first, begin_m);
   // Who has green gives way to the oncoming alone, whom he has before him.
-  if (light != LightState::green && light != LightState::amber &&
-      is_hidden(graph, presences, vehicle, self, passage, line_m)) {
+  const bool looks = light != LightState::green && light != LightState::amber;
+  if (looks && walls_hide(graph, vehicle, passage, line_m)) {
     vehicle.hidden_s += dt_s;
     return stop_m;
   }
-  if (const double hidden_s = std::exchange(vehicle.hidden_s, 0.0); hidden_s > 0.0)
-    town.openings.push_back({vehicle.id, line_m, hidden_s});
   if (leader.speed_mps < stands_mps && stands_within(graph, vehicle, passage, vehicle.front_m + leader.gap_m))
     return stop_m;
   if (!has_room_beyond(graph, presences, vehicle, self, passage)) {
@@ -356,8 +373,15 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
     return stop_m;
   }
   if (is_anothers_turn(graph, presences, town, vehicle, passage) ||
-      !is_free(graph, presences, vehicle, self, passage, light == LightState::green))
+      !is_free(graph, presences, vehicle, self, passage, light == LightState::green)) {
+    see_junction(line_m, town, vehicle);
     return stop_m;
+  }
+  if (looks && bodies_hide(graph, presences, vehicle, self, passage, line_m)) {
+    vehicle.hidden_s += dt_s;
+    return stop_m;
+  }
+  see_junction(line_m, town, vehicle);
   vehicle.claims.resize(passage.last + 1, ++town.claims);
   vehicle.waits_s = vehicle.unused_s = 0.0;
   show_claim(vehicle, self, passage, presences);
