@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <string_view>
 
 namespace septet::scene {
 namespace {
@@ -58,9 +59,10 @@ bool is_tagged(const Node& node, const char* name, bool otherwise) {
 }
 
 using Channels = std::array<const BitmapLayer*, 4>;
-Channels channels_of(const BitmapData& bitmap) {
-  return {find_layer(bitmap, "color_r"), find_layer(bitmap, "color_g"), find_layer(bitmap, "color_b"),
-          find_layer(bitmap, "alpha")};
+constexpr std::array<std::string_view, 3> usual_layers{"color_r", "color_g", "color_b"};
+Channels channels_of(const BitmapData& bitmap, const std::array<std::string_view, 3>& layers = usual_layers) {
+  const auto layer = [&](std::size_t c) { return find_layer(bitmap, layers[c].empty() ? usual_layers[c] : layers[c]); };
+  return {layer(0), layer(1), layer(2), find_layer(bitmap, "alpha")};
 }
 
 }  // namespace
@@ -91,14 +93,16 @@ std::optional<PixelRect> renew_tiles(TextureImage& image, const Node& node, Part
   return rect;
 }
 
-TextureImage image_of_bitmap(const Node& node) {
+TextureImage image_of_bitmap(const Node& node) { return image_of_layers(node, usual_layers); }
+
+TextureImage image_of_layers(const Node& node, const std::array<std::string_view, 3>& layers) {
   TextureImage image;
   const auto* bitmap = std::get_if<BitmapData>(&node.data);
   if (!bitmap) return image;
   image.srgb = is_tagged(node, "srgb", true);
   image.sampling = {is_tagged(node, "clamps_u", false), is_tagged(node, "clamps_v", false),
                     is_tagged(node, "sharp", false)};
-  const Channels channels = channels_of(*bitmap);
+  const Channels channels = channels_of(*bitmap, layers);
   if ((!channels[0] && !channels[1] && !channels[2]) || bitmap->depth == 0) return image;
   image.width = bitmap->width;
   image.height = bitmap->height;

@@ -1,8 +1,10 @@
 #pragma once
 /// A bitmap node as an image (CONVENTIONS.md, "Bitmaps").
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "engine/scene/node.hpp"
 #include "engine/scene/resolved_scene.hpp"
@@ -11,6 +13,8 @@ namespace septet::scene {
 
 /// Empty where the node has no colour layer. The revision is left at zero.
 TextureImage image_of_bitmap(const Node& node);
+/// Of these layers for red, green and blue, an empty name the usual one's; a layer that is missing is 0.
+TextureImage image_of_layers(const Node& node, const std::array<std::string_view, 3>& layers);
 
 /// Renews the image's pixels of `tiles` tiles of a layer; returns the rectangle that holds them, empty if the layer is not
 /// drawn. Nothing where the image is not of the bitmap's size.

@@ -1,7 +1,9 @@
 #include "engine/scene/resolve.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -9,6 +11,7 @@
 
 #include "engine/core/parallel_for.hpp"
 #include "engine/scene/bitmap_image.hpp"
+#include "engine/scene/material_baking.hpp"
 #include "engine/scene/material_evaluation.hpp"
 #include "engine/scene/placed_objects.hpp"
 #include "engine/scene/slots.hpp"
@@ -43,6 +46,10 @@ struct Resolver::State {
   Slots<NodeId, TextureImage> image_slots;
   std::set<NodeId> changed_materials, changed_images;  ///< Of those with a slot: to be made.
   std::map<NodeId, std::uint64_t> image_made_from;
+  /// Pictures that a material's tree was baked to (material_baking.hpp), and materials that read bitmaps for them.
+  enum class BakedPicture : std::uint8_t { base_color, emission, properties };
+  Slots<std::pair<NodeId, BakedPicture>, TextureImage> baked_slots;
+  std::map<NodeId, std::set<NodeId>> bakes_from;  ///< Bitmaps, by material.
 
   State() { scene.materials.emplace_back(); }  // Slot 0: parts without a material are neutral grey.
 
@@ -99,6 +106,56 @@ struct Resolver::State {
 
   // ---- materials and images
 
+  /// Puts a baked picture into its slot, or empties that; returns its index, -1 without one.
+  std::int32_t keep_baked(NodeId material, BakedPicture kind, std::optional<TextureImage> picture) {
+    const std::pair key{material, kind};
+    const auto before = baked_slots.all().find(key);
+    if (!picture && before == baked_slots.all().end()) return -1;
+    const std::uint32_t slot = baked_slots.of(key, scene.images);
+    const bool is_kept = picture.has_value();
+    if (!is_kept) baked_slots.release(key);
+    TextureImage& image = scene.images[slot];
+    TextureImage made = std::move(picture).value_or(TextureImage{});
+    if (image.width != made.width || image.height != made.height || image.srgb != made.srgb ||
+        image.rgba != made.rgba) {
+      tell({SceneChange::Kind::image, slot});
+      image = std::move(made);
+      image.revision = scene.revision;
+    }
+    return is_kept ? static_cast<std::int32_t>(slot) : -1;
+  }
+
+  /// Replaces what of a material varies over the surface by pictures of it.
+  void bake(const Store& store, NodeId id, const Node* node, SurfaceMaterial& made) {
+    BakedSurface baked;
+    const bool is_baked = node && is_to_be_baked(*node);
+    if (is_baked) {
+      baked = bake_material(*node, [&](NodeId bitmap) { return store.find(bitmap); });
+      bakes_from[id] = bitmaps_of(*node);
+      made.base_color = baked.numbers.base_color;
+      made.emission = baked.numbers.emission;
+      made.opacity = baked.numbers.opacity;
+      made.roughness = baked.numbers.roughness;
+      made.metallic = baked.numbers.metallic;
+    } else {
+      bakes_from.erase(id);
+    }
+    const std::int32_t base = keep_baked(id, BakedPicture::base_color, std::move(baked.base_color));
+    const std::int32_t emission = keep_baked(id, BakedPicture::emission, std::move(baked.emission));
+    const std::int32_t properties = keep_baked(id, BakedPicture::properties, std::move(baked.properties));
+    if (!is_baked) return;
+    made.base_color_image = base;
+    // A bitmap of the material's own tags counts before what its tree comes to.
+    if (made.maps[SurfaceMap::emission] < 0) made.maps[SurfaceMap::emission] = emission;
+    if (made.maps[SurfaceMap::properties] < 0) made.maps[SurfaceMap::properties] = properties;
+  }
+
+  /// Materials that were baked from a bitmap that changed are baked anew.
+  void spoil_baked(NodeId bitmap) {
+    for (const auto& [material, bitmaps] : bakes_from)
+      if (bitmaps.contains(bitmap)) changed_materials.insert(material);
+  }
+
   void evaluate_materials(const Store& store) {
     const auto image_of = [&](NodeId bitmap) {
       if (!image_slots.all().contains(bitmap)) changed_images.insert(bitmap);
@@ -110,6 +167,7 @@ struct Resolver::State {
       SurfaceMaterial& current = scene.materials[slot->second];
       const Node* node = store.find(id);
       SurfaceMaterial made = node ? evaluate_material(*node, image_of) : SurfaceMaterial{};
+      bake(store, id, node, made);
       made.revision = current.revision;
       if (current.revision != 0 && same(made, current)) continue;
       tell({SceneChange::Kind::material, slot->second});
@@ -173,7 +231,7 @@ struct Resolver::State {
       if (!node || node->type() == NodeType::object) objects.insert(change.node);
       if (!node || node->type() == NodeType::geometry) placed.spoil(change.node);
       if (!node || node->type() == NodeType::material) changed_materials.insert(change.node);
-      if (!node || node->type() == NodeType::bitmap) changed_images.insert(change.node);
+      if (!node || node->type() == NodeType::bitmap) changed_images.insert(change.node), spoil_baked(change.node);
     }
     // Tiles are renewed where nothing else of their bitmap changed.
     std::set<NodeId> whole_images;
