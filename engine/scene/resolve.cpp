@@ -46,10 +46,15 @@ struct Resolver::State {
   Slots<NodeId, TextureImage> image_slots;
   std::set<NodeId> changed_materials, changed_images;  ///< Of those with a slot: to be made.
   std::map<NodeId, std::uint64_t> image_made_from;
-  /// Pictures that a material's tree was baked to (material_baking.hpp), and materials that read bitmaps for them.
+  /// Pictures that materials' trees were baked to (material_baking.hpp).
   enum class BakedPicture : std::uint8_t { base_color, emission, properties };
   Slots<std::pair<NodeId, BakedPicture>, TextureImage> baked_slots;
-  std::map<NodeId, std::set<NodeId>> bakes_from;  ///< Bitmaps, by material.
+  struct Bake {
+    std::map<NodeId, std::uint64_t> made_from;  ///< Revisions of the material and of the bitmaps that it reads.
+    SurfaceMaterial numbers;
+    std::int32_t base_color = -1, emission = -1, properties = -1;  ///< Slots.
+  };
+  std::map<NodeId, Bake> bakes;  ///< By material.
 
   State() { scene.materials.emplace_back(); }  // Slot 0: parts without a material are neutral grey.
 
@@ -125,35 +130,52 @@ struct Resolver::State {
     return is_kept ? static_cast<std::int32_t>(slot) : -1;
   }
 
-  /// Replaces what of a material varies over the surface by pictures of it.
-  void bake(const Store& store, NodeId id, const Node* node, SurfaceMaterial& made) {
-    BakedSurface baked;
-    const bool is_baked = node && is_to_be_baked(*node);
-    if (is_baked) {
-      baked = bake_material(*node, [&](NodeId bitmap) { return store.find(bitmap); });
-      bakes_from[id] = bitmaps_of(*node);
-      made.base_color = baked.numbers.base_color;
-      made.emission = baked.numbers.emission;
-      made.opacity = baked.numbers.opacity;
-      made.roughness = baked.numbers.roughness;
-      made.metallic = baked.numbers.metallic;
-    } else {
-      bakes_from.erase(id);
+  static std::map<NodeId, std::uint64_t> revisions_for(const Store& store, const Node& material) {
+    std::map<NodeId, std::uint64_t> revisions{{material.id, material.drawn_revision}};
+    for (const NodeId bitmap : bitmaps_of(material)) {
+      const Node* node = store.find(bitmap);
+      revisions[bitmap] = node ? node->drawn_revision : 0;
     }
-    const std::int32_t base = keep_baked(id, BakedPicture::base_color, std::move(baked.base_color));
-    const std::int32_t emission = keep_baked(id, BakedPicture::emission, std::move(baked.emission));
-    const std::int32_t properties = keep_baked(id, BakedPicture::properties, std::move(baked.properties));
-    if (!is_baked) return;
-    made.base_color_image = base;
+    return revisions;
+  }
+
+  void keep_pictures(NodeId id, Bake& bake, BakedSurface baked) {
+    bake.numbers = baked.numbers;
+    bake.base_color = keep_baked(id, BakedPicture::base_color, std::move(baked.base_color));
+    bake.emission = keep_baked(id, BakedPicture::emission, std::move(baked.emission));
+    bake.properties = keep_baked(id, BakedPicture::properties, std::move(baked.properties));
+  }
+
+  /// Replaces what of a material varies over the surface by pictures of it, which are made anew where the material or
+  /// a bitmap that it reads has changed.
+  void bake(const Store& store, NodeId id, const Node* node, SurfaceMaterial& made) {
+    if (!node || !is_to_be_baked(*node)) {
+      if (const auto before = bakes.find(id); before != bakes.end()) {
+        keep_pictures(id, before->second, {});
+        bakes.erase(before);
+      }
+      return;
+    }
+    Bake& bake = bakes[id];
+    if (auto revisions = revisions_for(store, *node); bake.made_from != revisions) {
+      bake.made_from = std::move(revisions);
+      keep_pictures(id, bake, bake_material(*node, [&](NodeId bitmap) { return store.find(bitmap); }));
+    }
+    made.base_color = bake.numbers.base_color;
+    made.emission = bake.numbers.emission;
+    made.opacity = bake.numbers.opacity;
+    made.roughness = bake.numbers.roughness;
+    made.metallic = bake.numbers.metallic;
+    made.base_color_image = bake.base_color;
     // A bitmap of the material's own tags counts before what its tree comes to.
-    if (made.maps[SurfaceMap::emission] < 0) made.maps[SurfaceMap::emission] = emission;
-    if (made.maps[SurfaceMap::properties] < 0) made.maps[SurfaceMap::properties] = properties;
+    if (made.maps[SurfaceMap::emission] < 0) made.maps[SurfaceMap::emission] = bake.emission;
+    if (made.maps[SurfaceMap::properties] < 0) made.maps[SurfaceMap::properties] = bake.properties;
   }
 
   /// Materials that were baked from a bitmap that changed are baked anew.
   void spoil_baked(NodeId bitmap) {
-    for (const auto& [material, bitmaps] : bakes_from)
-      if (bitmaps.contains(bitmap)) changed_materials.insert(material);
+    for (const auto& [material, bake] : bakes)
+      if (bake.made_from.contains(bitmap)) changed_materials.insert(material);
   }
 
   void evaluate_materials(const Store& store) {
@@ -276,6 +298,7 @@ void Resolver::forget() {
   state_->is_whole = true;
   state_->seen = 0;
   state_->image_made_from.clear();
+  for (auto& entry : state_->bakes) entry.second.made_from.clear();
   for (MeshSlot& slot : state_->placed.meshes()) slot.made_from = ~std::uint64_t{0};
 }
 
