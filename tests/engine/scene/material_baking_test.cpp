@@ -15,6 +15,7 @@
 #include "engine/scene/fragment_noise.hpp"
 #include "engine/scene/material_constants.hpp"
 #include "engine/scene/resolve.hpp"
+#include "tests/relative.hpp"
 
 using namespace septet;
 using namespace septet::scene;
@@ -102,10 +103,10 @@ TEST_CASE("a material is baked anew when a bitmap that it reads has changed") {
     for (const SurfaceMaterial& material : resolver.scene().materials) most = std::max(most, material.emission.b);
     return most;
   };
-  CHECK(brightest() == doctest::Approx(100.0 / 255.0).epsilon(0.01));
+  CHECK(double(brightest()) == relative(100.0 / 255.0, 0.01));
   world.builder.apply(BitmapTilesSet{bitmap, 2, 0, std::vector<std::uint8_t>(64, 200)});
   resolver.update(world.store);
-  CHECK(brightest() == doctest::Approx(200.0 / 255.0).epsilon(0.01));
+  CHECK(double(brightest()) == relative(200.0 / 255.0, 0.01));
 }
 
 TEST_CASE("a tree that numbers and one bitmap say is not baked") {
