@@ -114,7 +114,10 @@ inline std::vector<Fragment> even_tree(Shows shows, bool full) {
       if (full) return {ReflectionFragment{}};
       return {ColorFragment{}};
     case Shows::opacity:
-      if (full) return {LightFragment{}};
+      // A pane in both: renderers give panes a gloss that opaque surfaces of their roughness lack.
+      if (full)
+        return {BlenderFragment{BlendKind::fade, 1, 2, 3}, LightFragment{}, TransparencyFragment{},
+                ColorFragment{glm::vec3(0.002f)}};
       return {TransparencyFragment{}};
   }
   return {};
