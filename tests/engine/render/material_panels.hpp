@@ -50,13 +50,16 @@ inline std::vector<Panel> panels(NodeId quarters) {
   MatrixFragment turned;
   turned.matrix = {0, 1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 1};
   turned.data = 1;
+  MatrixFragment thinning;  // From 0.1 to 1 along u.
+  thinning.matrix = {0.9f, 0, 0, 0.1f, 0, 0.9f, 0, 0.1f, 0, 0, 0.9f, 0.1f, 0, 0, 0, 1};
+  thinning.data = 4;
   const std::vector<RampPoint> points{{0.25f, red}, {0.75f, blue}};
   return {{"color", Shows::emission, {ColorFragment{orange}}, [=](float, float) { return orange; }},
           {"light", Shows::lit, {multiply(1, 2), uv, LightFragment{}}, surface},
           {"reflection", Shows::mirrored, {multiply(1, 2), uv, ReflectionFragment{}}, surface},
           {"transparency",
            Shows::opacity,
-           {BlenderFragment{BlendKind::fade, 1, 2, 3}, LightFragment{}, TransparencyFragment{}, u_alone},
+           {BlenderFragment{BlendKind::fade, 1, 2, 3}, LightFragment{}, TransparencyFragment{}, thinning, u_alone},
            [](float u, float) { return glm::vec3(1.0f - u); }},
           {"volume",
            Shows::emission,
@@ -114,10 +117,10 @@ inline std::vector<Fragment> even_tree(Shows shows, bool full) {
       if (full) return {ReflectionFragment{}};
       return {ColorFragment{}};
     case Shows::opacity:
-      // A pane in both: renderers give panes a gloss that opaque surfaces of their roughness lack.
+      // Panes of at most 0.9: what a pane mirrors adds to its opacity, up to 1, and opaque surfaces have less gloss.
       if (full)
         return {BlenderFragment{BlendKind::fade, 1, 2, 3}, LightFragment{}, TransparencyFragment{},
-                ColorFragment{glm::vec3(0.002f)}};
+                ColorFragment{glm::vec3(0.1f)}};
       return {TransparencyFragment{}};
   }
   return {};
