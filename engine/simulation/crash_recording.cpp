@@ -15,8 +15,10 @@ static_assert(longest_ticks < most_pulse_ticks);
 /// 0.25 s without a push: the two have parted. Pushes of a car that shoves a wreck come 42 ms apart at most, and one
 /// thrown back at 0.25 m/s that drives on by 2 m/s² is there again after this time; more would join a second blow, and
 /// delay what is told.
-constexpr Tick parted_ticks = 30;
+constexpr auto parted_ticks = static_cast<Tick>(parted_s * tick_rate_hz);
 static_assert(parted_ticks > quiet_ticks);
+constexpr auto told_within_ticks = static_cast<Tick>(told_within_s * tick_rate_hz);
+static_assert(told_within_ticks > longest_ticks + parted_ticks);
 /// A record of less is not told: bodies that lean on each other.
 constexpr double least_mps = 0.5;
 
@@ -81,6 +83,11 @@ bool is_worth_telling(const CrashRecord& record) {
 bool is_over(const OpenCrash& crash, Tick now) {
   if (!crash.is_impact_over) return false;
   return now > crash.last_in_contact + parted_ticks || !is_worth_telling(finished(crash));
+}
+
+/// Whether it is told now: they have parted, or are not waited for any longer.
+bool is_due(const OpenCrash& crash, Tick now) {
+  return !crash.is_told && (is_over(crash, now) || now >= crash.record.tick + told_within_ticks);
 }
 
 void tell(const CrashRecord& record, std::vector<Event>& events) {
@@ -191,7 +198,9 @@ void note_crush(const impact::Engagement& engagement, const impact::Side& first,
 void close_crashes(State& state, std::vector<Event>& events) {
   for (OpenCrash& crash : state.open_crashes) {
     crash.is_impact_over = crash.is_impact_over || ends_its_impact(crash, state.tick);
-    if (is_over(crash, state.tick)) tell(finished(crash), events);
+    if (!is_due(crash, state.tick)) continue;
+    tell(finished(crash), events);
+    crash.is_told = true;
   }
   std::erase_if(state.open_crashes, [&](const OpenCrash& crash) { return is_over(crash, state.tick); });
 }
@@ -203,6 +212,7 @@ bool is_impact_running(const State& state) {
 std::vector<Event> unfinished_crashes(const State& state) {
   std::vector<Event> events;
   for (const OpenCrash& crash : state.open_crashes) {
+    if (crash.is_told) continue;
     CrashRecord record = finished(crash);
     record.is_unfinished = !crash.is_impact_over;
     tell(record, events);

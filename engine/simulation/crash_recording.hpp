@@ -5,8 +5,9 @@
 /// Those who push bodies (collisions, the car's hull, thrown people, pieces that break off) tell it of each push; it
 /// changes nothing of the drive. The impact is over when nothing has pushed for 50 ms, and after a second at the latest:
 /// what touches longer slides, leans or pushes. Then the record changes no more but for how long the contact lasts, and
-/// it is told when both have parted, which is when neither has pushed the other for a quarter of a second. Until then
-/// they have no second record: a push of ten seconds is one crash. What came to less than 0.5 m/s is neither told nor
+/// it is told when both have parted, which is when neither has pushed the other for a quarter of a second, and two
+/// seconds after the touch at the latest. Until they part they have no second record: a push of ten seconds is one
+/// crash. What came to less than 0.5 m/s is neither told nor
 /// waited for.
 
 #include <optional>
@@ -62,7 +63,7 @@ struct PushedByPieces {
 void note_broken_off(const BrokenOff& broken, const std::optional<PushedByPieces>& first,
                      const std::optional<PushedByPieces>& second, State& state);
 
-/// Tells of the crashes whose two have parted, and drops them.
+/// Tells of the crashes that are due, and drops those whose two have parted.
 void close_crashes(State& state, std::vector<Event>& events);
 /// True while an impact is being recorded.
 bool is_impact_running(const State& state);

@@ -15,6 +15,7 @@ struct OpenCrash {
   Tick last_push = 0;                              ///< Of the impact; at first the tick of the touch.
   Tick last_in_contact = 0;                        ///< Tick of the last push of all, the impact's or a later one.
   bool is_impact_over = false;                     ///< The record is whole but for how long the contact lasts.
+  bool is_told = false;                            ///< They have not parted yet: no second record of them.
   impact::Body first_at, second_at;                ///< At the touch.
   impact::Body first, second;                      ///< As the last push has left them.
   impact::Ledger of_contact;                       ///< Sum of all pushes of this contact.

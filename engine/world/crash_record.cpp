@@ -135,6 +135,11 @@ std::optional<Vec2> impulse_ns(const CrashRecord& crash) {
   return sum;
 }
 
+std::string contact_text(double contact_s) {
+  return contact_s > told_within_s - parted_s ? fmt::format("{:.0f} s or longer", told_within_s)
+                                              : fmt::format("{:.1f} s", contact_s);
+}
+
 double share_missing(const CrashLedger& ledger) {
   const double lost_j = ledger.kinetic_before_j - ledger.kinetic_after_j;
   const double told_j = ledger.crush_j + ledger.friction_j + ledger.debris_j + ledger.wheels_j;

@@ -45,7 +45,8 @@ struct CrashLedger {
 struct CrashRecord {
   Tick tick = 0;            ///< Of the touch.
   std::uint32_t ticks = 0;  ///< From it to the last push of the impact, which lasts a second at most.
-  /// From it to the last push before the two parted: longer than the impact where one pushes the other along.
+  /// From it to the last push before the two parted: longer than the impact where one pushes the other along. Who have
+  /// not parted `told_within_s` after the touch have the time until then.
   std::optional<double> contact_s;
   ParticipantId first = 0;              ///< The lesser number.
   std::optional<ParticipantId> second;  ///< Empty: what stands.
@@ -72,9 +73,14 @@ inline constexpr int crash_record_version = 1;
 inline constexpr std::size_t most_pulse_ticks = 240;
 /// No impact is recorded for longer: from here on a contact is a push that lasts, and words tell how long.
 inline constexpr double lasting_contact_s = 1.0;
+/// Two have parted after this time without a push. A crash is told then, and at the latest `told_within_s` after its
+/// touch: who drives, teaches or listens does not wait for the end of a push.
+inline constexpr double parted_s = 0.25, told_within_s = 2.0;
 
 /// Sum of the pulse: the impulse on the second; empty where there is no pulse.
 std::optional<Vec2> impulse_ns(const CrashRecord& crash);
+/// How long a contact lasted: "1.2 s", "2 s or longer".
+std::string contact_text(double contact_s);
 /// By how much the ledger fails to close, as a share of the kinetic energy that was lost.
 double share_missing(const CrashLedger& ledger);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -117,12 +118,14 @@ TEST_CASE(
     CHECK(crash_text(crash).find("in contact") == std::string::npos);
     CHECK(section().find("in contact") == std::string::npos);
   }
-  crash.contact_s = 4.25;
-  const auto read = read_crash(1, text_of(crash));
-  REQUIRE(read.has_value());
-  CHECK(read->contact_s == 4.25);
-  CHECK(crash_text(*read).find("; in contact for 4.2 s") != std::string::npos);
-  CHECK(section().find("they stayed in contact for 4.2 s") != std::string::npos);
+  for (const auto& [contact_s, words] : {std::pair(1.25, "1.2 s"), std::pair(1.975, "2 s or longer")}) {
+    crash.contact_s = contact_s;
+    const auto read = read_crash(1, text_of(crash));
+    REQUIRE(read.has_value());
+    CHECK(read->contact_s == contact_s);
+    CHECK(crash_text(*read).find(std::string("; in contact for ") + words) != std::string::npos);
+    CHECK(section().find(std::string("they stayed in contact for ") + words) != std::string::npos);
+  }
 }
 
 TEST_CASE("the report shows each crash with its energies and its pulse, and a dash for what was not measured") {

@@ -85,7 +85,7 @@ std::string crash_text(const CrashRecord& crash) {
   return fmt::format("{} {} and {} met at {:.0f} km/h{}{}{}{}", by_number ? "participants" : "participant", crash.first,
                      other, kmh_per_mps * crash.closing_speed_mps,
                      body_text(fmt::format("{}", crash.first), crash.of_first), body_text(other, crash.of_second),
-                     lasts ? fmt::format("; in contact for {:.1f} s", *crash.contact_s) : "",
+                     lasts ? fmt::format("; in contact for {}", contact_text(*crash.contact_s)) : "",
                      crash.is_unfinished ? "; the drive ended before its impact was over" : "");
 }
 

@@ -96,7 +96,7 @@ std::string told(const CrashRecord& crash, double ticks_per_second, const Partic
                       1e3 * static_cast<double>(crash.ticks) / ticks_per_second,
                       crash.is_unfinished ? ", when the drive ended: what it came to is not whole" : "");
   if (crash.contact_s && *crash.contact_s >= lasting_contact_s)
-    html += fmt::format("<p>That is the impact; they stayed in contact for {:.1f} s.</p>\n", *crash.contact_s);
+    html += fmt::format("<p>That is the impact; they stayed in contact for {}.</p>\n", contact_text(*crash.contact_s));
   html +=
       "<table><tr><th>Who</th><th>Mass, kg</th><th>Before, km/h</th><th>ΔV, km/h</th><th>Whence</th><th>Principal "
       "direction, °</th><th>Change of yaw rate, °/s</th><th>Crush, m</th></tr>\n";
