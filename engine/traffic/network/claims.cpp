@@ -138,6 +138,15 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
   return his_arrives_s > needed_s;
 }
 
+/// True where a long one holds a way beside, past which another long one does not fit. It is waited for until it has left.
+bool long_one_is_beside(const LaneGraph& graph, const Presences& presences, const Way& way) {
+  return std::ranges::any_of(graph.long_conflicts_of(way), [&](WayIndex beside) {
+    return std::ranges::any_of(presences.on(beside), [](const Presence& other) {
+      return other.claims && other.front_m - other.rear_m > long_vehicle_m;
+    });
+  });
+}
+
 bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
              const Passage& passage, bool has_green) {
   double begin_m = passage.begin_m;
@@ -149,6 +158,7 @@ bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehic
       // On a way between two junctions too short to stop on, or one who comes in from elsewhere.
       if (other.who != self && other.is_there() && !other.claims) return false;
     }
+    if (vehicle.length_m() > long_vehicle_m && long_one_is_beside(graph, presences, way)) return false;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
       if (conflict.kind == WayConflict::Kind::diverging) continue;
       for (const Presence& other : presences.on(conflict.with))

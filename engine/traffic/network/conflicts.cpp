@@ -29,24 +29,28 @@ Box box_of(const LaneGraph& graph, const Way& way) {
   return box;
 }
 
-bool are_near(const Box& a, const Box& b) {
-  return a.low_m.x < b.high_m.x + meeting_m && b.low_m.x < a.high_m.x + meeting_m &&
-         a.low_m.y < b.high_m.y + meeting_m && b.low_m.y < a.high_m.y + meeting_m;
+bool are_near(const Box& a, const Box& b, double within_m) {
+  return a.low_m.x < b.high_m.x + within_m && b.low_m.x < a.high_m.x + within_m && a.low_m.y < b.high_m.y + within_m &&
+         b.low_m.y < a.high_m.y + within_m;
 }
 
 bool share(std::span<const WayIndex> a, std::span<const WayIndex> b) {
   return std::ranges::any_of(a, [&](WayIndex way) { return std::ranges::find(b, way) != b.end(); });
 }
 
-/// The stretches of two ways that are nearer to each other than two vehicles can be.
-std::optional<WayConflict> meet(const LaneGraph& graph, const Way& a, const Way& b) {
+/// How far the longest vehicle's ends, or its middle, are off the middle of a way where that is tightest: on a circle half
+/// of the sagitta under its whole length.
+double reaches_over_m(const Way& way) { return longest_rigid_m * longest_rigid_m * way.tightest_per_m / 16.0; }
+
+/// The stretches of two ways that are nearer to each other than that.
+std::optional<WayConflict> meet(const LaneGraph& graph, const Way& a, const Way& b, double within_m) {
   double from_a = 1e300, to_a = -1e300, from_b = 1e300, to_b = -1e300;
   const double step_a = a.length_m / static_cast<double>(a.points.count - 1);
   const double step_b = b.length_m / static_cast<double>(b.points.count - 1);
   for (std::uint32_t i = 0; i < a.points.count; ++i)
     for (std::uint32_t j = 0; j < b.points.count; ++j) {
       const Vec3 apart = graph.points[a.points.first + i].position_m - graph.points[b.points.first + j].position_m;
-      if (apart.x * apart.x + apart.y * apart.y > meeting_m * meeting_m || std::abs(apart.z) > level_m) continue;
+      if (apart.x * apart.x + apart.y * apart.y > within_m * within_m || std::abs(apart.z) > level_m) continue;
       const double at_a = i * step_a, at_b = j * step_b;
       from_a = std::min(from_a, at_a), to_a = std::max(to_a, at_a);
       from_b = std::min(from_b, at_b), to_b = std::max(to_b, at_b);
@@ -122,17 +126,24 @@ void find_conflicts(LaneGraph& graph) {
     if (graph.ways[index].in_junction()) junctions[graph.ways[index].junction].push_back(index);
 
   std::vector<std::vector<WayConflict>> found(graph.ways.size());
+  std::vector<std::vector<WayIndex>> found_long(graph.ways.size());
   for (const auto& [junction, ways] : junctions) {
     std::vector<Box> boxes;
     boxes.reserve(ways.size());
     for (const WayIndex index : ways) boxes.push_back(box_of(graph, graph.ways[index]));
     for (std::size_t i = 0; i < ways.size(); ++i)
       for (std::size_t j = i + 1; j < ways.size(); ++j) {
-        if (!are_near(boxes[i], boxes[j])) continue;
         const Way &a = graph.ways[ways[i]], &b = graph.ways[ways[j]];
+        const double long_within_m = meeting_m + reaches_over_m(a) + reaches_over_m(b);
+        if (!are_near(boxes[i], boxes[j], long_within_m)) continue;
         if (are_one_lane(graph, ways[i], ways[j])) continue;
-        auto conflict = meet(graph, a, b);
-        if (!conflict) continue;
+        auto conflict = meet(graph, a, b, meeting_m);
+        if (!conflict) {
+          if (!meet(graph, a, b, long_within_m)) continue;
+          found_long[ways[i]].push_back(ways[j]);
+          found_long[ways[j]].push_back(ways[i]);
+          continue;
+        }
         conflict->kind = kind_of(graph, a, b);
         conflict->with = ways[j];
         found[ways[i]].push_back(*conflict);
@@ -144,6 +155,9 @@ void find_conflicts(LaneGraph& graph) {
     graph.ways[index].conflicts = {static_cast<std::uint32_t>(graph.conflicts.size()),
                                    static_cast<std::uint32_t>(found[index].size())};
     graph.conflicts.insert(graph.conflicts.end(), found[index].begin(), found[index].end());
+    graph.ways[index].long_conflicts = {static_cast<std::uint32_t>(graph.long_conflicts.size()),
+                                        static_cast<std::uint32_t>(found_long[index].size())};
+    graph.long_conflicts.insert(graph.long_conflicts.end(), found_long[index].begin(), found_long[index].end());
   }
 }
 

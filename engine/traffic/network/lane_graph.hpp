@@ -31,6 +31,9 @@ inline constexpr double unposted_mps = 50.0 / 3.6;
 /// Two widths of the widest vehicle, half each, and 0.2 m of air: ways nearer than that meet.
 inline constexpr double meeting_m = 2.75;
 
+/// Vehicles longer than this are long ones, and the length of the longest that is no articulated one (96/53/EC).
+inline constexpr double long_vehicle_m = 8.0, longest_rigid_m = 12.0;
+
 struct Range {
   std::uint32_t first = 0, count = 0;
 };
@@ -59,7 +62,7 @@ struct Way {
   bool has_light = false;
   bool goes_on = true;          ///< A drive from here need not end.
   double tightest_per_m = 0.0;  ///< Greatest curvature, as a magnitude.
-  Range points, next, before, conflicts;
+  Range points, next, before, conflicts, long_conflicts;
 
   bool in_junction() const { return junction != road::no_index; }
 };
@@ -93,6 +96,9 @@ struct LaneGraph {
   std::vector<WayPoint> points;
   std::vector<WayIndex> next, before;
   std::vector<WayConflict> conflicts;
+  /// By way: others of its junction that one vehicle may pass on and another drive beside, but no two long ones: their
+  /// ends reach over in bends (body_on_route, town_stages.hpp).
+  std::vector<WayIndex> long_conflicts;
   std::vector<WayIndex> way_of_lane;         ///< By `first_lane` of the section; no_way: not driven on.
   std::vector<std::uint32_t> first_section;  ///< By road: index in `first_lane`.
   std::vector<std::uint32_t> first_lane;
@@ -103,6 +109,9 @@ struct LaneGraph {
   }
   std::span<const WayConflict> conflicts_of(const Way& way) const {
     return {conflicts.data() + way.conflicts.first, way.conflicts.count};
+  }
+  std::span<const WayIndex> long_conflicts_of(const Way& way) const {
+    return {long_conflicts.data() + way.long_conflicts.first, way.long_conflicts.count};
   }
 };
 

@@ -6,7 +6,8 @@
 namespace septet::traffic {
 
 /// Fills `conflicts` from the points: in each junction every two ways that come nearer than `meeting_m`, unless one
-/// follows the other.
+/// follows the other. And `long_conflicts`: pairs that come no nearer than that, but so near that two long vehicles
+/// would touch.
 void find_conflicts(LaneGraph& graph);
 
 /// Ranks of connections by signs and by roundabouts; stop lines and lights of the ways before them.

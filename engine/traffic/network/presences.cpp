@@ -134,12 +134,11 @@ void add_own_if_high(const LaneGraph& graph, const TownVehicle& vehicle, std::in
                      std::vector<HighBody>& high) {
   const VehicleModel& model = vehicle_models()[vehicle.model];
   if (!stands_high(model, vehicle.speed_mps)) return;
-  const double rear_m = vehicle.front_m - model.front_m();
-  const Vec3 rear = place_on_route(graph, vehicle, rear_m).position_m;
-  const Vec3 axles = place_on_route(graph, vehicle, rear_m + model.wheelbase_m).position_m - rear;
+  const BodyOnRoute on_route = body_on_route(graph, vehicle);
   Participant body;
   body.model = vehicle.model;
-  body.world_from_vehicle = {rear, orientation_from_angles(std::atan2(axles.y, axles.x), 0.0, 0.0)};
+  const double heading = std::atan2(on_route.forwards.y, on_route.forwards.x);
+  body.world_from_vehicle = {on_route.rear_axle_m, orientation_from_angles(heading, 0.0, 0.0)};
   if (const auto box = opaque_box_of(body)) high.push_back({who, *box});
 }
 

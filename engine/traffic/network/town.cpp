@@ -63,25 +63,30 @@ int indicated_turn(const LaneGraph& graph, const TownVehicle& vehicle) {
 
 void show_vehicle(const LaneGraph& graph, const TownVehicle& vehicle, double time_s, Participant& participant) {
   const VehicleModel& model = vehicle_models()[vehicle.model];
-  const double rear_m = vehicle.front_m - model.front_m();
-  const PlaceOnWay rear = place_on_route(graph, vehicle, rear_m);
-  const PlaceOnWay front = place_on_route(graph, vehicle, rear_m + model.wheelbase_m);
-  const Vec3 axles = front.position_m - rear.position_m;
-  const double level_m = std::max(std::hypot(axles.x, axles.y), 0.1);
-  const double heading = std::atan2(axles.y, axles.x);
+  const BodyOnRoute body = body_on_route(graph, vehicle);
+  const PlaceOnWay &behind = body.behind, &ahead = body.ahead;
+  const Vec3& forwards = body.forwards;
+  const double heading = std::atan2(forwards.y, forwards.x);
   const double v = vehicle.speed_mps;
   participant.id = vehicle.id;
   participant.model = look_of(vehicle.model, vehicle.id);
   participant.paint = vehicle.paint;
-  participant.world_from_vehicle = {rear.position_m,
-                                    orientation_from_angles(heading, -std::atan2(axles.z, level_m), 0.0)};
-  participant.velocity_mps = v * rear.tangent;
-  const Vec3 left(-rear.tangent.y, rear.tangent.x, 0.0);
-  participant.acceleration_mps2 = vehicle.acceleration_mps2 * rear.tangent + v * v * rear.curvature_per_m * left;
-  const Vec3 turned = front.tangent - rear.tangent;
-  participant.angular_velocity_radps.z = v * (axles.x * turned.y - axles.y * turned.x) / (level_m * level_m);
-  participant.front_steer_rad = std::atan2(axles.x * front.tangent.y - axles.y * front.tangent.x,
-                                           axles.x * front.tangent.x + axles.y * front.tangent.y);
+  participant.world_from_vehicle = {
+      body.rear_axle_m,
+      orientation_from_angles(heading, -std::atan2(forwards.z, std::hypot(forwards.x, forwards.y)), 0.0)};
+  // A rigid body's motion is linear between two of its points.
+  const auto at_axle = [&](const Vec3& there, const Vec3& here) { return there + body.axle_share * (here - there); };
+  const auto acceleration_of = [&](const PlaceOnWay& place) {
+    const Vec3 left(-place.tangent.y, place.tangent.x, 0.0);
+    return vehicle.acceleration_mps2 * place.tangent + v * v * place.curvature_per_m * left;
+  };
+  participant.velocity_mps = v * at_axle(behind.tangent, ahead.tangent);
+  participant.acceleration_mps2 = at_axle(acceleration_of(behind), acceleration_of(ahead));
+  const Vec3 turned = ahead.tangent - behind.tangent;
+  participant.angular_velocity_radps.z =
+      v * (forwards.x * turned.y - forwards.y * turned.x) / (2.0 * guide_share * model.length_m);
+  participant.front_steer_rad = std::atan2(forwards.x * ahead.tangent.y - forwards.y * ahead.tangent.x,
+                                           forwards.x * ahead.tangent.x + forwards.y * ahead.tangent.y);
   constexpr double turn_rad = 2.0 * std::numbers::pi;
   const double turns = vehicle.rolled_m / model.wheel_radius_m / turn_rad;
   participant.wheel_spin_rad = (turns - std::floor(turns)) * turn_rad;
@@ -94,6 +99,20 @@ void show_vehicle(const LaneGraph& graph, const TownVehicle& vehicle, double tim
 }
 
 }  // namespace
+
+BodyOnRoute body_on_route(const LaneGraph& graph, const TownVehicle& vehicle) {
+  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const double guide_m = guide_share * model.length_m, centre_m = vehicle.front_m - 0.5 * model.length_m;
+  BodyOnRoute body;
+  body.behind = place_on_route(graph, vehicle, centre_m - guide_m);
+  body.ahead = place_on_route(graph, vehicle, centre_m + guide_m);
+  const Vec3 apart = body.ahead.position_m - body.behind.position_m;
+  const double apart_m = glm::length(apart);
+  body.forwards = apart_m > 0.1 ? apart / apart_m : body.behind.tangent;
+  body.rear_axle_m = 0.5 * (body.ahead.position_m + body.behind.position_m) - model.centre_x_m() * body.forwards;
+  body.axle_share = 0.5 * (1.0 - model.centre_x_m() / guide_m);
+  return body;
+}
 
 PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double route_m) {
   double at_m = route_m;

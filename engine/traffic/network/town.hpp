@@ -5,13 +5,15 @@
 ///     each tick:  advance_town(parameters, network, graph, lights, foreign, tick_s, random, town);
 ///                 append_participants(graph, town, participants);
 ///
-/// A vehicle has a route: the ways from the one that holds its rear to beyond its horizon, drawn at each fork. Both its
-/// axles are on the route, so that what it covers of a junction is a function of where it is on it.
+/// A vehicle has a route: the ways from the one that holds its rear to beyond its horizon, drawn at each fork. Two points
+/// of its middle line are on the route (body_on_route, town_stages.hpp), so that what it covers of a junction is a function
+/// of where it is on it.
 ///
 /// Right of way: a vehicle needs a claim on a junction before it passes the stop line. It gets one when its light
 /// allows it, when what lies beyond has room for it (nobody stands within a junction), when no claim or body is on a
 /// way that meets its own too near in time, and when the gap to everybody whom it lets pass (`yields_to`) is long
-/// enough. Claims are numbered: who has the later one waits, within the junction at the last, for the earlier one, so that
+/// enough. Long vehicles wait for each other also where turns lie so close beside each other that only others fit past them.
+/// Claims are numbered: who has the later one waits, within the junction at the last, for the earlier one, so that
 /// claims never wait in a circle. Who has waited long is let in by those who can stop, and of several who each let the
 /// next one pass one goes first (courtesy).
 ///

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -71,6 +72,18 @@ void choose_anew_if_tired(const LaneGraph& graph, double dt_s, Random& random, T
 
 /// Where a vehicle is at a place of its route, which goes straight on before its begin and beyond its end.
 PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, double route_m);
+
+/// A vehicle's body on its route. A driver lets the long one swing out before a bend, so that it takes as much room to its
+/// inside as to its outside: two points of its middle line keep to the route, each this share of its length from its centre.
+/// On a circle the sagitta between them is then what its ends reach beyond the circle, which is where the root is from.
+inline constexpr double guide_share = 0.5 * std::numbers::sqrt2 / 2.0;
+struct BodyOnRoute {
+  PlaceOnWay behind, ahead;      ///< Of the two points.
+  Vec3 forwards{1.0, 0.0, 0.0};  ///< Unit, from one to the other.
+  Vec3 rear_axle_m{0.0};         ///< Where it meets the road: the participant's position.
+  double axle_share = 0.0;       ///< Of the rear axle between the points, from the one behind.
+};
+BodyOnRoute body_on_route(const LaneGraph& graph, const TownVehicle& vehicle);
 
 /// Stage 1: everybody's presences. Keeps up standing times of foreign vehicles.
 Presences find_presences(const road::RoadNetwork& network, const LaneGraph& graph,

@@ -13,11 +13,11 @@ constexpr int tries = 40;
 /// Vehicles come in no nearer to the swarm's middle than this share of its radius, and than the distance.
 constexpr double entry_share = 0.5, entry_m = 120.0;
 constexpr double beside_driver_m = 12.0;
-/// Vehicles longer than this do not take turns tighter than that in their own lane.
-constexpr double long_m = 8.0, tight_per_m = 1.0 / 9.0;
+/// Long vehicles do not take turns tighter than this in their own lane.
+constexpr double tight_per_m = 1.0 / 9.0;
 constexpr double turn_back_rad = 2.6;
 
-bool is_long(ModelIndex model) { return vehicle_models()[model].length_m > long_m; }
+bool is_long(ModelIndex model) { return vehicle_models()[model].length_m > long_vehicle_m; }
 
 /// False in a town with turns that a long vehicle does not take in its own lane: long ones stay out of it.
 bool admits_long(const LaneGraph& graph) {
