@@ -151,6 +151,7 @@ class Verbs {
   }
   /// Ids that are used are not free, and names of objects are known at once.
   void learn(const Command& command) {
+    learn_worn(names_.paints, command);
     if (const auto* create = std::get_if<NodeCreate>(&command)) {
       if (create->node >= names_.next && create->node - names_.own_ids < replication::ids_per_session)
         names_.next = create->node + 1;
@@ -165,15 +166,33 @@ class Verbs {
     if (name.size() > most_name_bytes)
       return wrong(fmt::format("a name of {} bytes", name.size()),
                    fmt::format("NAME, at most {} bytes", most_name_bytes));
-    // Far more than any one line makes.
-    if (names_.next - names_.own_ids > replication::ids_per_session - 2048)
-      return failure("this editor has used all its ids", "septet edit", "connect again");
-    return names_.next;
+    if (is_free(names_.next)) return names_.next;
+    // An editor that has gone through its ids begins anew, behind things that are there still.
+    const NodeId anew = std::max(names_.own_ids, names_.kept_to);
+    if (is_free(anew)) return anew;
+    const auto& nodes = store_.nodes();
+    for (auto node = nodes.lower_bound(anew);
+         node != nodes.end() && node->first - names_.own_ids < replication::ids_per_session; ++node)
+      if (is_free(node->first + 1)) return node->first + 1;
+    return failure("this editor has used all its ids", "septet edit", "remove things, or connect again");
+  }
+  /// True if far more ids than any one line makes are free from this one on.
+  bool is_free(NodeId first) const {
+    constexpr NodeId most_of_a_line = 2048;
+    if (first - names_.own_ids > replication::ids_per_session - most_of_a_line) return false;
+    const auto taken = store_.nodes().lower_bound(first);
+    return taken == store_.nodes().end() || taken->first - first >= most_of_a_line;
   }
   EditedLine keep(Made made) {
     for (const Command& command : made.commands) learn(command);
     names_.next = made.next;
     return {std::move(made.commands), std::move(made.messages)};
+  }
+  /// What the things wore before goes, where nobody wears it.
+  EditedLine keep_paint(Made made) {
+    const std::vector<Command> left_over = take_place(names_.paints, store_, made.commands);
+    made.commands.insert(made.commands.end(), left_over.begin(), left_over.end());
+    return keep(std::move(made));
   }
   /// The same name again replaces.
   EditedLine keep_in_place_of(const TextWord& name, Made made) {
@@ -292,14 +311,16 @@ class Verbs {
       return wrong("width and height are metres from 0.001 to 1000, a place is three or four numbers", usage);
     const auto first = free_ids(words[0].text);
     if (!first) return tl::unexpected(first.error());
-    return keep_in_place_of(words[0], make_board(words[0].text, (*size)[0], (*size)[1], *transform, *first));
+    Made made = make_board(words[0].text, (*size)[0], (*size)[1], *transform, *first);
+    learn_paints(names_.paints, made.commands);
+    return keep_in_place_of(words[0], std::move(made));
   }
   Expected<EditedLine> wear(const TextWord& node, const image::Image& shown) {
     const auto id = object(node);
     if (!id) return no_node_called(node);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
-    return keep(make_picture(store_, *id, shown, *first));
+    return keep_paint(make_picture(store_, *id, shown, *first));
   }
   Expected<EditedLine> picture(Words words) {
     if (words.size() != 2) return wrong("a node and a file are needed", "picture NODE FILE.png");
@@ -325,7 +346,7 @@ class Verbs {
     if (!id) return no_node_called(words[0]);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
-    return keep(make_colour(store_, *id, linear_rgb(*rgb), *first));
+    return keep_paint(make_colour(store_, *id, linear_rgb(*rgb), *first));
   }
 
   /// What hangs on a participant, and its paint, are of this root's; made by `made` where it is not there yet.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/editor/paints.hpp"
 #include "engine/scene/command.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/store.hpp"
@@ -23,6 +24,8 @@ struct EditNames {
   scene::NodeId next = 0;                                     ///< First of the own ids that is free.
   std::map<std::string, scene::NodeId, std::less<>> fresh{};  ///< Objects by the names given to them.
   std::set<scene::NodeId> objects{};                          ///< Created.
+  Paints paints{};
+  scene::NodeId kept_to = 0;  ///< Own ids below it are spoken for, used or not.
 };
 
 struct EditedLine {

@@ -92,6 +92,7 @@ struct EditorClient::State {
     if (names.own_ids != scene.own_ids()) names = {scene.own_ids(), scene.own_ids()};
     names.fresh.clear();
     names.objects.clear();
+    names.paints.worn.clear();
   }
 
   Expected<std::uint64_t> answer_of(std::uint64_t batch) {

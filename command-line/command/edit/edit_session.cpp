@@ -89,6 +89,7 @@ void EditSession::take(const std::string& line) {
 }
 
 void EditSession::add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words) {
+  if (batch.commands.empty() && is_settled()) names_.paints.worn.clear();
   batch.lines.push_back(line);
   const std::string thing = words.size() > 1 ? words[1].text : std::string();
   if (words.front().text == "lifetime") {

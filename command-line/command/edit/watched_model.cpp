@@ -80,7 +80,7 @@ Expected<WatchedModel> watched_of(const std::vector<scene::TextWord>& words, con
   if (names.next - names.own_ids + watched_ids > replication::ids_per_session - 2048)
     return failure("this editor has used all its ids", "septet edit", "connect again");
   const scene::NodeId first = names.next;
-  names.next += watched_ids;
+  names.kept_to = names.next += watched_ids;
   names.objects.insert(first);
   names.fresh[name] = first;
   return WatchedModel(name, words[2].text, *transform, first);

@@ -135,7 +135,15 @@ def use(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path, folder: pat
         ball = world.add("stimuli/ball", glb, first.driver.ahead(30))
         ball.position = first.driver.ahead(31)
         sign = world.board("stimuli/sign", 2, 1, first.driver.ahead(60))
+        def looks() -> int:
+            return sum(len(world._ask([f'find "" type {kind}']).result(60)) for kind in ("material", "bitmap"))
         sign.show_text("STOP")
+        one_text = looks()
+        for number in range(100):
+            sign.show_text(str(number))
+        assert 2 <= looks() == one_text < 1000, (looks(), one_text)
+        world.undo()
+        assert looks() == one_text, (looks(), one_text)
         sign.paint(1, 0, 0)
         lines = world._ask(["read stimuli/sign"]).result(60)
         assert [line.split()[3] for line in lines if line.startswith("link-set")] == ["geometry", "material"], lines

@@ -17,7 +17,10 @@
 #include <fmt/core.h>
 
 #include "engine/core/random.hpp"
+#include "engine/replication/message.hpp"
 #include "engine/scene/builder.hpp"
+#include "engine/scene/edit_file.hpp"
+#include "engine/scene/inverse.hpp"
 #include "engine/scene/solid_box.hpp"
 
 namespace septet::editor {
@@ -107,6 +110,79 @@ TEST_CASE("what is made under a name again takes the place of what had it, with 
   CHECK(editor.store.nodes().size() == 1);
   REQUIRE(editor.take("remove sign").has_value());
   CHECK(editor.store.nodes().empty());
+}
+
+TEST_CASE("a hundred texts on a sign leave as many nodes as one, in batches of their own and in one batch") {
+  EditedWorld editor;
+  REQUIRE(editor.take("board sign 2 1").has_value());
+  REQUIRE(editor.take("text sign 0").has_value());
+  const std::size_t nodes = editor.store.nodes().size();
+  const auto save_bytes = [&] { return scene::edits_between(scene::Store{}, editor.store).size(); };
+  const std::size_t bytes = save_bytes();
+  for (int i = 1; i <= 100; ++i) REQUIRE(editor.take(fmt::format("text sign {}", i % 10)).has_value());
+  CHECK(editor.store.nodes().size() == nodes);
+  CHECK(save_bytes() < bytes + bytes / 10);
+  // A batch's lines are read before the scene has any of it.
+  EditedWorld at_once;
+  std::vector<scene::Command> batch;
+  for (int i = 0; i <= 100; ++i) {
+    const std::string line = i == 0 ? "board sign 2 1" : fmt::format("text sign {}", i);
+    const auto edit = edit_of(scene::words_of(line).value(), at_once.store, at_once.names);
+    REQUIRE(edit.has_value());
+    batch.insert(batch.end(), edit->commands.begin(), edit->commands.end());
+  }
+  for (const scene::Command& command : batch) REQUIRE(at_once.store.apply(command).has_value());
+  CHECK(at_once.store.nodes().size() == nodes);
+}
+
+TEST_CASE("a new look leaves what another thing wears, and takes a colour's place as a picture's") {
+  EditedWorld editor;
+  for (const char* line : {"board a 2 1", "text a one"}) REQUIRE(editor.take(line).has_value());
+  const std::size_t one_sign = editor.store.nodes().size();
+  const auto material_of = [&](std::string_view name) {
+    const auto& links = std::get<scene::ObjectData>(editor.store.find(scene::NodeType::object, name)->data).links;
+    const auto worn = std::ranges::find_if(links, [](const auto& link) { return link.second.label == "material"; });
+    return worn->second.target;
+  };
+  REQUIRE(editor.take("like b a").has_value());
+  const scene::NodeId shared = material_of("b");
+  REQUIRE(editor.take("text a two").has_value());
+  CHECK(material_of("b") == shared);
+  CHECK(editor.store.find(shared) != nullptr);
+  CHECK(editor.store.nodes().size() == one_sign + 3);  // The object b, and a's own material and picture.
+  REQUIRE(editor.take("text b three").has_value());
+  CHECK(editor.store.find(shared) == nullptr);
+  CHECK(editor.store.nodes().size() == one_sign + 3);
+  for (const char* line : {"color a 1 0 0", "color a 0 1 0", "color b 1 0 0"}) REQUIRE(editor.take(line).has_value());
+  CHECK(editor.store.nodes().size() == one_sign + 1);  // Two objects, a shape, two materials.
+  REQUIRE(editor.take("text a four").has_value());
+  CHECK(editor.store.nodes().size() == one_sign + 2);
+}
+
+TEST_CASE("undoing a text brings the one before back, and the next text takes its place") {
+  EditedWorld editor;
+  for (const char* line : {"board a 2 1", "text a one"}) REQUIRE(editor.take(line).has_value());
+  const scene::Store before = editor.store;
+  const auto edit = edit_of(scene::words_of("text a two").value(), editor.store, editor.names);
+  REQUIRE(edit.has_value());
+  const auto inverse = scene::apply_whole(editor.store, edit->commands);
+  REQUIRE(inverse.has_value());
+  CHECK_FALSE(scene::same_content(editor.store, before));
+  scene::undo(editor.store, *inverse);
+  CHECK(scene::same_content(editor.store, before));
+  editor.names.paints.worn.clear();  // As an editor does whose mirror is whole.
+  REQUIRE(editor.take("text a three").has_value());
+  CHECK(editor.store.nodes().size() == before.nodes().size());
+}
+
+TEST_CASE("an editor that has gone through its ids begins anew behind things that are there still") {
+  EditedWorld editor;
+  REQUIRE(editor.take("board sign 2 1").has_value());
+  editor.names.next = own_ids + replication::ids_per_session - 2049;
+  for (int i = 0; i < 3; ++i) REQUIRE(editor.take(fmt::format("text sign {}", i)).has_value());
+  REQUIRE(editor.take("create post").has_value());
+  CHECK(editor.store.find(scene::NodeType::object, "sign") != nullptr);
+  CHECK(editor.store.find(scene::NodeType::object, "post")->id < own_ids + 100);
 }
 
 TEST_CASE(
