@@ -15,13 +15,6 @@
 namespace septet::server {
 namespace {
 
-/// Of one editor's batches that wait for a tick: what one fills is no other's.
-constexpr std::size_t most_bytes_ahead = 64u << 20;
-
-std::size_t bytes_of(const SceneRequest& request) {
-  return request.batch.bytes + request.batch.changes.size() * sizeof(scene::Command);
-}
-
 /// Things whose time is over are removed at a tick that was named ahead; that is not the newest thing an editor did.
 bool is_end_of_lifetime(const SceneRequest& request) {
   return request.batch.tick > 0 && std::ranges::all_of(request.batch.changes, [](const scene::Command& command) {
@@ -48,7 +41,7 @@ std::vector<std::string> SceneEdits::take_messages() {
 
 void SceneEdits::before_tick(const Moment& moment) {
   if (gate_) carry_out_storyboard(gate_->shown_from(moment.doing));
-  if (host_) take_requests(gate_ ? gate_->shown_from(moment.doing) : 0, moment.now_s);
+  if (host_) take_requests(gate_ ? gate_->shown_from(moment.doing) : 0, moment);
 }
 
 void SceneEdits::carry_out_storyboard(Tick from) {
@@ -58,25 +51,20 @@ void SceneEdits::carry_out_storyboard(Tick from) {
                                       describe(done.error())));
 }
 
-void SceneEdits::take_requests(Tick from, double now_s) {
+void SceneEdits::take_requests(Tick from, const Moment& moment) {
+  const double now_s = moment.now_s;
+  // Between two ticks of a drive this is called often; a world that stands still has no ticks.
+  if (moment.doing != "driving" || from != turns_.tick()) turns_.begin_tick(from);
   for (SceneRequest& request : host_->take_scene_requests()) {
-    if (!gate_) {
+    if (!gate_)
       host_->refuse_scene(request, "a session that is shown again cannot be changed: edit a drive", now_s);
-    } else if (bytes_ahead_[request.editor.name] + bytes_of(request) > most_bytes_ahead) {
-      host_->refuse_scene(request, "the changes of later ticks fill their queue: send these when it is their time",
+    else if (!turns_.has_room_for(request))
+      host_->refuse_scene(request, "this editor's changes that wait for their turn or tick fill its queue: send fewer",
                           now_s);
-    } else {
-      bytes_ahead_[request.editor.name] += bytes_of(request);
-      const Tick tick = std::max(request.batch.tick, from);
-      ahead_.emplace(tick, std::move(request));
-    }
+    else
+      turns_.add(std::move(request));
   }
-  while (!ahead_.empty() && ahead_.begin()->first <= from) {
-    const SceneRequest request = std::move(ahead_.begin()->second);
-    ahead_.erase(ahead_.begin());
-    bytes_ahead_[request.editor.name] -= bytes_of(request);
-    make(request, from, now_s);
-  }
+  while (const auto request = turns_.next()) make(*request, from, now_s);
 }
 
 void SceneEdits::make(const SceneRequest& request, Tick from, double now_s) {

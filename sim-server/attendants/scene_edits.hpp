@@ -1,17 +1,16 @@
 #pragma once
 /// Changes of the scene that clients with the right to edit, or the storyboard, ask for: passed through the drive's gate
-/// (drive/world_gate.hpp) before each tick and sent to all screens; or kept until the tick that a client named, in a queue
-/// of bounded size. A session that is shown again shows its own changes at their ticks, and takes none.
+/// (drive/world_gate.hpp) before each tick and sent to all screens; or kept until the tick that a client named, or its turn
+/// (edit_turns.hpp). A session that is shown again shows its own changes at their ticks, and takes none.
 
-#include <cstddef>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim-server/attendants/drive_log.hpp"
+#include "sim-server/attendants/edit_turns.hpp"
 #include "sim-server/drive/opened_drive.hpp"
 #include "sim-server/drive/world_gate.hpp"
 #include "sim-server/host/attendant.hpp"
@@ -35,15 +34,14 @@ class SceneEdits final : public Attendant {
  private:
   void make(const SceneRequest& request, Tick from, double now_s);
   void carry_out_storyboard(Tick from);
-  void take_requests(Tick from, double now_s);
+  void take_requests(Tick from, const Moment& moment);
 
   OpenedDrive& drive_;
   ScreenHost* host_;
   DriveLog* log_;
   WorldGate* gate_;
   std::filesystem::path save_;
-  std::multimap<Tick, SceneRequest> ahead_;         ///< By the tick that is to show them first.
-  std::map<std::string, std::size_t> bytes_ahead_;  ///< By the names of the editors' keys.
+  EditTurns turns_;
   std::vector<std::string> messages_;
 };
 

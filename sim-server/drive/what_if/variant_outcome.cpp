@@ -16,7 +16,7 @@ namespace septet::server {
 namespace {
 
 /// Slower than this a car stands.
-constexpr double standing_mps = 0.05;
+constexpr double at_rest_mps = 0.05;
 
 impact::Outline outline(const Participant& participant) {
   return simulation::outline_of(simulation::body_box(participant));
@@ -45,7 +45,7 @@ void OutcomeWatch::see(const Snapshot& snapshot, std::span<const simulation::Eve
   const Participant* car = find_participant(snapshot, simulation::driver_participant);
   if (!car) return;
   world_from_car_ = car->world_from_vehicle;
-  if (glm::length(car->velocity_mps) > standing_mps)
+  if (glm::length(car->velocity_mps) > at_rest_mps)
     outcome_.stopped_s.reset();
   else if (!outcome_.stopped_s)
     outcome_.stopped_s = snapshot.simulated_time_s;
