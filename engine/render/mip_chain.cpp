@@ -122,11 +122,11 @@ std::vector<MipRect> renew_mips(std::span<MipLevel> levels, std::span<const std:
 }
 
 std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                                bool srgb) {
+                                bool srgb, Alpha alpha) {
   SEPTET_CHECK(width > 0 && height > 0 && rgba.size() == std::size_t{4} * width * height, "{} × {} pixels in {} bytes",
                width, height, rgba.size());
   const Transfer& transfer = transfer_of(srgb);
-  const bool holes = has_holes(rgba);
+  const bool holes = alpha == Alpha::cuts && has_holes(rgba);
   const double coverage = holes ? share_passing(rgba, 1.0) : 1.0;
   std::vector<MipLevel> levels{{width, height, {rgba.begin(), rgba.end()}}};
   MipLevel unscaled = levels.front();

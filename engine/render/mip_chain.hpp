@@ -1,8 +1,9 @@
 #pragma once
 /// Mip levels of an image: box-filtered in linear light, colours weighted by alpha.
 ///
-/// For images with holes cut by alpha (leaves, fences), each level's alpha is scaled until as much of it passes the cut
-/// as in the full image, so that trees do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
+/// Where alpha cuts holes (leaves, fences), each level's alpha is scaled until as much of it passes the cut as in the
+/// full image, so that trees do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010). Where it is an
+/// opacity it keeps its mean.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,9 +20,11 @@ struct MipLevel {
 /// Linear light of an 8-bit code (IEC 61966-2-1, or the code itself over 255).
 double linear_of_code(std::size_t code, bool srgb);
 
+enum class Alpha : std::uint8_t { cuts, blends };
+
 /// All levels, the full image first, down to 1 × 1.
 std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                                bool srgb);
+                                bool srgb, Alpha alpha = Alpha::cuts);
 
 /// Rectangle of pixels of each level.
 struct MipRect {

@@ -81,7 +81,7 @@ DeviceMaterial device_material(const SurfaceMaterial& material, std::span<const 
       result.square_root_bits |= std::uint32_t{texture->square_roots} << (map + 1);
     }
   result.second_uv_bits = material.by_second_uv & result.map_bits;
-  result.blended = material.opacity < 0.999f;
+  result.blended = is_blended(material);
   result.cut = textured && !result.blended && base->holes;
   const bool mapped = result.maps[scene::SurfaceMap::properties] >= 0;
   result.glossy = !result.cut && (material.roughness < 0.6f || material.metallic > 0.2f || result.blended || mapped);
@@ -167,7 +167,7 @@ void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::ve
 void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan::Device& device,
                   vulkan::MemoryPool& memory) {
   vulkan::Upload upload(device, memory);
-  upload_textures(scene.textures, source.images, upload);
+  upload_textures(scene.textures, source, upload);
   scene.materials.clear();
   for (const SurfaceMaterial& material : source.materials)
     scene.materials.push_back(device_material(material, scene.textures));

@@ -31,6 +31,7 @@ class Renewal {
   void renew_materials(Changes changes) {
     bool whole = scene_.textures.size() != source_.images.size() || scene_.materials.size() != source_.materials.size();
     for (const auto& [revision, change] : changes) {
+      if (change.kind == Kind::material) whole = whole || is_read_otherwise(change.index);
       if (change.kind != Kind::image || change.index >= scene_.textures.size()) continue;
       before_device();
       const bool in_part =
@@ -40,7 +41,7 @@ class Renewal {
     }
     if (whole) {
       before_device();
-      upload_textures(scene_.textures, source_.images, upload_);
+      upload_textures(scene_.textures, source_, upload_);
       scene_.materials.resize(source_.materials.size());
       for (std::uint32_t i = 0; i < source_.materials.size(); ++i) renew_material(i);
       return;
@@ -89,6 +90,14 @@ class Renewal {
   void before_device() {
     if (!has_waited_) wait_();
     has_waited_ = true;
+  }
+  /// True where the levels of the base colour's image are not for the material's kind of alpha.
+  bool is_read_otherwise(std::uint32_t index) const {
+    if (index >= source_.materials.size()) return false;
+    const scene::SurfaceMaterial& material = source_.materials[index];
+    const auto image = static_cast<std::size_t>(material.base_color_image);
+    return material.base_color_image >= 0 && image < scene_.textures.size() && scene_.textures[image].holes &&
+           scene_.textures[image].alpha != (is_blended(material) ? Alpha::blends : Alpha::cuts);
   }
   void renew_material(std::uint32_t index) {
     scene_.materials[index] = device_material(source_.materials[index], scene_.textures);

@@ -34,6 +34,19 @@ void encode(std::span<std::uint8_t> rgba, const Code& code) {
     for (std::size_t c = i; c < i + 3; ++c) rgba[c] = code[rgba[c]];
 }
 
+/// By image.
+std::vector<Alpha> alphas_of(const scene::ResolvedScene& scene) {
+  std::vector<bool> cuts(scene.images.size()), blends(scene.images.size());
+  for (const scene::SurfaceMaterial& material : scene.materials)
+    if (const auto image = static_cast<std::size_t>(material.base_color_image);
+        material.base_color_image >= 0 && image < cuts.size())
+      (is_blended(material) ? blends : cuts)[image] = true;
+  std::vector<Alpha> alphas(cuts.size(), Alpha::cuts);
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+    if (blends[i] && !cuts[i]) alphas[i] = Alpha::blends;
+  return alphas;
+}
+
 }  // namespace
 
 std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
@@ -77,8 +90,9 @@ vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLe
   return image;
 }
 
-void upload_textures(std::vector<DeviceTexture>& textures, std::span<const scene::TextureImage> images,
-                     vulkan::Upload& upload) {
+void upload_textures(std::vector<DeviceTexture>& textures, const scene::ResolvedScene& scene, vulkan::Upload& upload) {
+  const std::vector<scene::TextureImage>& images = scene.images;
+  const std::vector<Alpha> alphas = alphas_of(scene);
   const std::uint32_t largest = upload.device().properties.limits.maxImageDimension2D;
   while (textures.size() > images.size()) {
     destroy_image(upload.memory(), textures.back().image);
@@ -87,18 +101,21 @@ void upload_textures(std::vector<DeviceTexture>& textures, std::span<const scene
   textures.resize(images.size());
   std::vector<std::size_t> changed;
   for (std::size_t i = 0; i < images.size(); ++i)
-    if (!textures[i].image.image || textures[i].revision != images[i].revision) changed.push_back(i);
+    if (!textures[i].image.image || textures[i].revision != images[i].revision ||
+        (textures[i].holes && textures[i].alpha != alphas[i]))
+      changed.push_back(i);
   std::vector<std::vector<MipLevel>> levels(changed.size());
   parallel_for(changed.size(), [&](std::size_t i) {
     const scene::TextureImage& image = images[changed[i]];
     const bool holds = image.width > 0 && image.height > 0 && image.width <= largest && image.height <= largest &&
                        image.rgba.size() == std::size_t{4} * image.width * image.height;
-    if (holds) levels[i] = mip_chain(image.width, image.height, image.rgba, image.srgb);
+    if (holds) levels[i] = mip_chain(image.width, image.height, image.rgba, image.srgb, alphas[changed[i]]);
   });
   for (std::size_t i = 0; i < changed.size(); ++i) {
     DeviceTexture& texture = textures[changed[i]];
     destroy_image(upload.memory(), texture.image);
-    texture = {images[changed[i]].revision, false, images[changed[i]].srgb, images[changed[i]].sampling, {}, {}};
+    const scene::TextureImage& source = images[changed[i]];
+    texture = {source.revision, false, alphas[changed[i]], source.srgb, source.sampling, {}, {}};
     if (levels[i].empty()) continue;
     texture.holes = has_holes(images[changed[i]].rgba);
     if (!texture.holes) {

@@ -14,6 +14,7 @@ namespace septet::render {
 struct DeviceTexture {
   std::uint64_t revision = 0;
   bool holes = false;
+  Alpha alpha = Alpha::cuts;  ///< What the levels were made for.
   bool square_roots = true;  ///< Holds square roots of linear light.
   scene::ImageSampling sampling{};
   vulkan::DeviceImage image;
@@ -28,9 +29,12 @@ std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, 
 /// Creates a sampled image; the upload fills it with these levels.
 vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels);
 
-/// Makes anew those textures whose images have another revision.
-void upload_textures(std::vector<DeviceTexture>& textures, std::span<const scene::TextureImage> images,
-                     vulkan::Upload& upload);
+/// True for a material whose alpha is its opacity, instead of cutting holes.
+inline bool is_blended(const scene::SurfaceMaterial& material) { return material.opacity < 0.999f; }
+
+/// Makes anew those textures whose images have another revision, and those with holes that materials now read
+/// otherwise: alpha cuts where any opaque material has the image as its base colour.
+void upload_textures(std::vector<DeviceTexture>& textures, const scene::ResolvedScene& scene, vulkan::Upload& upload);
 /// Brings a rectangle of a texture up to its image; false where it has to be made anew, since it has holes.
 bool renew_texture(DeviceTexture& texture, const scene::TextureImage& image, const scene::PixelRect& pixels,
                    vulkan::Upload& upload);

@@ -48,6 +48,15 @@ TEST_CASE("foliage keeps the share that passes the cut on smaller levels") {
   }
 }
 
+TEST_CASE("an alpha that is an opacity keeps its mean on smaller levels") {
+  std::vector<std::uint8_t> rgba;
+  for (int i = 0; i < 64 * 64; ++i) rgba.insert(rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(4 * (i % 64))});
+  const std::vector<MipLevel> levels = mip_chain(64, 64, rgba, true, Alpha::blends);
+  CHECK(int(levels[6].rgba[3]) >= 125);
+  CHECK(int(levels[6].rgba[3]) <= 129);
+  CHECK(int(levels[4].rgba[3]) <= 32);
+}
+
 TEST_CASE("levels renewed from a rectangle are those of the whole image") {
   Random random(8);
   constexpr std::uint32_t width = 77, height = 42;
