@@ -174,10 +174,7 @@ class Looks {
   Expected<void> add_emission(const Json& material, Look& look) {
     if (look.emission == glm::vec3(0.0f)) return {};
     const auto image = image_of(material, "emissiveTexture", look, "emission");
-    if (!image) {
-      if (look.picture >= 0) look.emission_picture = kept({.use = Use::white}, Image(1, 1, {255, 255, 255, 255}));
-      return {};
-    }
+    if (!image) return {};
     const PictureKey key = key_of(member_of(material, "emissiveTexture"), Use::emission, image->image);
     auto added = add(key, look, "emission", look.emission_picture, [](Image&) {});
     lay(*image, emission_bit, look.emission_picture, look);
@@ -268,11 +265,6 @@ class Looks {
     change(**picture);
     index = pictures_.keep(key, std::move(**picture));
     return {};
-  }
-
-  std::int32_t kept(const PictureKey& key, Image picture) {
-    const auto known = pictures_.find(key);
-    return known ? *known : pictures_.keep(key, std::move(picture));
   }
 
   const Container& container_;

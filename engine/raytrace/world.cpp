@@ -6,7 +6,6 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "engine/image/srgb.hpp"
 #include "engine/instant/glass_cover.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/instant/wet_road.hpp"
@@ -20,21 +19,9 @@
 #include "engine/light/soot.hpp"
 #include "engine/light/wet_road.hpp"
 #include "engine/raytrace/facing_viewer.hpp"
+#include "engine/scene/image_reading.hpp"
 
 namespace septet::raytrace {
-namespace {
-
-/// Linear values of 8-bit sRGB.
-const std::array<float, 256>& linear_codes() {
-  static const std::array<float, 256> codes = [] {
-    std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) table[i] = image::light_of_srgb(static_cast<float>(i) / 255.0f);
-    return table;
-  }();
-  return codes;
-}
-
-}  // namespace
 
 World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const instant::Instant& instant,
              const instant::Instant* later, std::span<const ClearBody> bodies,
@@ -96,30 +83,8 @@ const scene::TextureImage* World::image_at(std::int32_t index) const {
   return image.width > 0 && image.height > 0 ? &image : nullptr;
 }
 
-/// Interpolates between four texels, or takes the nearest of a sharp image.
 glm::vec4 World::texel(const scene::TextureImage* source, const glm::vec2& uv) const {
-  if (!source) return glm::vec4(1.0f);
-  const scene::TextureImage& image = *source;
-  const scene::ImageSampling& sampling = image.sampling;
-  const glm::vec2 within(sampling.clamps_u ? glm::clamp(uv.x, 0.0f, 1.0f) : uv.x - std::floor(uv.x),
-                         sampling.clamps_v ? glm::clamp(uv.y, 0.0f, 1.0f) : uv.y - std::floor(uv.y));
-  const glm::vec2 at = within * glm::vec2(image.width, image.height) - 0.5f;
-  const glm::vec2 low = sampling.sharp ? glm::floor(at + 0.5f) : glm::floor(at), share = at - low;
-  const auto wrapped = [](float x, std::uint32_t size, bool clamps) {
-    const auto i = static_cast<std::int64_t>(x);
-    if (clamps) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, std::int64_t{size} - 1));
-    return static_cast<std::uint32_t>((i + size) % size);
-  };
-  const std::array<float, 256>& codes = linear_codes();
-  const auto read = [&](float x, float y) {
-    const std::uint8_t* p = &image.rgba[4 * (std::size_t{wrapped(y, image.height, sampling.clamps_v)} * image.width +
-                                             wrapped(x, image.width, sampling.clamps_u))];
-    if (!image.srgb) return glm::vec4(p[0], p[1], p[2], p[3]) / 255.0f;
-    return glm::vec4(codes[p[0]], codes[p[1]], codes[p[2]], static_cast<float>(p[3]) / 255.0f);
-  };
-  if (sampling.sharp) return read(low.x, low.y);
-  return glm::mix(glm::mix(read(low.x, low.y), read(low.x + 1, low.y), share.x),
-                  glm::mix(read(low.x, low.y + 1), read(low.x + 1, low.y + 1), share.x), share.y);
+  return source ? scene::read_image(*source, uv, true) : glm::vec4(1.0f);
 }
 
 /// Share of a surface's light that the soot on it takes, interpolated between the eight cells around.
@@ -215,8 +180,7 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   glm::vec2 uv = (1.0f - hit.u - hit.v) * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv;
   if (material.picture_columns > 1 || material.picture_rows > 1) uv = in_image(placed, material, uv);
   point.opacity = material.opacity;
-  const bool textured = material.base_color_image >= 0;
-  if (textured) {
+  if (material.base_color_image >= 0) {
     const glm::vec4 read = texel(image_at(material.base_color_image), uv);
     base *= glm::vec3(read);
     if (material.opacity < opaque_from) point.opacity *= read.a;
@@ -232,9 +196,7 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   lay_weather(placed, material, finish, uv, base, seen, point);
   if ((point.from_front || material.two_sided) && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
     const scene::TextureImage* shining = image_at(material.maps[scene::SurfaceMap::emission]);
-    const glm::vec3 color = shining    ? glm::vec3(texel(shining, lies.of(scene::SurfaceMap::emission)))
-                            : textured ? base
-                                       : glm::vec3(1.0f);
+    const glm::vec3 color = shining ? glm::vec3(texel(shining, lies.of(scene::SurfaceMap::emission))) : glm::vec3(1.0f);
     give_off(placed, material, color, hit, seen, point);
   }
   if (!instant_.soot.cover.empty()) blacken(1.0f - soot(point.position_m), point);

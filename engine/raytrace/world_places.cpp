@@ -233,7 +233,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
       if (lamp.triangle_count > 0) finish();
       lamp = {};
       lamp.place = place, lamp.first_triangle = t;
-      lamp.textured = material.base_color_image >= 0 || material.maps[scene::SurfaceMap::emission] >= 0;
+      lamp.textured = material.maps[scene::SurfaceMap::emission] >= 0;
       if (placed.motion) lamp.way_m = placed.motion->keys()[1].origin_m - placed.motion->keys()[0].origin_m;
       low = lower, high = upper;
     }

@@ -176,6 +176,11 @@ NodeId SceneBuilder::add_bitmap(std::string_view name, std::uint32_t width, std:
   return id;
 }
 
+void shine_by_picture(MaterialParameters& material) {
+  material.maps[SurfaceMap::emission] = material.base_color_bitmap;
+  material.emission *= material.base_color;
+}
+
 NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameters& parameters) {
   const NodeId id = create(NodeType::material, name);
   FragmentId next = 0;

@@ -50,6 +50,9 @@ struct MaterialParameters {
   bool in_street = false;
 };
 
+/// Its light of its own is that of the base colour's picture, in the picture's colours, times `emission`.
+void shine_by_picture(MaterialParameters& material);
+
 struct ObjectParameters {
   RigidTransform parent_from_object{};  ///< Pose; world_from_object for an object without a parent.
   glm::vec3 scale{1.0f};

@@ -10,7 +10,7 @@
 namespace septet::scene {
 
 enum class SurfaceMap : std::uint8_t {
-  emission,    ///< Colour that multiplies the emission; the base colour's image then does not.
+  emission,    ///< Colour that multiplies the emission; the base colour's image does not.
   properties,  ///< Linear. Red: share of the light from around that arrives. Green, blue: roughness and metallic, times
                ///< the material's own.
   normal,      ///< Linear. Red, green, blue from −1 to 1: along u, up in the picture (against v), out of the surface.

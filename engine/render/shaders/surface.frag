@@ -286,7 +286,7 @@ void main() {
                  coat * shine(n, to_eye, vec3(coat_reflectance), coat_roughness) * beam;
     }
   }
-  vec3 shining = textured != 0 ? base.rgb : vec3(1.0);
+  vec3 shining = vec3(1.0);
   if ((maps & 1) != 0) shining = in_linear(texture(emission_map, uv_of(1)), 2).rgb;
   radiance += emission.rgb * shining * view.light_irradiance.w;
   if (sooty != 0) radiance *= 1.0 - soot_cover();

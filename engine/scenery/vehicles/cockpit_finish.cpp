@@ -57,6 +57,7 @@ Palette add_cockpit_finishes(scene::SceneBuilder& builder) {
     const std::string name = std::string("cockpit/") + look.name;
     const auto with_image = [&](const image::Image& picture) {
       material.base_color_bitmap = builder.add_bitmap(name, picture.width, picture.height, picture.rgba);
+      scene::shine_by_picture(material);
     };
     if (i == index_of(CockpitFinish::dial_faces)) with_image(dial_faces_image());
     if (i == index_of(CockpitFinish::signs)) with_image(signs_image());

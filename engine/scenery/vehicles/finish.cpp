@@ -152,7 +152,8 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     if (i == index_of(Finish::lettering)) with_image(lettering_image(false));
     if (i == index_of(Finish::lettering_mirrored)) with_image(lettering_image(true));
     if (i == index_of(Finish::police_lettering)) with_image(word_image("POLIS", {236, 238, 236}, {14, 60, 140}));
-    if (i == index_of(Finish::taxi_sign)) with_image(word_image("TAXI", {246, 212, 30}, {16, 16, 18}));
+    if (i == index_of(Finish::taxi_sign))
+      with_image(word_image("TAXI", {246, 212, 30}, {16, 16, 18})), scene::shine_by_picture(material);
     palette.push_back(builder.add_material(name, material));
   }
   return palette;

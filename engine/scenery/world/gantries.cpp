@@ -83,7 +83,7 @@ class SignMaker {
       material.base_color_bitmap = world_.builder.add_bitmap("sign/" + name, face.width, face.height, face.rgba);
       material.roughness = 0.7f;
       if (shines)
-        material.emission = glm::vec3(1.6f);
+        material.emission = glm::vec3(1.6f), scene::shine_by_picture(material);
       else
         material.retroreflection = 180.0f;  // Sheeting of class RA2 (EN 12899-1), cd per lx and m².
       const scene::NodeId painted = world_.builder.add_material("sign/" + name, material);

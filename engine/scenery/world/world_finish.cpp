@@ -258,6 +258,7 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, boo
     material.roughness = look.roughness;
     material.metallic = look.metallic;
     material.emission = look.emission;
+    if (look.texture != Texture::none && look.emission != glm::vec3(0.0f)) scene::shine_by_picture(material);
     material.retroreflection = look.retroreflection;
     material.wettable =
         i <= index_of(Ground::mark) || i == index_of(Ground::paint) || i == index_of(Ground::far_asphalt);

@@ -65,11 +65,8 @@ TEST_CASE("a picture of the base colour does not colour an emission") {
   const Model model = with_material(
       R"({"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})", {Image(2, 2, some)});
   const Look& look = model.looks.at(0);
-  REQUIRE(look.emission_picture == 1);
-  CHECK(model.pictures.at(1) == Image(1, 1, {255, 255, 255, 255}));
-  CHECK(with_material(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})", {Image(2, 2, some)})
-            .looks.at(0)
-            .emission_picture == -1);
+  CHECK(look.emission == glm::vec3(1.0f));
+  CHECK(look.emission_picture == -1);
 }
 
 TEST_CASE("roughness is green and metallic blue of one texture, and occlusion red of another, as strong as it says") {

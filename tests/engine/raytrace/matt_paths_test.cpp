@@ -103,7 +103,7 @@ TEST_CASE("paths go eight at once under still lamps alone") {
   CHECK(has_faces(box, dark));
   scene::ResolvedScene with_picture = each_alone(box);
   CHECK(has_faces(with_picture, dark));
-  with_picture.materials[3].base_color_image = 0;
+  with_picture.materials[3].maps[scene::SurfaceMap::emission] = 0;
   CHECK_FALSE(has_faces(with_picture, dark));
   instant::Instant other = dark;
   other.light = even_sky(1.0f);

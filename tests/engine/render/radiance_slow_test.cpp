@@ -210,7 +210,7 @@ TEST_CASE("of several pictures in one image a participant shows that of its numb
   scene::SurfaceMaterial material = glowing_material();
   material.base_color = glm::vec3(1.0f);
   material.emission = glm::vec3(1.0f);
-  material.base_color_image = 0;
+  material.base_color_image = material.maps[scene::SurfaceMap::emission] = 0;
   material.picture_columns = 2;
   material.picture_rows = 2;
   scene::ResolvedScene scene = lone_mesh(material, board, {Vec3(8, 0, 1.2), {1, 0, 0, 0}});

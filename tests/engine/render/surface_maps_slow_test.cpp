@@ -154,6 +154,27 @@ TEST_CASE("an image of the emission colours it in both renderers, and nothing el
   }
 }
 
+TEST_CASE("an image of the base colour does not colour an emission in either renderer") {
+  scene::SurfaceMaterial look = grey(0.2f);
+  const auto colored = [](const scene::SurfaceMaterial& material) {
+    scene::ResolvedScene scene = plate(material);
+    scene.materials[0].base_color_image = 0;
+    scene.images.push_back(quarters_image({{{0, 0, 0}, {255, 0, 0}, {0, 255, 255}, {188, 188, 188}}}, true));
+    return scene;
+  };
+  const Both dark = both(colored(look), "maps colour");
+  look.emission = {2.0f, 1.0f, 0.5f};
+  const Both shining = both(colored(look), "maps colour and emission");
+  check_alike(shining, 0.06);
+  const glm::vec3 emitted = shining.rasterised[0] - dark.rasterised[0];
+  CHECK(emitted.r > 0.0f);
+  for (std::size_t q = 0; q < 4; ++q) {
+    CAPTURE(q);
+    CHECK(glm::length(shining.rasterised[q] - dark.rasterised[q] - emitted) < 0.02f * glm::length(emitted));
+    CHECK(glm::length(shining.traced[q] - dark.traced[q] - emitted) < 0.03f * glm::length(emitted));
+  }
+}
+
 TEST_CASE("roughness and metallic of an image are those of a material with its numbers, in both renderers") {
   scene::SurfaceMaterial look = grey(0.5f);
   look.base_color = {0.7f, 0.4f, 0.1f};

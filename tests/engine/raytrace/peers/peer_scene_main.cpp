@@ -91,7 +91,7 @@ std::vector<Group> groups_of(const PeerScene& peer) {
       Group& group = groups[{part.material, paint.x, paint.y, paint.z, shines}];
       group.gloss = gloss_of(material, peer.instant.environment);
       group.color = material.base_color * paint * (1.0f - 0.55f * wetness(material, peer.instant.environment));
-      group.image = material.base_color_image;
+      group.image = shines ? material.maps[scene::SurfaceMap::emission] : material.base_color_image;
       if (shines) group.emission = material.emission * (placed.tint.w * peer.instant.emission_share);
       const std::uint32_t columns = material.picture_columns,
                           picture = placed.number % (columns * material.picture_rows);
