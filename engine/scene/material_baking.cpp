@@ -72,9 +72,32 @@ std::uint32_t side_of(const MaterialData& material, const ReadPictures& pictures
   return side;
 }
 
+/// Codes of sRGB without a power for each: the code at each of 4096 steps of light, and the light at which each code begins.
+struct SrgbCodes {
+  std::array<std::uint8_t, 4097> at_step{};
+  std::array<float, 257> begins{};
+
+  SrgbCodes() {
+    for (std::size_t code = 1; code < 256; ++code)
+      begins[code] = image::light_of_srgb((static_cast<float>(code) - 0.5f) / 255.0f);
+    begins[256] = 2.0f;
+    std::size_t code = 0;
+    for (std::size_t step = 0; step < at_step.size(); ++step) {
+      while (static_cast<float>(step) / 4096.0f >= begins[code + 1]) ++code;
+      at_step[step] = static_cast<std::uint8_t>(code);
+    }
+  }
+  std::uint8_t of(float light) const {
+    std::size_t code = at_step[static_cast<std::size_t>(light * 4096.0f)];
+    while (light >= begins[code + 1]) ++code;
+    return static_cast<std::uint8_t>(code);
+  }
+};
+
 std::uint8_t code_of(float share, bool srgb) {
+  static const SrgbCodes srgb_codes;  // Constants.
   const float unit = std::clamp(share, 0.0f, 1.0f);
-  return static_cast<std::uint8_t>(std::lround(255.0f * (srgb ? image::srgb_of_light(unit) : unit)));
+  return srgb ? srgb_codes.of(unit) : static_cast<std::uint8_t>(std::lround(255.0f * unit));
 }
 
 /// Of `color` (red, green, blue, alpha; from 0 to 1) of each texel.
@@ -135,8 +158,6 @@ BakedSurface pictures_of(const std::vector<BakedTexel>& texels, std::uint32_t si
     baked.emission = image_of(texels, side, true, [&](const BakedTexel& t) {
       return glm::vec4(share_of(t.numbers.emission, most.emission), 1.0f);
     });
-  else if (baked.base_color && most.emission != glm::vec3(0.0f))  // Else the base colour's picture would colour it.
-    baked.emission = TextureImage{.width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
   const auto finish = [](const BakedTexel& t) { return glm::vec2(t.numbers.roughness, t.numbers.metallic); };
   if (varies(texels, finish))
     baked.properties = image_of(texels, side, false, [&](const BakedTexel& t) {
@@ -150,7 +171,7 @@ BakedSurface pictures_of(const std::vector<BakedTexel>& texels, std::uint32_t si
 
 bool is_to_be_baked(const Node& material) {
   const auto* data = std::get_if<MaterialData>(&material.data);
-  return data && !evaluate_lobes(*data, nullptr).exact;
+  return data && !evaluate_lobes(*data).exact;
 }
 
 std::set<NodeId> bitmaps_of(const Node& material) {
@@ -168,13 +189,15 @@ BakedSurface bake_material(const Node& material, const std::function<const Node*
   const FinishTags tags = finish_tags(material);
   const std::uint32_t side = side_of(*data, pictures);
   std::vector<BakedTexel> texels(std::size_t{side} * side);
-  parallel_for(side, [&](std::size_t row) {
+  constexpr std::size_t band = 32;  // Rows at once: what is the same all over is evaluated once in each.
+  parallel_for((side + band - 1) / band, [&](std::size_t n) {
+    LobesAtPlaces lobes_at(*data);
     SurfacePlace place;
     place.texture = [&](const TextureFragment& texture, const glm::vec2& at) { return pictures.read(texture, at); };
-    for (std::size_t column = 0; column < side; ++column) {
-      place.uv = (glm::vec2(column, row) + 0.5f) / static_cast<float>(side);
-      const Lobes lobes = evaluate_lobes(*data, &place);
-      texels[row * side + column] = {surface_numbers(lobes, tags), lobes.alpha};
+    for (std::size_t i = n * band * side; i < std::min<std::size_t>((n + 1) * band, side) * side; ++i) {
+      place.uv = (glm::vec2(i % side, i / side) + 0.5f) / static_cast<float>(side);
+      const Lobes lobes = lobes_at.at(place);
+      texels[i] = {surface_numbers(lobes, tags), lobes.alpha};
     }
   });
   return pictures_of(texels, side);

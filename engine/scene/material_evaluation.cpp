@@ -58,7 +58,7 @@ SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int
   const auto* data = std::get_if<MaterialData>(&node.data);
   SurfaceMaterial material;
   if (!data) return material;
-  const Lobes lobes = evaluate_lobes(*data, nullptr);
+  const Lobes lobes = evaluate_lobes(*data);
   const SurfaceNumbers numbers = surface_numbers(lobes, finish_tags(node));
   material.base_color = numbers.base_color;
   material.opacity = numbers.opacity;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -74,17 +76,50 @@ glm::vec3 ramp_color(const RampFragment& ramp, float at) {
 
 class Evaluation {
  public:
-  Evaluation(const MaterialData& material, const SurfacePlace* place) : material_(material), place_(place) {}
+  explicit Evaluation(const MaterialData& material) {
+    known_.reserve(material.fragments.size());
+    for (const auto& [id, fragment] : material.fragments) known_.push_back({id, &fragment});
+    for (const Known& known : known_)
+      if (const auto* output = std::get_if<OutputFragment>(known.fragment); output && output->label == "color") {
+        output_ = output;
+        return;
+      }
+  }
 
-  Lobes at(FragmentId id) {
-    const auto fragment = material_.fragments.find(id);
-    if (fragment == material_.fragments.end() || depth_ >= deepest) return {};
-    if (const auto known = known_.find(id); known != known_.end()) return known->second;
-    known_[id] = {};  // Value that a loop finds when it closes.
+  /// Of the output; `place` null: of the surface as a whole.
+  Lobes evaluate(const SurfacePlace* place) {
+    if (!output_) {
+      Lobes grey;
+      grey.lit.color = SurfaceMaterial{}.base_color;
+      return grey;
+    }
+    place_ = place;
+    ++round_;
+    Lobes lobes = at(output_->front);
+    // Opacity, and the share of lit and mirror, are numbers of the whole surface.
+    const bool shares_vary = (lobes.through.image != no_node && !is_black(lobes.through)) ||
+                             (!is_black(lobes.mirror) && !is_black(lobes.lit) && lobes.mirror.image != lobes.lit.image);
+    lobes.exact = lobes.exact && !shares_vary;
+    return lobes;
+  }
+
+  /// Until the next round.
+  const Lobes& at(FragmentId id) {
+    Known* known = find(id);
+    if (!known || depth_ >= deepest) return black_;
+    if (known->round == round_ || known->is_everywhere) {
+      reads_place_ = reads_place_ || !known->is_everywhere;
+      return known->lobes;
+    }
+    known->lobes = {};  // Value that a loop finds when it closes.
+    known->round = round_;
+    const bool read_before = std::exchange(reads_place_, false);
     ++depth_;
-    const Lobes lobes = std::visit(*this, fragment->second);
+    known->lobes = std::visit(*this, *known->fragment);
     --depth_;
-    return known_[id] = lobes;
+    known->is_everywhere = place_ && !reads_place_;
+    reads_place_ = reads_place_ || read_before;
+    return known->lobes;
   }
 
   Lobes operator()(const ColorFragment& f) { return plain(f.color); }
@@ -112,6 +147,7 @@ class Evaluation {
       const bool is_u = name == "map_u", is_v = name == "map_v";
       varies = varies || is_u || is_v;
       if (name.empty()) return 0.0f;
+      reads_place_ = reads_place_ || varies;
       return place_ && (is_u || is_v) ? (is_u ? place_->uv.x : place_->uv.y) : 0.5f;
     };
     Lobes lobes = plain({layer(f.layer_x), layer(f.layer_y), layer(f.layer_z)});
@@ -125,12 +161,14 @@ class Evaluation {
                     is_named(f.layer_green, "color_g") && is_named(f.layer_blue, "color_b");
       return lobes;
     }
+    reads_place_ = true;
     const glm::vec4 read = place_->texture(f, glm::vec2(mapped(f.mapping)));
     Lobes lobes = plain(glm::vec3(read));
     lobes.alpha = read.a;
     return lobes;
   }
   Lobes operator()(const NoiseFragment& f) {
+    reads_place_ = true;
     if (place_) return plain(glm::vec3(noise_at(f.kind, mapped(f.mapping))));
     const bool positive = f.kind == NoiseKind::perlin_zero_to_one || f.kind == NoiseKind::point_zero_to_one;
     Lobes lobes = plain(glm::vec3(positive ? 0.5f : 0.0f));
@@ -138,10 +176,10 @@ class Evaluation {
     return lobes;
   }
   Lobes operator()(const BlenderFragment& f) {
-    const Lobes a = at(f.a), b = at(f.b);
+    const Lobes &a = at(f.a), &b = at(f.b);
     switch (f.kind) {
       case BlendKind::fade: {
-        const Lobes control = at(f.control);
+        const Lobes& control = at(f.control);
         const float t = std::clamp(mean_of_channels(control.plain.color), 0.0f, 1.0f);
         Lobes faded = combined(a, b, [&](glm::vec3 x, glm::vec3 y) { return glm::mix(x, y, t); });
         faded.exact = faded.exact && control.exact && control.plain.image == no_node;
@@ -184,24 +222,22 @@ class Evaluation {
     return lobes;
   }
   Lobes operator()(const AnimationFragment&) { return plain(glm::vec3(0.5f)); }
-  Lobes operator()(const AlternativeFragment& f) { return at(material_.fragments.contains(f.a) ? f.a : f.b); }
+  Lobes operator()(const AlternativeFragment& f) { return at(find(f.a) ? f.a : f.b); }
   Lobes operator()(const OutputFragment& f) { return at(f.front); }
 
  private:
   static bool is_named(const std::string& name, std::string_view usual) { return name.empty() || name == usual; }
 
   /// True where a mapping is the surface's own coordinates.
-  bool is_surface(FragmentId mapping) const {
-    const auto found = material_.fragments.find(mapping);
-    if (found == material_.fragments.end()) return true;
-    const auto* geometry = std::get_if<GeometryFragment>(&found->second);
+  bool is_surface(FragmentId mapping) {
+    const Known* found = find(mapping);
+    if (!found) return true;
+    const auto* geometry = std::get_if<GeometryFragment>(found->fragment);
     return geometry && geometry->layer_x == "map_u" && geometry->layer_y == "map_v";
   }
 
   /// A mapping that is missing is the surface's own coordinates.
-  glm::vec3 mapped(FragmentId mapping) {
-    return material_.fragments.contains(mapping) ? at(mapping).plain.color : glm::vec3(place_->uv, 0.0f);
-  }
+  glm::vec3 mapped(FragmentId mapping) { return find(mapping) ? at(mapping).plain.color : glm::vec3(place_->uv, 0.0f); }
 
   static Lobes multiplied(const Lobes& a, const Lobes& b) {
     Lobes product = b.is_plain() ? scaled(a, b.plain) : scaled(b, a.plain);
@@ -216,28 +252,39 @@ class Evaluation {
     return lobes;
   }
 
-  const MaterialData& material_;
-  const SurfacePlace* place_;
-  std::map<FragmentId, Lobes> known_;
+  struct Known {
+    FragmentId id = no_fragment;
+    const Fragment* fragment = nullptr;
+    Lobes lobes{};
+    std::uint64_t round = 0;     ///< In which `lobes` were evaluated.
+    bool is_everywhere = false;  ///< They are the same at all places.
+  };
+  Known* find(FragmentId id) {
+    const auto found = std::ranges::lower_bound(known_, id, {}, &Known::id);
+    return found != known_.end() && found->id == id ? &*found : nullptr;
+  }
+
+  const Lobes black_{};
+  const OutputFragment* output_ = nullptr;
+  const SurfacePlace* place_ = nullptr;
+  std::vector<Known> known_;  ///< By id.
+  std::uint64_t round_ = 0;
   int depth_ = 0;
+  bool reads_place_ = false;  ///< What is being evaluated depends on the place.
 };
 
 }  // namespace
 
-Lobes evaluate_lobes(const MaterialData& material, const SurfacePlace* place) {
-  for (const auto& [id, fragment] : material.fragments)
-    if (const auto* output = std::get_if<OutputFragment>(&fragment); output && output->label == "color") {
-      Lobes lobes = Evaluation(material, place).at(output->front);
-      // Opacity, and the share of lit and mirror, are numbers of the whole surface.
-      const bool shares_vary =
-          (lobes.through.image != no_node && !is_black(lobes.through)) ||
-          (!is_black(lobes.mirror) && !is_black(lobes.lit) && lobes.mirror.image != lobes.lit.image);
-      lobes.exact = lobes.exact && !shares_vary;
-      return lobes;
-    }
-  Lobes grey;
-  grey.lit.color = SurfaceMaterial{}.base_color;
-  return grey;
-}
+struct LobesAtPlaces::State {
+  Evaluation evaluation;
+};
+
+LobesAtPlaces::LobesAtPlaces(const MaterialData& material)
+    : state_(std::make_unique<State>(State{Evaluation(material)})) {}
+LobesAtPlaces::~LobesAtPlaces() = default;
+
+Lobes LobesAtPlaces::at(const SurfacePlace& place) { return state_->evaluation.evaluate(&place); }
+
+Lobes evaluate_lobes(const MaterialData& material) { return Evaluation(material).evaluate(nullptr); }
 
 }  // namespace septet::scene

@@ -7,6 +7,7 @@
 /// Pure functions; any thread.
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -45,7 +46,23 @@ struct SurfacePlace {
   std::function<glm::vec4(const TextureFragment&, const glm::vec2&)> texture;
 };
 
-/// Lobes of the output "color"; neutral grey without one. `place` null: of the surface as a whole.
-Lobes evaluate_lobes(const MaterialData& material, const SurfacePlace* place);
+/// Lobes of the output "color" of the surface as a whole; neutral grey without one.
+Lobes evaluate_lobes(const MaterialData& material);
+
+/// The same at one place after another: what does not depend on the place is evaluated once. One thread at a time.
+class LobesAtPlaces {
+ public:
+  /// `material` outlives it.
+  explicit LobesAtPlaces(const MaterialData& material);
+  ~LobesAtPlaces();
+  LobesAtPlaces(const LobesAtPlaces&) = delete;
+  LobesAtPlaces& operator=(const LobesAtPlaces&) = delete;
+
+  Lobes at(const SurfacePlace& place);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace septet::scene

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/core/parallel_for.hpp"
+#include "engine/scene/baked_materials.hpp"
 #include "engine/scene/bitmap_image.hpp"
-#include "engine/scene/material_baking.hpp"
 #include "engine/scene/material_evaluation.hpp"
 #include "engine/scene/placed_objects.hpp"
 #include "engine/scene/slots.hpp"
@@ -46,15 +46,7 @@ struct Resolver::State {
   Slots<NodeId, TextureImage> image_slots;
   std::set<NodeId> changed_materials, changed_images;  ///< Of those with a slot: to be made.
   std::map<NodeId, std::uint64_t> image_made_from;
-  /// Pictures that materials' trees were baked to (material_baking.hpp).
-  enum class BakedPicture : std::uint8_t { base_color, emission, properties };
-  Slots<std::pair<NodeId, BakedPicture>, TextureImage> baked_slots;
-  struct Bake {
-    std::map<NodeId, std::uint64_t> made_from;  ///< Revisions of the material and of the bitmaps that it reads.
-    SurfaceMaterial numbers;
-    std::int32_t base_color = -1, emission = -1, properties = -1;  ///< Slots.
-  };
-  std::map<NodeId, Bake> bakes;  ///< By material.
+  BakedMaterials baked;
 
   State() { scene.materials.emplace_back(); }  // Slot 0: parts without a material are neutral grey.
 
@@ -111,73 +103,6 @@ struct Resolver::State {
 
   // ---- materials and images
 
-  /// Puts a baked picture into its slot, or empties that; returns its index, -1 without one.
-  std::int32_t keep_baked(NodeId material, BakedPicture kind, std::optional<TextureImage> picture) {
-    const std::pair key{material, kind};
-    const auto before = baked_slots.all().find(key);
-    if (!picture && before == baked_slots.all().end()) return -1;
-    const std::uint32_t slot = baked_slots.of(key, scene.images);
-    const bool is_kept = picture.has_value();
-    if (!is_kept) baked_slots.release(key);
-    TextureImage& image = scene.images[slot];
-    TextureImage made = std::move(picture).value_or(TextureImage{});
-    if (image.width != made.width || image.height != made.height || image.srgb != made.srgb ||
-        image.rgba != made.rgba) {
-      tell({SceneChange::Kind::image, slot});
-      image = std::move(made);
-      image.revision = scene.revision;
-    }
-    return is_kept ? static_cast<std::int32_t>(slot) : -1;
-  }
-
-  static std::map<NodeId, std::uint64_t> revisions_for(const Store& store, const Node& material) {
-    std::map<NodeId, std::uint64_t> revisions{{material.id, material.drawn_revision}};
-    for (const NodeId bitmap : bitmaps_of(material)) {
-      const Node* node = store.find(bitmap);
-      revisions[bitmap] = node ? node->drawn_revision : 0;
-    }
-    return revisions;
-  }
-
-  void keep_pictures(NodeId id, Bake& bake, BakedSurface baked) {
-    bake.numbers = baked.numbers;
-    bake.base_color = keep_baked(id, BakedPicture::base_color, std::move(baked.base_color));
-    bake.emission = keep_baked(id, BakedPicture::emission, std::move(baked.emission));
-    bake.properties = keep_baked(id, BakedPicture::properties, std::move(baked.properties));
-  }
-
-  /// Replaces what of a material varies over the surface by pictures of it, which are made anew where the material or
-  /// a bitmap that it reads has changed.
-  void bake(const Store& store, NodeId id, const Node* node, SurfaceMaterial& made) {
-    if (!node || !is_to_be_baked(*node)) {
-      if (const auto before = bakes.find(id); before != bakes.end()) {
-        keep_pictures(id, before->second, {});
-        bakes.erase(before);
-      }
-      return;
-    }
-    Bake& bake = bakes[id];
-    if (auto revisions = revisions_for(store, *node); bake.made_from != revisions) {
-      bake.made_from = std::move(revisions);
-      keep_pictures(id, bake, bake_material(*node, [&](NodeId bitmap) { return store.find(bitmap); }));
-    }
-    made.base_color = bake.numbers.base_color;
-    made.emission = bake.numbers.emission;
-    made.opacity = bake.numbers.opacity;
-    made.roughness = bake.numbers.roughness;
-    made.metallic = bake.numbers.metallic;
-    made.base_color_image = bake.base_color;
-    // A bitmap of the material's own tags counts before what its tree comes to.
-    if (made.maps[SurfaceMap::emission] < 0) made.maps[SurfaceMap::emission] = bake.emission;
-    if (made.maps[SurfaceMap::properties] < 0) made.maps[SurfaceMap::properties] = bake.properties;
-  }
-
-  /// Materials that were baked from a bitmap that changed are baked anew.
-  void spoil_baked(NodeId bitmap) {
-    for (const auto& [material, bake] : bakes)
-      if (bake.made_from.contains(bitmap)) changed_materials.insert(material);
-  }
-
   void evaluate_materials(const Store& store) {
     const auto image_of = [&](NodeId bitmap) {
       if (!image_slots.all().contains(bitmap)) changed_images.insert(bitmap);
@@ -189,7 +114,7 @@ struct Resolver::State {
       SurfaceMaterial& current = scene.materials[slot->second];
       const Node* node = store.find(id);
       SurfaceMaterial made = node ? evaluate_material(*node, image_of) : SurfaceMaterial{};
-      bake(store, id, node, made);
+      baked.bake(store, id, node, scene, made);
       made.revision = current.revision;
       if (current.revision != 0 && same(made, current)) continue;
       tell({SceneChange::Kind::material, slot->second});
@@ -253,7 +178,10 @@ struct Resolver::State {
       if (!node || node->type() == NodeType::object) objects.insert(change.node);
       if (!node || node->type() == NodeType::geometry) placed.spoil(change.node);
       if (!node || node->type() == NodeType::material) changed_materials.insert(change.node);
-      if (!node || node->type() == NodeType::bitmap) changed_images.insert(change.node), spoil_baked(change.node);
+      if (!node || node->type() == NodeType::bitmap) {
+        changed_images.insert(change.node);
+        for (const NodeId material : baked.made_from(change.node)) changed_materials.insert(material);
+      }
     }
     // Tiles are renewed where nothing else of their bitmap changed.
     std::set<NodeId> whole_images;
@@ -298,7 +226,7 @@ void Resolver::forget() {
   state_->is_whole = true;
   state_->seen = 0;
   state_->image_made_from.clear();
-  for (auto& entry : state_->bakes) entry.second.made_from.clear();
+  state_->baked.forget();
   for (MeshSlot& slot : state_->placed.meshes()) slot.made_from = ~std::uint64_t{0};
 }
 
