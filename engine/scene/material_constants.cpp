@@ -9,7 +9,6 @@
 namespace septet::scene {
 namespace {
 
-/// What stands for a fragment's dependence on light, view or time; empty where nothing has to.
 struct ConstantOf {
   std::string_view operator()(const LightFragment& f) const {
     if (f.brdf_bitmap != no_node) return "light: its BRDF bitmap is left out; the surface is matt";
@@ -46,14 +45,15 @@ struct ConstantOf {
 
 }  // namespace
 
+std::string_view constant_of(const Fragment& fragment) { return std::visit(ConstantOf{}, fragment); }
+
 std::vector<std::string> constant_fragments(const Node& material) {
   std::vector<std::string> sentences;
   const auto* data = std::get_if<MaterialData>(&material.data);
   if (!data) return sentences;
   std::set<std::string_view> said;
   for (const auto& [id, fragment] : data->fragments)
-    if (const std::string_view constant = std::visit(ConstantOf{}, fragment);
-        !constant.empty() && said.insert(constant).second)
+    if (const std::string_view constant = constant_of(fragment); !constant.empty() && said.insert(constant).second)
       sentences.push_back(fmt::format("fragment {}, {}", id, constant));
   return sentences;
 }

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/bytes.hpp"
+#include "engine/core/printable.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/command_validation.hpp"
@@ -88,6 +89,9 @@ std::optional<replication::Refusal> WorldGate::pass(const Editor& editor, std::s
   execute(solids.commands);
   solids_.take_over(std::move(solids));
   execute(standing);
+  for (const std::string& constant :
+       constants_.news_of(batch, [&](scene::NodeId id) { return told_name(drive_.store, id); }))
+    messages_.push_back(fmt::format("{} has set {}", editor.name, printable(constant, 400)));
   if (log_) log_->record_edits(from, batch);
   tag_pushable(from);
   if (done) *done = {std::move(inverse), std::move(destroyed)};

@@ -18,6 +18,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/command.hpp"
+#include "engine/scene/constants_told.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/simulation/operator_command.hpp"
 #include "sim-server/drive/opened_drive.hpp"
@@ -60,7 +61,7 @@ class WorldGate {
   /// The world before any edit; null where it was not kept.
   const scene::Store* generated() const { return drive_.generated ? &*drive_.generated : nullptr; }
   LiveDrive& drive() { return *drive_.live; }
-  /// What went wrong outside of a request, for the console.
+  /// For the console: what went wrong outside of a request, and once of each author's fragments that are constants here.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:
@@ -83,6 +84,7 @@ class WorldGate {
   std::map<scene::NodeId, std::string> changers_;  ///< Who has changed a node last.
   std::map<std::string, std::deque<Batch>> undo_;  ///< By author, the newest last.
   SolidThings solids_;
+  scene::ConstantsTold constants_;
   std::vector<std::string> messages_;
 };
 

@@ -62,6 +62,18 @@ struct Gate {
 
 }  // namespace
 
+TEST_CASE("who sets a fragment that is a constant here is told once and not refused") {
+  Gate gate;
+  const NodeId glass = scene::SceneBuilder(gate.opened.store).add_material("glass", {});
+  gate.world->take_messages();
+  const Command view = scene::FragmentSet{glass, 90, scene::ViewFragment{}};
+  CHECK(gate.make(gate.lab, {view, scene::FragmentSet{glass, 91, scene::ColorFragment{}}}) == "");
+  CHECK(gate.world->take_messages() ==
+        std::vector<std::string>{"lab has set material glass, fragment 90, view: 0.5 in each channel"});
+  CHECK(gate.make(gate.lab, {view}) == "");
+  CHECK(gate.world->take_messages().empty());
+}
+
 TEST_CASE("an editor's newest batch is undone, then the one before it, and then there is nothing to be undone") {
   Gate gate;
   const scene::Store before = gate.opened.store;

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <span>
 #include <utility>
@@ -237,7 +238,10 @@ void EditSession::hear() {
       continue;
     }
     end_lifetimes(batch, answer.tick);
-    output_.done(waiting.request, answer.tick, batch.messages);
+    std::vector<std::string> messages = batch.messages;
+    std::ranges::move(constants_.news_of(batch.commands, [&](scene::NodeId id) { return called(id); }),
+                      std::back_inserter(messages));
+    output_.done(waiting.request, answer.tick, messages);
   }
   for (const control::OperatorAnswer& answer : client_.take_operator_answers()) {
     const auto found = operating_.find(answer.number);

@@ -16,6 +16,7 @@
 #include "command-line/command/edit/watched_model.hpp"
 #include "engine/editor/edit_verbs.hpp"
 #include "engine/replication/message.hpp"
+#include "engine/scene/constants_told.hpp"
 
 namespace septet::server {
 
@@ -106,6 +107,7 @@ class EditSession {
   std::string content_refused_;               ///< Why one of them was refused.
   std::map<std::uint64_t, End> ends_;         ///< Removals that the server keeps for their ticks; no answer is owed.
   std::vector<WatchedModel> watched_;
+  scene::ConstantsTold constants_;
   std::map<std::uint32_t, std::pair<std::uint64_t, std::string>>
       operating_;  ///< Requests and lines, by the line's number.
   std::uint32_t operated_ = 0;
