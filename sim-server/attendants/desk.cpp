@@ -16,7 +16,7 @@ Expected<void> Desk::begin() {
 }
 
 void Desk::before_tick(const Moment& moment) {
-  desk_->attend(moment.newest, std::string(moment.doing), screens_of(host_), moment.now_s);
+  desk_->attend(moment.newest, std::string(moment.doing), screens_of(host_), moment.now_s, moment.is_being_drawn);
   if (host_) host_->look_at(desk_->watched(), moment.now_s);
 }
 

@@ -23,6 +23,7 @@ std::optional<std::string_view> behind(std::string_view line, std::string_view w
 
 void OperatorLines::before_tick(const Moment& moment) {
   if (pauser_ && !host_.has(pauser_->client)) go_on(pauser_->name);
+  if (moment.is_being_drawn) return;
   const Tick from = gate_ ? gate_->shown_from(moment.doing) : 0;
   for (const OperatorRequest& request : host_.take_operator_requests()) {
     const auto why_not = fulfil(request, from);

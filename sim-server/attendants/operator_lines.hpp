@@ -1,6 +1,7 @@
 #pragma once
 /// Lines of clients with the right to operate: a mark, a pause, some ticks, or an operator's command
-/// (engine/simulation/operator_command.hpp), done between two ticks and logged like those of the operator's page.
+/// (engine/simulation/operator_command.hpp), done between two ticks, in lockstep once the screens have shown the first, and
+/// logged like those of the operator's page.
 
 #include <cstdint>
 #include <optional>

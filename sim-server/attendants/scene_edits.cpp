@@ -40,6 +40,7 @@ std::vector<std::string> SceneEdits::take_messages() {
 }
 
 void SceneEdits::before_tick(const Moment& moment) {
+  if (moment.is_being_drawn) return;
   if (gate_) carry_out_storyboard(gate_->shown_from(moment.doing));
   if (host_) take_requests(gate_ ? gate_->shown_from(moment.doing) : 0, moment);
 }

@@ -1,7 +1,8 @@
 #pragma once
 /// Changes of the scene that clients with the right to edit, or the storyboard, ask for: passed through the drive's gate
-/// (drive/world_gate.hpp) before each tick and sent to all screens; or kept until the tick that a client named, or its turn
-/// (edit_turns.hpp). A session that is shown again shows its own changes at their ticks, and takes none.
+/// (drive/world_gate.hpp) before each tick, in lockstep once the screens have shown the one before, and sent to all
+/// screens; or kept until the tick that a client named, or its turn (edit_turns.hpp). A session that is shown again shows
+/// its own changes at their ticks, and takes none.
 
 #include <filesystem>
 #include <memory>

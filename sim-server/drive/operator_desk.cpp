@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,10 @@ namespace septet::server {
 namespace {
 
 constexpr double show_every_s = 0.1;
+
+bool changes_world(const page::OperatorWish& wish) {
+  return std::holds_alternative<page::Change>(wish.wish) || std::holds_alternative<page::Edit>(wish.wish);
+}
 
 /// The scale for the driver's well-being. Without it the drive goes on, and the page does not ask.
 std::optional<DriverRating> find_rating() {
@@ -144,13 +149,20 @@ void OperatorDesk::keep_still(const std::vector<HostedScreen>& screens) {
 }
 
 void OperatorDesk::attend(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what,
-                          const std::vector<HostedScreen>& screens, double now_s) {
+                          const std::vector<HostedScreen>& screens, double now_s, bool is_being_drawn) {
   newest_ = newest ? newest : drive_.first();
   now_s_ = now_s;
   from_ = gate_.shown_from(what);
   if (brake_until_s_ && now_s > *brake_until_s_) hold_brake({}, false);
   if (const auto trouble = speaker_.attend(); trouble && log_) log_->record_message("screen", *trouble);
-  for (const auto& wish : page_->take_wishes()) answer(wish);
+  std::vector<page::OperatorWish> wishes = std::exchange(waiting_, {});
+  for (page::OperatorWish& wish : page_->take_wishes()) wishes.push_back(std::move(wish));
+  for (page::OperatorWish& wish : wishes) {
+    if (is_being_drawn && changes_world(wish))
+      waiting_.push_back(std::move(wish));
+    else
+      answer(wish);
+  }
   // Two large pictures within one interval are both shown: a watched screen moves at the rate at which it is sent.
   if (!has_new_large_picture(screens) && shown_s_ && now_s - *shown_s_ < show_every_s) return;
   if (!shown_s_ || now_s - since_s_ >= 1.0) {

@@ -35,9 +35,9 @@ class OperatorDesk {
   /// `log` outlives the desk; its events are shown on the page.
   void log_to(SessionLog& log);
   /// Executes the requests since the last call, and updates the page ten times a second and with each large picture.
-  /// `screens` may be empty.
+  /// `screens` may be empty. `is_being_drawn`: as Moment's; what changes the world waits.
   void attend(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what,
-              const std::vector<HostedScreen>& screens, double now_s);
+              const std::vector<HostedScreen>& screens, double now_s, bool is_being_drawn);
 
   /// Names of the screens whose large picture is watched on the page.
   std::set<std::string> watched() const { return page_->watched(); }
@@ -84,7 +84,8 @@ class OperatorDesk {
   std::optional<std::string> rate(const page::OperatorWish& wish, int value);
 
   std::unique_ptr<page::OperatorPage> page_;
-  std::optional<DriverRating> rating_;  ///< Empty if the scale's file is not installed.
+  std::vector<page::OperatorWish> waiting_;  ///< Wishes kept until the world may be changed.
+  std::optional<DriverRating> rating_;       ///< Empty if the scale's file is not installed.
   Speaker speaker_;
   WayBack way_back_;
   std::optional<double> brake_until_s_;  ///< On the clock of `attend`; empty: the instructor does not brake.

@@ -26,6 +26,9 @@ struct Moment {
   std::shared_ptr<const TakenSnapshot> newest;  ///< Null before the first tick.
   std::string_view doing;                       ///< "driving", "paused", "waiting for 3 screens", …
   double now_s = 0.0;                           ///< By the loop's clock.
+  /// Lockstep waits for screens to show the newest tick: until all have, its world stays as it is. A screen fetches a new
+  /// node's content after the node; of a store that goes on meanwhile it would show neither tick's world.
+  bool is_being_drawn = false;
 };
 
 /// Wishes of an attendant for the next tick. The first end in the list's order counts; of the others, any attendant's
@@ -54,7 +57,7 @@ class Attendant {
   virtual ~Attendant() = default;
   /// The drive begins. Error: it does not, and nothing is left behind.
   virtual Expected<void> begin() { return {}; }
-  /// Called before each tick, and again and again while the world stands still.
+  /// Called before each tick, and again and again while the world stands still or lockstep waits for screens.
   virtual void before_tick(const Moment& /*moment*/) {}
   /// Asked after each `before_tick`.
   virtual Wishes wishes() { return {}; }

@@ -29,6 +29,7 @@ struct Loop {
   std::shared_ptr<const TakenSnapshot> newest = nullptr;
   std::string doing = "starting";  ///< For attendants.
   Wishes wishes = {};              ///< Wishes of all attendants, as last asked.
+  bool is_being_drawn = false;     ///< As Moment's.
 
   bool is_paused() const { return wishes.stands_still; }
   void report(std::string what) {
@@ -47,7 +48,7 @@ struct Loop {
   /// Calls the attendants before a tick and takes their wishes for it.
   void attend() {
     for (const auto& attendant : attendants) {
-      attendant->before_tick({newest, doing, clock.now_s()});
+      attendant->before_tick({newest, doing, clock.now_s(), is_being_drawn});
       for (auto& text : attendant->take_messages()) tell(std::move(text));
     }
     wishes = {};
@@ -221,8 +222,10 @@ void run_lockstep(ScreenLoop& loop) {
       loop.host.leave_silent_behind(tick, loop.clock.now_s() - loop.options.longest_silence_s);
       loop.host.repeat_newest();
     };
+    loop.is_being_drawn = true;
     const bool together =
         loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.patience_s, 0.1, look);
+    loop.is_being_drawn = false;
     if (!together && loop.clock.now_s() - asked_s > loop.options.patience_s) loop.host.leave_behind(tick);
     loop.report("driving");
   }

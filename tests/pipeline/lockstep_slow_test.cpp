@@ -1,8 +1,15 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "engine/scene/content_hash.hpp"
 #include "tests/pipeline/rig_service.hpp"
 
 namespace septet {
@@ -26,23 +33,26 @@ class Circles final : public server::TickSource {
 /// Screens on a simulated clock that acknowledge like the product's: each new tick, once they hold the scene.
 class LockstepRig {
  public:
-  explicit LockstepRig(std::size_t screens)
-      : rig({.screens = screens, .faults = {.latency_s = 0.0003}, .real_time = false}) {
+  explicit LockstepRig(std::size_t screens, net::NetworkFaults faults = {.latency_s = 0.0003})
+      : rig({.screens = screens, .faults = faults, .real_time = false}) {
     rig.run_for(2.0);  // So long that the server knows how often each screen is heard.
   }
 
-  server::ServeResult serve(double seconds, const std::function<void()>& each_ms) {
+  server::ServeResult serve(double seconds, const std::function<void()>& each_ms,
+                            std::unique_ptr<server::Attendant> more = nullptr) {
     Circles circles;
     RigClock clock(rig, [&] {
       each_ms();
       for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
     });
+    auto attendants = one_attendant(std::make_unique<Listener>(messages));
+    if (more) attendants.push_back(std::move(more));
     const auto served = server::serve(circles, rig.host(),
                                       {.lockstep = true,
                                        .draw_every_ticks = draw_every_ticks,
                                        .ticks = static_cast<std::uint64_t>(120.0 * seconds),
                                        .longest_silence_s = silence_s},
-                                      one_attendant(std::make_unique<Listener>(messages)), clock);
+                                      attendants, clock);
     REQUIRE_FALSE(served.error.has_value());
     CHECK(served.end == logging::DriveEnd::time_over);
     return served;
@@ -52,6 +62,7 @@ class LockstepRig {
   std::map<std::size_t, std::vector<Tick>> shown;
   std::map<std::size_t, bool> is_drawing;  ///< It takes long.
   std::vector<std::string> messages;
+  std::function<void(std::size_t, Tick)> looks = [](std::size_t, Tick) {};  ///< At a screen that shows a tick.
 
  private:
   void answer(std::size_t i) {
@@ -61,12 +72,58 @@ class LockstepRig {
     if (!screen.link->scene_arrived() || screen.link->history().empty()) return;
     const Tick tick = screen.link->history().newest().snapshot.tick;
     if (!shown[i].empty() && shown[i].back() >= tick) return;
+    if (!screen.link->has_scene_of(screen.link->history().newest())) return;
+    screen.link->show_scene(tick);
+    looks(i, tick);
     shown[i].push_back(tick);
     screen.link->send(control::Presented{tick, 1.0f}, net::Reliability::reliable);
   }
 };
 
+/// An editor that changes the world once a tick, as soon as it may: each batch makes a node with content, moves the one
+/// before and removes an older one.
+class Builder final : public server::Attendant {
+ public:
+  /// `worlds`: hashes of the store, by the ticks that show it first.
+  Builder(SimulatedRig& rig, std::map<Tick, std::uint64_t>& worlds) : rig_(rig), worlds_(worlds) {}
+  void before_tick(const server::Moment& moment) override {
+    if (moment.is_being_drawn || !moment.newest) return;
+    const Tick from = moment.newest->snapshot().tick + 1;
+    if (worlds_.contains(from)) return;
+    const scene::NodeId made = first_ + batches_++;
+    std::vector<scene::Command> batch;
+    batch.emplace_back(scene::NodeCreate{made, scene::NodeType::object});
+    batch.emplace_back(scene::NodeNameSet{made, std::to_string(made)});
+    batch.emplace_back(scene::TagGroupSet{made, 0, "draw"});
+    batch.emplace_back(scene::TagSet{made, 0, 0, {"to_m", 300.0}});
+    if (batches_ > 1) batch.emplace_back(scene::TransformSet{made - 1, {{1.0, 2.0, 3.0}}});
+    if (batches_ > 2) batch.emplace_back(scene::NodeDestroy{made - 2});
+    for (const scene::Command& command : batch) rig_.change(command, from);
+    worlds_[from] = scene::content_hash(rig_.store());
+  }
+
+ private:
+  static constexpr scene::NodeId first_ = 1000;
+  SimulatedRig& rig_;
+  std::map<Tick, std::uint64_t>& worlds_;
+  scene::NodeId batches_ = 0;
+};
+
 }  // namespace
+
+TEST_CASE("in lockstep a world that changes at every tick is shown whole by screens that lose a datagram in twenty") {
+  LockstepRig lockstep(3, {.loss = 0.05, .latency_s = 0.002});
+  std::map<Tick, std::uint64_t> worlds;
+  int compared = 0, different = 0;
+  lockstep.looks = [&](std::size_t i, Tick tick) {
+    ++compared;
+    different += scene::content_hash(lockstep.rig.screen(i).link->scene()) != worlds.at(tick);
+  };
+  lockstep.serve(
+      2.0, [] {}, std::make_unique<Builder>(lockstep.rig, worlds));
+  CHECK(compared == 3 * 240 / draw_every_ticks);
+  CHECK(different == 0);
+}
 
 TEST_CASE("in lockstep all screens show every drawn tick") {
   LockstepRig lockstep(3);

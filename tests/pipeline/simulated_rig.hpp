@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -197,6 +198,11 @@ class SimulatedRig {
   std::size_t size() const { return screens_.size(); }
   net::BadNetwork& network() { return network_; }
   const scene::Store& store() const { return store_; }
+  /// A valid change of the world. `from`: the first tick that shows it.
+  void change(const scene::Command& command, Tick from) {
+    if (const auto done = store_.apply(command); !done) throw std::runtime_error(describe(done.error()));
+    host_->scene_changed(command, from);
+  }
   net::Address lane_address() const { return server_address_; }
   net::Address tick_address() const { return {server_address_.ip, 4999}; }
   net::Address group() const { return group_; }
