@@ -151,7 +151,7 @@ EditorClient::~EditorClient() {
   state_->pump();
 }
 
-Expected<Taken> EditorClient::take(const std::vector<std::string>& lines) {
+Expected<Taken> EditorClient::take(const std::vector<std::string>& lines, std::uint64_t tick) {
   if (auto whole = state_->until([&] { return state_->is_ready(); }, "the server is gone"); !whole)
     return tl::unexpected(whole.error());
   state_->renew_names();
@@ -169,14 +169,18 @@ Expected<Taken> EditorClient::take(const std::vector<std::string>& lines) {
   }
   if (commands.empty()) return taken;
   SplitBatch split = split_content(commands);
-  if (!split.rest.empty()) split.ahead.push_back(std::move(split.rest));
-  for (const std::vector<scene::Command>& batch : split.ahead) {
-    const auto number = state_->scene.request_batch(batch);
+  const auto ask = [&](const std::vector<scene::Command>& batch, std::uint64_t at) -> Expected<void> {
+    const auto number = state_->scene.request_batch(batch, at);
     if (!number) return tl::unexpected(number.error());
-    const auto tick = state_->answer_of(*number);
-    if (!tick) return tl::unexpected(tick.error());
-    taken.tick = *tick;
-  }
+    const auto shown_from = state_->answer_of(*number);
+    if (!shown_from) return tl::unexpected(shown_from.error());
+    taken.tick = *shown_from;
+    return {};
+  };
+  for (const std::vector<scene::Command>& batch : split.ahead)
+    if (auto done = ask(batch, 0); !done) return tl::unexpected(done.error());
+  if (!split.rest.empty())
+    if (auto done = ask(split.rest, tick); !done) return tl::unexpected(done.error());
   return taken;
 }
 

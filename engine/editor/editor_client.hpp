@@ -41,8 +41,9 @@ class EditorClient {
   ~EditorClient();
 
   /// Has the lines done from one tick on, all or none. Shapes and pictures beyond 2 MiB go ahead in batches of their own,
-  /// of which nothing is seen (content_ahead.hpp). Error: a line that cannot be read, or why the server refuses it.
-  Expected<Taken> take(const std::vector<std::string>& lines);
+  /// of which nothing is seen (content_ahead.hpp). `tick`: the first that is to show them, for which the call waits; 0, or
+  /// one that is past: the next. Error: a line that cannot be read, or why the server refuses it.
+  Expected<Taken> take(const std::vector<std::string>& lines, std::uint64_t tick = 0);
   /// Writes what differs from the world as this editor found it, as bare commands for `septet drive --edits`.
   Expected<void> save(const std::filesystem::path& file);
   /// Receives and sends.

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
   app.add_option("--server", server, "Server's address and port");
   app.add_option("--keys", options.keys, "Folder with NAME.key and server.public")->required();
   app.add_option("--pictures", options.pictures, "Folder for a picture of every simulated second");
+  app.add_option("--scene-hashes", options.scene_hashes,
+                 "File for the tick of each picture that is kept, and the hash of the scene that it shows");
   app.add_flag("--virtual", options.is_virtual, "Off-screen");
   app.add_flag("--full-screen", options.full_screen, "Cover a whole monitor");
   app.add_option("--monitor", options.monitor, "Which monitor of this machine, from 0, instead of the rig's")

@@ -1,6 +1,7 @@
 #include "sim-client/screen/screen_session.hpp"
 
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <future>
 #include <stop_token>
@@ -13,6 +14,7 @@
 #include "engine/net/keys.hpp"
 #include "engine/net/udp_socket.hpp"
 #include "engine/render/renderer.hpp"
+#include "engine/scene/content_hash.hpp"
 #include "engine/scene/resolve.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
@@ -84,6 +86,8 @@ class Session {
   /// Takes the effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
+  /// Of the scene that the kept picture of this tick shows.
+  Expected<void> keep_scene_hash(Tick tick);
   /// Sends the picture shown, if an operator watches closely and the next one is due.
   Expected<void> show_closely(Tick tick, double now_s);
   void send_pictures();
@@ -260,6 +264,14 @@ Expected<void> Session::keep_picture(Tick tick) {
   }
   if (options_.pictures.empty()) return {};
   pictures_.write(options_.pictures / fmt::format("{}.png", tick), std::move(*picture));
+  return keep_scene_hash(tick);
+}
+
+Expected<void> Session::keep_scene_hash(Tick tick) {
+  if (options_.scene_hashes.empty()) return {};
+  std::ofstream file(options_.scene_hashes, std::ios::app);
+  file << fmt::format("{} {:016x}\n", tick, scene::content_hash(link_.scene())) << std::flush;
+  if (!file) return failure("it cannot be written", options_.scene_hashes.string(), "name a file that can be");
   return {};
 }
 

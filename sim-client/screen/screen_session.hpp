@@ -16,6 +16,7 @@ struct ScreenOptions {
   net::Address server;
   std::filesystem::path keys;            ///< Folder with NAME.key and server.public.
   std::filesystem::path pictures;        ///< Folder for pictures of whole ticks (TICK.png); empty: not kept.
+  std::filesystem::path scene_hashes;    ///< File for a line of each kept picture; empty: none.
   bool is_virtual = false;               ///< Off-screen, on the software rasteriser.
   bool full_screen = false;              ///< Full screen even without the rig's `full_screen`.
   std::optional<std::uint32_t> monitor;  ///< Overrides the rig's.
