@@ -84,8 +84,8 @@ SEPTET_MEMBERS(LooseBody, id, model, box_size_m, paint, lamps, front_steer_rad, 
                climb_mps, acceleration_mps2, road, hull)
 SEPTET_MEMBERS(BodyContact, first, second, engagement)
 SEPTET_MEMBERS(BodiesState, bodies, contacts)
-SEPTET_MEMBERS(OpenCrash, record, run, last_push, last_in_contact, is_impact_over, is_told, first_at, second_at, first, second,
-               of_contact, debris_j, wheels_j, deepest_m, first_moves, second_moves, has_ledger)
+SEPTET_MEMBERS(OpenCrash, record, run, last_push, last_in_contact, is_impact_over, is_told, first_at, second_at, first,
+               second, of_contact, debris_j, wheels_j, deepest_m, first_moves, second_moves, has_ledger)
 SEPTET_MEMBERS(CrashMemory, struck_vehicles, struck_standing, parts)
 SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(Sighting, id, seen, was_seen, since)

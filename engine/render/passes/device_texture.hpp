@@ -15,7 +15,7 @@ struct DeviceTexture {
   std::uint64_t revision = 0;
   bool holes = false;
   Alpha alpha = Alpha::cuts;  ///< What the levels were made for.
-  bool square_roots = true;  ///< Holds square roots of linear light.
+  bool square_roots = true;   ///< Holds square roots of linear light.
   scene::ImageSampling sampling{};
   vulkan::DeviceImage image;
   /// Levels of an image without holes, the full one without its pixels, so that a part of it can be renewed.
