@@ -90,6 +90,7 @@ void add_room(scene::ResolvedScene& scene) {
     scene::SurfaceMaterial material;
     material.base_color = glm::vec3(1.0f);
     material.base_color_image = static_cast<std::int32_t>(scene.images.size());
+    material.maps[scene::SurfaceMap::emission] = material.base_color_image;
     material.roughness = 1.0f;
     // Under a roof: the light of its lamps is subtracted, so that the walls have one brightness.
     material.share_of_sky = 0.0f;

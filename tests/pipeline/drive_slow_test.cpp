@@ -115,7 +115,7 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
       run("septet", {"replay", (folder / "typo" / "session.sqlite").string(), "--virtual"}, folder / "typo.err"),
       {"typo/session.sqlite", "no such file"}, folder / "typo");
   check_refused(run("septet", {"replay", (folder / "out").string(), "--virtual"}, folder / "folder.err"),
-                {"/out: ", "no file that can be read"}, folder / "typo");
+                {"/out: ", "this is a folder"}, folder / "typo");
   CHECK(fs::exists(session));
 
   // One verdict, and the cause of it.
