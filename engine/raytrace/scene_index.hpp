@@ -11,8 +11,8 @@
 
 namespace septet::raytrace {
 
-inline constexpr float opaque_from = 0.999f;  ///< Least alpha of an opaque material, as in the rasteriser.
-inline constexpr float rough_from = 0.6f;     ///< Roughness from which no mirroring is visible.
+using scene::opaque_from;
+inline constexpr float rough_from = 0.6f;  ///< Roughness from which no mirroring is visible.
 
 struct SceneIndex {
   explicit SceneIndex(const scene::ResolvedScene& scene);

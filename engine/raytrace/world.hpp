@@ -184,9 +184,7 @@ class World : public Openings {
     glm::vec2 uv, second_uv;
     std::uint32_t by_second_uv;  ///< See scene::SurfaceMaterial.
 
-    const glm::vec2& of(scene::SurfaceMap map) const {
-      return (by_second_uv >> static_cast<std::uint32_t>(map) & 1u) != 0 ? second_uv : uv;
-    }
+    const glm::vec2& of(scene::SurfaceMap map) const { return scene::has_map(by_second_uv, map) ? second_uv : uv; }
   };
   /// Factor of the base colour at a point between three corners.
   static glm::vec3 vertex_color(const Corners& at, float u, float v);

@@ -32,8 +32,7 @@ void World::apply_maps(const PlacedSurface& placed, const scene::SurfaceMaterial
   if (const scene::TextureImage* normals = image_at(material.maps[scene::SurfaceMap::normal])) {
     Surface& surface = point.surface;
     const glm::vec3 front = point.from_front ? surface.normal : -surface.normal;
-    const bool by_second_uv =
-        (material.by_second_uv >> static_cast<std::uint32_t>(scene::SurfaceMap::normal) & 1u) != 0;
+    const bool by_second_uv = scene::has_map(material.by_second_uv, scene::SurfaceMap::normal);
     const glm::vec3 read(texel(normals, lies.of(scene::SurfaceMap::normal)));
     const glm::vec3 mapped = mapped_normal(placed, ray, hit, read, front, by_second_uv);
     surface.normal = facing_viewer(point.from_front ? mapped : -mapped, ray.direction);

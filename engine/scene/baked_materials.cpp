@@ -28,11 +28,7 @@ void BakedMaterials::bake(const Store& store, NodeId id, const Node* node, Resol
     bake.made_from = std::move(revisions);
     keep_pictures(id, bake, bake_material(*node, [&](NodeId bitmap) { return store.find(bitmap); }), scene);
   }
-  made.base_color = bake.numbers.base_color;
-  made.emission = bake.numbers.emission;
-  made.opacity = bake.numbers.opacity;
-  made.roughness = bake.numbers.roughness;
-  made.metallic = bake.numbers.metallic;
+  set_numbers(bake.numbers, made);
   made.base_color_image = bake.base_color;
   // A bitmap of the material's own tags counts before what its tree comes to.
   if (made.maps[SurfaceMap::emission] < 0) made.maps[SurfaceMap::emission] = bake.emission;

@@ -30,7 +30,7 @@ class BakedMaterials {
   enum class Picture : std::uint8_t { base_color, emission, properties };
   struct Bake {
     std::map<NodeId, std::uint64_t> made_from;  ///< Revisions of the material and of the bitmaps that it reads.
-    SurfaceMaterial numbers;
+    SurfaceNumbers numbers;
     std::int32_t base_color = -1, emission = -1, properties = -1;  ///< Slots.
   };
 

@@ -25,9 +25,8 @@
 namespace septet::scene {
 namespace {
 
-/// Renderers take a surface above 0.999 for one with holes or without, by alpha's half.
+/// Renderers take a surface from opaque_from on for one with holes or without, by alpha's half.
 constexpr float most_blended_opacity = 0.998f;
-constexpr float opaque_from_here = 0.999f;
 
 struct BakedTexel {
   SurfaceNumbers numbers;
@@ -137,14 +136,9 @@ BakedSurface pictures_of(const std::vector<BakedTexel>& texels, std::uint32_t si
     most.roughness = std::max(most.roughness, texel.numbers.roughness);
     most.metallic = std::max(most.metallic, texel.numbers.metallic);
   }
-  const bool blended =
-      std::ranges::any_of(texels, [](const BakedTexel& t) { return t.numbers.opacity < opaque_from_here; });
+  const bool blended = std::ranges::any_of(texels, [](const BakedTexel& t) { return t.numbers.opacity < opaque_from; });
   if (blended) most.opacity = std::min(most.opacity, most_blended_opacity);
-  baked.numbers.base_color = most.base_color;
-  baked.numbers.emission = most.emission;
-  baked.numbers.opacity = most.opacity;
-  baked.numbers.roughness = most.roughness;
-  baked.numbers.metallic = most.metallic;
+  baked.numbers = most;
 
   const auto alpha = [&](const BakedTexel& t) {
     return t.alpha * (most.opacity > 0.0f ? std::min(1.0f, t.numbers.opacity / most.opacity) : 1.0f);

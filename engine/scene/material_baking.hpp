@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/scene/material_evaluation.hpp"
 #include "engine/scene/node.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
@@ -31,7 +32,7 @@ std::set<NodeId> bitmaps_of(const Node& material);
 
 /// Absent pictures: the quantity is the same all over.
 struct BakedSurface {
-  SurfaceMaterial numbers;  ///< Its colours, opacity and finish count, which the pictures multiply; nothing else.
+  SurfaceNumbers numbers;                  ///< The pictures multiply them.
   std::optional<TextureImage> base_color;  ///< Alpha: opacity, of that in the numbers.
   std::optional<TextureImage> emission;
   std::optional<TextureImage> properties;  ///< As SurfaceMap::properties.

@@ -9,8 +9,6 @@
 namespace septet::scene {
 namespace {
 
-float mean(const glm::vec3& color) { return (color.r + color.g + color.b) / 3.0f; }
-
 template <class T>
 T tag_or(const Node& node, const char* name, T otherwise) {
   const TagValue* value = find_tag(node, "surface", name);
@@ -25,7 +23,9 @@ glm::vec3 moderate(const glm::vec3& color, float most) {
 }
 
 /// The lobe whose colour is the base colour.
-const Lobe& base_lobe(const Lobes& lobes) { return mean(lobes.lit.color) > 0.0f ? lobes.lit : lobes.mirror; }
+const Lobe& base_lobe(const Lobes& lobes) {
+  return mean_of_channels(lobes.lit.color) > 0.0f ? lobes.lit : lobes.mirror;
+}
 
 }  // namespace
 
@@ -39,8 +39,8 @@ FinishTags finish_tags(const Node& node) {
 }
 
 SurfaceNumbers surface_numbers(const Lobes& lobes, const FinishTags& tags) {
-  const float through = std::clamp(mean(lobes.through.color), 0.0f, 1.0f), opaque = 1.0f - through;
-  const float mirror = mean(lobes.mirror.color), lit = mean(lobes.lit.color);
+  const float through = std::clamp(mean_of_channels(lobes.through.color), 0.0f, 1.0f), opaque = 1.0f - through;
+  const float mirror = mean_of_channels(lobes.mirror.color), lit = mean_of_channels(lobes.lit.color);
   const Lobe& base = base_lobe(lobes);
   const bool polished = mirror > 0.0f;
   const double metallic = polished ? std::clamp(mirror / (mirror + std::max(lit, 0.0f)), 0.0f, 1.0f) : 0.0;
@@ -54,18 +54,21 @@ SurfaceNumbers surface_numbers(const Lobes& lobes, const FinishTags& tags) {
   return numbers;
 }
 
+void set_numbers(const SurfaceNumbers& numbers, SurfaceMaterial& material) {
+  material.base_color = numbers.base_color;
+  material.emission = numbers.emission;
+  material.opacity = numbers.opacity;
+  material.roughness = numbers.roughness;
+  material.metallic = numbers.metallic;
+}
+
 SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int32_t(NodeId)>& image_of) {
   const auto* data = std::get_if<MaterialData>(&node.data);
   SurfaceMaterial material;
   if (!data) return material;
   const Lobes lobes = evaluate_lobes(*data);
-  const SurfaceNumbers numbers = surface_numbers(lobes, finish_tags(node));
-  material.base_color = numbers.base_color;
-  material.opacity = numbers.opacity;
+  set_numbers(surface_numbers(lobes, finish_tags(node)), material);
   material.refraction_index = std::clamp(lobes.refraction_index, 1.0f, 4.0f);
-  material.emission = numbers.emission;
-  material.metallic = numbers.metallic;
-  material.roughness = numbers.roughness;
   if (lobes.exact) {
     const Lobe& base = base_lobe(lobes);
     if (base.image != no_node) material.base_color_image = image_of(base.image);

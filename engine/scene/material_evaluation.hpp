@@ -24,6 +24,7 @@ struct SurfaceNumbers {
   float opacity = 1.0f, metallic = 0.0f, roughness = 0.7f;
 };
 SurfaceNumbers surface_numbers(const Lobes& lobes, const FinishTags& tags);
+void set_numbers(const SurfaceNumbers& numbers, SurfaceMaterial& material);
 
 /// Where the tree varies over the surface in a way that these numbers and one image cannot say (`Lobes::exact` is
 /// false) they are its means, without an image of the tree's: material_baking.hpp makes the pictures.

@@ -19,8 +19,6 @@ namespace {
 
 constexpr int deepest = 64;  ///< Depth limit of a tree; deeper parts are black.
 
-float mean_of_channels(const glm::vec3& color) { return (color.r + color.g + color.b) / 3.0f; }
-
 bool is_black(const Lobe& lobe) { return lobe.color == glm::vec3(0.0f); }
 
 Lobes plain(const glm::vec3& color, NodeId image = no_node) {

@@ -19,6 +19,8 @@
 
 namespace septet::scene {
 
+inline float mean_of_channels(const glm::vec3& color) { return (color.r + color.g + color.b) / 3.0f; }
+
 /// A colour (linear Rec. 709), times an image where there is one.
 struct Lobe {
   glm::vec3 color{0.0f};

@@ -25,6 +25,8 @@
 namespace septet::scene {
 
 inline constexpr std::uint32_t white_vertex = 0xFFFFFFFFu;
+/// Least opacity of a surface that is opaque: its alpha cuts holes, and is not blended.
+inline constexpr float opaque_from = 0.999f;
 
 struct SurfaceVertex {
   glm::vec3 position_m;

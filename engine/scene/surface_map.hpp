@@ -31,6 +31,11 @@ struct BySurfaceMap {
   bool operator==(const BySurfaceMap&) const = default;
 };
 
+/// True where a set of bits, one a map, has that of a map.
+constexpr bool has_map(std::uint32_t bits, SurfaceMap map) {
+  return (bits >> static_cast<std::uint32_t>(map) & 1u) != 0;
+}
+
 /// Indices of images; −1 where there is none.
 using SurfaceMapImages = BySurfaceMap<std::int32_t>;
 inline constexpr SurfaceMapImages no_surface_maps{{-1, -1, -1}};

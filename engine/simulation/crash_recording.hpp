@@ -7,8 +7,7 @@
 /// what touches longer slides, leans or pushes. Then the record changes no more but for how long the contact lasts, and
 /// it is told when both have parted, which is when neither has pushed the other for a quarter of a second, and two
 /// seconds after the touch at the latest. Until they part they have no second record: a push of ten seconds is one
-/// crash. What came to less than 0.5 m/s is neither told nor
-/// waited for.
+/// crash. What came to less than 0.5 m/s is neither told nor waited for.
 
 #include <optional>
 #include <vector>

@@ -84,8 +84,7 @@ class DrawingOf {
       using scene::SurfaceMap;
       // Vertices leave with one set of coordinates: what lies by the second stays behind.
       const auto map = [&](SurfaceMap which) {
-        const bool by_second_uv = (material.by_second_uv >> static_cast<std::uint32_t>(which) & 1u) != 0;
-        return by_second_uv ? -1 : picture(material.maps[which]);
+        return scene::has_map(material.by_second_uv, which) ? -1 : picture(material.maps[which]);
       };
       look.emission_picture = map(SurfaceMap::emission);
       look.properties_picture = map(SurfaceMap::properties);

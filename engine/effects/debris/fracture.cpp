@@ -360,9 +360,6 @@ Flow flow(Piece& piece, const Blow& blow) {
   if (yield <= 0.0) return result;
   if (!piece.body.shell.empty()) return flow_sheet(piece, blow);
   const auto lame = elastic::lame_constants(piece.body.material);
-  const auto deviator_of = [](const Eigen::Matrix3d& m) -> Eigen::Matrix3d {
-    return m - m.trace() / 3.0 * Eigen::Matrix3d::Identity();
-  };
   std::vector<std::size_t> struck;
   double struck_volume_m3 = 0.0;
   for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
@@ -370,11 +367,11 @@ Flow flow(Piece& piece, const Blow& blow) {
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
     if (f.determinant() <= 0.0 || piece.plastic_strain[k] >= most_plastic_strain) continue;
     if (blow.lost_j > 0.0 && !piece.body.step_stress_pa.empty() &&
-        std::sqrt(1.5) * blow.stress_factor * deviator_of(piece.body.step_stress_pa[k]).norm() > yield) {
+        std::sqrt(1.5) * blow.stress_factor * elastic::without_pressure(piece.body.step_stress_pa[k]).norm() > yield) {
       struck.push_back(k);
       struck_volume_m3 += e.rest_volume_m3;
     }
-    const Eigen::Matrix3d strain = elastic::green_strain(f), deviator = deviator_of(strain);
+    const Eigen::Matrix3d strain = elastic::green_strain(f), deviator = elastic::without_pressure(strain);
     const double von_mises = 2.0 * lame.mu_pa * std::sqrt(1.5) * deviator.norm();
     if (von_mises <= yield) continue;
     const double share = 1.0 - yield / von_mises;
@@ -397,8 +394,8 @@ Flow flow(Piece& piece, const Blow& blow) {
     Element& e = piece.body.elements[k];
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
     // The stress turned back to the rest frame.
-    const Eigen::Matrix3d at_rest = f.transpose() * deviator_of(piece.body.step_stress_pa[k]) * f;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(deviator_of(at_rest));
+    const Eigen::Matrix3d at_rest = f.transpose() * elastic::without_pressure(piece.body.step_stress_pa[k]) * f;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(elastic::without_pressure(at_rest));
     const Eigen::Vector3d way = eigen.eigenvalues().normalized();
     const Eigen::Vector3d undone = (-strain * way).array().exp();
     e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() * eigen.eigenvectors().transpose();

@@ -9,8 +9,6 @@
 
 namespace septet::debris {
 
-constexpr std::size_t tetrahedra_per_cube = 5;  // In sequence in lattice_mesh.
-
 elastic::Shell shell_of(const PartRecipe& recipe) {
   elastic::Shell shell;
   shell.across = axis_across(recipe);
@@ -50,7 +48,7 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
   }
   // A part one cube thick along the car breaks into whole cubes: a crash presses it flat, it splits across, and the
   // inner faces of a flat cube lie nearly along it. So does a sheet, whose cubes bend as wholes.
-  const std::size_t together = recipe.cells.x == 1 || recipe.sheet_m > 0.0 ? tetrahedra_per_cube : 1;
+  const std::size_t together = recipe.cells.x == 1 || recipe.sheet_m > 0.0 ? elastic::tetrahedra_per_cell : 1;
   std::vector<elastic::Tetrahedron> tetrahedra;
   for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
     const auto& e = piece.body.elements[k];

@@ -37,9 +37,8 @@ void restore_piece(StateReader& reader, Piece& piece) {
   piece.material = spread_material(recipe);
   piece.body.material = present_elastic(piece);
   piece.body.shell = shell_of(recipe);
-  constexpr int tetrahedra_per_cube = 5;
   elastic::restore_body(
-      reader, static_cast<std::size_t>(recipe.cells.x * recipe.cells.y * recipe.cells.z * tetrahedra_per_cube),
+      reader, static_cast<std::size_t>(recipe.cells.x * recipe.cells.y * recipe.cells.z * elastic::tetrahedra_per_cell),
       piece.body);
   const std::size_t elements = piece.body.elements.size();
   reader.require(piece.splinter.size() == elements && piece.plastic_strain.size() == elements, wrong);

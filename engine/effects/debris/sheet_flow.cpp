@@ -14,8 +14,7 @@ namespace septet::debris {
 namespace {
 
 using elastic::tetrahedra_per_cell;
-
-Eigen::Matrix3d without_pressure(const Eigen::Matrix3d& m) { return m - m.trace() / 3.0 * Eigen::Matrix3d::Identity(); }
+using elastic::without_pressure;
 
 /// Mean of the step's stress over a cell: its bending is not in it.
 Eigen::Matrix3d stress_of_cell_pa(const elastic::ElasticBody& body, std::size_t cell) {

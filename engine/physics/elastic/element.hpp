@@ -96,4 +96,9 @@ inline void add_volume_stiffness(const Element& e, const Eigen::Matrix3d& f, dou
   });
 }
 
+/// The deviator of a stress or strain.
+inline Eigen::Matrix3d without_pressure(const Eigen::Matrix3d& m) {
+  return m - m.trace() / 3.0 * Eigen::Matrix3d::Identity();
+}
+
 }  // namespace septet::elastic

@@ -30,7 +30,7 @@ std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, 
 vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels);
 
 /// True for a material whose alpha is its opacity, instead of cutting holes.
-inline bool is_blended(const scene::SurfaceMaterial& material) { return material.opacity < 0.999f; }
+inline bool is_blended(const scene::SurfaceMaterial& material) { return material.opacity < scene::opaque_from; }
 
 /// Makes anew those textures whose images have another revision, and those with holes that materials now read
 /// otherwise: alpha cuts where any opaque material has the image as its base colour.
