@@ -70,9 +70,10 @@ struct Look {
   std::int32_t emission_picture = -1;    ///< Multiplies emission.
   std::int32_t properties_picture = -1;  ///< Red: share of the light from around; green, blue: times the two below.
   std::int32_t normal_picture = -1;
-  PictureMapping mapping;               ///< Mapping of the pictures' coordinates.
-  PictureMapping second_mapping;        ///< Of the pictures that `by_second_uv` names.
-  std::uint32_t by_second_uv = 0;       ///< See scene::SurfaceMaterial.
+  PictureMapping mapping;          ///< Mapping of the pictures' coordinates.
+  PictureMapping second_mapping;   ///< Of the pictures that `by_second_uv` names.
+  std::uint32_t by_second_uv = 0;  ///< See scene::SurfaceMaterial; its bits are
+  static constexpr std::uint32_t emission_bit = 1, properties_bit = 2, normal_bit = 4;
   bool is_unlit = false;                ///< Shines with its base colour, whatever the light.
   bool ends_u = false, ends_v = false;  ///< One of its pictures does.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;

@@ -119,8 +119,6 @@ class Looks {
     return by_second ? std::optional(Laid{*image, *by_second}) : std::nullopt;
   }
 
-  /// Bits of Look::by_second_uv, in the order of scene::SurfaceMap.
-  static constexpr std::uint32_t emission_bit = 1, properties_bit = 2, normal_bit = 4;
   static void lay(const Laid& laid, std::uint32_t bit, std::int32_t picture, Look& look) {
     if (laid.by_second && picture >= 0) look.by_second_uv |= bit;
   }
@@ -177,7 +175,7 @@ class Looks {
     if (!image) return {};
     const PictureKey key = key_of(member_of(material, "emissiveTexture"), Use::emission, image->image);
     auto added = add(key, look, "emission", look.emission_picture, [](Image&) {});
-    lay(*image, emission_bit, look.emission_picture, look);
+    lay(*image, Look::emission_bit, look.emission_picture, look);
     return added;
   }
 
@@ -198,7 +196,7 @@ class Looks {
       dark = image_of(material, "occlusionTexture", look, "occlusion");
     if (!rough && !dark) return {};
     auto added = add_packed(material, rough, dark, look);
-    lay(rough ? *rough : *dark, properties_bit, look.properties_picture, look);
+    lay(rough ? *rough : *dark, Look::properties_bit, look.properties_picture, look);
     return added;
   }
 
@@ -248,7 +246,7 @@ class Looks {
     auto added = add(key, look, "normal", look.normal_picture, [&](Image& picture) {
       if (scale != 1.0f) scale_normals(picture, scale);
     });
-    lay(*image, normal_bit, look.normal_picture, look);
+    lay(*image, Look::normal_bit, look.normal_picture, look);
     return added;
   }
 

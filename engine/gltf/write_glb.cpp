@@ -7,93 +7,19 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/gltf/container.hpp"
+#include "engine/gltf/written_buffer.hpp"
+#include "engine/gltf/written_mesh.hpp"
+#include "engine/gltf/written_motion.hpp"
 #include "engine/image/png.hpp"
 
 namespace septet::gltf {
 namespace {
-
-/// Numbers of the format (3.6.2.2, 3.6.1.2 and 5.18.2).
-constexpr int float_numbers = 5126, unsigned_int_numbers = 5125, vertex_data = 34962, index_data = 34963;
-
-glm::vec3 file_axes(const glm::vec3& v) { return {v.y, v.z, v.x}; }
-Json list(const glm::vec3& v) { return {v.x, v.y, v.z}; }
-
-/// Chunks and views begin at multiples of four bytes.
-std::size_t whole_words(std::size_t size) { return (size + 3) / 4 * 4; }
-
-/// The binary chunk, and what the file says of it.
-class Buffer {
- public:
-  template <class Value>
-  std::size_t view(const std::vector<Value>& values, int target) {
-    return view(std::as_bytes(std::span(values)), target);
-  }
-  std::size_t view(std::span<const std::byte> values, int target = 0) {
-    bytes_.resize(whole_words(bytes_.size()));
-    Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", values.size()}};
-    if (target != 0) view["target"] = target;
-    ByteWriter(bytes_).put_bytes(values);
-    views_.push_back(std::move(view));
-    return views_.size() - 1;
-  }
-  std::size_t accessor(std::size_t view, int numbers, std::size_t count, const char* type, std::size_t offset = 0) {
-    accessors_.push_back({{"bufferView", view}, {"componentType", numbers}, {"count", count}, {"type", type}});
-    if (offset > 0) accessors_.back()["byteOffset"] = offset;
-    return accessors_.size() - 1;
-  }
-  Json& last_accessor() { return accessors_.back(); }
-  Bytes finish(Json& file) {
-    bytes_.resize(whole_words(bytes_.size()));
-    file["buffers"] = {{{"byteLength", bytes_.size()}}};
-    file["bufferViews"] = std::move(views_);
-    file["accessors"] = std::move(accessors_);
-    return std::move(bytes_);
-  }
-
- private:
-  Bytes bytes_;
-  Json views_ = Json::array(), accessors_ = Json::array();
-};
-
-Json written_mesh(const DrawnMesh& mesh, Buffer& buffer) {
-  std::vector<glm::vec3> positions, normals;
-  std::vector<glm::vec2> uvs;
-  positions.reserve(mesh.vertices.size());
-  normals.reserve(mesh.vertices.size());
-  uvs.reserve(mesh.vertices.size());
-  glm::vec3 least(std::numeric_limits<float>::max()), most(std::numeric_limits<float>::lowest());
-  for (const DrawnVertex& vertex : mesh.vertices) {
-    positions.push_back(file_axes(vertex.position_m));
-    least = glm::min(least, positions.back());
-    most = glm::max(most, positions.back());
-    const float length = glm::length(vertex.normal);
-    normals.push_back(length > 0.0f ? file_axes(vertex.normal) / length : glm::vec3(0.0f, 1.0f, 0.0f));
-    uvs.push_back(vertex.uv);
-  }
-  const std::size_t count = mesh.vertices.size();
-  const std::size_t position = buffer.accessor(buffer.view(positions, vertex_data), float_numbers, count, "VEC3");
-  buffer.last_accessor()["min"] = list(least);
-  buffer.last_accessor()["max"] = list(most);
-  const Json attributes = {
-      {"POSITION", position},
-      {"NORMAL", buffer.accessor(buffer.view(normals, vertex_data), float_numbers, count, "VEC3")},
-      {"TEXCOORD_0", buffer.accessor(buffer.view(uvs, vertex_data), float_numbers, count, "VEC2")}};
-  const std::size_t indices = buffer.view(mesh.indices, index_data);
-  Json primitives = Json::array();
-  for (const DrawnRun& run : mesh.runs)
-    primitives.push_back({{"attributes", attributes},
-                          {"indices", buffer.accessor(indices, unsigned_int_numbers, run.index_count, "SCALAR",
-                                                      sizeof(std::uint32_t) * run.first_index)},
-                          {"material", run.look}});
-  return {{"primitives", std::move(primitives)}};
-}
 
 bool has_holes(const image::Image& picture) {
   for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
@@ -107,20 +33,24 @@ Json written_look(const Look& look, const std::vector<Picture>& pictures, Json& 
                {"roughnessFactor", look.roughness}};
   Json material = {{"name", look.name}, {"doubleSided", look.two_sided}};
   if (look.opacity < 1.0f) material["alphaMode"] = "BLEND";
+  const auto texture = [&](std::int32_t picture, std::uint32_t bit) {
+    Json json = {{"index", picture}};
+    if ((look.by_second_uv & bit) != 0) json["texCoord"] = 1;
+    return json;
+  };
   if (look.picture >= 0) {
     base["baseColorTexture"] = {{"index", look.picture}};
     if (look.opacity >= 1.0f && has_holes(pictures[static_cast<std::size_t>(look.picture)]))
       material["alphaMode"] = "MASK";
   }
-  if (look.properties_picture >= 0) {
-    base["metallicRoughnessTexture"] = {{"index", look.properties_picture}};
-    material["occlusionTexture"] = {{"index", look.properties_picture}};
-  }
-  if (look.emission_picture >= 0) material["emissiveTexture"] = {{"index", look.emission_picture}};
-  if (look.normal_picture >= 0) material["normalTexture"] = {{"index", look.normal_picture}};
+  if (look.properties_picture >= 0)
+    base["metallicRoughnessTexture"] = material["occlusionTexture"] =
+        texture(look.properties_picture, Look::properties_bit);
+  if (look.emission_picture >= 0) material["emissiveTexture"] = texture(look.emission_picture, Look::emission_bit);
+  if (look.normal_picture >= 0) material["normalTexture"] = texture(look.normal_picture, Look::normal_bit);
   material["pbrMetallicRoughness"] = std::move(base);
   const float strength = std::max({look.emission.r, look.emission.g, look.emission.b});
-  if (strength > 0.0f) material["emissiveFactor"] = list(look.emission / std::max(strength, 1.0f));
+  if (strength > 0.0f) material["emissiveFactor"] = json_list(look.emission / std::max(strength, 1.0f));
   if (strength > 1.0f) {
     constexpr const char* extension = "KHR_materials_emissive_strength";
     material["extensions"][extension] = {{"emissiveStrength", strength}};
@@ -137,32 +67,56 @@ Json written_sampler(const Picture& picture) {
           {"wrapT", picture.ends_v ? ends : repeats}};
 }
 
+Json placed_node(const std::string& name, const RigidTransform& pose, const glm::vec3& scale) {
+  const auto& turn = pose.orientation;
+  return {{"name", name},
+          {"translation", json_list(file_axes(glm::vec3(pose.position_m)))},
+          {"rotation", {turn.y, turn.z, turn.x, turn.w}},
+          {"scale", json_list(file_axes(scale))}};
+}
+
+Json written_extra(const ExtraValue& value) {
+  if (const auto* list = std::get_if<glm::dvec3>(&value)) return {list->x, list->y, list->z};
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
+  return std::get<double>(value);
+}
+
+/// A thing that moves has a node for its motion, and one below it for its place in that.
+void write_nodes(const std::vector<DrawnNode>& drawn, WrittenBuffer& buffer, Json& file) {
+  Json roots = Json::array(), nodes = Json::array(), animation;
+  for (const DrawnNode& node : drawn) {
+    roots.push_back(nodes.size());
+    if (!node.keys.empty()) {
+      const PoseKey& rest = node.keys.front();
+      add_written_keys(node.keys, nodes.size(), buffer, animation);
+      nodes.push_back(placed_node(node.name, {Vec3(rest.position_m), Quat(rest.rotation)}, rest.scale));
+      nodes.back()["children"] = {nodes.size()};
+    }
+    nodes.push_back(placed_node(node.name, node.model_from_node, node.scale));
+    nodes.back()["mesh"] = node.mesh;
+  }
+  file["nodes"] = std::move(nodes);
+  file["scenes"] = {{{"nodes", std::move(roots)}}};
+  if (!animation.is_null()) file["animations"].push_back(std::move(animation));
+}
+
 }  // namespace
 
 Expected<Bytes> write_glb(const Drawing& drawing, const std::string& where) {
   if (drawing.nodes.empty()) return failure("nothing of it is drawn", where, "name a thing that has a shape");
   Json file = {{"asset", {{"version", "2.0"}, {"generator", "Septet"}}}, {"scene", 0}};
-  Buffer buffer;
+  WrittenBuffer buffer;
   for (const DrawnMesh& mesh : drawing.meshes) file["meshes"].push_back(written_mesh(mesh, buffer));
-  Json roots = Json::array();
-  for (const DrawnNode& node : drawing.nodes) {
-    const glm::vec3 place = file_axes(glm::vec3(node.model_from_node.position_m));
-    const auto& turn = node.model_from_node.orientation;
-    roots.push_back(roots.size());
-    file["nodes"].push_back({{"name", node.name},
-                             {"mesh", node.mesh},
-                             {"translation", list(place)},
-                             {"rotation", {turn.y, turn.z, turn.x, turn.w}},
-                             {"scale", list(file_axes(node.scale))}});
-  }
-  file["scenes"] = {{{"nodes", std::move(roots)}}};
+  write_nodes(drawing.nodes, buffer, file);
+  for (const Extra& extra : drawing.extras) file["nodes"][0]["extras"][extra.name] = written_extra(extra.value);
   Json extensions_used;
   for (const Look& look : drawing.looks)
     file["materials"].push_back(written_look(look, drawing.pictures, extensions_used));
   if (!extensions_used.is_null()) file["extensionsUsed"] = std::move(extensions_used);
   for (std::size_t i = 0; i < drawing.pictures.size(); ++i) {
     const auto png = image::encode_png(drawing.pictures[i]);
-    file["images"].push_back({{"bufferView", buffer.view(std::as_bytes(std::span(png)))}, {"mimeType", "image/png"}});
+    file["images"].push_back({{"bufferView", buffer.view(png, WrittenBuffer::no_target)}, {"mimeType", "image/png"}});
     file["textures"].push_back({{"source", i}, {"sampler", i}});
     file["samplers"].push_back(written_sampler(drawing.pictures[i]));
   }

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "engine/gltf/write_glb.hpp"
+#include "engine/math/pose_keys.hpp"
+#include "engine/scene/keyed_part.hpp"
 #include "engine/scene/part_role.hpp"
 #include "engine/scene/resolve.hpp"
 
@@ -50,12 +52,37 @@ class DrawingOf {
   explicit DrawingOf(const scene::ResolvedScene& scene) : scene_(scene) {}
 
   void add(const scene::Instance& instance, const std::string& name) {
-    if (instance.mesh >= scene_.meshes.size() || instance.visible_from_m > 0.0f || instance.scale == glm::vec3(0.0f))
-      return;
+    if (instance.mesh >= scene_.meshes.size() || instance.visible_from_m > 0.0f) return;
+    if (!instance.keyed && instance.scale == glm::vec3(0.0f)) return;
     // A wheel or a lamp is called as the reader of models knows it.
     const bool is_part = instance.role != scene::PartRole::fixed;
-    drawing_.nodes.push_back({is_part ? std::string(scene::name_of(instance.role)) : name, mesh(instance.mesh),
-                              instance.world_from_object, instance.scale});
+    gltf::DrawnNode node{is_part ? std::string(scene::name_of(instance.role)) : name, mesh(instance.mesh),
+                         instance.world_from_object, instance.scale};
+    if (const scene::KeyedPart* keyed = instance.keyed.get()) {
+      node.model_from_node = keyed->below.pose;
+      node.scale = keyed->below.scale;
+      for (const PoseKey& key : keyed->keys) {
+        const auto at = scene::child_of(keyed->above, {Vec3(key.position_m), Quat(key.rotation)}, key.scale);
+        node.keys.push_back({key.at_s, glm::vec3(at.pose.position_m), glm::quat(at.pose.orientation), at.scale});
+      }
+    }
+    drawing_.nodes.push_back(std::move(node));
+  }
+  void add_extras(const scene::Node& object) {
+    for (const auto& [group_id, group] : object.tag_groups) {
+      if (group.name != "extras") continue;
+      for (const auto& [tag_id, tag] : group.tags) {
+        gltf::Extra extra{tag.name, {}};
+        if (const auto* truth = std::get_if<bool>(&tag.value)) extra.value = *truth;
+        if (const auto* number = std::get_if<double>(&tag.value)) extra.value = *number;
+        if (const auto* count = std::get_if<std::uint32_t>(&tag.value)) extra.value = static_cast<double>(*count);
+        if (const auto* text = std::get_if<std::string>(&tag.value)) extra.value = *text;
+        if (const auto* list = std::get_if<Vec3>(&tag.value)) extra.value = *list;
+        const bool has_no_form =
+            std::holds_alternative<scene::NodeReference>(tag.value) || std::holds_alternative<scene::Blob>(tag.value);
+        if (!has_no_form) drawing_.extras.push_back(std::move(extra));
+      }
+    }
   }
   gltf::Drawing take() { return std::move(drawing_); }
 
@@ -66,7 +93,8 @@ class DrawingOf {
     const scene::SurfaceMesh& mesh = scene_.meshes[index];
     gltf::DrawnMesh drawn{{}, mesh.indices, {}};
     drawn.vertices.reserve(mesh.vertices.size());
-    for (const scene::SurfaceVertex& v : mesh.vertices) drawn.vertices.push_back({v.position_m, v.normal, v.uv});
+    for (const scene::SurfaceVertex& v : mesh.vertices)
+      drawn.vertices.push_back({v.position_m, v.normal, v.uv, v.color, v.tangent, v.second_uv});
     for (const scene::MeshPart& part : mesh.parts)
       drawn.runs.push_back({part.first_index, part.index_count, look(part.material)});
     drawing_.meshes.push_back(std::move(drawn));
@@ -82,13 +110,11 @@ class DrawingOf {
       look.base_color = material.base_color;
       look.picture = picture(material.base_color_image);
       using scene::SurfaceMap;
-      // Vertices leave with one set of coordinates: what lies by the second stays behind.
-      const auto map = [&](SurfaceMap which) {
-        return scene::has_map(material.by_second_uv, which) ? -1 : picture(material.maps[which]);
-      };
-      look.emission_picture = map(SurfaceMap::emission);
-      look.properties_picture = map(SurfaceMap::properties);
-      look.normal_picture = map(SurfaceMap::normal);
+      look.emission_picture = picture(material.maps[SurfaceMap::emission]);
+      look.properties_picture = picture(material.maps[SurfaceMap::properties]);
+      look.normal_picture = picture(material.maps[SurfaceMap::normal]);
+      look.by_second_uv = material.by_second_uv;
+      if (material.takes_paint) look.name = "paint";
       look.roughness = material.roughness;
       look.metallic = material.metallic;
       look.opacity = material.opacity;
@@ -129,6 +155,7 @@ Expected<Bytes> exported_model(const scene::Store& store, scene::NodeId object, 
   for (const scene::Instance& instance : scene.instances) drawing.add(instance, name);
   for (const scene::Prototype& prototype : scene.prototypes)
     for (const scene::Instance& part : prototype.parts) drawing.add(part, name);
+  if (const scene::Node* node = store.find(object)) drawing.add_extras(*node);
   return gltf::write_glb(drawing.take(), name);
 }
 
