@@ -77,8 +77,9 @@ struct Look {
   bool is_unlit = false;                ///< Shines with its base colour, whatever the light.
   bool ends_u = false, ends_v = false;  ///< One of its pictures does.
   float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
-  glm::vec3 emission{0.0f};  ///< A picture of the base colour does not colour it.
-  bool two_sided = false;    ///< The file's `doubleSided`.
+  bool alpha_blends = false;  ///< The picture's alpha multiplies the opacity; otherwise it cuts out below ½.
+  glm::vec3 emission{0.0f};   ///< A picture of the base colour does not colour it.
+  bool two_sided = false;     ///< The file's `doubleSided`.
 
   bool has_picture() const {
     return picture >= 0 || emission_picture >= 0 || properties_picture >= 0 || normal_picture >= 0;

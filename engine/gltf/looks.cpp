@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
+#include "engine/gltf/alpha_pictures.hpp"
 #include "engine/gltf/linear_pictures.hpp"
 #include "engine/gltf/pictures.hpp"
 
@@ -47,7 +48,8 @@ class Looks {
     look.base_color = factor_of(metallic_roughness, "baseColorFactor", glm::vec3(1.0f), 1.0f);
     const Json& factors = list_of(metallic_roughness, "baseColorFactor");
     const std::string mode = text_in(material, "alphaMode");
-    if (mode == "BLEND" && factors.size() > 3 && factors[3].is_number()) look.opacity = share(factors[3].get<double>());
+    const float alpha = factors.size() > 3 && factors[3].is_number() ? share(factors[3].get<double>()) : 1.0f;
+    if (mode == "BLEND") look.opacity = alpha;
     const Json& through = extension_in(material, "KHR_materials_transmission");
     look.opacity *= 1.0f - 0.9f * share(number_in(through, "transmissionFactor", 0.0));
     look.metallic = share(number_in(metallic_roughness, "metallicFactor", 1.0));
@@ -62,7 +64,9 @@ class Looks {
     look.is_unlit = is_unlit;
     mapping_.reset();
     second_mapping_.reset();
-    if (auto added = add_base_color(metallic_roughness, mode, look); !added) return tl::unexpected(added.error());
+    const float cutoff = share(number_in(material, "alphaCutoff", 0.5)) / std::max(alpha, 0.01f);
+    if (auto added = add_base_color(metallic_roughness, mode, cutoff, look); !added)
+      return tl::unexpected(added.error());
     if (is_unlit) {
       if (auto shining = shine(metallic_roughness, look); !shining) return tl::unexpected(shining.error());
     } else if (auto added = add_emission(material, look); !added) {
@@ -134,24 +138,28 @@ class Looks {
     return pictures_.read(image, fmt::format("material \"{}\" is drawn without its {} texture", look.name, what));
   }
 
-  Expected<void> add_base_color(const Json& metallic_roughness, const std::string& mode, Look& look) {
+  /// `cutoff`: alpha of the picture below which it is cut out.
+  Expected<void> add_base_color(const Json& metallic_roughness, const std::string& mode, float cutoff, Look& look) {
     if (!metallic_roughness.contains("baseColorTexture")) return {};
     const Json& texture = member_of(metallic_roughness, "baseColorTexture");
     const auto image = pictures_.image_of(texture);
     if (!image)
       return failure(fmt::format("material \"{}\" has a texture without an image", look.name), container_.where,
                      export_anew);
-    // Alpha cuts out only where the material asks for it.
-    const bool cut = mode == "MASK" || mode == "BLEND";
-    const PictureKey key = key_of(texture, cut ? Use::cut_out : Use::base_color, *image);
+    // Alpha counts only where the material asks for it.
+    const bool blends = mode == "BLEND", cuts = mode == "MASK";
+    PictureKey key = key_of(texture, cuts ? Use::cut_out : blends ? Use::blended : Use::base_color, *image);
+    if (cuts) key.strength = cutoff;
     if (const auto known = pictures_.find(key)) {
       look.picture = *known;
     } else {
       auto picture = pictures_.read(*image, fmt::format("material \"{}\" has its plain colour", look.name));
       if (!picture) return tl::unexpected(picture.error());
       if (!*picture) return {};
+      if (cuts) move_cutoff(**picture, cutoff);
       look.picture = pictures_.keep(key, std::move(**picture));
     }
+    look.alpha_blends = blends && is_see_through(model_.pictures[static_cast<std::size_t>(look.picture)]);
     lies_by_second(texture, look, "base colour");
     return {};
   }

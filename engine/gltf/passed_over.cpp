@@ -70,6 +70,12 @@ std::vector<std::string> passed_over(const Container& container) {
   constexpr std::int64_t triangle_list = 4;
   tell(meshes_with([](const Json& primitive) { return index_in(primitive, "mode", triangle_list) < triangle_list; }),
        "has points or lines, which are not drawn");
+  tell(those(file, "materials", "material",
+             [](const Json& material) {
+               const Json& through = extension_in(material, "KHR_materials_transmission");
+               return through.is_object() && through.contains("transmissionTexture");
+             }),
+       "lets light through as a texture says, which is a constant here: its factor");
   tell(those(file, "cameras", "camera", [](const Json&) { return true; }), "is not read");
   const std::int64_t shown = index_in(file, "scene", 0);
   if (const Json& scenes = list_of(file, "scenes"); scenes.size() > 1)

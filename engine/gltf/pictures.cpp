@@ -158,7 +158,7 @@ std::int32_t Pictures::keep(const PictureKey& key, Image picture) {
   picture = with_mirror_image(picture, right, below);
   while (std::max(picture.width, picture.height) > drawn_picture_px) picture = halved(picture);
   using Use = PictureKey::Use;
-  if (key.use != Use::cut_out)
+  if (key.use != Use::cut_out && key.use != Use::blended)
     for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
   const auto index = static_cast<std::int32_t>(model_.pictures.size());
   const bool is_linear = key.use == Use::properties || key.use == Use::normal;

@@ -24,7 +24,7 @@ struct Wrapping {
 
 /// What a picture is made of: its purpose, its images, their strength and which way it is mirrored.
 struct PictureKey {
-  enum class Use : std::uint8_t { base_color, cut_out, emission, properties, normal };
+  enum class Use : std::uint8_t { base_color, cut_out, blended, emission, properties, normal };
   Use use = Use::base_color;
   std::int64_t image = -1, second_image = -1;
   float strength = 1.0f;

@@ -44,7 +44,8 @@ Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const glt
     material.by_second_uv = look.by_second_uv;
     material.roughness = std::max(look.roughness, 0.05f);
     material.metallic = look.metallic;
-    material.opacity = look.opacity;
+    // Just see-through enough that alpha is an opacity.
+    material.opacity = look.alpha_blends ? std::min(look.opacity, scene::opaque_from - 0.001f) : look.opacity;
     material.emission = look.emission;
     material.two_sided = look.two_sided;
     material.takes_paint = without_number(look.name) == "paint";

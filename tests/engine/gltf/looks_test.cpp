@@ -157,4 +157,51 @@ TEST_CASE("an unlit material shines with its base colour, which no light changes
   CHECK(look.roughness == 1.0f);
 }
 
+TEST_CASE("a picture's alpha blends where the material asks for it and more than soft edges are half there") {
+  Image half(8, 8, {200, 100, 50, 128}), edges(8, 8, {200, 100, 50, 255});
+  for (std::uint32_t x = 0; x < 8; ++x) edges.set(x, 0, {200, 100, 50, 0});
+  edges.set(0, 1, {200, 100, 50, 128});
+  const auto look_of = [](const char* mode, const Image& picture) {
+    const Model model = with_material(
+        fmt::format(R"({{"alphaMode":"{}","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}})", mode),
+        {picture});
+    CHECK(model.pictures.at(0).at(0, 0).alpha == (std::string_view(mode) == "OPAQUE" ? 255 : picture.at(0, 0).alpha));
+    return model.looks.at(0);
+  };
+  CHECK(look_of("BLEND", half).alpha_blends);
+  CHECK(look_of("BLEND", half).opacity == 1.0f);
+  CHECK_FALSE(look_of("BLEND", edges).alpha_blends);
+  CHECK_FALSE(look_of("MASK", half).alpha_blends);
+  CHECK_FALSE(look_of("OPAQUE", half).alpha_blends);
+}
+
+TEST_CASE("what is below a material's own cutoff is cut out, and nothing else") {
+  Image ramp(256, 1, some);
+  for (std::uint32_t x = 0; x < 256; ++x) ramp.set(x, 0, {200, 100, 50, static_cast<std::uint8_t>(x)});
+  struct Cutoff {
+    double cutoff, factor;
+  };
+  for (const Cutoff& of :
+       {Cutoff{0.5, 1.0}, {0.25, 1.0}, {0.75, 1.0}, {0.0, 1.0}, {1.0, 1.0}, {0.3, 0.5}, {0.6, 0.5}}) {
+    CAPTURE(of.cutoff);
+    const Model model =
+        with_material(fmt::format(R"({{"alphaMode":"MASK","alphaCutoff":{},"pbrMetallicRoughness":)"
+                                  R"({{"baseColorFactor":[1,1,1,{}],"baseColorTexture":{{"index":0}}}}}})",
+                                  of.cutoff, of.factor),
+                      {ramp});
+    for (std::uint32_t x = 0; x < 256; ++x) {
+      const bool is_there = x / 255.0 * of.factor >= of.cutoff;
+      CHECK((model.pictures.at(0).at(x, 0).alpha >= 128) == is_there);
+    }
+  }
+}
+
+TEST_CASE("a texture of what lets light through is told as the constant that it becomes") {
+  const Model model = with_material(R"({"name":"bottle","extensions":{"KHR_materials_transmission":)"
+                                    R"({"transmissionFactor":0.5,"transmissionTexture":{"index":0}}}})",
+                                    {Image(2, 2, some)});
+  CHECK(model.left_out == Sentences{"material \"bottle\" lets light through as a texture says, which is a constant "
+                                    "here: its factor"});
+}
+
 }  // namespace septet::gltf
