@@ -88,7 +88,7 @@ DeviceMaterial device_material(const SurfaceMaterial& material, std::span<const 
   result.wettable = material.wettable && !result.cut;
   result.coated = material.clear_coat > 0.0f && !result.cut && !result.blended && !result.wettable;
   result.stripe = material.stripe;
-  result.two_sided = material.two_sided && !result.cut && !result.blended && !result.stripe;
+  result.two_sided = material.two_sided && !result.cut && !result.stripe;
   result.in_street = material.in_street;
   // Fresnel at normal incidence, ((n − 1)/(n + 1))².
   const float ratio = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);

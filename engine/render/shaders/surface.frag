@@ -33,7 +33,7 @@ layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn for a wet road'
 layout(constant_id = 10) const uint fading = 0;         // Some pixels show another level of detail.
 
 layout(constant_id = 11) const uint retroreflective = 0;
-layout(constant_id = 16) const uint two_sided = 0;  // Opaque, and drawn from both sides.
+layout(constant_id = 16) const uint two_sided = 0;  // Not cut, and lit from both sides.
 layout(constant_id = 17) const uint in_street = 0;  // A wall along a street, between houses.
 layout(constant_id = 12) const uint over_frames = 0;  // See surface.vert.
 // Images of the material beside that of its base colour (scene::SurfaceMap). Bits: 1 emission, 2 properties, 4 normal.
