@@ -134,8 +134,16 @@ class Reader {
     }
     if (!(largest > 0.0f)) return {};
 
-    for (PoseKey& key : growing.part.keys) key.scale /= largest;
-    place.part_from_parent = glm::mat4(glm::mat3(largest));
+    // What mirrors is turned inside out once, with its triangles, and not by its keys.
+    float least = 0.0f, most = 0.0f;
+    for (const PoseKey& key : growing.part.keys) {
+      least = std::min(least, key.scale.x * key.scale.y * key.scale.z);
+      most = std::max(most, key.scale.x * key.scale.y * key.scale.z);
+    }
+    const bool mirrors = least < 0.0f && most <= 0.0f;
+    const float size = mirrors ? -largest : largest;
+    for (PoseKey& key : growing.part.keys) key.scale /= size;
+    place.part_from_parent = glm::mat4(glm::mat3(size));
     return {};
   }
 

@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -112,6 +113,25 @@ TEST_CASE("a part that an animation lets grow from nothing keeps its lengths in 
   CHECK(part.keys.front().scale == glm::vec3(0.0f));
   CHECK(is_near(part.mesh.vertices_m.at(1), {0, 500, 0}));
   CHECK(is_near(place_at(part, 1, 0.5), {0, 250, 0}));
+}
+
+TEST_CASE("a moving node that mirrors has its triangles turned round, and keys that do not mirror") {
+  for (const bool mirrors : {false, true}) {
+    CAPTURE(mirrors);
+    File file = moving();
+    file.nodes = fmt::format(R"([{{"mesh":0,"scale":[{},2,2]}}])", mirrors ? -2 : 2);
+    const Part part = model_of(file).parts.at(0);
+    for (const PoseKey& key : part.keys) CHECK(key.scale.x * key.scale.y * key.scale.z > 0.0f);
+    // glTF's x is y here: the corners (0, 0, 0), (1, 0, 0), (0, 1, 0) of a triangle that looks forward.
+    glm::vec3 sum(0.0f);
+    const auto& corners = part.mesh.polygons.at(0);
+    for (std::size_t k = 0; k < 3; ++k) sum += place_at(part, corners[k], 1.0);
+    CHECK(is_near(sum, {6, mirrors ? -2 : 2, 2}));
+    const glm::vec3 first = place_at(part, corners[0], 1.0);
+    const glm::vec3 front =
+        glm::cross(place_at(part, corners[1], 1.0) - first, place_at(part, corners[2], 1.0) - first);
+    CHECK(front.x > 0.0f);
+  }
 }
 
 TEST_CASE("a part that moves by its name is moved by no animation, which is told") {
