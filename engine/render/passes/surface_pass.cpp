@@ -125,7 +125,13 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
       }
     if (draw.material != bound_material) push_constants(context, std::as_bytes(std::span(&material.constants, 1)));
     bound_material = draw.material;
-    record_draw(context, draw, bound);
+    if (kind != SurfaceKind::blended || !material.two_sided) return record_draw(context, draw, bound);
+    // Of what is seen through, the far side first.
+    for (const VkCullModeFlags side : {VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT}) {
+      vkCmdSetCullMode(commands, side);
+      record_draw(context, draw, bound);
+    }
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
   };
   if (kind == SurfaceKind::blended)
     std::for_each(draws.list.rbegin(), draws.list.rend(), draw_one);

@@ -104,4 +104,27 @@ TEST_CASE("a see-through mesh in poses is blended as one that stands, from both 
     }
 }
 
+TEST_CASE("of a two-sided see-through mesh the far side is drawn before the near one, in whatever order they stand") {
+  const auto seen = [](bool near_first) {
+    scene::ResolvedScene scene = instant::plate_scene({.two_sided = true, .opacity = 0.5f}, true);
+    scene::SurfaceMesh& box = scene.meshes[0];
+    box.bounds_max_m.x = 1.0f;
+    for (std::size_t i = 0; i < 4; ++i) {
+      scene::SurfaceVertex far = box.vertices[i];
+      far.position_m.x = 1.0f;
+      far.normal = -far.normal;
+      far.color = 0xFF000000u;
+      box.vertices.push_back(far);
+    }
+    const std::vector<std::uint32_t> near_side = box.indices, far_side{4, 6, 5, 4, 7, 6};
+    box.indices = near_first ? near_side : far_side;
+    const auto& last = near_first ? far_side : near_side;
+    box.indices.insert(box.indices.end(), last.begin(), last.end());
+    box.parts[0].index_count = 12;
+    return rasterised(scene, input_at(0.5, 64, false));
+  };
+  const glm::dvec3 near_first = seen(true), far_first = seen(false);
+  CHECK(glm::length(near_first - far_first) < 0.002 * glm::length(far_first));
+}
+
 }  // namespace septet::render::bent_glass
