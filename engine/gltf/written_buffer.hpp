@@ -4,11 +4,9 @@
 
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <nlohmann/json.hpp>
 
 #include "engine/core/bytes.hpp"
 #include "engine/gltf/container.hpp"
@@ -17,10 +15,21 @@ namespace septet::gltf {
 
 /// The file has y up, z forward and x left (3.4).
 inline glm::vec3 file_axes(const glm::vec3& v) { return {v.y, v.z, v.x}; }
-inline Json json_list(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+Json json_list(const glm::vec3& v);
 
 /// Chunks and views begin at multiples of four bytes.
 constexpr std::size_t whole_words(std::size_t size) { return (size + 3) / 4 * 4; }
+
+/// Rows of numbers in a view.
+struct WrittenAccessor {
+  std::size_t view = 0;
+  int numbers = 0;  ///< WrittenBuffer::floats and the like.
+  std::size_t count = 0;
+  const char* type = "SCALAR";
+  std::size_t offset = 0;
+  bool is_normalized = false;
+  std::vector<float> least{}, most{};  ///< Of each number of a row; empty: not told.
+};
 
 class WrittenBuffer {
  public:
@@ -32,33 +41,21 @@ class WrittenBuffer {
   std::size_t view(const std::vector<Value>& values, int target) {
     return view(std::as_bytes(std::span(values)), target);
   }
-  std::size_t view(std::span<const std::byte> values, int target) {
-    bytes_.resize(whole_words(bytes_.size()));
-    Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", values.size()}};
-    if (target != no_target) view["target"] = target;
-    ByteWriter(bytes_).put_bytes(values);
-    views_.push_back(std::move(view));
-    return views_.size() - 1;
-  }
-  std::size_t accessor(std::size_t view, int numbers, std::size_t count, const char* type, std::size_t offset = 0) {
-    accessors_.push_back({{"bufferView", view}, {"componentType", numbers}, {"count", count}, {"type", type}});
-    if (offset > 0) accessors_.back()["byteOffset"] = offset;
-    return accessors_.size() - 1;
-  }
-  Json& last_accessor() { return accessors_.back(); }
+  /// Both return the number by which the file knows it.
+  std::size_t view(std::span<const std::byte> values, int target);
+  std::size_t accessor(const WrittenAccessor& accessor);
 
   /// The bytes; `file` gets what it says of them.
-  Bytes finish(Json& file) {
-    bytes_.resize(whole_words(bytes_.size()));
-    file["buffers"] = {{{"byteLength", bytes_.size()}}};
-    file["bufferViews"] = std::move(views_);
-    file["accessors"] = std::move(accessors_);
-    return std::move(bytes_);
-  }
+  Bytes finish(Json& file);
 
  private:
+  struct View {
+    std::size_t offset, size;
+    int target;
+  };
   Bytes bytes_;
-  Json views_ = Json::array(), accessors_ = Json::array();
+  std::vector<View> views_;
+  std::vector<WrittenAccessor> accessors_;
 };
 
 }  // namespace septet::gltf

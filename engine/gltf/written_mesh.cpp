@@ -35,7 +35,10 @@ glm::vec4 written_tangent(std::uint32_t code) {
 
 template <class Value>
 std::size_t written_rows(const std::vector<Value>& rows, const char* type, WrittenBuffer& buffer) {
-  return buffer.accessor(buffer.view(rows, WrittenBuffer::vertex_data), WrittenBuffer::floats, rows.size(), type);
+  return buffer.accessor({.view = buffer.view(rows, WrittenBuffer::vertex_data),
+                          .numbers = WrittenBuffer::floats,
+                          .count = rows.size(),
+                          .type = type});
 }
 
 }  // namespace
@@ -61,18 +64,22 @@ Json written_mesh(const DrawnMesh& mesh, WrittenBuffer& buffer) {
     has_second_uvs |= vertex.second_uv != glm::vec2(0.0f);
     has_tangents |= vertex.tangent != 0;
   }
-  const std::size_t position = written_rows(positions, "VEC3", buffer);
-  buffer.last_accessor()["min"] = json_list(least);
-  buffer.last_accessor()["max"] = json_list(most);
+  const std::size_t position = buffer.accessor({.view = buffer.view(positions, WrittenBuffer::vertex_data),
+                                                .numbers = WrittenBuffer::floats,
+                                                .count = positions.size(),
+                                                .type = "VEC3",
+                                                .least = {least.x, least.y, least.z},
+                                                .most = {most.x, most.y, most.z}});
   Json attributes = {{"POSITION", position},
                      {"NORMAL", written_rows(normals, "VEC3", buffer)},
                      {"TEXCOORD_0", written_rows(uvs, "VEC2", buffer)}};
   if (has_second_uvs) attributes["TEXCOORD_1"] = written_rows(second_uvs, "VEC2", buffer);
-  if (has_colors) {
-    attributes["COLOR_0"] = buffer.accessor(buffer.view(colors, WrittenBuffer::vertex_data),
-                                            WrittenBuffer::unsigned_bytes, colors.size(), "VEC4");
-    buffer.last_accessor()["normalized"] = true;
-  }
+  if (has_colors)
+    attributes["COLOR_0"] = buffer.accessor({.view = buffer.view(colors, WrittenBuffer::vertex_data),
+                                             .numbers = WrittenBuffer::unsigned_bytes,
+                                             .count = colors.size(),
+                                             .type = "VEC4",
+                                             .is_normalized = true});
   Json with_tangents = attributes;
   if (has_tangents) with_tangents["TANGENT"] = written_rows(tangents, "VEC4", buffer);
   const std::size_t indices = buffer.view(mesh.indices, WrittenBuffer::index_data);
@@ -82,8 +89,10 @@ Json written_mesh(const DrawnMesh& mesh, WrittenBuffer& buffer) {
     const bool all_have_tangents =
         std::ranges::all_of(corners, [&](std::uint32_t vertex) { return mesh.vertices[vertex].tangent != 0; });
     primitives.push_back({{"attributes", all_have_tangents ? with_tangents : attributes},
-                          {"indices", buffer.accessor(indices, WrittenBuffer::unsigned_ints, run.index_count, "SCALAR",
-                                                      sizeof(std::uint32_t) * run.first_index)},
+                          {"indices", buffer.accessor({.view = indices,
+                                                       .numbers = WrittenBuffer::unsigned_ints,
+                                                       .count = run.index_count,
+                                                       .offset = sizeof(std::uint32_t) * run.first_index})},
                           {"material", run.look}});
   }
   return {{"primitives", std::move(primitives)}};

@@ -49,12 +49,15 @@ void add_channel(const std::vector<TimedValue>& values, const char* path, std::s
     times_s.push_back(at.at_s);
     for (std::size_t k = 0; k < width; ++k) numbers.push_back(at.value[static_cast<glm::length_t>(k)]);
   }
-  const std::size_t input = buffer.accessor(buffer.view(times_s, WrittenBuffer::no_target), WrittenBuffer::floats,
-                                            times_s.size(), "SCALAR");
-  buffer.last_accessor()["min"].push_back(times_s.front());
-  buffer.last_accessor()["max"].push_back(times_s.back());
-  const std::size_t output = buffer.accessor(buffer.view(numbers, WrittenBuffer::no_target), WrittenBuffer::floats,
-                                             times_s.size(), width == 4 ? "VEC4" : "VEC3");
+  const std::size_t input = buffer.accessor({.view = buffer.view(times_s, WrittenBuffer::no_target),
+                                             .numbers = WrittenBuffer::floats,
+                                             .count = times_s.size(),
+                                             .least = {times_s.front()},
+                                             .most = {times_s.back()}});
+  const std::size_t output = buffer.accessor({.view = buffer.view(numbers, WrittenBuffer::no_target),
+                                              .numbers = WrittenBuffer::floats,
+                                              .count = times_s.size(),
+                                              .type = width == 4 ? "VEC4" : "VEC3"});
   animation["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", steps ? "STEP" : "LINEAR"}});
   animation["channels"].push_back(
       {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
@@ -79,8 +82,8 @@ void add_written_keys(const std::vector<PoseKey>& keys, std::size_t node, Writte
   for (const Path& path : paths) {
     std::vector<TimedValue> values;
     for (const PoseKey& key : keys) values.push_back({key.at_s, path.value_of(key)});
-    const bool changes = std::ranges::any_of(
-        values, [&](const TimedValue& at) { return at.value != values.front().value; });
+    const bool changes =
+        std::ranges::any_of(values, [&](const TimedValue& at) { return at.value != values.front().value; });
     if (changes) add_channel(values, path.name, path.width, node, buffer, animation);
   }
 }

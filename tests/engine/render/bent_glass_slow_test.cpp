@@ -14,6 +14,7 @@
 #include "engine/scene/keyed_part.hpp"
 #include "tests/engine/instant/two_sided_plate.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::render::bent_glass {
 namespace {
@@ -99,7 +100,7 @@ TEST_CASE("a see-through mesh in poses is blended as one that stands, from both 
         CHECK(glm::length(gone - behind) < noise * glm::length(behind));
         // Neither whole nor gone: about half way.
         const double share = glm::dot(there - behind, whole - behind) / glm::dot(whole - behind, whole - behind);
-        CHECK(share == doctest::Approx(0.5).epsilon(0.2));
+        CHECK(share == relative(0.5, 0.2));
       }
     }
 }
