@@ -81,6 +81,7 @@ void add_written_keys(const std::vector<PoseKey>& keys, std::size_t node, Writte
   }};
   for (const Path& path : paths) {
     std::vector<TimedValue> values;
+    values.reserve(keys.size());
     for (const PoseKey& key : keys) values.push_back({key.at_s, path.value_of(key)});
     const bool changes =
         std::ranges::any_of(values, [&](const TimedValue& at) { return at.value != values.front().value; });

@@ -72,8 +72,7 @@ instant::FrameInput input_at(const scene::ResolvedScene& scene, double time_s) {
 
 void paste(const image::Image& picture, std::uint32_t x, std::uint32_t y, image::Image& sheet) {
   for (std::uint32_t row = 0; row < side_px; ++row)
-    for (std::uint32_t column = 0; column < side_px; ++column)
-      sheet.set(x + column, y + row, picture.at(column, row));
+    for (std::uint32_t column = 0; column < side_px; ++column) sheet.set(x + column, y + row, picture.at(column, row));
 }
 
 void draw(const std::filesystem::path& file, double period_s, const std::filesystem::path& out) {
