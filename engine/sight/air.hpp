@@ -9,8 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "engine/math/rigid_transform.hpp"
 
 namespace septet::sight {
+
+/// Optical depth of the air between two places. Empty: it hides nothing.
+using OpticalDepth = std::function<double(const Vec3& from_m, const Vec3& to_m)>;
 
 inline constexpr double reflecting_depth = 3.0, shining_depth = 8.0;
 /// Optical depth up to which an object is seen.

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
+#include "engine/effects/smoke/visibility.hpp"
 #include "engine/sight/air.hpp"
 
 namespace septet::simulation {
@@ -15,6 +18,16 @@ Air air_of(const State& state) {
               sight::fall_extinction_per_m(weather.rain_mm_per_h, weather.temperature_k);
   air.natural_lx = weather.sun_illuminance_lux * std::max(0.0, std::sin(weather.sun_elevation_rad));
   return air;
+}
+
+double depth_between(const Air& air, const Vec3& from_m, const Vec3& to_m) {
+  const double depth = air.per_m * glm::distance(from_m, to_m);
+  return air.smoke ? depth + smoke::optical_depth(*air.smoke, from_m, to_m) : depth;
+}
+
+sight::OpticalDepth depth_for_lamps(const Air& air, double within_m) {
+  if (!air.smoke && air.per_m * within_m <= sight::shining_depth) return {};
+  return [air](const Vec3& from_m, const Vec3& to_m) { return depth_between(air, from_m, to_m); };
 }
 
 bool shines(const State& state, const Participant& vehicle) {

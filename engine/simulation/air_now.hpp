@@ -3,6 +3,7 @@
 ///
 /// SI units; lux. Pure functions.
 
+#include "engine/sight/air.hpp"
 #include "engine/simulation/state.hpp"
 
 namespace septet::simulation {
@@ -15,6 +16,12 @@ struct Air {
 
 /// The state must live as long.
 Air air_of(const State& state);
+
+/// Optical depth between two places.
+double depth_between(const Air& air, const Vec3& from_m, const Vec3& to_m);
+
+/// The same for those who look for lamps `within_m`; empty where the air hides no lamp so near.
+sight::OpticalDepth depth_for_lamps(const Air& air, double within_m);
 
 /// True of a vehicle whose lamps are lit, or that burns.
 bool shines(const State& state, const Participant& vehicle);

@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "engine/effects/smoke/visibility.hpp"
 #include "engine/sight/air.hpp"
 #include "engine/sight/lookout.hpp"
 #include "engine/simulation/air_now.hpp"
@@ -47,8 +46,7 @@ struct Through {
 
   bool sees(const Vec3& place_m, bool shining) const {
     const double away_m = glm::distance(eye_m, place_m);
-    double depth = air.per_m * away_m;
-    if (air.smoke) depth += smoke::optical_depth(*air.smoke, eye_m, place_m);
+    const double depth = depth_between(air, eye_m, place_m);
     if (shining && depth <= sight::shining_depth) return true;
     double light_lx = lit_lx;
     if (beams_rad && light_lx < sight::full_light_lx) {

@@ -9,6 +9,7 @@
 
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/physics/vehicle/planar_body.hpp"
+#include "engine/simulation/air_now.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/broken_off.hpp"
 #include "engine/simulation/collisions.hpp"
@@ -24,6 +25,7 @@
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/simulation/way_ahead.hpp"
+#include "engine/traffic/network/approach_view.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -132,7 +134,8 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   DrivenCar car = advance_car(model, state, events);
   advance_storyboard(model, car, state, events);
   if (!model.lights.empty()) state.traffic->show_lights(lit_heads(model, state.time_s()));
-  state.traffic->limit_sight(state.sights);
+  state.traffic->limit_sight(
+      {state.sights, depth_for_lamps(air_of(state), traffic::farthest_looked_for_m), state.gone});
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   if (auto remark = state.traffic->take_remark()) events.push_back({"traffic", std::nullopt, std::move(*remark)});

@@ -19,6 +19,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/core/hash.hpp"
+#include "engine/sight/air.hpp"
 #include "engine/sight/walls.hpp"
 #include "engine/traffic/traffic.hpp"
 #include "engine/world/traffic_light.hpp"
@@ -30,10 +31,17 @@ class StateWriter;
 
 namespace septet::traffic {
 
+/// What limits drivers' sight in the next tick.
+struct SightNow {
+  std::span<const LimitedSight> limited;  ///< How much of the road ahead is seen: they stop within it.
+  sight::OpticalDepth air;                ///< Valid for that tick.
+  std::span<const std::uint32_t> gone;    ///< Things whose walls do not stand, ascending.
+};
+
 class TrafficEngine {
  public:
   virtual ~TrafficEngine() = default;
-  /// Walls past which drivers do not see. An engine without this ability, or without junctions, ignores them.
+  /// Walls past which drivers do not see; they outlive the engine. An engine without this ability, or without junctions, ignores them.
   virtual void see_walls(const sight::Walls& /*walls*/) {}
   /// Starts a swarm around the first foreign vehicle; an earlier one is removed.
   virtual void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) = 0;
@@ -44,8 +52,8 @@ class TrafficEngine {
   /// Advances by one tick. `foreign` has the same vehicles in the same order each time;
   /// new ones come last.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
-  /// Limits how far drivers see, before each tick's `advance`: they go so fast that they stop within it. An engine without this ability ignores it.
-  virtual void limit_sight(std::span<const LimitedSight> /*sights*/) {}
+  /// Before each tick's `advance`. An engine without this ability ignores it.
+  virtual void limit_sight(SightNow /*now*/) {}
   /// Gives a vehicle up: from now on others move it, and it comes back as a foreign one, the last in their order.
   /// False: it has none of that number, or keeps it.
   virtual bool release(ParticipantId /*id*/) { return false; }

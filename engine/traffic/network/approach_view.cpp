@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+
+#include "engine/world/participant_sight.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -40,15 +43,20 @@ std::optional<Vec3> place_before(const LaneGraph& graph, WayIndex index, double 
   return std::nullopt;
 }
 
+/// What a look at a place meets. Who is `last` there comes before all farther back.
+enum class Look : std::uint8_t { seen, hidden, last };
+
 /// How far back all of the way to `entry` is seen, where no stretch as long as a car is hidden.
-template <class IsHidden>
-double seen_back_m(const LaneGraph& graph, WayIndex entry, double back_m, const IsHidden& is_hidden) {
+template <class LookAt>
+double seen_back_m(const LaneGraph& graph, WayIndex entry, double back_m, const LookAt& look_at) {
   double seen_m = 0.0;
   bool before_is_hidden = false;
   for (double m = 0.0; m <= back_m; m += look_step_m) {
     const auto place = place_before(graph, entry, m);
     if (!place) return always;
-    const bool hides = is_hidden(*place + Vec3(0.0, 0.0, looked_for_height_m));
+    const Look look = look_at(*place + Vec3(0.0, 0.0, looked_for_height_m));
+    if (look == Look::last) return always;
+    const bool hides = look == Look::hidden;
     if (hides && before_is_hidden) return seen_m;
     if (!hides) seen_m = m;
     before_is_hidden = hides;
@@ -56,17 +64,25 @@ double seen_back_m(const LaneGraph& graph, WayIndex entry, double back_m, const 
   return always;
 }
 
+/// True where a box stands before a place, which is this far along the line.
+bool stands_before(const sight::Box& box, const sight::Line& line, double away_m) {
+  const auto entry_m = sight::entry_m(box, line);
+  return entry_m && *entry_m > 0.0 && *entry_m < away_m;
+}
+
 using SeenBack = std::array<double, looks_before_m.size()>;
 
 /// What is seen of the way to his entry from each distance before the stop line of the way to mine.
-SeenBack seen_from_each(const sight::Walls& walls, const LaneGraph& graph, WayIndex mine, double line_before_m,
-                        WayIndex his) {
+SeenBack seen_from_each(const sight::Walls& walls, std::span<const std::uint32_t> gone, const LaneGraph& graph,
+                        WayIndex mine, double line_before_m, WayIndex his) {
   SeenBack seen;
   for (std::size_t k = 0; k < seen.size(); ++k) {
     const auto place = place_before(graph, mine, looks_before_m[k] + line_before_m + eye_behind_m);
-    const auto hides = [&](const Vec3& there) { return walls.hide(*place + Vec3(0.0, 0.0, eye_height_m), there); };
+    const auto look_at = [&](const Vec3& there) {
+      return walls.hide(*place + Vec3(0.0, 0.0, eye_height_m), there, gone) ? Look::hidden : Look::seen;
+    };
     // Who begins nearer than that has seen nothing from there.
-    seen[k] = place ? seen_back_m(graph, his, most_back_m, hides) : always;
+    seen[k] = place ? seen_back_m(graph, his, most_back_m, look_at) : always;
   }
   return seen;
 }
@@ -99,7 +115,7 @@ double looked_for_back_m(const Way& mine, const WayConflict& conflict, const Way
   return std::clamp(critical_gap_s(mine) * most_mps_on(his) - within_m, look_step_m, most_back_m);
 }
 
-void look_past_walls(const sight::Walls& walls, LaneGraph& graph) {
+void look_past_walls(const sight::Walls& walls, LaneGraph& graph, std::span<const std::uint32_t> gone) {
   // Connections share the roads by which they are reached.
   std::map<std::pair<WayIndex, WayIndex>, SeenBack> known;
   for (const Way& mine : graph.ways)
@@ -117,7 +133,7 @@ void look_past_walls(const sight::Walls& walls, LaneGraph& graph) {
         const double line_before_m = way.in_junction() ? 0.0 : way.line_before_m;
         at = known
                  .emplace(std::pair(before, his_before),
-                          seen_from_each(walls, graph, mine.entry, line_before_m, his.entry))
+                          seen_from_each(walls, gone, graph, mine.entry, line_before_m, his.entry))
                  .first;
       }
       conflict.seen_from_m = seen_from(at->second, looked_for_back_m(mine, conflict, his));
@@ -144,20 +160,26 @@ std::vector<HiddenConnection> hidden_connections(const road::RoadNetwork& networ
   return hidden;
 }
 
-bool is_hidden_by(std::span<const sight::Box> boxes, const LaneGraph& graph, const Vec3& eye_m, const Way& his,
-                  double back_m) {
-  const auto hides = [&](const Vec3& there) {
+bool hides_behind(const VehicleModel& model) { return opaque_height_m(model) > eye_height_m; }
+
+bool is_hidden_by(std::span<const HighBody> bodies, const sight::OpticalDepth& air, const LaneGraph& graph,
+                  const Vec3& eye_m, const Way& his, double back_m) {
+  const auto look_at = [&](const Vec3& there) {
     const double away_m = glm::distance(eye_m, there);
-    if (!(away_m > 0.0)) return false;
+    if (!(away_m > 0.0)) return Look::seen;
     const sight::Line line{eye_m, (there - eye_m) / away_m};
-    return std::ranges::any_of(boxes, [&](const sight::Box& box) {
-      const auto entry_m = sight::entry_m(box, line);
-      if (!entry_m || !(*entry_m > 0.0) || *entry_m >= away_m) return false;
+    bool is_hidden = false;
+    for (const HighBody& body : bodies) {
+      const bool is_within = sight::entry_m(body.box, {there, line.direction}) == 0.0;
+      if (is_within && body.moves) return Look::last;
       // A place within a body is not behind it.
-      return sight::entry_m(box, {there, line.direction}) != 0.0;
-    });
+      is_hidden = is_hidden || (!is_within && stands_before(body.box, line, away_m));
+    }
+    // Who comes has his lamps lit.
+    is_hidden = is_hidden || (air && air(eye_m, there) > sight::shining_depth);
+    return is_hidden ? Look::hidden : Look::seen;
   };
-  return seen_back_m(graph, his.entry, back_m, hides) < back_m;
+  return seen_back_m(graph, his.entry, back_m, look_at) < back_m;
 }
 
 }  // namespace septet::traffic

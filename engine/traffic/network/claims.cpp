@@ -6,9 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town_stages.hpp"
-#include "engine/world/participant_sight.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -21,12 +19,7 @@ constexpr double courtesy_s = 25.0;  ///< Then those who can stop let him in.
 constexpr double tired_s = 5.0;      ///< Each time another way is chosen, if what lies beyond this one is full.
 constexpr double at_line_m = 8.0, stands_mps = 0.5;
 
-/// What a claim covers: ways [first, last] of the route, up to the first stretch beyond that holds the vehicle.
-struct Passage {
-  std::size_t first = 0, last = 0;
-  double begin_m = 0.0;  ///< Of the first way, from the route's begin.
-};
-
+/// What a claim covers.
 Passage passage_from(const LaneGraph& graph, const TownVehicle& vehicle, std::size_t first, double begin_m) {
   Passage passage{first, first, begin_m};
   double free_m = 0.0;
@@ -208,46 +201,6 @@ bool is_anothers_turn(const LaneGraph& graph, const Presences& presences, const 
   return false;
 }
 
-/// True where, by a function of a way and its conflict, one of those in the passage's first junction is hidden from a
-/// driver who has not come to its line yet.
-template <class Hides>
-bool hides_any(const LaneGraph& graph, const TownVehicle& vehicle, const Passage& passage, double line_m,
-               const Hides& hides) {
-  constexpr double looks_s = 2.0;  // Who stands so long before it does not get any nearer.
-  if (line_m <= at_stop_line_m || vehicle.waits_s > looks_s) return false;
-  const std::uint32_t junction = graph.ways[vehicle.route[passage.first]].junction;
-  for (std::size_t k = passage.first; k <= passage.last; ++k) {
-    const Way& mine = graph.ways[vehicle.route[k]];
-    if (mine.junction != junction) break;
-    for (const WayConflict& conflict : graph.conflicts_of(mine))
-      if (hides(mine, conflict)) return true;
-  }
-  return false;
-}
-
-bool walls_hide(const LaneGraph& graph, const TownVehicle& vehicle, const Passage& passage, double line_m) {
-  return hides_any(graph, vehicle, passage, line_m,
-                   [&](const Way&, const WayConflict& conflict) { return line_m > conflict.seen_from_m; });
-}
-
-bool bodies_hide(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
-                 const Passage& passage, double line_m) {
-  if (presences.high.empty()) return false;
-  constexpr double around_m = 60.0;
-  const double up_m = driver_eyes_m(vehicle_models()[vehicle.model]).z;
-  const Vec3 eyes_m = place_on_route(graph, vehicle, vehicle.front_m - eye_behind_m).position_m + Vec3(0.0, 0.0, up_m);
-  std::vector<sight::Box> around;
-  for (const HighBody& body : presences.high)
-    if (body.who != self && glm::distance(body.box.world_from_box.position_m, eyes_m) < around_m)
-      around.push_back(body.box);
-  if (around.empty()) return false;
-  return hides_any(graph, vehicle, passage, line_m, [&](const Way& mine, const WayConflict& conflict) {
-    const Way& his = graph.ways[conflict.with];
-    return conflict.kind != WayConflict::Kind::diverging && yields_to(mine, his) &&
-           is_hidden_by(around, graph, eyes_m, his, looked_for_back_m(mine, conflict, his));
-  });
-}
-
 /// Tells that a driver has come to see a junction that was hidden.
 void see_junction(double line_m, TownState& town, TownVehicle& vehicle) {
   if (const double hidden_s = std::exchange(vehicle.hidden_s, 0.0); hidden_s > 0.0)
@@ -387,7 +340,7 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
     see_junction(line_m, town, vehicle);
     return stop_m;
   }
-  if (looks && bodies_hide(graph, presences, vehicle, self, passage, line_m)) {
+  if (looks && bodies_or_air_hide(graph, presences, town, index, passage, line_m)) {
     vehicle.hidden_s += dt_s;
     return stop_m;
   }

@@ -16,9 +16,9 @@ SEPTET_MEMBERS(Swerve, own, over, from_m, to_m, left_m)
 SEPTET_MEMBER_GROUPS(TownVehicle, hashed(id), kept(model, paint, driver, law, urge),
                      hashed(outside, route, front_m, speed_mps, acceleration_mps2), kept(rolled_m),
                      hashed(claims, unused_s, waits_s), kept(stands_s, hidden_s), hashed(swerve, is_held))
-// Sights are given anew each tick, openings taken in it.
-SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights, openings), hashed(claims, foreign_stands_s),
-                     kept(bad_numbers, next_id))
+// Sights and air are given anew each tick, openings taken in it.
+SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights, air, openings),
+                     hashed(claims, foreign_stands_s), kept(bad_numbers, next_id))
 
 namespace {
 
@@ -53,7 +53,10 @@ class NetworkTraffic final : public TrafficEngine {
   NetworkTraffic(const road::RoadNetwork& network, LaneGraph graph, std::uint64_t seed)
       : network_(network), graph_(std::move(graph)), random_(seed, 1) {}
 
-  void see_walls(const sight::Walls& walls) override { look_past_walls(walls, graph_); }
+  void see_walls(const sight::Walls& walls) override {
+    walls_ = &walls;
+    look_past_walls(walls, graph_, gone_);
+  }
   void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     parameters_ = parameters;
     town_ = populate_town(parameters_, network_, graph_, foreign, random_);
@@ -66,7 +69,13 @@ class NetworkTraffic final : public TrafficEngine {
     if (before_s < swarm_remark_s && town_.time_s >= swarm_remark_s)
       remark_ = swarm_remark(town_.vehicles.size(), on_road());
   }
-  void limit_sight(std::span<const LimitedSight> sights) override { town_.sights.assign(sights.begin(), sights.end()); }
+  void limit_sight(SightNow now) override {
+    town_.sights.assign(now.limited.begin(), now.limited.end());
+    town_.air = std::move(now.air);
+    if (std::ranges::equal(now.gone, gone_)) return;
+    gone_.assign(now.gone.begin(), now.gone.end());
+    if (walls_) look_past_walls(*walls_, graph_, gone_);
+  }
   bool release(ParticipantId id) override {
     const auto found = std::ranges::find(town_.vehicles, id, &TownVehicle::id);
     if (found == town_.vehicles.end()) return false;
@@ -106,6 +115,8 @@ class NetworkTraffic final : public TrafficEngine {
 
   const road::RoadNetwork& network_;
   LaneGraph graph_;
+  const sight::Walls* walls_ = nullptr;
+  std::vector<std::uint32_t> gone_;  ///< Things whose walls `graph_` takes not to stand.
   TrafficParameters parameters_;
   TownState town_;
   std::vector<TrafficLight> lights_;  ///< Of this tick.

@@ -124,31 +124,13 @@ void add_foreign(const road::RoadNetwork& network, const LaneGraph& graph, const
   }
 }
 
-/// True for one that stands and hides what is behind it from a car's driver.
-bool stands_high(const VehicleModel& model, double speed_mps) {
-  constexpr double stands_below_mps = 0.5;
-  return speed_mps < stands_below_mps && opaque_height_m(model) > eye_height_m;
-}
-
-void add_own_if_high(const LaneGraph& graph, const TownVehicle& vehicle, std::int32_t who,
-                     std::vector<HighBody>& high) {
-  const VehicleModel& model = vehicle_models()[vehicle.model];
-  if (!stands_high(model, vehicle.speed_mps)) return;
-  const BodyOnRoute on_route = body_on_route(graph, vehicle);
-  Participant body;
-  body.model = vehicle.model;
-  const double heading = std::atan2(on_route.forwards.y, on_route.forwards.x);
-  body.world_from_vehicle = {on_route.rear_axle_m, orientation_from_angles(heading, 0.0, 0.0)};
-  if (const auto box = opaque_box_of(body)) high.push_back({who, *box});
-}
-
 void add_foreign_if_high(const ForeignVehicle& vehicle, std::int32_t who, std::vector<HighBody>& high) {
-  if (!stands_high(vehicle.shape(), glm::length(vehicle.velocity_mps))) return;
+  if (!hides_behind(vehicle.shape())) return;
   Participant body;
   body.model = vehicle.model;
   body.world_from_vehicle = vehicle.world_from_vehicle;
   if (vehicle.box_size_m) set_box_size(*vehicle.box_size_m, body);
-  if (const auto box = opaque_box_of(body)) high.push_back({who, *box});
+  if (const auto box = opaque_box_of(body)) high.push_back({who, does_move(glm::length(vehicle.velocity_mps)), *box});
 }
 
 }  // namespace
@@ -160,7 +142,6 @@ Presences find_presences(const road::RoadNetwork& network, const LaneGraph& grap
   for (std::size_t i = 0; i < town.vehicles.size(); ++i)
     if (!town.vehicles[i].outside) {
       add_own(graph, town.vehicles[i], static_cast<std::int32_t>(i), all);
-      add_own_if_high(graph, town.vehicles[i], static_cast<std::int32_t>(i), found.high);
       if (town.vehicles[i].swerve) add_swerve(graph, town.vehicles[i], static_cast<std::int32_t>(i), all);
     }
   town.foreign_stands_s.resize(foreign.size(), 0.0);

@@ -18,7 +18,7 @@
 /// next one pass one goes first (courtesy).
 ///
 /// Nobody claims a junction before its driver has those in view to whom he gives way: past walls, which the graph knows
-/// (approach_view.hpp), and past vans, lorries and the like that stand. At the line he is taken to see them.
+/// (approach_view.hpp), past vans, lorries and the like, and through smoke and fog. At the line he is taken to see them.
 ///
 /// Foreign vehicles are bodies on whatever ways their outline touches, and come to junctions like others; where they
 /// are going is told by their indicator at most.
@@ -36,6 +36,7 @@
 #include <vector>
 
 #include "engine/core/random.hpp"
+#include "engine/sight/air.hpp"
 #include "engine/traffic/driver.hpp"
 #include "engine/traffic/network/lane_graph.hpp"
 #include "engine/traffic/traffic.hpp"
@@ -82,6 +83,7 @@ struct TownState {
   std::vector<TownVehicle> vehicles;
   double time_s = 0.0;
   std::vector<LimitedSight> sights;      ///< The caller's, of this tick.
+  sight::OpticalDepth air;               ///< The same.
   std::vector<ViewOpening> openings;     ///< Of this tick.
   std::uint64_t claims = 0;              ///< Given so far.
   std::vector<double> foreign_stands_s;  ///< One a foreign vehicle.

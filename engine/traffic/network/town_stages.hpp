@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/sight/line_of_sight.hpp"
+#include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town.hpp"
 
 namespace septet::traffic {
@@ -24,17 +24,11 @@ struct Presence {
   bool is_there() const { return front_m > 0.0; }
 };
 
-/// A body that stands and is higher than drivers' eyes. `who` as of a presence.
-struct HighBody {
-  std::int32_t who = 0;
-  sight::Box box;
-};
-
 /// All presences, by way.
 struct Presences {
   std::vector<Presence> all;
   std::vector<std::uint32_t> first;  ///< By way; one more at the end.
-  std::vector<HighBody> high;
+  std::vector<HighBody> high;        ///< Foreign ones.
 
   std::span<const Presence> on(WayIndex way) const { return {all.data() + first[way], first[way + 1] - first[way]}; }
 };
@@ -96,6 +90,20 @@ struct Leader {
   std::int32_t who = std::numeric_limits<std::int32_t>::min();
 };
 Leader leader_of(const LaneGraph& graph, const Presences& presences, const TownState& town, std::size_t vehicle);
+
+/// A junction that a vehicle has before it: ways [first, last] of its route are those in it, and in all that come before
+/// the first stretch beyond that holds it.
+struct Passage {
+  std::size_t first = 0, last = 0;
+  double begin_m = 0.0;  ///< Of the first way, from the route's begin.
+};
+
+/// True where walls hide those who have right of way in a passage's first junction from a driver who has not come to its
+/// line, `line_m` before him, yet.
+bool walls_hide(const LaneGraph& graph, const TownVehicle& vehicle, const Passage& passage, double line_m);
+/// The same of bodies, smoke and fog in this tick.
+bool bodies_or_air_hide(const LaneGraph& graph, const Presences& presences, const TownState& town, std::size_t vehicle,
+                        const Passage& passage, double line_m);
 
 /// Stage 2: claims a vehicle's next junction if it is due, in view and free. Returns the distance from its front to the line at
 /// which it is to stop; infinite if there is none.

@@ -4,10 +4,13 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
+#include "engine/sight/air.hpp"
 #include "engine/sight/walls.hpp"
 #include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town.hpp"
@@ -67,11 +70,12 @@ struct Crossed {
 };
 
 Crossed cross(const LaneGraph& graph, const road::RoadNetwork& network, TownState town,
-              std::span<const ForeignVehicle> foreign = {}, double seconds = 60.0) {
+              std::vector<ForeignVehicle> foreign = {}, double seconds = 60.0) {
   Random random(1);
   Crossed crossed;
   const std::size_t cars = town.vehicles.size();
   for (double t = 0.0; t < seconds; t += step_s) {
+    for (ForeignVehicle& other : foreign) other.world_from_vehicle.position_m += step_s * other.velocity_mps;
     advance_town(motorway_traffic(0, 1000.0), network, graph, {}, foreign, step_s, random, town);
     for (const ViewOpening& opening : town.openings)
       if (opening.driver == first_car_id) crossed.opened_m = opening.line_m, crossed.hidden_s = opening.hidden_s;
@@ -160,11 +164,73 @@ TEST_CASE("where a house ends a van parked at the corner still hides the junctio
     ForeignVehicle parked;
     parked.model = find_vehicle_model(model).value();
     parked.world_from_vehicle.position_m = Vec3(-16.0, -5.2, 0.0);
-    return cross(graph, network, car_from_west(network, graph), std::span(&parked, 1)).opened_m;
+    return cross(graph, network, car_from_west(network, graph), {parked}).opened_m;
   };
   CHECK(opened_m("van") < 2.5);
   CHECK(opened_m("van") > 0.0);
   CHECK(opened_m("volvo-s80") > 9.5);
+}
+
+TEST_CASE("a lorry that passes hides who comes behind it, and a car does not") {
+  const road::RoadNetwork network = crossing(false, Posted::signs);
+  const LaneGraph graph = graph_with(network, {});
+  const auto hidden_s = [&](const char* model) {
+    ForeignVehicle oncoming;
+    oncoming.model = find_vehicle_model(model).value();
+    oncoming.world_from_vehicle = {Vec3(-45.0, 1.75, 0.0), orientation_from_angles(std::numbers::pi, 0.0, 0.0)};
+    oncoming.velocity_mps = Vec3(-4.0, 0.0, 0.0);
+    return cross(graph, network, car_from_west(network, graph), {oncoming}).hidden_s;
+  };
+  CHECK(hidden_s("lorry") > 0.5);
+  CHECK(hidden_s("volvo-s80") == 0.0);
+}
+
+TEST_CASE("who comes behind one that hides him on his own way is not looked for, unless that one stands") {
+  const road::RoadNetwork network = crossing(false, Posted::signs);
+  const LaneGraph graph = graph_with(network, {});
+  const Way& his = graph.ways[way_of_road(network, graph, "south-north", true)];
+  const Vec3 eyes_m(0.0, -8.0, 1.2);
+  HighBody lorry{.who = 1, .moves = true, .box = {{Vec3(1.75, -30.0, 1.8)}, Vec3(1.25, 6.0, 1.8)}};
+  CHECK_FALSE(is_hidden_by(std::span(&lorry, 1), {}, graph, eyes_m, his, 60.0));
+  lorry.moves = false;
+  CHECK(is_hidden_by(std::span(&lorry, 1), {}, graph, eyes_m, his, 60.0));
+}
+
+TEST_CASE("a driver goes through smoke, or fog, to a junction so that he can stop at its line") {
+  const road::RoadNetwork network = crossing(false, Posted::signs);
+  const LaneGraph graph = graph_with(network, {});
+  const auto in_air = [&](sight::OpticalDepth air) {
+    TownState town = car_from_west(network, graph);
+    town.air = std::move(air);
+    return cross(graph, network, std::move(town));
+  };
+  const auto fog = [](double per_m) {
+    return [per_m](const Vec3& from_m, const Vec3& to_m) { return per_m * glm::distance(from_m, to_m); };
+  };
+  CHECK(in_air(fog(0.05)).hidden_s == 0.0);
+  const Crossed thick = in_air(fog(0.5));
+  CHECK(thick.hidden_s > 2.0);
+  CHECK(thick.opened_m < 2.5);
+  CHECK(thick.line_mps < 4.0);
+  // A cloud over the arm of the south alone.
+  const Crossed cloud =
+      in_air([](const Vec3&, const Vec3& to_m) { return to_m.y < -15.0 ? sight::shining_depth + 1.0 : 0.0; });
+  CHECK(cloud.opened_m < 2.5);
+  CHECK(cloud.line_mps < 4.0);
+}
+
+TEST_CASE("a house that is taken away hides nobody, and hides again once it is back") {
+  const road::RoadNetwork network = crossing(false, Posted::signs);
+  std::vector<sight::Wall> walls = house({-90.0, -90.0}, {-10.0, -6.0});
+  for (sight::Wall& wall : walls) wall.thing = 7;
+  const sight::Walls house_7(std::move(walls));
+  LaneGraph graph = graph_with(network, house_7);
+  const std::uint32_t gone = 7;
+  CHECK(seen_from_m(network, graph, "west-east", "south-north") == 0.0);
+  look_past_walls(house_7, graph, std::span(&gone, 1));
+  CHECK(seen_from_m(network, graph, "west-east", "south-north") == std::numeric_limits<double>::infinity());
+  look_past_walls(house_7, graph);
+  CHECK(seen_from_m(network, graph, "west-east", "south-north") == 0.0);
 }
 
 TEST_CASE("between houses at all corners nobody waits for ever") {

@@ -29,7 +29,7 @@ double fastest_mps(std::optional<double> seen_m) {
     std::vector<LimitedSight> sights;
     if (seen_m && tick > 5 * 120)
       for (const Participant& vehicle : vehicles) sights.push_back({vehicle.id, *seen_m});
-    engine->limit_sight(sights);
+    engine->limit_sight({.limited = sights, .air = {}, .gone = {}});
     engine->advance(std::span(&car, 1), within_tick_s);
     vehicles.clear();
     engine->append_participants(vehicles);
