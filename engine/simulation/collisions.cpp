@@ -149,7 +149,8 @@ class Contacts {
     take(a, first_before.body, first.body);
     take(b, second_before.body, second.body);
     OpenCrash* crash = find_open_crash(state_, contact.first, contact.second);
-    if (impact && !crash) crash = &open(participants_[a], participants_[b], first_before, second_before, *impact);
+    if (impact && begins_record(crash, impact->pulse.impulse.closing_mps))
+      crash = &open(participants_[a], participants_[b], first_before, second_before, *impact);
     if (!crash || contact.engagement.given_ns == given_before_ns) return impact;
     note_push(state_.tick,
               {first.body, second.body, contact.engagement.given_ns - given_before_ns,
@@ -200,7 +201,8 @@ class Contacts {
     } else {
       begin_impact(model_, first, second, state_);
     }
-    if (!find_open_crash(state_, first.id, second.id)) open(first, second, own, other, *impact);
+    if (begins_record(find_open_crash(state_, first.id, second.id), impact->pulse.impulse.closing_mps))
+      open(first, second, own, other, *impact);
     if (is_new) tell(first, second, own, other, &*impact);
     state_.effects.crashes.struck_vehicles.push_back(crash_of(first, second, *impact));
   }

@@ -21,6 +21,8 @@ constexpr auto told_within_ticks = static_cast<Tick>(told_within_s * tick_rate_h
 static_assert(told_within_ticks > longest_ticks + parted_ticks);
 /// A record of less is not told: bodies that lean on each other.
 constexpr double least_mps = 0.5;
+/// A car that shoves another comes on again by less.
+constexpr double blow_mps = 1.0;
 
 double kinetic_j(const impact::Body& body) {
   impact::Body at_rest = body;
@@ -127,6 +129,10 @@ OpenCrash* find_open_crash_with_run(State& state, ParticipantId first, std::uint
   return latest(state.open_crashes, [&](const OpenCrash& crash) {
     return crash.record.first == first && !crash.record.second && crash.run == run;
   });
+}
+
+bool begins_record(const OpenCrash* known, double closing_mps) {
+  return !known || (known->is_impact_over && closing_mps >= blow_mps);
 }
 
 void note_first(const impact::Body& body, double ahead_m, bool is_pushed, OpenCrash& crash) {

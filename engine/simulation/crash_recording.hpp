@@ -6,8 +6,8 @@
 /// changes nothing of the drive. The impact is over when nothing has pushed for 50 ms, and after a second at the latest:
 /// what touches longer slides, leans or pushes. Then the record changes no more but for how long the contact lasts, and
 /// it is told when both have parted, which is when neither has pushed the other for a quarter of a second, and two
-/// seconds after the touch at the latest. Until they part they have no second record: a push of ten seconds is one
-/// crash. What came to less than 0.5 m/s is neither told nor waited for.
+/// seconds after the touch at the latest. Until they part a push of ten seconds is one crash; a blow of 1 m/s or more
+/// after the impact begins a record of its own. What came to less than 0.5 m/s is neither told nor waited for.
 
 #include <optional>
 #include <vector>
@@ -29,10 +29,14 @@ struct CrashTouch {
 /// Begins a record; the bodies' numbers, and what the outlines tell, are for the caller to add.
 OpenCrash& open_crash(const CrashTouch& touch, State& state);
 
-/// The record of these two, who are in contact; null where there is none.
+/// The latest record of these two, who are in contact; null where there is none.
 OpenCrash* find_open_crash(State& state, ParticipantId first, ParticipantId second);
 /// Likewise of one and what stands, of whom each touch has its own: the latest.
 OpenCrash* find_open_crash_with_run(State& state, ParticipantId first, std::uint32_t run);
+
+/// True where a touch of two, of whom this is the open record, begins one: they have none, or its impact is over and it
+/// is a blow rather than a push.
+bool begins_record(const OpenCrash* known, double closing_mps);
 
 /// Notes a side at the touch. `ahead_m`: of its mass centre from the vehicle's origin; `is_pushed`: its pushes will be
 /// noted, and so its motion is known from now on.

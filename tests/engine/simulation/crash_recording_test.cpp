@@ -321,6 +321,34 @@ TEST_CASE(
   CHECK(site.count(crash_event) == 2);
 }
 
+TEST_CASE("a second blow so soon after a push that they have not parted is a crash of its own") {
+  CrashSite site(plane_model(1), {{0.0, 0.0, 0.0}, {}}, 4.0,
+                 {placed_participant(first_struck, "saloon", 5.5, 0.0, 0.0, 0.0)});
+  const auto drive_at = [&](double mps, int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      site.state.car.velocity_mps = Vec3(mps, 0.0, 0.0);
+      site.tick();
+    }
+  };
+  drive_at(4.0, 100);
+  REQUIRE(site.state.open_crashes.size() == 1);
+  const Tick pushed = site.state.open_crashes.front().last_in_contact;
+  drive_at(1.0, 8);
+  while (site.state.open_crashes.size() == 1 && site.state.tick < pushed + 30) drive_at(9.0, 1);
+  REQUIRE(site.state.open_crashes.size() == 2);
+  CHECK(site.state.open_crashes.back().record.closing_speed_mps > 1.0);
+  drive_at(0.0, 120);
+  CHECK(site.count(crash_event) == 2);
+  for (const Event& event : site.events) {
+    if (event.kind != crash_event) continue;
+    const auto record = read_crash(*event.participant, event.detail);
+    REQUIRE(record.has_value());
+    REQUIRE(record->ledger.has_value());
+    CHECK(share_missing(*record->ledger) < 0.001);
+    CHECK(record->of_second.delta_v_mps->x > 0.5);
+  }
+}
+
 TEST_CASE("a blow is told a quarter of a second after its last push, with a contact no longer than its impact") {
   CrashSite site = site_of(pairs[0]);
   Tick last_push = 0;
