@@ -9,7 +9,7 @@ namespace septet::car_io {
 SimulatedDriverCar::SimulatedDriverCar(driver::DriverParameters parameters, std::uint64_t seed,
                                        const road::RoadNetwork& network, const sight::Walls* walls)
     : driver_(std::move(parameters), seed), network_(&network) {
-  if (walls) driver_.hidden = traffic::hidden_connections(network, *walls);
+  if (walls) driver_.views = traffic::approach_views(network, *walls);
   port_.plug();
 }
 

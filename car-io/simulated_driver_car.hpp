@@ -18,7 +18,7 @@ namespace septet::car_io {
 /// The network must live as long.
 class SimulatedDriverCar {
  public:
-  /// `walls` hide junctions from the driver; null: there are none.
+  /// `walls` hide junctions from the driver; null: nothing does, vans neither.
   SimulatedDriverCar(driver::DriverParameters parameters, std::uint64_t seed, const road::RoadNetwork& network,
                      const sight::Walls* walls = nullptr);
   /// Looks, acts, and sends one input report.

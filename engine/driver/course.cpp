@@ -4,11 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/turn.hpp"
+#include "engine/world/participant_shape.hpp"
+#include "engine/world/participant_sight.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/vehicle_model.hpp"
 
@@ -28,7 +32,6 @@ constexpr double doubt_s = 0.5;
 /// A driver indicates after the previous exit has been passed, or at the fork.
 constexpr double farthest_signal_m = 40.0, turn_before_m = 16.0;
 constexpr double stands_before_m = 1.2, overrun_m = 1.0;
-constexpr double always_seen = std::numeric_limits<double>::infinity();
 
 /// Permitted excess of the squared speed here over the squared target so far ahead.
 double slower_m2ps2(const CourseParameters& course, const OwnPlace& own, double ahead_m) {
@@ -82,11 +85,34 @@ bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, s
 }
 
 /// Of the piece that begins beyond a line.
-double seen_from_m(std::span<const traffic::HiddenConnection> hidden, const traffic::CorridorPiece& beyond) {
-  const auto found = std::ranges::find_if(hidden, [&](const traffic::HiddenConnection& connection) {
-    return connection.road == beyond.road && connection.along_s == beyond.along_s;
+std::optional<traffic::ApproachView> view_of(std::span<const traffic::ApproachView> views,
+                                             const traffic::CorridorPiece& beyond) {
+  const auto found = std::ranges::find_if(views, [&](const traffic::ApproachView& view) {
+    return view.road == beyond.road && view.along_s == beyond.along_s;
   });
-  return found == hidden.end() ? always_seen : found->seen_from_m;
+  if (found == views.end()) return std::nullopt;
+  return *found;
+}
+
+/// True where vehicles higher than the driver's eyes hide some of those for whom he looks.
+bool vehicles_hide(const traffic::ApproachView& view, std::span<const Participant> around, const Participant& self) {
+  const Vec3 eyes_m = self.world_from_vehicle * driver_eyes_m(vehicle_models()[self.model]);
+  std::vector<traffic::HighBody> high;
+  for (const Participant& other : around) {
+    if (other.id == self.id || glm::distance(other.world_from_vehicle.position_m, eyes_m) > line_sight_m ||
+        !traffic::hides_behind(shape_of(other)))
+      continue;
+    if (const auto box = opaque_box_of(other))
+      high.push_back({0, traffic::does_move(glm::length(other.velocity_mps)), *box});
+  }
+  return !high.empty() && traffic::is_hidden_by(high, view, eyes_m);
+}
+
+/// True where one who is not at a line yet does not see all beyond it who have right of way.
+bool is_hidden(const CourseLine& ahead, std::span<const Participant> around, const Participant& self, double left_m) {
+  if (!ahead.view || left_m <= traffic::at_stop_line_m) return false;
+  return left_m > ahead.view->seen_from_m ||
+         (left_m <= traffic::looks_before_m.front() && vehicles_hide(*ahead.view, around, self));
 }
 
 /// True if the driver sees that this line requires a stop.
@@ -101,9 +127,9 @@ bool waits(const CourseLine& ahead, const CourseState& state, const DriverParame
     if (lamps.has(Lamp::signal_red)) return true;
     return lamps.has(Lamp::signal_amber) && needs_mps2 < hardest_for_amber_mps2;
   }
-  if (left_m > std::max(ahead.seen_from_m, traffic::at_stop_line_m)) return true;
   const auto self = std::ranges::find(around, snapshot.driver_car.participant, &Participant::id);
   if (self == around.end()) return false;
+  if (is_hidden(ahead, around, *self, left_m)) return true;
   const auto conflict = traffic::first_conflict(ahead.line.kind, way_at(ahead, network, own), around, *self);
   if (!conflict) return false;
   const double own_s = left_m / std::max(v, slowest_mps) + (v < standing_mps ? start_s : 0.0);
@@ -115,7 +141,7 @@ bool waits(const CourseLine& ahead, const CourseState& state, const DriverParame
 }  // namespace
 
 CourseState read_course(const road::RoadNetwork& network, const traffic::Corridor& corridor,
-                        std::span<const traffic::HiddenConnection> hidden) {
+                        std::span<const traffic::ApproachView> views) {
   CourseState state;
   const std::vector<traffic::YieldLine> lines = traffic::yield_lines(network);
   for (std::size_t k = 0; k < corridor.pieces.size(); ++k) {
@@ -125,7 +151,7 @@ CourseState read_course(const road::RoadNetwork& network, const traffic::Corrido
       const double x_m = piece.x_m + (piece.along_s ? line.s_m : piece.length_m - line.s_m);
       const bool is_last = k + 1 == corridor.pieces.size();
       const bool gives_way = line.kind == LineKind::give_way && !is_last;
-      state.lines.push_back({x_m, line, gives_way ? seen_from_m(hidden, corridor.pieces[k + 1]) : always_seen});
+      state.lines.push_back({x_m, line, gives_way ? view_of(views, corridor.pieces[k + 1]) : std::nullopt});
     }
     const int side = road::turn_through(network, piece.road, piece.side, piece.along_s);
     if (side != 0) state.turns.push_back({piece.x_m, piece.x_m + piece.length_m, side});

@@ -4,8 +4,8 @@
 ///
 /// Lights come from the snapshot, approaching vehicles that the driver knows of are seen to continue as they do (engine/traffic/yield_line.hpp).
 /// Their arrival is judged with an error; the driver waits for any that would arrive sooner than his own time to the
-/// line plus a gap. Before a give-way line whose junction is hidden he stays able to stop, until it is in view
-/// (engine/traffic/network/approach_view.hpp). A line that would need full braking is passed.
+/// line plus a gap. Before a give-way line whose junction walls, or vehicles higher than his eyes,
+/// hide he stays able to stop, until it is in view (engine/traffic/network/approach_view.hpp). A line that would need full braking is passed.
 
 #include <limits>
 #include <optional>
@@ -27,8 +27,7 @@ namespace septet::driver {
 struct CourseLine {
   double x_m = 0.0;
   traffic::YieldLine line;
-  /// Distance before it from which those with right of way are in view past houses and walls; infinite: they always are.
-  double seen_from_m = std::numeric_limits<double>::infinity();
+  std::optional<traffic::ApproachView> view;  ///< Empty: nobody beyond it has right of way.
 };
 struct CourseTurn {
   double begins_m = 0.0, ends_m = 0.0;
@@ -46,9 +45,9 @@ struct CourseState {
   bool stands_at_line(const OwnPlace& own) const { return waits_at_m && own.speed_mps < 0.3; }
 };
 
-/// Features along a corridor that the driver has just found. `hidden`: of the network.
+/// Features along a corridor that the driver has just found. `views`: of the network.
 CourseState read_course(const road::RoadNetwork& network, const traffic::Corridor& corridor,
-                        std::span<const traffic::HiddenConnection> hidden = {});
+                        std::span<const traffic::ApproachView> views = {});
 
 /// A look ahead, `dt_s` after the last one, with an eye on those `around`, the driver's own car among them.
 void look_at_course(CourseState& state, const DriverParameters& driver, const road::RoadNetwork& network,

@@ -130,7 +130,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
   if (snapshot.game && !std::exchange(driver.plays, true)) driver.parameters = playing(driver.parameters);
   if (!driver.corridor) {
     driver.corridor = find_corridor(network, snapshot);
-    if (driver.corridor) driver.course = read_course(network, *driver.corridor, driver.hidden);
+    if (driver.corridor) driver.course = read_course(network, *driver.corridor, driver.views);
   }
   const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
   const auto own = driver.corridor ? see_own_place(network, *driver.corridor, snapshot, driver.place) : std::nullopt;

@@ -38,7 +38,7 @@ struct SimulatedDriver {
         eyes_random(seed, 4) {}
 
   DriverParameters parameters;
-  std::vector<traffic::HiddenConnection> hidden;  ///< Of the network; the caller's.
+  std::vector<traffic::ApproachView> views;  ///< Of the network; the caller's.
   Random hands_random, foot_random, head_random, eyes_random;
   std::optional<traffic::Corridor> corridor;
   std::optional<road::RoadPosition> place;  ///< Hint for the next look.

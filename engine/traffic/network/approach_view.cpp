@@ -46,15 +46,22 @@ std::optional<Vec3> place_before(const LaneGraph& graph, WayIndex index, double 
 /// What a look at a place meets. Who is `last` there comes before all farther back.
 enum class Look : std::uint8_t { seen, hidden, last };
 
-/// How far back all of the way to `entry` is seen, where no stretch as long as a car is hidden.
-template <class LookAt>
-double seen_back_m(const LaneGraph& graph, WayIndex entry, double back_m, const LookAt& look_at) {
+/// One that is looked for, so far before a way's begin; empty beyond a road's open end.
+std::optional<Vec3> looked_for_at(const LaneGraph& graph, WayIndex entry, double back_m) {
+  const auto place = place_before(graph, entry, back_m);
+  if (!place) return std::nullopt;
+  return *place + Vec3(0.0, 0.0, looked_for_height_m);
+}
+
+/// How far back all of the way is seen whose places a function gives, where no stretch as long as a car is hidden.
+template <class PlaceAt, class LookAt>
+double seen_back_m(const PlaceAt& place_at, double back_m, const LookAt& look_at) {
   double seen_m = 0.0;
   bool before_is_hidden = false;
   for (double m = 0.0; m <= back_m; m += look_step_m) {
-    const auto place = place_before(graph, entry, m);
+    const std::optional<Vec3> place = place_at(m);
     if (!place) return always;
-    const Look look = look_at(*place + Vec3(0.0, 0.0, looked_for_height_m));
+    const Look look = look_at(*place);
     if (look == Look::last) return always;
     const bool hides = look == Look::hidden;
     if (hides && before_is_hidden) return seen_m;
@@ -82,7 +89,8 @@ SeenBack seen_from_each(const sight::Walls& walls, std::span<const std::uint32_t
       return walls.hide(*place + Vec3(0.0, 0.0, eye_height_m), there, gone) ? Look::hidden : Look::seen;
     };
     // Who begins nearer than that has seen nothing from there.
-    seen[k] = place ? seen_back_m(graph, his, most_back_m, look_at) : always;
+    const auto place_at = [&](double back_m) { return looked_for_at(graph, his, back_m); };
+    seen[k] = place ? seen_back_m(place_at, most_back_m, look_at) : always;
   }
   return seen;
 }
@@ -95,6 +103,34 @@ double seen_from(const SeenBack& seen, double needed_m) {
     from_m = looks_before_m[k];
   }
   return always;
+}
+
+/// What an eye meets on the way to a place.
+Look look_past(std::span<const HighBody> bodies, const sight::OpticalDepth& air, const Vec3& eye_m, const Vec3& there) {
+  const double away_m = glm::distance(eye_m, there);
+  if (!(away_m > 0.0)) return Look::seen;
+  const sight::Line line{eye_m, (there - eye_m) / away_m};
+  bool is_hidden = false;
+  for (const HighBody& body : bodies) {
+    const bool is_within = sight::entry_m(body.box, {there, line.direction}) == 0.0;
+    if (is_within && body.moves) return Look::last;
+    // A place within a body is not behind it.
+    is_hidden = is_hidden || (!is_within && stands_before(body.box, line, away_m));
+  }
+  // Who comes has his lamps lit.
+  is_hidden = is_hidden || (air && air(eye_m, there) > sight::shining_depth);
+  return is_hidden ? Look::hidden : Look::seen;
+}
+
+/// Places on the way to an entry at which one looks for somebody.
+std::vector<Vec3> looked_for_places(const LaneGraph& graph, WayIndex entry, double back_m) {
+  std::vector<Vec3> places;
+  for (double m = 0.0; m <= back_m; m += look_step_m)
+    if (const auto place = looked_for_at(graph, entry, m))
+      places.push_back(*place);
+    else
+      break;
+  return places;
 }
 
 }  // namespace
@@ -140,46 +176,44 @@ void look_past_walls(const sight::Walls& walls, LaneGraph& graph, std::span<cons
     }
 }
 
-std::vector<HiddenConnection> hidden_connections(const road::RoadNetwork& network, const sight::Walls& walls) {
-  std::vector<HiddenConnection> hidden;
-  if (walls.empty() || network.junctions.empty()) return hidden;
+std::vector<ApproachView> approach_views(const road::RoadNetwork& network, const sight::Walls& walls) {
+  std::vector<ApproachView> views;
+  if (network.junctions.empty()) return views;
   LaneGraph graph = build_lane_graph(network);
   look_past_walls(walls, graph);
-  for (const Way& way : graph.ways) {
-    double seen_from_m = always;
-    for (const WayConflict& conflict : graph.conflicts_of(way))
-      seen_from_m = std::min(seen_from_m, conflict.seen_from_m);
-    if (seen_from_m == always) continue;
-    const auto known = std::ranges::find_if(
-        hidden, [&](const HiddenConnection& other) { return other.road == way.road && other.along_s == way.along_s; });
-    if (known == hidden.end())
-      hidden.push_back({way.road, way.along_s, seen_from_m});
-    else
-      known->seen_from_m = std::min(known->seen_from_m, seen_from_m);
-  }
-  return hidden;
+  for (const Way& mine : graph.ways)
+    for (const WayConflict& conflict : graph.conflicts_of(mine)) {
+      const Way& his = graph.ways[conflict.with];
+      if (conflict.kind == WayConflict::Kind::diverging || !yields_to(mine, his)) continue;
+      auto view = std::ranges::find_if(
+          views, [&](const ApproachView& other) { return other.road == mine.road && other.along_s == mine.along_s; });
+      if (view == views.end()) view = views.insert(views.end(), {mine.road, mine.along_s, always, {}});
+      view->seen_from_m = std::min(view->seen_from_m, conflict.seen_from_m);
+      auto places = looked_for_places(graph, his.entry, looked_for_back_m(mine, conflict, his));
+      if (std::ranges::find(view->looked_for_m, places) == view->looked_for_m.end())
+        view->looked_for_m.push_back(std::move(places));
+    }
+  return views;
 }
 
 bool hides_behind(const VehicleModel& model) { return opaque_height_m(model) > eye_height_m; }
 
 bool is_hidden_by(std::span<const HighBody> bodies, const sight::OpticalDepth& air, const LaneGraph& graph,
                   const Vec3& eye_m, const Way& his, double back_m) {
-  const auto look_at = [&](const Vec3& there) {
-    const double away_m = glm::distance(eye_m, there);
-    if (!(away_m > 0.0)) return Look::seen;
-    const sight::Line line{eye_m, (there - eye_m) / away_m};
-    bool is_hidden = false;
-    for (const HighBody& body : bodies) {
-      const bool is_within = sight::entry_m(body.box, {there, line.direction}) == 0.0;
-      if (is_within && body.moves) return Look::last;
-      // A place within a body is not behind it.
-      is_hidden = is_hidden || (!is_within && stands_before(body.box, line, away_m));
-    }
-    // Who comes has his lamps lit.
-    is_hidden = is_hidden || (air && air(eye_m, there) > sight::shining_depth);
-    return is_hidden ? Look::hidden : Look::seen;
-  };
-  return seen_back_m(graph, his.entry, back_m, look_at) < back_m;
+  const auto place_at = [&](double m) { return looked_for_at(graph, his.entry, m); };
+  return seen_back_m(place_at, back_m, [&](const Vec3& there) { return look_past(bodies, air, eye_m, there); }) <
+         back_m;
+}
+
+bool is_hidden_by(std::span<const HighBody> bodies, const ApproachView& view, const Vec3& eye_m) {
+  return std::ranges::any_of(view.looked_for_m, [&](const std::vector<Vec3>& places) {
+    const auto place_at = [&](double m) {
+      const auto k = static_cast<std::size_t>(std::lround(m / look_step_m));
+      return k < places.size() ? std::optional(places[k]) : std::nullopt;
+    };
+    return seen_back_m(place_at, most_back_m, [&](const Vec3& there) { return look_past(bodies, {}, eye_m, there); }) <
+           always;
+  });
 }
 
 }  // namespace septet::traffic

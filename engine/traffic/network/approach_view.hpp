@@ -47,15 +47,17 @@ double looked_for_back_m(const Way& mine, const WayConflict& conflict, const Way
 /// Sets `seen_from_m` of every conflict. `gone`: things whose walls do not stand, ascending.
 void look_past_walls(const sight::Walls& walls, LaneGraph& graph, std::span<const std::uint32_t> gone = {});
 
-/// A road through a junction on the way to which some of those who have right of way are hidden at first.
-struct HiddenConnection {
+/// A road through a junction on which some others have right of way, as one looks for them on the way to it.
+struct ApproachView {
   road::RoadIndex road = 0;
   bool along_s = true;
   double seen_from_m = 0.0;  ///< As of a conflict; the least of any lane.
+  /// One for each way on which they come: places at the height of what is looked for, from the junction back.
+  std::vector<std::vector<Vec3>> looked_for_m;
 };
 
-/// All of a network, by road; none without walls.
-std::vector<HiddenConnection> hidden_connections(const road::RoadNetwork& network, const sight::Walls& walls);
+/// All of a network, by road.
+std::vector<ApproachView> approach_views(const road::RoadNetwork& network, const sight::Walls& walls);
 
 /// A body that is higher than drivers' eyes.
 struct HighBody {
@@ -72,5 +74,7 @@ inline bool does_move(double speed_mps) { return speed_mps >= 0.5; }
 /// to `back_m` before the junction. Who drives behind a body that moves there comes after it, and is not looked for.
 bool is_hidden_by(std::span<const HighBody> bodies, const sight::OpticalDepth& air, const LaneGraph& graph,
                   const Vec3& eye_m, const Way& his, double back_m);
+/// The same of bodies, on any of the ways of a view.
+bool is_hidden_by(std::span<const HighBody> bodies, const ApproachView& view, const Vec3& eye_m);
 
 }  // namespace septet::traffic

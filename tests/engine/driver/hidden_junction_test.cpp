@@ -19,9 +19,9 @@ namespace {
 constexpr double glance_s = 0.05, comes_mps = 12.0, sign_at_m = 198.0;
 
 /// A house between the arms of east and north, up to so far before the middle of the crossing, by its two sides there.
-std::vector<traffic::HiddenConnection> hidden_by_house(const road::RoadNetwork& network, double from_middle_m) {
+std::vector<traffic::ApproachView> hidden_by_house(const road::RoadNetwork& network, double from_middle_m) {
   const Vec2 corner(from_middle_m, 6.0);
-  return traffic::hidden_connections(
+  return traffic::approach_views(
       network, sight::Walls({{{90.0, 6.0}, corner, -1.0, 8.0}, {corner, {from_middle_m, 90.0}, -1.0, 8.0}}));
 }
 
@@ -32,22 +32,28 @@ struct Approach {
 };
 
 /// A drive from the arm in the east, where one gives way, into a left turn; nobody else is there.
-Approach approach(const road::RoadNetwork& network, std::span<const traffic::HiddenConnection> hidden) {
+Approach approach(const road::RoadNetwork& network, std::span<const traffic::ApproachView> views,
+                  std::span<const Participant> others = {}) {
   const DriverParameters driver = *find_driver("experienced");
   const auto east = road::find_road(network, "east");
   REQUIRE(east.has_value());
   const traffic::Corridor corridor = traffic::build_corridor(network, {*east, -1, 50.0, 0.0});
-  CourseState course = read_course(network, corridor, hidden);
+  CourseState course = read_course(network, corridor, views);
   REQUIRE(course.lines.size() == 1);
   Snapshot snapshot;
   Participant self;
   self.id = snapshot.driver_car.participant;
   OwnPlace own;
   own.lane = 1, own.x_m = 60.0, own.speed_mps = comes_mps, own.front_m = 3.0;
+  std::vector<Participant> around{self};
+  around.insert(around.end(), others.begin(), others.end());
   Random random(1);
   Approach made;
   for (double t = 0.0; t < 60.0 && !made.passes; t += glance_s) {
-    look_at_course(course, driver, network, corridor, snapshot, std::span(&self, 1), own, t, glance_s, random);
+    const road::LanePoint place = road::evaluate_lane(network, traffic::position_at(corridor, own.x_m, own.lane));
+    self.world_from_vehicle = road::world_from_lane(place);
+    around.front() = self;
+    look_at_course(course, driver, network, corridor, snapshot, around, own, t, glance_s, random);
     const double wish = std::min(comes_mps, course.speed_mps);
     const double a = wished_acceleration_mps2(driver.speed, own.speed_mps, wish, line_ahead(course, own, driver.speed));
     own.speed_mps = std::max(0.0, own.speed_mps + a * glance_s);
@@ -74,6 +80,23 @@ TEST_CASE("a driver comes to a hidden give-way line so that he can stop there, a
   CHECK(at_line.most_needed_mps2 < 4.0);
   CHECK(open.most_needed_mps2 > 6.0);
   CHECK(at_5_m.line_mps > at_line.line_mps + 0.3);
+}
+
+TEST_CASE("a driver comes to a line at which a van hides the junction so that he can stop there, and past a car not") {
+  const road::RoadNetwork network = traffic::crossing(false, traffic::Posted::signs);
+  const auto views = traffic::approach_views(network, {});
+  const auto past = [&](const char* model) {
+    Participant parked;
+    parked.id = 7;
+    parked.model = *find_vehicle_model(model);
+    parked.world_from_vehicle.position_m = Vec3(16.0, 5.2, 0.0);
+    return approach(network, views, std::span(&parked, 1));
+  };
+  const Approach open = approach(network, views), van = past("van"), car = past("volvo-s80");
+  CHECK(van.passes);
+  CHECK(van.line_mps < open.line_mps - 1.5);
+  CHECK(van.most_needed_mps2 < 4.0);
+  CHECK(car.line_mps == open.line_mps);
 }
 
 }  // namespace septet::driver
