@@ -207,11 +207,36 @@ void see_junction(double line_m, TownState& town, TownVehicle& vehicle) {
     town.openings.push_back({vehicle.id, line_m, hidden_s});
 }
 
+LightState light_before(std::span<const LightState> lights, const Way& way) {
+  return lights.empty() || !way.has_light ? LightState::dark : lights[2 * way.road + (way.along_s ? 0 : 1)];
+}
+
+/// True where a vehicle stops before the line of a light that has turned to amber; else it goes on.
+bool stops_at_amber(const TownVehicle& vehicle, double to_line_m) {
+  constexpr double amber_mps2 = 3.0;  // As much as has_room_beyond reckons with: who counts on its going on has room.
+  return vehicle.speed_mps * vehicle.speed_mps <= 2.0 * amber_mps2 * std::max(to_line_m, 0.0);
+}
+
 bool light_allows(LightState light, const TownVehicle& vehicle, double to_line_m) {
   if (light == LightState::red) return false;
-  if (light != LightState::amber) return true;
-  constexpr double amber_mps2 = 3.0;
-  return vehicle.speed_mps * vehicle.speed_mps > 2.0 * amber_mps2 * std::max(to_line_m, 0.0);
+  return light != LightState::amber || !stops_at_amber(vehicle, to_line_m);
+}
+
+/// Who came to his claim at green stops at a light that has turned since, where he can; not where the junction that he is
+/// in leaves him no room before it.
+void give_back_at_light(const LaneGraph& graph, std::span<const LightState> lights, TownVehicle& vehicle) {
+  const std::size_t entry = lights.empty() ? 0 : next_entry(graph, vehicle);
+  if (entry == 0 || entry >= vehicle.claims.size()) return;
+  const Way& before = graph.ways[vehicle.route[entry - 1]];
+  const LightState light = light_before(lights, before);
+  if (light != LightState::amber && light != LightState::red) return;
+  double to_line_m = -vehicle.front_m - before.line_before_m;
+  for (std::size_t k = 0; k < entry; ++k) {
+    const Way& way = graph.ways[vehicle.route[k]];
+    if (way.in_junction() && passage_from(graph, vehicle, k, 0.0).last >= entry) return;
+    to_line_m += way.length_m;
+  }
+  if (to_line_m > 0.0 && stops_at_amber(vehicle, to_line_m)) vehicle.claims.resize(entry);
 }
 
 /// True where somebody else has a claim on the way on which a vehicle's front is: he counts on its going on.
@@ -290,6 +315,7 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
   TownVehicle& vehicle = town.vehicles[index];
   const auto self = static_cast<std::int32_t>(index);
   give_back_if_unused(graph, presences, self, dt_s, vehicle);
+  give_back_at_light(graph, lights, vehicle);
   // The first junction ahead that it has no claim on.
   std::size_t first = 0;
   double begin_m = 0.0;
@@ -314,8 +340,7 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
   }
   if (leader.who < 0 && leader.gap_m < line_m) return stop_m;
 
-  const LightState light =
-      lights.empty() || !before.has_light ? LightState::dark : lights[2 * before.road + (before.along_s ? 0 : 1)];
+  const LightState light = light_before(lights, before);
   if (!light_allows(light, vehicle, line_m)) return stop_m;
   const Passage passage = passage_from(graph, vehicle, first, begin_m);
   // Who has green gives way to the oncoming alone, whom he has before him.

@@ -1,5 +1,5 @@
 #pragma once
-/// A town's traffic, driven and watched: who overlaps whom, who stands, who brakes how hard.
+/// A town's traffic, driven and watched: who overlaps whom, who stands, who brakes how hard, who runs a red light.
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -15,6 +16,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/traffic/network/town.hpp"
+#include "engine/traffic/network/town_stages.hpp"
 #include "engine/traffic/traffic.hpp"
 
 namespace septet::traffic {
@@ -28,6 +30,8 @@ struct TownRun {
   std::uint32_t hard_brakings = 0;  ///< Begun, above 4 m/s².
   double most_sideways_mps2 = 0.0;
   std::set<road::RoadIndex> roads;  ///< On which somebody was.
+  std::uint32_t reds = 0;           ///< Stop lines passed while their light was red.
+  std::uint32_t lit_lines = 0;      ///< Stop lines passed at a light that was lit.
 
   double mean_mps() const { return driven_m / std::max(vehicle_s, 1.0); }
 };
@@ -55,20 +59,56 @@ inline bool outlines_overlap(const Participant& a, const Participant& b, double 
   return true;
 }
 
+/// Distance of a front from the stop line of the light that it comes to; none if it comes to no light on its way.
+inline std::optional<double> before_light_m(const LaneGraph& graph, const TownVehicle& vehicle, WayIndex& on) {
+  double begin_m = 0.0;
+  for (const WayIndex index : vehicle.route) {
+    const Way& way = graph.ways[index];
+    begin_m += way.length_m;
+    if (begin_m < vehicle.front_m) continue;
+    on = index;
+    if (!way.has_light) return std::nullopt;
+    return begin_m - way.line_before_m - vehicle.front_m;
+  }
+  return std::nullopt;
+}
+
+/// The lights at a time; they are asked for each half second.
+using LightsAt = std::function<std::vector<TrafficLight>(double)>;
+
 /// Drives `seconds` of it. `watch` sees every half second.
 inline TownRun run_town(const road::RoadNetwork& network, const LaneGraph& graph, const TrafficParameters& parameters,
                         double seconds, std::uint64_t seed, double dt_s, std::span<const ForeignVehicle> foreign = {},
-                        const std::function<void(const TownState&, const std::vector<Participant>&)>& watch = {}) {
+                        const std::function<void(const TownState&, const std::vector<Participant>&)>& watch = {},
+                        const LightsAt& lights_at = {}) {
   Random random(seed, 1);
   TownState town = populate_town(parameters, network, graph, foreign, random);
-  TownRun run{parameters.count, parameters.count, {}, 0, 0, 0, 0, 0, 0, {}};
+  TownRun run{parameters.count, parameters.count, {}, 0, 0, 0, 0, 0, 0, {}, 0, 0};
   std::vector<Participant> participants;
   std::map<ParticipantId, bool> brakes;
+  std::vector<TrafficLight> lights;
+  std::vector<LightState> states;
+  std::map<ParticipantId, WayIndex> before_line;  ///< Who was before the line of a light a step ago, and of which way.
   const auto steps = static_cast<int>(seconds / dt_s), each = std::max(1, static_cast<int>(std::round(0.5 / dt_s)));
   for (int step = 0; step < steps; ++step) {
-    advance_town(parameters, network, graph, {}, foreign, dt_s, random, town);
+    if (lights_at && step % each == 0) lights = lights_at(town.time_s), states = light_states(network, lights);
+    advance_town(parameters, network, graph, lights, foreign, dt_s, random, town);
     for (const TownVehicle& vehicle : town.vehicles) {
-      if (vehicle.outside) continue;
+      if (vehicle.outside) {
+        before_line.erase(vehicle.id);
+        continue;
+      }
+      WayIndex on = no_way;
+      const std::optional<double> line_m = before_light_m(graph, vehicle, on);
+      const auto was = before_line.find(vehicle.id);
+      if (was != before_line.end() && (!line_m || *line_m <= 0.0 || on != was->second)) {
+        const Way& way = graph.ways[was->second];
+        const LightState shown = states.empty() ? LightState::dark : states[2 * way.road + (way.along_s ? 0 : 1)];
+        run.lit_lines += shown != LightState::dark;
+        run.reds += shown == LightState::red;
+        before_line.erase(was);
+      }
+      if (line_m && *line_m > 0.0) before_line[vehicle.id] = on;
       run.driven_m += vehicle.speed_mps * dt_s;
       run.vehicle_s += dt_s;
       run.longest_stand_s = std::max(run.longest_stand_s, vehicle.stands_s);

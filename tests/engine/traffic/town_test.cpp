@@ -94,6 +94,35 @@ TEST_CASE("nobody passes a red light, and who has green goes") {
   CHECK(order_of_entry(network, graph, town, lights) == Order{"south"});
 }
 
+TEST_CASE(
+    "who has claimed a crossing at green stops at its line if the light turns while he still can, and else goes on") {
+  const road::RoadNetwork network = crossing(false, Posted::lights);
+  const LaneGraph graph = build_lane_graph(network);
+  // Lights turn to amber after a second, to red after three more; 13 m/s could be stopped from by 3 m/s² within 28 m.
+  const auto passes = [&](double before_m) {
+    TownState town;
+    add_car(network, graph, "south", "north", before_m, town);
+    town.vehicles.front().speed_mps = 13.0;
+    TrafficLight head;
+    head.road = *road::find_road(network, "south");
+    std::vector<TrafficLight> lights{head};
+    const TrafficParameters parameters = motorway_traffic(0, 1000.0);
+    Random random(1);
+    for (double t = 0.0; t < 12.0; t += dt_s) {
+      lights.front().lamps = {};
+      lights.front().lamps.set(t < 1.0 ? Lamp::signal_green : t < 4.0 ? Lamp::signal_amber : Lamp::signal_red, true);
+      advance_town(parameters, network, graph, lights, {}, dt_s, random, town);
+      if (t < 0.9) CHECK(town.vehicles.front().acceleration_mps2 > -1.0);
+      CHECK(town.vehicles.front().acceleration_mps2 > -3.6);
+    }
+    const TownVehicle& car = town.vehicles.front();
+    return graph.ways[car.route.front()].in_junction() || car.front_m > graph.ways[car.route.front()].length_m ||
+           network.roads[graph.ways[car.route.front()].road].id == "north";
+  };
+  CHECK_FALSE(passes(55.0));
+  CHECK(passes(30.0));
+}
+
 TEST_CASE("four who each have one on their right all get across") {
   const road::RoadNetwork network = crossing();
   const LaneGraph graph = build_lane_graph(network);
