@@ -8,9 +8,21 @@
 
 namespace septet::driver {
 
+namespace {
+
+constexpr double least_mps = 5.0;
+
+/// G: yaw rate by hand-wheel angle, in a steady state.
+double yaw_gain_per_s(const CarKnowledge& car, double speed_mps) {
+  const double v = std::max(speed_mps, least_mps);
+  return v / (car.wheelbase_m + car.understeer_radps2pm * v * v) / car.steering_ratio;
+}
+
+}  // namespace
+
 SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowledge& car, double speed_mps) {
-  const double v = std::max(speed_mps, 5.0);
-  const double yaw_gain = v / (car.wheelbase_m + car.understeer_radps2pm * v * v) / car.steering_ratio;
+  const double v = std::max(speed_mps, least_mps);
+  const double yaw_gain = yaw_gain_per_s(car, speed_mps);
   const double omega = steering.natural_frequency_radps;
   SteeringGains gains;
   gains.near = omega * omega * steering.near_distance_m / (v * yaw_gain);
@@ -36,8 +48,10 @@ double advance_steering(SteeringState& state, const SteeringParameters& steering
   const PathAngles seen{path.near_rad + heading_error_rad + position_error_m / steering.near_distance_m,
                         path.far_rad + heading_error_rad + position_error_m / far_m};
   const PathAngles& felt = state.eyes.through(now_s, seen, steering.delay_s);
-  if (!state.has_seen) state.last = felt;
+  const double yaw_gain = yaw_gain_per_s(car, speed_mps);
+  if (!state.has_seen) state.last = felt, state.yaw_gain_per_s = yaw_gain;
   state.has_seen = true;
+  state.intended_rad *= std::exchange(state.yaw_gain_per_s, yaw_gain) / yaw_gain;
 
   const SteeringGains gains = steering_gains(steering, car, speed_mps);
   const double share = sees_road ? 1.0 : steering.peripheral_share;

@@ -10,6 +10,9 @@
 /// their simulator's wheel; here they follow from the car: with yaw rate G·φ a small excursion y obeys y'' + G(k_far +
 /// k_near) y' + (vG k_near / d_near) y = 0, from which the natural frequency and damping of returning to the path give
 /// k_near = ω² d_near / (vG) and k_far = 2ζω/G − k_near.
+///
+/// G grows with speed. What adds up is therefore the yaw rate G·φ, not φ: else who winds the wheel up at 6 m/s and back
+/// while he speeds up keeps a share of the bend in it.
 
 #include "engine/driver/driver_parameters.hpp"
 #include "engine/driver/driver_view.hpp"
@@ -31,10 +34,11 @@ struct SteeringState {
   ReactionDelay<PathAngles> eyes;
   WanderingError position_error_m, heading_error_rad;
   bool has_seen = false;
-  PathAngles last;            ///< As of the tick before.
-  PathAngles unanswered;      ///< Changes that occurred while the eyes were off the road.
-  double intended_rad = 0.0;  ///< φ.
-  double hands_rad = 0.0;     ///< φ after the muscles' lag.
+  PathAngles last;              ///< As of the tick before.
+  PathAngles unanswered;        ///< Changes that occurred while the eyes were off the road.
+  double intended_rad = 0.0;    ///< φ.
+  double yaw_gain_per_s = 0.0;  ///< G, as of the tick before.
+  double hands_rad = 0.0;       ///< φ after the muscles' lag.
 };
 
 /// The hand wheel after `dt_s` more. With the eyes off the road only a share of the changes is acted upon, by

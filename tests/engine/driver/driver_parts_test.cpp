@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -42,6 +43,25 @@ TEST_CASE(
   steer(0.0, true, 0.01);
   CHECK(steer(0.02, false, 0.02) == doctest::Approx(steering.peripheral_share * 0.02 * near_gain));
   CHECK(steer(0.02, true, 0.03) == doctest::Approx(0.02 * near_gain));
+}
+
+TEST_CASE("who winds the wheel up slowly driving and back while he speeds up holds it straight") {
+  SteeringParameters steering;
+  steering.position_noise_m = steering.heading_noise_rad = steering.integral_per_s = 0.0;
+  SteeringState state;
+  Random random(1);
+  constexpr double dt_s = 0.01, bend_s = 3.0, most_rad = 0.3;
+  double hands_rad = 0.0, most_hands_rad = 0.0;
+  for (int step = 0; step < 900; ++step) {
+    const double t = dt_s * step;
+    const double path_rad = most_rad * std::max(0.0, 1.0 - std::abs(t - bend_s) / bend_s);
+    const double speed_mps = t < bend_s ? 6.0 : std::min(14.0, 6.0 + 2.0 * (t - bend_s));
+    hands_rad =
+        advance_steering(state, steering, CarKnowledge{}, {path_rad, path_rad}, true, speed_mps, t, dt_s, random);
+    most_hands_rad = std::max(most_hands_rad, hands_rad);
+  }
+  CHECK(most_hands_rad > 1.0);
+  CHECK(std::abs(hands_rad) < 0.02 * most_hands_rad);
 }
 
 TEST_CASE("what is seen acts after the delay") {
