@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string_view>
@@ -72,6 +73,37 @@ void check_contact(const CheckedFile& file, const pugi::xml_node& node, const Ju
                               : "asam.net:xodr:1.7.0:junctions.connection.end_opposite_linkage");
 }
 
+/// True where some connection takes on a lane of a road that runs into a junction by this end of it.
+bool is_taken_on(const Junction& junction, RoadIndex road, int lane) {
+  return std::ranges::any_of(junction.connections, [&](const JunctionConnection& connection) {
+    const auto& links = connection.lane_links;
+    return connection.incoming == road &&
+           (links.empty() || std::ranges::find(links, lane, &LaneLink::from) != links.end());
+  });
+}
+
+/// Who comes to a junction by this end of a road is to get on from there, by one of its lanes at least.
+void check_way_out(const CheckedFile& file, RoadIndex index, bool at_end) {
+  const Road& road = file.network.roads[index];
+  const JunctionIndex to = at_end ? road.successor.junction : road.predecessor.junction;
+  if (road.junction != no_index || to == no_index) return;
+  const Junction& junction = file.network.junctions[to];
+  if (junction.kind != Junction::Kind::common || junction.connections.empty()) return;
+  const LaneSection& section = at_end ? road.sections.back() : road.sections.front();
+  bool comes = false;
+  for (int lane = -section.right_count; lane <= section.left_count; ++lane) {
+    if (lane == 0 || !is_drivable(section.lane(lane).type) ||
+        !runs_into(road, section, lane, at_end ? ContactPoint::end : ContactPoint::start))
+      continue;
+    if (is_taken_on(junction, index, lane)) return;
+    comes = true;
+  }
+  if (comes)
+    file.findings.warning(file.road_nodes[index].child("link").child(at_end ? "successor" : "predecessor"),
+                          fmt::format("who comes to junction {} by road {} has no way out of it", junction.id, road.id),
+                          "give the junction a connection with this incomingRoad");
+}
+
 }  // namespace
 
 void check_road_links(const CheckedFile& file) {
@@ -108,6 +140,11 @@ void check_connections(const CheckedFile& file) {
   JunctionIndex index = 0;
   for (const auto junction_node : file.root.children("junction")) {
     const Junction& junction = file.network.junctions[index];
+    const bool is_followed = junction.kind == Junction::Kind::common || junction.kind == Junction::Kind::direct;
+    if (is_followed && !junction_node.child("connection"))
+      file.findings.warning(junction_node,
+                            fmt::format("junction {} has no connections: nobody gets through", junction.id),
+                            "give it connections, or link its roads to each other");
     const auto nodes = connection_nodes(road_ids, junction_node);
     for (std::size_t i = 0; i < junction.connections.size() && i < nodes.size(); ++i) {
       const JunctionConnection& connection = junction.connections[i];
@@ -135,6 +172,8 @@ void check_connections(const CheckedFile& file) {
     }
     ++index;
   }
+  for (RoadIndex road = 0; road < file.network.roads.size(); ++road)
+    for (const bool at_end : {false, true}) check_way_out(file, road, at_end);
 }
 
 }  // namespace septet::road

@@ -130,7 +130,8 @@ TEST_CASE("connections lead from roads outside into the junction, with the traff
   CHECK(broken(replaced(good, "incomingRoad=\"a\" connectingRoad=\"c\" contactPoint=\"start\"",
                         "incomingRoad=\"b\" connectingRoad=\"c\" contactPoint=\"start\"")) ==
         Rules{"1.7.0:junctions.connection.start_along_linkage", "1.8.0:junctions.connection.one_link_to_incoming",
-              "1.7.0:lane_smoothness.contact_point_no_horizontal_gaps"});
+              "1.7.0:lane_smoothness.contact_point_no_horizontal_gaps",
+              "who comes to junction 7 by road a has no way out of it"});
   CHECK(broken(replaced(good, "connectingRoad=\"c\" contactPoint=\"start\"",
                         "connectingRoad=\"c\" contactPoint=\"end\"")) ==
         Rules{"1.7.0:junctions.connection.end_opposite_linkage", "1.8.0:junctions.connection.one_link_to_incoming",
@@ -145,6 +146,18 @@ TEST_CASE("connections lead from roads outside into the junction, with the traff
   CHECK(broken(edition(twice, "7")) == Rules{"1.7.0:junctions.connection.one_connection_element"});
   CHECK(broken(replaced(good, "road id=\"a\" junction=\"-1\"", "road id=\"a\" junction=\"7\"")) ==
         Rules{"1.4.0:junctions.connection.connect_road_no_incoming_road"});
+}
+
+TEST_CASE("a junction has connections, and who comes to it has a way out") {
+  const std::string good = junction();
+  CHECK(broken(replaced(good, connection("0", "a", "c"), "")) ==
+        Rules{"junction 7 has no connections: nobody gets through"});
+  const std::string arm = straight("d", 200, "-1", link_to_junction("successor", "7"), linked_lane(""));
+  CHECK(broken(replaced(good, "<junction id=", arm + "<junction id=")) ==
+        Rules{"who comes to junction 7 by road d has no way out of it"});
+  // One that leads out alone needs no connection from it.
+  const std::string exit = straight("d", 200, "-1", link_to_junction("predecessor", "7"), linked_lane(""));
+  CHECK(broken(replaced(good, "<junction id=", exit + "<junction id=")) == Rules{});
 }
 
 TEST_CASE("borders do not cross and access is not mixed") {
