@@ -91,6 +91,10 @@ struct TownState {
   ParticipantId next_id = 0;
 };
 
+/// Somebody of a swarm on a motorway as he drives in a town: closer. The share is the one with which a queue at a light
+/// drives off as HCM has it (base saturation flow of 1,900 cars an hour and lane, start-up loss of 2 s).
+Driver driver_in_town(const Driver& middle, double temperament);
+
 TownState populate_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
                         std::span<const ForeignVehicle> foreign, Random& random);
 

@@ -43,7 +43,7 @@ void add_member(const TrafficParameters& parameters, bool with_long, Random& ran
   vehicle.id = town.next_id++;
   vehicle.model = kind.model;
   vehicle.paint = static_cast<std::uint8_t>(random.below(12));
-  vehicle.driver = with_temperament(kind.middle, temperament);
+  vehicle.driver = driver_in_town(kind.middle, temperament);
   vehicle.law = FollowingLaw(vehicle.driver.following);
   vehicle.urge = 1.15 - 0.3 * std::clamp(temperament, 0.0, 1.0);
 }
@@ -192,6 +192,13 @@ void choose_anew_if_tired(const LaneGraph& graph, double dt_s, Random& random, T
     }
     end_m += graph.ways[vehicle.route[k]].length_m;
   }
+}
+
+Driver driver_in_town(const Driver& middle, double temperament) {
+  constexpr double time_gap_share = 0.75;
+  Driver driver = with_temperament(middle, temperament);
+  driver.following.time_gap_s *= time_gap_share;
+  return driver;
 }
 
 TownState populate_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
