@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <doctest/doctest.h>
 
