@@ -69,6 +69,19 @@ void read_connection(XmlFindings& findings, const pugi::xml_node& node, const In
   junction.connections.push_back(std::move(connection));
 }
 
+/// Appends a priority to the junction, unless it names a road missing in the file.
+void read_priority(XmlFindings& findings, const pugi::xml_node& node, const Indices& roads, Junction& junction) {
+  const JunctionPriority priority{index_of(roads, node.attribute("high").value()),
+                                  index_of(roads, node.attribute("low").value())};
+  if (priority.high == no_index || priority.low == no_index || priority.high == priority.low) {
+    findings.warning(node,
+                     fmt::format("a priority of junction {} does not name two roads; it is left out", junction.id),
+                     "check high and low");
+    return;
+  }
+  junction.priorities.push_back(priority);
+}
+
 Junction read_junction(XmlFindings& findings, const pugi::xml_node& node, const Indices& roads) {
   Junction junction;
   junction.id = node.attribute("id").value();
@@ -85,6 +98,7 @@ Junction read_junction(XmlFindings& findings, const pugi::xml_node& node, const 
   for (const auto connection : node.children("connection")) {
     read_connection(findings, connection, roads, junction);
   }
+  for (const auto priority : node.children("priority")) read_priority(findings, priority, roads, junction);
   return junction;
 }
 

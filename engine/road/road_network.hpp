@@ -92,11 +92,17 @@ struct JunctionConnection {
   std::vector<LaneLink> lane_links;
 };
 
+/// Traffic from, or on, one road of a junction goes before that of another one (ASAM OpenDRIVE 1.8, 12.8).
+struct JunctionPriority {
+  RoadIndex high = no_index, low = no_index;
+};
+
 struct Junction {
   enum class Kind : std::uint8_t { common, direct, virtual_junction, crossing };
   std::string id, name;
   Kind kind = Kind::common;
   std::vector<JunctionConnection> connections;
+  std::vector<JunctionPriority> priorities;
 };
 
 /// A node of the tree of bounding boxes over stretches of road; in pre-order, `skip` is the next node outside this one.

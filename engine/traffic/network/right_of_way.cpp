@@ -30,6 +30,25 @@ Rank rank_by_signs(const road::Road& road, bool along_s) {
   return rank;
 }
 
+/// Where a junction orders some of its roads, one that only goes before others has priority, one that only waits yields,
+/// and one that does both is between them.
+Rank rank_by_order(const road::Junction& junction, road::RoadIndex road) {
+  const auto is = [&](road::RoadIndex road::JunctionPriority::*side) {
+    return std::ranges::find(junction.priorities, road, side) != junction.priorities.end();
+  };
+  const bool is_before = is(&road::JunctionPriority::high), waits = is(&road::JunctionPriority::low);
+  return is_before == waits ? Rank::equal : is_before ? Rank::priority : Rank::yields;
+}
+
+/// By the incoming road's signs, else by the junction's order of incoming roads, else of connecting ones, which older files
+/// name.
+Rank rank_into(const road::RoadNetwork& network, const Way& way, const Way& next) {
+  if (const Rank rank = rank_by_signs(network.roads[way.road], way.along_s); rank != Rank::equal) return rank;
+  const road::Junction& junction = network.junctions[next.junction];
+  const Rank rank = rank_by_order(junction, way.road);
+  return rank != Rank::equal ? rank : rank_by_order(junction, next.road);
+}
+
 /// The next way along the ring of a roundabout: of several the one that keeps to the middle, that is, turns most to the
 /// left where traffic keeps right.
 WayIndex along_ring(const LaneGraph& graph, const Way& way) {
@@ -103,9 +122,11 @@ void find_right_of_way(const road::RoadNetwork& network, LaneGraph& graph) {
     const bool ends = std::ranges::any_of(graph.next_of(way), [&](WayIndex n) { return graph.ways[n].in_junction(); });
     if (!ends) continue;
     const road::Road& road = network.roads[way.road];
-    const Rank rank = rank_by_signs(road, way.along_s);
-    for (const WayIndex next : graph.next_of(way))
-      if (rank != Rank::equal) graph.ways[next].rank = rank;
+    for (const WayIndex index : graph.next_of(way)) {
+      Way& next = graph.ways[index];
+      if (!next.in_junction()) continue;
+      if (const Rank rank = rank_into(network, way, next); rank != Rank::equal) next.rank = rank;
+    }
     for (const YieldLine& line : lines) {
       if (line.road != way.road || line.along_s != way.along_s || line.kind == YieldLine::Kind::crossing) continue;
       const double before_m = before_end_m(road, way.along_s, line.s_m);

@@ -1,5 +1,6 @@
 // Real files: forms that the standard allows are silent, repairable faults are read with a finding.
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
@@ -49,6 +50,17 @@ TEST_CASE("a link to what the file does not have is said and is no link") {
                "contactPoint=\"start\"/></junction>");
   CHECK(only_warning(junction) == "connection 0 names a road that does not exist; it is left out");
   CHECK(read_or_fail(junction).junctions.at(0).connections.empty());
+}
+
+TEST_CASE("a junction's priority orders two of its roads, and one that names others is told and left out") {
+  const auto with = [&](const char* priority) {
+    return replaced(SmallRoad{}.xml(), "</road>",
+                    fmt::format("</road><junction id=\"7\"><priority {}/></junction>", priority));
+  };
+  for (const char* priority : {"high=\"a\" low=\"b\"", "high=\"a\"", "high=\"a\" low=\"a\""}) {
+    CHECK(only_warning(with(priority)) == "a priority of junction 7 does not name two roads; it is left out");
+    CHECK(read_or_fail(with(priority)).junctions.at(0).priorities.empty());
+  }
 }
 
 TEST_CASE("a centre lane needs no type and every other lane does") {

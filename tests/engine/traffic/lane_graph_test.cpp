@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -80,6 +81,26 @@ TEST_CASE("a give-way sign ranks below a priority sign, whoever comes from the r
   CHECK(yields_to(way("west-east"), way("south-north")));
   CHECK(yields_to(way("east-west"), way("south-north")));
   CHECK_FALSE(yields_to(way("south-north"), way("east-west")));
+}
+
+TEST_CASE("a junction's own order of roads goes before who comes from the right, and signs before that") {
+  const auto ordered = [](const char* high, const char* low, Posted posted) {
+    road::RoadNetwork network = crossing(false, posted);
+    network.junctions.front().priorities = {
+        {road::find_road(network, high).value(), road::find_road(network, low).value()}};
+    return network;
+  };
+  // From the south the one from the east is on the right. Newer files name the roads that lead in, older ones those across.
+  for (const auto& [high, low] : {std::pair("south", "east"), std::pair("south-north", "east-west")}) {
+    CAPTURE(high);
+    const road::RoadNetwork network = ordered(high, low, Posted::nothing);
+    const LaneGraph graph = build_lane_graph(network);
+    CHECK_FALSE(yields_to(connection(network, graph, "south-north"), connection(network, graph, "east-west")));
+    CHECK(yields_to(connection(network, graph, "east-west"), connection(network, graph, "south-north")));
+  }
+  const road::RoadNetwork posted = ordered("west", "south", Posted::signs);
+  const LaneGraph graph = build_lane_graph(posted);
+  CHECK(yields_to(connection(posted, graph, "west-east"), connection(posted, graph, "south-north")));
 }
 
 TEST_CASE("a way's points are as long as its lane and its bends as slow as comfort asks") {
