@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -14,6 +16,7 @@
 #include "engine/sight/walls.hpp"
 #include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town.hpp"
+#include "engine/traffic/traffic_engine.hpp"
 #include "tests/engine/traffic/crossing_cars.hpp"
 #include "tests/engine/traffic/crossing_road.hpp"
 #include "tests/engine/traffic/town_run.hpp"
@@ -231,6 +234,35 @@ TEST_CASE("a house that is taken away hides nobody, and hides again once it is b
   CHECK(seen_from_m(network, graph, "west-east", "south-north") == std::numeric_limits<double>::infinity());
   look_past_walls(house_7, graph);
   CHECK(seen_from_m(network, graph, "west-east", "south-north") == 0.0);
+}
+
+TEST_CASE("a swarm between houses comes to see its junction late, and not while the houses are taken away") {
+  const road::RoadNetwork network = crossing(false, Posted::nothing);
+  std::vector<sight::Wall> walls;
+  for (const double x : {-90.0, 9.0})
+    for (const double y : {-90.0, 9.0})
+      for (sight::Wall wall : house({x, y}, {x + 81.0, y + 81.0})) wall.thing = 7, walls.push_back(wall);
+  const sight::Walls houses(std::move(walls));
+  ForeignVehicle far_away;
+  far_away.world_from_vehicle.position_m = Vec3(0.0, 0.0, -50.0);
+  const std::uint32_t house_7 = 7;
+  // Openings within 20 s, in which the houses are away until some time.
+  const auto openings = [&](double back_s) {
+    const auto engine = own_traffic(network, 3);
+    engine->see_walls(houses);
+    engine->start(motorway_traffic(8, 1000.0), std::span(&far_away, 1));
+    std::size_t count = 0;
+    for (double t = 0.0; t < 20.0; t += step_s) {
+      const std::span<const std::uint32_t> gone(&house_7, t < back_s ? 1 : 0);
+      engine->limit_sight({.limited = {}, .air = {}, .gone = gone});
+      engine->advance(std::span(&far_away, 1), step_s);
+      count += engine->take_openings().size();
+    }
+    return count;
+  };
+  CHECK(openings(20.0) == 0);
+  CHECK(openings(1.0) > 0);
+  CHECK(openings(0.0) > 0);
 }
 
 TEST_CASE("between houses at all corners nobody waits for ever") {
