@@ -31,7 +31,7 @@ class CorridorsTraffic final : public TrafficEngine {
           told_missing_ +
           std::max<std::size_t>(1, parameters_.count / 10));  // It thins out where the road is shorter than its radius.
   }
-  void limit_sight(SightNow sight) override { state_.sights.assign(sight.limited.begin(), sight.limited.end()); }
+  void limit_sight(const SightNow& sight) override { state_.sights.assign(sight.limited.begin(), sight.limited.end()); }
   bool release(ParticipantId id) override {
     if (!remove_vehicle(id, state_)) return false;
     // It is not missed.
@@ -97,7 +97,7 @@ class CrossingTraffic final : public TrafficEngine {
   void stop() override { now().stop(); }
   void show_lights(std::span<const TrafficLight> lights) override { now().show_lights(lights); }
   void advance(std::span<const ForeignVehicle> foreign, double dt_s) override { now().advance(foreign, dt_s); }
-  void limit_sight(SightNow sight) override { now().limit_sight(std::move(sight)); }
+  void limit_sight(const SightNow& sight) override { now().limit_sight(sight); }
   bool release(ParticipantId id) override { return now().release(id); }
   void worsen(std::uint32_t more_vehicles) override { now().worsen(more_vehicles); }
   void append_participants(std::vector<Participant>& participants) const override {

@@ -53,7 +53,7 @@ class TrafficEngine {
   /// new ones come last.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
   /// Before each tick's `advance`. An engine without this ability ignores it.
-  virtual void limit_sight(SightNow /*now*/) {}
+  virtual void limit_sight(const SightNow& /*now*/) {}
   /// Gives a vehicle up: from now on others move it, and it comes back as a foreign one, the last in their order.
   /// False: it has none of that number, or keeps it.
   virtual bool release(ParticipantId /*id*/) { return false; }

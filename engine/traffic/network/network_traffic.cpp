@@ -69,9 +69,9 @@ class NetworkTraffic final : public TrafficEngine {
     if (before_s < swarm_remark_s && town_.time_s >= swarm_remark_s)
       remark_ = swarm_remark(town_.vehicles.size(), on_road());
   }
-  void limit_sight(SightNow now) override {
+  void limit_sight(const SightNow& now) override {
     town_.sights.assign(now.limited.begin(), now.limited.end());
-    town_.air = std::move(now.air);
+    town_.air = now.air;
     if (std::ranges::equal(now.gone, gone_)) return;
     gone_.assign(now.gone.begin(), now.gone.end());
     if (walls_) look_past_walls(*walls_, graph_, gone_);
