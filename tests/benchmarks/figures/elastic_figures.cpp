@@ -16,6 +16,7 @@
 #include "engine/document/text_file.hpp"
 #include "tests/benchmarks/figures/ice_figures.hpp"
 #include "tests/benchmarks/figures/motion_figures.hpp"
+#include "tests/benchmarks/figures/smoke_figures.hpp"
 #include "tests/benchmarks/figures/swinging_cube.hpp"
 #include "tests/engine/physics/elastic/beam.hpp"
 
@@ -211,13 +212,16 @@ Plot time_figure() {
 
 int main(int argc, char** argv) {
   using namespace septet::figures;
-  CLI::App app{"Draws figures of the papers on elastic materials, ice, turning and face normals from measurements"};
+  CLI::App app{
+      "Draws figures of the papers on elastic materials, ice, turning, face normals and smoke from measurements"};
   std::string folder;
   app.add_option("folder", folder, "where the files go")->required();
   bool ice_alone = false;
   app.add_flag("--ice", ice_alone, "those of the paper on ice alone");
   bool motion_alone = false;
   app.add_flag("--motion", motion_alone, "those of the papers on turning and on face normals alone");
+  bool smoke_alone = false;
+  app.add_flag("--smoke", smoke_alone, "those of the paper on smoke alone");
   CLI11_PARSE(app, argc, argv);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -229,10 +233,11 @@ int main(int argc, char** argv) {
       }
     return true;
   };
+  if (smoke_alone) return draw_all({draw_smoke_sampling, draw_smoke_room}) ? 0 : 1;
   if (motion_alone) return draw_all({draw_turns, draw_normals}) ? 0 : 1;
   if (!draw_all({draw_ice_pictures, draw_ice_times})) return 1;
   if (ice_alone) return 0;
-  if (!draw_all({draw_turns, draw_normals})) return 1;
+  if (!draw_all({draw_turns, draw_normals, draw_smoke_sampling, draw_smoke_room})) return 1;
   for (const auto& [name, make] :
        {std::pair{"elastic-3-swinging-cube", &swinging_cube_figure}, std::pair{"elastic-8-pull", &pull_figure},
         std::pair{"elastic-9-twist", &twist_figure}, std::pair{"elastic-10-energy", &energy_figure},
