@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "engine/core/check.hpp"
 #include "engine/physics/elastic/assembly.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
+#include "engine/physics/elastic/director_arcs.hpp"
 #include "engine/physics/elastic/element.hpp"
 #include "engine/physics/elastic/pivot.hpp"
 #include "engine/physics/elastic/preconditioned_solve.hpp"
@@ -57,22 +59,31 @@ void move_along_arcs(ElasticBody& body, const Pivot& pivot, double dt, const Eig
   const Eigen::Matrix3d turn =
       angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix() : Eigen::Matrix3d::Identity().eval();
   const Eigen::Vector3d centre = motion.centre_m + dt * motion.velocity_mps;
+  std::vector<Eigen::Vector3d> way_m(body.position_m.size());  // Of deforming, seen from what turns.
+  for (int i = 0; i < body.node_count(); ++i)
+    way_m[i] = dt * (body.velocity_mps[i] - motion.velocity_mps - spin.cross(body.position_m[i] - motion.centre_m));
+  turn_directors(body, way_m, body.velocity_mps);
   for (int i = 0; i < body.node_count(); ++i) {
     if (body.fixed[i]) {
       body.position_m[i] += dt * body.velocity_mps[i];
       continue;
     }
-    const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
-    const Eigen::Vector3d relative = body.velocity_mps[i] - motion.velocity_mps;
-    const Eigen::Vector3d deforming = relative - spin.cross(arm);
-    body.position_m[i] = centre + turn * (arm + dt * deforming);
-    body.velocity_mps[i] = motion.velocity_mps + turn * relative;
+    body.position_m[i] = centre + turn * (body.position_m[i] - motion.centre_m + way_m[i]);
+    body.velocity_mps[i] = motion.velocity_mps + turn * (body.velocity_mps[i] - motion.velocity_mps);
   }
   motion = motion_about(body, pivot);
   const Eigen::Vector3d change =
       spin_of(pivot, motion.inertia_kgm2, angular_momentum_nms - motion.angular_momentum_nms);
   for (int i = 0; i < body.node_count(); ++i)
     if (!body.fixed[i]) body.velocity_mps[i] += change.cross(body.position_m[i] - motion.centre_m);
+}
+
+/// Moves a body that cannot turn as a whole; the directors of a sheet turn all the same.
+void move_along_lines(ElasticBody& body, double dt) {
+  std::vector<Eigen::Vector3d> way_m = body.velocity_mps;
+  for (Eigen::Vector3d& way : way_m) way *= dt;
+  turn_directors(body, way_m, body.velocity_mps);
+  for (int i = 0; i < body.node_count(); ++i) body.position_m[i] += way_m[i];
 }
 
 /// A contact in the same regularised form as the strain: φ is the gap, its stiffness is large, and it acts while the
@@ -277,7 +288,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
   if (pivot)
     move_along_arcs(body, *pivot, settings.step_s, expected_angular_momentum(body, before, settings, contacts));
   else
-    for (int i = 0; i < body.node_count(); ++i) body.position_m[i] += settings.step_s * body.velocity_mps[i];
+    move_along_lines(body, settings.step_s);
   report.bad_numbers += reset_bad_nodes(body);  // Other code reads the body from here on.
   return report;
 }
