@@ -241,6 +241,33 @@ TEST_CASE("a door that bends fast is as thick after a step as before it") {
   CHECK(most < 1e-4);
 }
 
+TEST_CASE("a door that spins freely keeps its energy and its length") {
+  for (const int axis : {0, 1, 2}) {
+    CAPTURE(axis);
+    Sheet sheet;
+    auto& body = sheet.piece.body;
+    Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < body.position_m.size(); ++i) centre_m += body.mass_kg[i] * body.position_m[i];
+    centre_m /= elastic::total_mass_kg(body);
+    for (std::size_t i = 0; i < body.position_m.size(); ++i)
+      body.velocity_mps[i] = 10.0 * Eigen::Vector3d::Unit(axis).cross(body.position_m[i] - centre_m);
+    const auto length_m = [&] {
+      return (way_m(sheet, 1.0, {body.position_m.size(), Eigen::Vector3d::Zero()}) -
+              way_m(sheet, 0.0, {body.position_m.size(), Eigen::Vector3d::Zero()}))
+          .norm();
+    };
+    const auto energy_j = [&] { return elastic::kinetic_energy_j(body) + elastic::elastic_energy_j(body); };
+    const double before_j = energy_j(), before_m = length_m();
+    elastic::StepSettings settings;
+    settings.step_s = 1.0 / 240.0;
+    settings.gravity_mps2.setZero();
+    settings.solver = elastic::Solver::direct;
+    for (int k = 0; k < 240; ++k) elastic::step_elastic(body, settings);
+    CHECK(energy_j() == relative(before_j, 0.005));
+    CHECK(length_m() == relative(before_m, 0.005));
+  }
+}
+
 TEST_CASE("a door stretched beyond its yield stays longer") {
   Sheet sheet;
   for (auto& x : sheet.piece.body.position_m) x.x() *= 1.02;  // Steel yields at a twentieth of it.
