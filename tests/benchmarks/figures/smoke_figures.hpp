@@ -1,5 +1,5 @@
 #pragma once
-/// Figures 2 to 13 of Gustavsson, Engström and Gustavsson, "A multi-sampling approach for smoke behavior in real-time
+/// Figures 2 to 7 and 9 to 13 of Gustavsson, Engström and Gustavsson, "A multi-sampling approach for smoke behavior in real-time
 /// graphics" (SIGRAD 2006), from Septet's own functions, as SVG.
 
 #include <filesystem>
