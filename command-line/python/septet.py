@@ -502,7 +502,7 @@ class World:
 
         Raises Refused where there is none, or somebody else has changed one of its things since. Handles do not notice it.
         """
-        return self._ask(["undo"]).result(60.0)
+        return int(self._ask(["undo"]).result(60.0))
 
     def save(self, file: Path) -> None:
         """Writes what differs from the world as it was when this script came, for `septet drive --edits`."""
@@ -514,7 +514,7 @@ class World:
         """A line of an operator's, as docs/editing.md has them; the tick after which it was done."""
         if "\n" in line:
             raise ValueError("a line has no end within")
-        return self._ask([f"operate {line}"]).result(60.0)
+        return int(self._ask([f"operate {line}"]).result(60.0))
 
     def call(self, name: str, node: Optional[Union["Handle", str]] = None, **parameters: Any) -> int:
         """One message to all who listen to the drive, about a thing or none: call("lift", node="stimuli/barrier", seconds=3).
@@ -523,7 +523,7 @@ class World:
         """
         about = "none" if node is None else node.node if isinstance(node, Handle) else _word(node)
         words = [_word(f"{key}={value}") for key, value in parameters.items()]
-        return self._ask([" ".join(["call", about, _word(name), *words])]).result(60.0)
+        return int(self._ask([" ".join(["call", about, _word(name), *words])]).result(60.0))
 
     def mark(self, text: str) -> int:
         """A mark in the log, at this tick."""
@@ -561,7 +561,7 @@ class World:
     @property
     def participants(self) -> dict[str, int]:
         """Numbers by the scenario's names: tick.participant(world.participants["ambulance"])."""
-        return self.hello["participants"]
+        return {str(name): int(number) for name, number in self.hello["participants"].items()}
 
     # ---- ticks
 

@@ -1,4 +1,4 @@
-"""septet.py is installed by pip into a fresh folder, and is there what it is here. Exit status 77 where pip is not installed."""
+"""septet.py is installed by pip into a fresh folder, without a network, and is there what it is here. Exit status 77 where pip is not installed."""
 import ast
 import importlib.util
 import pathlib
@@ -12,9 +12,8 @@ from importlib import metadata
 root = pathlib.Path(__file__).resolve().parents[3]
 module = root / "command-line/python"
 
-missing = [name for name in ("pip", "setuptools", "wheel") if importlib.util.find_spec(name) is None]
-if missing:
-    print(f"no {', '.join(missing)}: install the package python3-pip")
+if importlib.util.find_spec("pip") is None:
+    print("no pip: install the package python3-pip")
     sys.exit(77)
 
 # It imports Python's own library alone, and each function says its types.
@@ -34,15 +33,15 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     source, installed = folder / "source", folder / "installed"
     source.mkdir()
-    for file in ("pyproject.toml", "README.md", "septet.py"):  # pip builds where the source lies.
+    for file in ("pyproject.toml", "README.md", "build_wheel.py", "septet.py"):  # pip builds where the source lies.
         shutil.copy(module / file, source)
-    # Of the backend's requirement this Python has one; nothing is fetched.
+    # As one types it, in an environment of its own for the build, but with no index to fetch from.
     environment = {"PATH": "/usr/bin:/bin", "HOME": name}
-    done = subprocess.run([sys.executable, "-m", "pip", "--isolated", "install", "--no-index", "--no-build-isolation", "--no-cache-dir", "--no-compile",
+    done = subprocess.run([sys.executable, "-m", "pip", "--isolated", "install", "--no-index", "--no-cache-dir", "--no-compile",
                            "--target", str(installed), str(source)], env=environment, cwd=name, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stdout + done.stderr
     modules = {str(file.relative_to(installed)) for file in installed.rglob("*") if file.is_file() and ".dist-info" not in file.parts[-2]}
-    assert modules == {"septet.py"}, modules
+    assert modules == {"septet/__init__.py", "septet/py.typed"}, modules  # The second says to type checkers that the first is typed.
     (septet,) = metadata.distributions(path=[str(installed)])
     assert septet.metadata["Name"] == "septet" and not septet.requires, septet.metadata
     assert "Tag: py3-none-any" in septet.read_text("WHEEL")
@@ -53,5 +52,5 @@ with tempfile.TemporaryDirectory() as name:
                           env=environment | {"PYTHONPATH": str(installed)}, capture_output=True, text=True, timeout=600)
     assert said.returncode == 0, said.stderr
     where, names = said.stdout.splitlines()
-    assert where == str(installed / "septet.py") and "connect" in names.split(), said.stdout
+    assert where == str(installed / "septet/__init__.py") and "connect" in names.split(), said.stdout
     assert pathlib.Path(where).read_bytes() == (module / "septet.py").read_bytes()
