@@ -6,7 +6,7 @@ import septet
 
 with septet.connect(keys=sys.argv[1]) as world:
     first = next(world.ticks())
-    place, velocity = first.driver.ahead(20), (0, 0, 0)
+    place, velocity = list(first.driver.ahead(20)), [0.0, 0.0, 0.0]
     target = world.add("stimuli/target", sys.argv[2], place)
     for tick in world.ticks(every=12):
         place = [here + 0.1 * v for here, v in zip(place, velocity)]
