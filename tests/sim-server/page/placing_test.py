@@ -161,6 +161,18 @@ def main():
         page.click("#hidechosen")
         page.until(f"placed.things.some((thing) => thing.id === {tree['id']} && !thing.shown)")
 
+        # The same by the text of a command, typed in the field: shown, hidden again, and one that may not be is told.
+        def type_command(line):
+            page.value(f"document.getElementById('command').value = {line!r}; document.getElementById('command').form.requestSubmit()")
+
+        type_command(f'scene hide-set "{tree["name"]}" 0')
+        page.until(f"!placed.things.some((thing) => thing.id === {tree['id']})")
+        type_command(f'scene hide-set "{tree["name"]}" 1')
+        page.until(f"placed.things.some((thing) => thing.id === {tree['id']} && !thing.shown)")
+        type_command("scene hide-set nothing/there 1")
+        page.until("document.body.textContent.includes('nothing/there')")
+        type_command("call name=lift node=none degrees=70")
+
         # A thing that is removed is gone, and comes back by undo.
         page.value("choose(placed.things.find((thing) => thing.name.startsWith('placed/cube/')))")
         page.click("#removechosen")
@@ -194,7 +206,8 @@ def main():
         assert server.wait(LIMIT_S) == 3, "a drive that was ended by hand exits with 3"
         session = trial.folder / "out/session.sqlite"
         events = sqlite3.connect(session).execute("SELECT kind, detail FROM events").fetchall()
-        for kind, part in (("operator", "edit like"), ("operator", "edit import"), ("operator_command", "stand solid="), ("operator_command", "gone x_m=")):
+        for kind, part in (("operator", "edit like"), ("operator", "edit import"), ("operator_command", "stand solid="), ("operator_command", "gone x_m="),
+                           ("call", "name=lift")):
             assert any(k == kind and part in d for k, d in events), (kind, part)
         trial.run("replay", "--verify", session)
 
