@@ -51,7 +51,9 @@ void EditOutput::hello(const std::string& name, double tick_rate_hz, bool lockst
 void EditOutput::done(std::uint64_t request, Tick tick, const std::vector<std::string>& messages) const {
   if (json_)
     return put(out_, {{"type", "answer"}, {"request", request}, {"ok", true}, {"tick", tick}, {"messages", messages}});
-  out_ << fmt::format("{}: done, shown from tick {} on\n", request, tick);
+  // What writes a file shows nothing.
+  out_ << (tick == 0 ? fmt::format("{}: done\n", request)
+                     : fmt::format("{}: done, shown from tick {} on\n", request, tick));
   for (const std::string& message : messages) out_ << "  " << printable(message) << '\n';
   out_ << std::flush;
 }

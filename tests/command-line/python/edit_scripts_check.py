@@ -396,6 +396,9 @@ with tempfile.TemporaryDirectory() as name:
         undo_by_the_server("127.0.0.1", int(port), keys)
         ended_at = end_lifetimes("127.0.0.1", int(port), keys, folder / "ball.glb")
         (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
+        (folder / "lines").write_text(f"save {folder}/as-lines.edits\nmove stimuli/again 1 2 3\n")
+        saved, moved = [line for line in run(str(septet_program), "edit", "--keys", str(keys / "lab"), str(folder / "lines")).splitlines() if line[1:2] == ":"]
+        assert saved == "1: done" and moved.startswith("2: done, shown from tick "), (saved, moved)
         glb = str(folder / "ball.glb")
         lift_the_barrier("127.0.0.1", int(port), keys)
         ended_s = [time_of("127.0.0.1", int(port), keys)]
