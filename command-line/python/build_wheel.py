@@ -1,6 +1,6 @@
 """Packs septet.py for `pip install` (PEP 517), by Python's own library: pip fetches nothing, so a laboratory without a network installs it.
 
-A type checker reads the types of what is installed from folders with a file py.typed alone (PEP 561): septet.py goes in as septet/__init__.py.
+A type checker reads the types of what is installed from folders with a file py.typed alone (PEP 561): septet.py goes in as the __init__.py of one.
 """
 from __future__ import annotations
 

@@ -40,8 +40,8 @@ with tempfile.TemporaryDirectory() as name:
     done = subprocess.run([sys.executable, "-m", "pip", "--isolated", "install", "--no-index", "--no-cache-dir", "--no-compile",
                            "--target", str(installed), str(source)], env=environment, cwd=name, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stdout + done.stderr
-    modules = {str(file.relative_to(installed)) for file in installed.rglob("*") if file.is_file() and ".dist-info" not in file.parts[-2]}
-    assert modules == {"septet/__init__.py", "septet/py.typed"}, modules  # The second says to type checkers that the first is typed.
+    modules = {str(file.relative_to(installed / "septet")) for file in installed.rglob("*") if file.is_file() and ".dist-info" not in file.parts[-2]}
+    assert modules == {"__init__.py", "py.typed"}, modules  # The second says to type checkers that the first is typed.
     (septet,) = metadata.distributions(path=[str(installed)])
     assert septet.metadata["Name"] == "septet" and not septet.requires, septet.metadata
     assert "Tag: py3-none-any" in septet.read_text("WHEEL")
@@ -52,5 +52,5 @@ with tempfile.TemporaryDirectory() as name:
                           env=environment | {"PYTHONPATH": str(installed)}, capture_output=True, text=True, timeout=600)
     assert said.returncode == 0, said.stderr
     where, names = said.stdout.splitlines()
-    assert where == str(installed / "septet/__init__.py") and "connect" in names.split(), said.stdout
+    assert where == str(installed / "septet" / "__init__.py") and "connect" in names.split(), said.stdout
     assert pathlib.Path(where).read_bytes() == (module / "septet.py").read_bytes()
