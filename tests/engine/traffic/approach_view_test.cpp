@@ -25,8 +25,6 @@ namespace septet::traffic {
 namespace {
 
 constexpr double step_s = 1.0 / 30.0;
-/// East and west give way by signs that stand so far before their arms' ends.
-constexpr double sign_before_m = 2.0;
 constexpr double never = -1.0;
 
 /// A house as its four walls.

@@ -91,9 +91,9 @@ TEST_CASE("a junction's own order of roads goes before who comes from the right,
     return network;
   };
   // From the south the one from the east is on the right. Newer files name the roads that lead in, older ones those across.
-  for (const auto& [high, low] : {std::pair("south", "east"), std::pair("south-north", "east-west")}) {
-    CAPTURE(high);
-    const road::RoadNetwork network = ordered(high, low, Posted::nothing);
+  for (const auto& roads : {std::pair("south", "east"), std::pair("south-north", "east-west")}) {
+    CAPTURE(roads.first);
+    const road::RoadNetwork network = ordered(roads.first, roads.second, Posted::nothing);
     const LaneGraph graph = build_lane_graph(network);
     CHECK_FALSE(yields_to(connection(network, graph, "south-north"), connection(network, graph, "east-west")));
     CHECK(yields_to(connection(network, graph, "east-west"), connection(network, graph, "south-north")));
