@@ -92,6 +92,27 @@ bool is_clear(std::span<const Presence> presences, const TownState& town, WayInd
   return true;
 }
 
+/// True where a body from one place of a way to another, and one on any way, stand in each other: lanes may lie nearer to
+/// each other than cars are wide. Both as rows of circles along their middle lines.
+bool is_in_somebody(const LaneGraph& graph, const TownState& town, const VehicleModel& body, const Way& way,
+                    double front_m) {
+  constexpr double step_m = 0.5, beside_m = 0.2;
+  const Vec3 own_front_m = place_on_way(graph, way, front_m).position_m;
+  return std::ranges::any_of(town.vehicles, [&](const TownVehicle& other) {
+    if (other.outside) return false;
+    const VehicleModel& his = vehicle_models()[other.model];
+    const double least_m = 0.5 * (body.width_m + his.width_m) + beside_m;
+    const auto place_of = [&](double back_m) {
+      return place_on_route(graph, other, other.front_m - back_m).position_m;
+    };
+    if (glm::distance(place_of(0.0), own_front_m) > body.length_m + his.length_m + least_m) return false;
+    for (double own_m = 0.0; own_m <= body.length_m; own_m += step_m)
+      for (double his_m = 0.0; his_m <= his.length_m; his_m += step_m)
+        if (glm::distance(place_on_way(graph, way, front_m - own_m).position_m, place_of(his_m)) < least_m) return true;
+    return false;
+  });
+}
+
 /// Speed that the bends allow to a vehicle of which all from its rear to its front is in them.
 double bend_mps(const LaneGraph& graph, const Way& way, double rear_m, double front_m) {
   double square_m2ps2 = bend_square_at(graph, way, front_m).m2ps2;
@@ -116,6 +137,7 @@ bool try_to_enter(const TrafficParameters& parameters, const LaneGraph& graph, c
   if (distance_m < least_m || distance_m > parameters.radius_m) return false;
   double ahead_m = 200.0, ahead_mps = 0.0;
   if (!is_clear(presences.on(index), town, index, front_m, front_m - length_m, ahead_m, ahead_mps)) return false;
+  if (is_in_somebody(graph, town, vehicle_models()[vehicle.model], way, front_m)) return false;
   vehicle.outside = false;
   vehicle.route = {index};
   vehicle.front_m = front_m;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <string>
@@ -7,12 +9,15 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/archive.hpp"
+#include "engine/road/opendrive_reader.hpp"
 #include "engine/traffic/network/town.hpp"
 #include "engine/traffic/traffic_engine.hpp"
+#include "tests/conformance/conformance_data.hpp"
 #include "tests/engine/traffic/crossing_cars.hpp"
 #include "tests/engine/traffic/crossing_road.hpp"
 #include "tests/engine/traffic/public_town.hpp"
 #include "tests/engine/traffic/town_run.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -211,6 +216,22 @@ TEST_CASE("a town's traffic goes on from its saved state as if it had not been s
   engine->add_to_hash(a);
   again->add_to_hash(b);
   CHECK(a.value() == b.value());
+}
+
+TEST_CASE("nobody is placed in anybody, where lanes lie nearer to each other than cars are wide as well") {
+  const auto path = conformance_data("roads") / "multi_intersections.xodr";
+  const auto network = road::read_opendrive(text_of(path), path.string());
+  REQUIRE(network.has_value());
+  const LaneGraph graph = build_lane_graph(*network);
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    CAPTURE(seed);
+    Random random(seed, 1);
+    const TownState town = populate_town(motorway_traffic(150, 3000.0), *network, graph, {}, random);
+    std::vector<Participant> placed;
+    append_participants(graph, town, placed);
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      for (std::size_t j = i + 1; j < placed.size(); ++j) CHECK_FALSE(outlines_overlap(placed[i], placed[j]));
+  }
 }
 
 }  // namespace septet::traffic
