@@ -29,6 +29,7 @@ WayPoint point_at(const road::RoadNetwork& network, const Way& way, double s_m) 
   const road::LanePoint lane = road::evaluate_lane(network, {way.road, way.lane, s_m, 0.0});
   WayPoint point;
   point.position_m = lane.road.position_m;
+  point.width_m = lane.lane_width_m;
   // The road's pitch against the lane's direction of travel.
   const double pitch = way.along_s ? lane.road.pitch_rad : -lane.road.pitch_rad;
   point.tangent = {std::cos(pitch) * std::cos(lane.driving_heading_rad),
@@ -250,6 +251,7 @@ PlaceOnWay place_on_way(const LaneGraph& graph, const Way& way, double at_m) {
   const double length = glm::length(tangent);
   place.tangent = length > 1e-6 ? tangent / length : a.tangent;
   place.curvature_per_m = a.curvature_per_m + u * (b.curvature_per_m - a.curvature_per_m);
+  place.width_m = a.width_m + u * (b.width_m - a.width_m);
   return place;
 }
 

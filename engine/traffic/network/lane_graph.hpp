@@ -72,6 +72,7 @@ struct WayPoint {
   Vec3 position_m{0.0};
   Vec3 tangent{1.0, 0.0, 0.0};   ///< Unit, in the direction of travel.
   double curvature_per_m = 0.0;  ///< Of the lane's middle in the plan; positive turns left.
+  double width_m = 0.0;          ///< Of the lane.
   double bend_m2ps2 = 0.0;       ///< Square of the speed that the bends from here on allow, with braking before them.
 };
 
@@ -125,6 +126,7 @@ struct PlaceOnWay {
   Vec3 position_m{0.0};
   Vec3 tangent{1.0, 0.0, 0.0};
   double curvature_per_m = 0.0;
+  double width_m = 0.0;  ///< Of the lane.
 };
 PlaceOnWay place_on_way(const LaneGraph& graph, const Way& way, double at_m);
 

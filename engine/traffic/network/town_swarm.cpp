@@ -132,6 +132,10 @@ bool try_to_enter(const TrafficParameters& parameters, const LaneGraph& graph, c
   const double length_m = vehicle.length_m();
   const double to_end_m = way.length_m - front_m;
   if (front_m < length_m + 1.0 || to_end_m < way.line_before_m + 1.0) return false;
+  // Where a lane opens or ends it is narrower than what drives on it, and lies in its neighbour.
+  const double width_m = vehicle_models()[vehicle.model].width_m;
+  for (const double at_m : {front_m - length_m, front_m})
+    if (place_on_way(graph, way, at_m).width_m < width_m) return false;
   const Vec3 there = place_on_way(graph, way, front_m).position_m;
   const double distance_m = glm::distance(there, middle_m);
   if (distance_m < least_m || distance_m > parameters.radius_m) return false;

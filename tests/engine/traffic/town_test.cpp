@@ -218,6 +218,28 @@ TEST_CASE("a town's traffic goes on from its saved state as if it had not been s
   CHECK(a.value() == b.value());
 }
 
+TEST_CASE("nobody is placed where his lane is narrower than he is, as where it opens") {
+  const auto path = conformance_data("roads") / "multi_intersections.xodr";
+  const auto network = road::read_opendrive(text_of(path), path.string());
+  REQUIRE(network.has_value());
+  const LaneGraph graph = build_lane_graph(*network);
+  std::size_t on_opening = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Random random(seed, 1);
+    const TownState town = populate_town(motorway_traffic(150, 3000.0), *network, graph, {}, random);
+    for (const TownVehicle& vehicle : town.vehicles) {
+      if (vehicle.outside) continue;
+      const Way& way = graph.ways[vehicle.route.front()];
+      // Lane 1 of this road has no width from 59 m on, against its traffic.
+      on_opening += network->roads[way.road].id == "202" && way.lane == 1 ? 1 : 0;
+      for (double back_m = 0.0; back_m <= vehicle.length_m(); back_m += 0.5)
+        CHECK(place_on_way(graph, way, vehicle.front_m - back_m).width_m >=
+              vehicle_models()[vehicle.model].width_m - 0.01);
+    }
+  }
+  CHECK(on_opening > 0);
+}
+
 TEST_CASE("nobody is placed in anybody, where lanes lie nearer to each other than cars are wide as well") {
   const auto path = conformance_data("roads") / "multi_intersections.xodr";
   const auto network = road::read_opendrive(text_of(path), path.string());
