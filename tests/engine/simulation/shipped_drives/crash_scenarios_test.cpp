@@ -1,5 +1,6 @@
 // The scenarios that are shipped to be looked into with sight, what-if and accident: they crash, with each driver.
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,11 +40,17 @@ TEST_CASE("in crossing-crash drivers of each kind run into the car that runs its
   }
 }
 
-TEST_CASE("in walker-behind-van the walker is hit") {
-  for (const char* driver : {"plain", "experienced"}) {
+TEST_CASE("in walker-behind-van the front of the car hits the walker at 35 km/h or more, with drivers of each kind") {
+  for (const char* driver : {"plain", "novice", "experienced", "tired"}) {
     CAPTURE(driver);
     const auto events = driven("walker-behind-van", driver, 9.0);
-    CHECK(hit(events, "collision") == std::vector{walker});
+    REQUIRE(hit(events, "collision") == std::vector{walker});
+    const auto collision = std::ranges::find(events, "collision", &Event::kind);
+    CAPTURE(collision->detail);
+    CHECK(collision->detail.find("by=driver") != std::string::npos);
+    constexpr std::string_view speed = "closing_speed_mps=";
+    REQUIRE(collision->detail.starts_with(speed));
+    CHECK(std::stod(collision->detail.substr(speed.size())) > 35.0 / 3.6);
   }
 }
 
