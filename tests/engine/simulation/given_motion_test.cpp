@@ -114,7 +114,7 @@ TEST_CASE("a table with faults is refused with the line and the fault") {
   CHECK(says(refusal("time_s,colour\n0,0\n"), "edr.csv:1: \"colour\" is no column"));
   CHECK(says(refusal("time_s,speed_mps\n0,3\n0,4\n"), "edr.csv:3: time_s 0 follows 0"));
   CHECK(says(refusal("time_s,speed_mps\n0,nan\n"), "edr.csv:2: speed_mps is \"nan\""));
-  CHECK(says(refusal("time_s,speed_mps,speed_mps_pm\n0,3,-1\n"), "edr.csv:2"));
+  CHECK(says(refusal("time_s,speed_mps,speed_mps_pm\n0,3,-1\n"), "speed_mps_pm is \"-1\""));
   CHECK(says(refusal("time_s,speed_mps\n0,3\n"), "fewer than two rows"));
   CHECK(says(refusal("time_s,speed_mps\n0,3,4\n"), "3 numbers for 2 columns"));
 }
