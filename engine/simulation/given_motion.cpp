@@ -231,9 +231,9 @@ Expected<GivenMotion> read_motion(std::string_view text, std::string_view name) 
       const auto value = document::number_in<double>(cells[i]);
       const double least = header[i].is_plus_minus ? 0.0 : -column.most;
       if (!value || !(*value >= least && *value <= column.most))
-        return failure(fmt::format("{}{} is \"{}\"", column.name, header[i].is_plus_minus ? "_pm" : "",
-                                   printable(cells[i])),
-                       where, fmt::format("give a number from {:g} to {:g}", least, column.most));
+        return failure(
+            fmt::format("{}{} is \"{}\"", column.name, header[i].is_plus_minus ? "_pm" : "", printable(cells[i])),
+            where, fmt::format("give a number from {:g} to {:g}", least, column.most));
       MotionValues& values = header[i].is_plus_minus ? row.plus_minus : row.value;
       values.*column.value = *value * column.unit;
     }

@@ -211,8 +211,7 @@ Expected<LoadedDrive> load_drive(const logging::SessionInfo& session, const std:
       [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
         for (const auto& source : session.files)
           if (source.role == role && (!role.starts_with("catalog") || source.name == name)) return source;
-        return failure(fmt::format("the session holds no {}{}{}", role, name.empty() ? "" : " ", name), where,
-                       altered);
+        return failure(fmt::format("the session holds no {}{}{}", role, name.empty() ? "" : " ", name), where, altered);
       },
       seed == session.seeds.end() ? 1 : seed->second, {},
       std::ranges::count(session.files, motion_role, &logging::SourceFile::role) > 0, std::move(parameters));
