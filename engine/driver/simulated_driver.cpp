@@ -124,6 +124,11 @@ DriverInput stop_off_road(SimulatedDriver& driver, double dt_s) {
 
 }  // namespace
 
+void learn_views(SimulatedDriver& driver, const road::RoadNetwork& network, std::vector<traffic::ApproachView> views) {
+  driver.views = std::move(views);
+  if (driver.corridor) driver.course.lines = read_course(network, *driver.corridor, driver.views).lines;
+}
+
 DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, const Snapshot& snapshot, double dt_s) {
   driver.now_s += dt_s;
   ++driver.sequence;

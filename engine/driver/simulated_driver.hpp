@@ -38,7 +38,7 @@ struct SimulatedDriver {
         eyes_random(seed, 4) {}
 
   DriverParameters parameters;
-  std::vector<traffic::ApproachView> views;  ///< Of the network; the caller's.
+  std::vector<traffic::ApproachView> views;  ///< As learned last.
   Random hands_random, foot_random, head_random, eyes_random;
   std::optional<traffic::Corridor> corridor;
   std::optional<road::RoadPosition> place;  ///< Hint for the next look.
@@ -59,6 +59,9 @@ struct SimulatedDriver {
   bool plays = false;  ///< Has noticed that this is a game.
   std::uint8_t sequence = 0;
 };
+
+/// Tells the driver from where junctions are in view from now on: at first, and when walls have gone or come back.
+void learn_views(SimulatedDriver& driver, const road::RoadNetwork& network, std::vector<traffic::ApproachView> views);
 
 /// The controls `dt_s` later. Off every road the driver brakes to a stop.
 DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, const Snapshot& snapshot, double dt_s);

@@ -65,8 +65,9 @@ CrashRecord finished(const OpenCrash& crash) {
   CrashLedger& ledger = record.ledger.emplace();
   ledger.kinetic_before_j = kinetic_j(crash.first_at) + kinetic_j(crash.second_at);
   ledger.kinetic_after_j = kinetic_j(crash.first) + kinetic_j(crash.second);
-  ledger.crush_j = crash.of_contact.crush_j;
-  ledger.friction_j = crash.of_contact.friction_j;
+  // Friction gives nothing: where the force across the normal pushed on, the metal that had caught did.
+  ledger.crush_j = crash.of_contact.crush_j + std::min(0.0, crash.of_contact.friction_j);
+  ledger.friction_j = std::max(0.0, crash.of_contact.friction_j);
   ledger.debris_j = crash.debris_j;
   ledger.wheels_j = crash.wheels_j;
   return record;

@@ -76,6 +76,12 @@ std::string called(const ParticipantNames& names, const Participant& participant
                      .model = participant.model});
 }
 
+std::string called(const ParticipantNames& names, ParticipantId number) {
+  const auto name = names.find(number);
+  return name == names.end() ? fmt::format("{}", number)
+                             : fmt::format("{} {}", number, printable(name->second, longest_name_bytes));
+}
+
 Expected<std::vector<Stay>> stays_of(const SessionReader& session) {
   const auto names = participant_names(session);
   if (!names) return tl::unexpected(names.error());

@@ -37,6 +37,9 @@ struct Stay {
 std::string called(const Stay& stay);
 std::string called(const ParticipantNames& names, const Participant& participant);
 
+/// "4 crosser"; without a name "17".
+std::string called(const ParticipantNames& names, ParticipantId number);
+
 /// All participants of a session, by number. Decodes the whole drive. Error: damage, or a session without snapshots.
 Expected<std::vector<Stay>> stays_of(const SessionReader& session);
 

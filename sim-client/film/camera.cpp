@@ -1,6 +1,8 @@
 #include "sim-client/film/camera.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -16,6 +18,17 @@ constexpr double least_height_m = 0.3;  ///< Least height of a camera above the 
 bool is_outside(const Shot& shot) { return shot.distance_m > 0.0; }
 
 VehicleModel model_of(const Participant& participant) { return shape_of(participant); }
+
+/// Heading of what is set upright the shortest way: who tumbles forwards does not turn about by it, as his yaw would.
+double heading_upright_rad(const Quat& orientation) {
+  return std::remainder(2.0 * std::atan2(orientation.z, orientation.w), 2.0 * std::numbers::pi);
+}
+
+/// Height of the lower end of a participant's upright axis, which is on the ground or, of one who lies, little above it.
+double lower_end_m(const VehicleModel& model, const RigidTransform& world_from_vehicle) {
+  return std::min((world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.0)).z,
+                  (world_from_vehicle * Vec3(model.centre_x_m(), 0.0, model.height_m)).z);
+}
 
 /// Participant with `is_meant` that is nearest to the driver's car, the car itself excepted.
 template <class Meant>
@@ -61,12 +74,15 @@ Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& 
   const bool drives = participant->id == world.driver_car.participant;
   if (!is_outside(shot)) return Pivot{participant->id, drives ? driver_eye_m : scenery::eye_in(model)};
   const Vec3 middle_m(model.centre_x_m(), 0.0, 0.5 * model.height_m);
-  for (const Look& look : path)
-    if (middle_m.z - shot.distance_m * look.direction().z < least_height_m)
+  double least_middle_m = least_height_m;
+  for (const Look& look : path) {
+    least_middle_m = std::max(least_middle_m, least_height_m + shot.distance_m * look.direction().z);
+    if (middle_m.z < least_middle_m)
       return failure(fmt::format("with a pitch of {:.0f}° at a distance of {} m the camera goes below the road",
                                  look.pitch_rad() * 180.0 / std::numbers::pi, shot.distance_m),
                      shot.where, "let it look further down, or hang nearer");
-  return Pivot{participant->id, middle_m};
+  }
+  return Pivot{participant->id, middle_m, least_middle_m};
 }
 
 frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapshot& world,
@@ -86,11 +102,14 @@ frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapsh
         RigidTransform{pivot.in_views_m + driver.head.from_rest_m - turn * pivot.in_views_m, turn};
     return viewpoint;
   }
-  // Level frame below the same pivot.
-  const double heading =
-      shot.bearings == Bearings::vehicle ? heading_rad(participant->world_from_vehicle.orientation) : 0.0;
-  const Quat level = orientation_from_angles(heading, 0.0, 0.0);
-  viewpoint.world_from_views = {participant->world_from_vehicle * pivot.in_views_m - level * pivot.in_views_m, level};
+  // Level frame below the same pivot, which is raised above one who lies, or the camera could be below the road.
+  const RigidTransform& body = participant->world_from_vehicle;
+  const Quat level = orientation_from_angles(
+      shot.bearings == Bearings::vehicle ? heading_upright_rad(body.orientation) : 0.0, 0.0, 0.0);
+  Vec3 pivot_m = body * pivot.in_views_m;
+  if (is_outside(shot))
+    pivot_m.z = std::max(pivot_m.z, lower_end_m(model_of(*participant), body) + pivot.least_above_ground_m);
+  viewpoint.world_from_views = {pivot_m - level * pivot.in_views_m, level};
   return viewpoint;
 }
 

@@ -11,6 +11,7 @@ namespace septet::film {
 struct Pivot {
   std::optional<ParticipantId> participant;  ///< Empty: a fixed place.
   Vec3 in_views_m{0.0};  ///< Anchor in the viewpoint's frame, whose origin is the participant or the place.
+  double least_above_ground_m = 0.0;  ///< Of a camera outside: so high the anchor stays over who has fallen.
 };
 
 /// Resolves the participant that a shot names, in the world at the shot's beginning, and the camera's anchor on them:
@@ -20,7 +21,7 @@ Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& 
                            const std::vector<Look>& path, const logging::ParticipantNames& names);
 
 /// Frame in which the camera is placed and looks. Through a participant's eyes it sways with the vehicle; outside it
-/// stays level. For a participant that is gone it returns `before`, so the camera holds still.
+/// stays level and above the ground, also about a person who is thrown and lies. For a participant that is gone it returns `before`, so the camera holds still.
 frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapshot& world,
                               const frame::Viewpoint& before);
 

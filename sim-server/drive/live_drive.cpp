@@ -280,7 +280,7 @@ void LiveDrive::log_unfinished() {
 
 Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
   if (end_) return std::shared_ptr<const TakenSnapshot>();
-  for (const auto& device : seat_.devices) device->see(newest_->snapshot());
+  for (const auto& device : seat_.devices) device->see(newest_->snapshot(), state_.gone);
   logging::InputRecord input = read_input(controls);
   for (const auto& device : seat_.devices) {
     device->add_to(input.input);

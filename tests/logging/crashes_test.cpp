@@ -97,16 +97,31 @@ TEST_CASE("whence a blow came is told by eighths of a turn") {
 }
 
 TEST_CASE("a crash's sentence has what was measured, and nothing of what was not") {
-  CHECK(crash_text(crash_at(240, 1, 3)) ==
+  CHECK(crash_text(crash_at(240, 1, 3), {}) ==
         "participants 1 and 3 met at 49 km/h; 1: ΔV 23 km/h, from ahead, crushed by 0.38 m; 3: ΔV 23 km/h");
   CrashRecord bare;
   bare.first = 1;
   bare.stands = "tree";
   bare.closing_speed_mps = 5.0;
-  CHECK(crash_text(bare) == "participant 1 and tree met at 18 km/h");
-  const auto sentences = tell_events({told(crash_at(240, 1, 3))});
+  CHECK(crash_text(bare, {}) == "participant 1 and tree met at 18 km/h");
+  const auto sentences = tell_events({told(crash_at(240, 1, 3))}, {});
   CHECK(has(sentences[0].says, "crash: participants 1 and 3 met"));
   CHECK(sentences[0].row->title == "collisions");
+}
+
+TEST_CASE("the list of what happened calls those who met by the scenario's names") {
+  const ParticipantNames names{{1, "ego"}, {3, "crosser"}};
+  const auto event = [](std::string_view kind, ParticipantId participant, std::string_view detail) {
+    return Event{.kind = std::string(kind), .participant = participant, .detail = std::string(detail)};
+  };
+  const auto sentences =
+      tell_events({event("collision", 3, "closing_speed_mps=10"), event("collision", 4, ""),
+                   event("crash_of_others", 3, "with=4 by=4 closing_speed_mps=10"), told(crash_at(240, 1, 3))},
+                  names);
+  CHECK(sentences[0].says == "collision with 3 crosser at a closing speed of 36 km/h");
+  CHECK(sentences[1].says == "collision with participant 4");
+  CHECK(sentences[2].says == "participant 4 ran into 3 crosser at a closing speed of 36 km/h");
+  CHECK(has(sentences[3].says, "crash: participants 1 ego and 3 crosser met at 49 km/h; 1 ego: ΔV 23 km/h"));
 }
 
 TEST_CASE(
@@ -115,7 +130,7 @@ TEST_CASE(
   const auto section = [&] { return crash_section({&crash, 1}, 120.0, {}); };
   for (const std::optional<double> contact_s : {std::optional<double>(), std::optional(0.4)}) {
     crash.contact_s = contact_s;
-    CHECK(crash_text(crash).find("in contact") == std::string::npos);
+    CHECK(crash_text(crash, {}).find("in contact") == std::string::npos);
     CHECK(section().find("in contact") == std::string::npos);
   }
   for (const auto& [contact_s, words] : {std::pair(1.25, "1.2 s"), std::pair(1.975, "2 s or longer")}) {
@@ -123,7 +138,7 @@ TEST_CASE(
     const auto read = read_crash(1, text_of(crash));
     REQUIRE(read.has_value());
     CHECK(read->contact_s == contact_s);
-    CHECK(crash_text(*read).find(std::string("; in contact for ") + words) != std::string::npos);
+    CHECK(crash_text(*read, {}).find(std::string("; in contact for ") + words) != std::string::npos);
     CHECK(section().find(std::string("they stayed in contact for ") + words) != std::string::npos);
   }
 }

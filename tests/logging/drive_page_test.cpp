@@ -134,7 +134,7 @@ TEST_CASE("of many events of a row the table lists so many and counts the others
   std::vector<Event> events;
   for (int i = 0; i < 20000; ++i) events.push_back(event_at(i / 10.0, "mirror_glance", ""));
   events.push_back(event_at(1999.0, "mark", "by=Ann note=the end"));
-  const auto told = tell_events(events);
+  const auto told = tell_events(events, {});
   const std::string table = event_table(told);
   CHECK(count_of(table, "<td class=\"value\">") == static_cast<int>(most_listed_events) + 1);
   CHECK(count_of(table, "and 19940 more") == 1);

@@ -60,12 +60,12 @@ TEST_CASE(
   const auto events = session->events();
   REQUIRE(events.has_value());
   std::vector<std::string> says;
-  for (const logging::ToldEvent& told : logging::tell_events(*events))
+  for (const logging::ToldEvent& told : logging::tell_events(*events, {}))
     if (told.row->title == "collisions") says.push_back(told.says);
   REQUIRE(says.size() == 12);
   const std::string number = std::to_string(third), speed = " at a closing speed of 18 km/h";
   CHECK(says[0] == "collision with participant " + number + speed);
-  CHECK(says[1] == "participant 7 ran into " + number + speed);
+  CHECK(says[1] == "participant 7 ran into participant " + number + speed);
   CHECK(says[2] == "crash: participants 1 and " + number + " met at 18 km/h");
   CHECK(says[4] == "collision with stimuli/brick wall" + speed);
   CHECK(says[5] == "participant 7 ran into stimuli/brick wall" + speed);
@@ -105,7 +105,7 @@ TEST_CASE("a drive that ends in the middle of a crash has its record as far as i
   REQUIRE(crashes.size() == 1);
   CHECK(crashes.front().is_unfinished);
   CHECK(crashes.front().of_first.delta_v_mps.has_value());
-  CHECK(logging::crash_text(crashes.front()).ends_with("; the drive ended before its impact was over"));
+  CHECK(logging::crash_text(crashes.front(), {}).ends_with("; the drive ended before its impact was over"));
 }
 
 }  // namespace septet::server

@@ -176,11 +176,12 @@ void look_past_walls(const sight::Walls& walls, LaneGraph& graph, std::span<cons
     }
 }
 
-std::vector<ApproachView> approach_views(const road::RoadNetwork& network, const sight::Walls& walls) {
+std::vector<ApproachView> approach_views(const road::RoadNetwork& network, const sight::Walls& walls,
+                                         std::span<const std::uint32_t> gone) {
   std::vector<ApproachView> views;
   if (network.junctions.empty()) return views;
   LaneGraph graph = build_lane_graph(network);
-  look_past_walls(walls, graph);
+  look_past_walls(walls, graph, gone);
   for (const Way& mine : graph.ways)
     for (const WayConflict& conflict : graph.conflicts_of(mine)) {
       const Way& his = graph.ways[conflict.with];

@@ -56,8 +56,9 @@ struct ApproachView {
   std::vector<std::vector<Vec3>> looked_for_m;
 };
 
-/// All of a network, by road.
-std::vector<ApproachView> approach_views(const road::RoadNetwork& network, const sight::Walls& walls);
+/// All of a network, by road. `gone` as above.
+std::vector<ApproachView> approach_views(const road::RoadNetwork& network, const sight::Walls& walls,
+                                         std::span<const std::uint32_t> gone = {});
 
 /// A body that is higher than drivers' eyes.
 struct HighBody {

@@ -78,13 +78,14 @@ std::string_view whence(double principal_direction_rad) {
   return words[static_cast<std::size_t>(eighths) % words.size()];
 }
 
-std::string crash_text(const CrashRecord& crash) {
+std::string crash_text(const CrashRecord& crash, const ParticipantNames& names) {
   const bool by_number = crash.second && crash.stands.empty();
-  const std::string other = by_number ? fmt::format("{}", *crash.second) : crash.stands;
+  const std::string first = called(names, crash.first);
+  const std::string other = by_number ? called(names, *crash.second) : crash.stands;
   const bool lasts = crash.contact_s && *crash.contact_s >= lasting_contact_s;
-  return fmt::format("{} {} and {} met at {:.0f} km/h{}{}{}{}", by_number ? "participants" : "participant", crash.first,
-                     other, kmh_per_mps * crash.closing_speed_mps,
-                     body_text(fmt::format("{}", crash.first), crash.of_first), body_text(other, crash.of_second),
+  return fmt::format("{} {} and {} met at {:.0f} km/h{}{}{}{}", by_number ? "participants" : "participant", first,
+                     other, kmh_per_mps * crash.closing_speed_mps, body_text(first, crash.of_first),
+                     body_text(other, crash.of_second),
                      lasts ? fmt::format("; in contact for {}", contact_text(*crash.contact_s)) : "",
                      crash.is_unfinished ? "; the drive ended before its impact was over" : "");
 }

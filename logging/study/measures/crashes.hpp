@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/world/crash_record.hpp"
+#include "logging/session/participants.hpp"
 #include "logging/session/records.hpp"
 
 namespace septet::logging {
@@ -21,7 +22,8 @@ std::optional<CrashRecord> crash_of(const Event& touch, std::span<const CrashRec
 /// Whence a blow came: "from ahead", "from the left", "from behind, right", ….
 std::string_view whence(double principal_direction_rad);
 
-/// A record in a sentence: "participants 1 and 3 met at 49 km/h; 1: ΔV 23 km/h, from ahead, crushed by 0.38 m; 3: …".
-std::string crash_text(const CrashRecord& crash);
+/// A record in a sentence: "participants 1 ego and 3 met at 49 km/h; 1 ego: ΔV 23 km/h, from ahead, crushed by 0.38 m;
+/// 3: …". `names`: of the session.
+std::string crash_text(const CrashRecord& crash, const ParticipantNames& names);
 
 }  // namespace septet::logging

@@ -31,15 +31,9 @@ std::string cell(const std::optional<double>& value, double unit, int decimals) 
   return fmt::format("<td class=\"value\">{}</td>", value ? number_text(unit * *value, decimals) : "–");
 }
 
-/// "3 crosser", or the number alone.
-std::string called(ParticipantId number, const ParticipantNames& names) {
-  const auto name = names.find(number);
-  return name == names.end() ? fmt::format("{}", number) : fmt::format("{} {}", number, name->second);
-}
-
 /// What stands and a solid have their name in the record.
 std::string called_second(const CrashRecord& crash, const ParticipantNames& names) {
-  return crash.second && crash.stands.empty() ? called(*crash.second, names) : crash.stands;
+  return crash.second && crash.stands.empty() ? called(names, *crash.second) : crash.stands;
 }
 
 std::string row(const std::string& who, const CrashedBody& body) {
@@ -76,7 +70,7 @@ std::string pulse_chart(const CrashRecord& crash, double ticks_per_second, const
                              glm::length(crash.pulse_ns[i]) * ticks_per_second / *body.mass_kg / gravity_mps2});
     chart.series.push_back(std::move(line));
   };
-  add(called(crash.first, names), crash.of_first, document::Stroke::line);
+  add(called(names, crash.first), crash.of_first, document::Stroke::line);
   if (crash.second) add(called_second(crash, names), crash.of_second, document::Stroke::dashed);
   if (crash.pulse_ns.size() < 2 || chart.series.empty()) return "";
   return fmt::format("<figure>{}<figcaption>Means of each tick. Wheels are not in it.</figcaption></figure>\n",
@@ -84,7 +78,7 @@ std::string pulse_chart(const CrashRecord& crash, double ticks_per_second, const
 }
 
 std::string told(const CrashRecord& crash, double ticks_per_second, const ParticipantNames& names) {
-  const std::string first = called(crash.first, names), other = called_second(crash, names);
+  const std::string first = called(names, crash.first), other = called_second(crash, names);
   std::string html = fmt::format("<h3>{:.2f} s: {} and {}</h3>\n<p>The surfaces met at {:.1f} km/h along their normal",
                                  static_cast<double>(crash.tick) / ticks_per_second, escaped(first), escaped(other),
                                  kmh_per_mps * crash.closing_speed_mps);

@@ -255,7 +255,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
 
 std::string to_html(const ReportData& data) {
   const DriveMeasures measures = compute_drive_measures(data, data.settings);
-  const std::vector<ToldEvent> events = tell_events(data.events);
+  const std::vector<ToldEvent> events = tell_events(data.events, data.names);
   std::string body = head(data, measures);
   if (data.samples.empty())
     body += data.impossible.samples > 0

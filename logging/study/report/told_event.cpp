@@ -112,10 +112,15 @@ std::string glance_text(const Event& event) {
   return area && duration_s ? fmt::format("{}, for {} s", *area, *duration_s) : event.detail;
 }
 
-std::string collision_text(const Event& event) {
+/// "participant 7", or "3 crosser".
+std::string called_in_text(const ParticipantNames& names, ParticipantId number) {
+  return (names.contains(number) ? "" : "participant ") + called(names, number);
+}
+
+std::string collision_text(const Event& event, const ParticipantNames& names) {
   const auto name = struck_by_name(event.detail);
   const std::string whom = name                ? " with " + *name
-                           : event.participant ? fmt::format(" with participant {}", *event.participant)
+                           : event.participant ? " with " + called_in_text(names, *event.participant)
                                                : "";
   const auto closing = value_of(event.detail, "closing_speed_mps");
   const std::string_view before = std::string_view(event.detail).substr(0, event.detail.find(' '));
@@ -125,19 +130,21 @@ std::string collision_text(const Event& event) {
                      by && *by == "other" ? ", who ran into the driver's car" : "");
 }
 
-std::string crash_of_others_text(const Event& event) {
+std::string crash_of_others_text(const Event& event, const ParticipantNames& names) {
   const auto with = value_of(event.detail, "with"), by = value_of(event.detail, "by"),
              closing = value_of(event.detail, "closing_speed_mps");
   if (event.participant && closing && !with)
-    return fmt::format("participant {} ran into {} at a closing speed of {}", *event.participant,
+    return fmt::format("{} ran into {} at a closing speed of {}", called_in_text(names, *event.participant),
                        std::string_view(event.detail).substr(0, event.detail.find(" closing_speed_mps=")),
                        kmh_of(*closing));
   if (!event.participant || !with || !by || !closing) return event.detail;
   const auto name = struck_by_name(event.detail);
-  const std::string first = fmt::format("{}", *event.participant), second = name.value_or(*with);
-  const bool by_first = *by == first;
-  return fmt::format("{}{} ran into {} at a closing speed of {}", name && !by_first ? "" : "participant ",
-                     by_first ? first : second, by_first ? second : first, kmh_of(*closing));
+  const auto number = document::number_in<ParticipantId>(*with);
+  const std::string first = called_in_text(names, *event.participant);
+  const std::string second = name ? *name : number ? called_in_text(names, *number) : *with;
+  const bool by_first = *by == fmt::format("{}", *event.participant);
+  return fmt::format("{} ran into {} at a closing speed of {}", by_first ? first : second, by_first ? second : first,
+                     kmh_of(*closing));
 }
 
 /// The kind, and its `key=value` pairs verbatim.
@@ -147,7 +154,7 @@ std::string plain_text(const Event& event) {
   return event.detail.empty() ? kind : kind + ": " + event.detail;
 }
 
-std::string text_of(const Event& event) {
+std::string text_of(const Event& event, const ParticipantNames& names) {
   if (event.kind == "mark") return rest_behind(event.detail, "note=").value_or(event.detail) + said_by(event.detail);
   if (event.kind == "word")
     return fmt::format("to the driver: {}{}", rest_behind(event.detail, "text=").value_or(event.detail),
@@ -158,10 +165,10 @@ std::string text_of(const Event& event) {
   if (event.kind == "scenario") return storyboard_text(event.detail);
   if (event.kind == "lane_change") return lane_change_text(event);
   if (event.kind == "mirror_glance") return glance_text(event);
-  if (event.kind == "collision") return collision_text(event);
-  if (event.kind == "crash_of_others") return crash_of_others_text(event);
+  if (event.kind == "collision") return collision_text(event, names);
+  if (event.kind == "crash_of_others") return crash_of_others_text(event, names);
   if (event.kind == crash_event && event.participant)
-    if (const auto crash = read_crash(*event.participant, event.detail)) return "crash: " + crash_text(*crash);
+    if (const auto crash = read_crash(*event.participant, event.detail)) return "crash: " + crash_text(*crash, names);
   if (event.kind == "screen") return event.detail;
   if (event.kind == "speed_limit")
     if (const auto kmh = value_of(event.detail, "kmh"))
@@ -179,12 +186,12 @@ const std::vector<EventRow>& event_rows() {
   return rows;
 }
 
-std::vector<ToldEvent> tell_events(const std::vector<Event>& events) {
+std::vector<ToldEvent> tell_events(const std::vector<Event>& events, const ParticipantNames& names) {
   std::vector<ToldEvent> told;
   told.reserve(events.size());
   for (const Event& event : events)
     told.push_back(
-        {event.simulated_time_s, &event_rows()[static_cast<std::size_t>(row_of(event.kind))], text_of(event)});
+        {event.simulated_time_s, &event_rows()[static_cast<std::size_t>(row_of(event.kind))], text_of(event, names)});
   return told;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "logging/session/participants.hpp"
 #include "logging/session/records.hpp"
 
 namespace septet::logging {
@@ -21,8 +22,8 @@ struct ToldEvent {
   std::string says;  ///< Plain text, not escaped.
 };
 
-/// In the order of the log. Every event is included, also one known to the scenario alone.
-std::vector<ToldEvent> tell_events(const std::vector<Event>& events);
+/// In the order of the log. Every event is included, also one known to the scenario alone. `names`: of the session.
+std::vector<ToldEvent> tell_events(const std::vector<Event>& events, const ParticipantNames& names);
 
 /// All rows, from the top of the page down.
 const std::vector<EventRow>& event_rows();

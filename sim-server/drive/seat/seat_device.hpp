@@ -5,7 +5,9 @@
 ///
 ///     see → the controls are read → add_to → the tick is simulated → actuate → show
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "car-io/actuators.hpp"
@@ -26,8 +28,8 @@ class SeatDevice {
   /// True if it shows instruments on a physical cluster, apart from the screens.
   virtual bool shows() const { return false; }
 
-  /// Takes the world before a tick.
-  virtual void see(const Snapshot& /*before*/) {}
+  /// Takes the world before a tick. `gone`: things of the roadside that do not stand any more, ascending (standing.hpp).
+  virtual void see(const Snapshot& /*before*/, std::span<const std::uint32_t> /*gone*/) {}
   /// Adds its measurements of the driver to the controls of the next tick.
   virtual void add_to(DriverInput& /*input*/) {}
   /// Moves its actuators; zeros mean rest. Returns each fault once.

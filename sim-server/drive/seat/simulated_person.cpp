@@ -4,6 +4,8 @@
 
 namespace septet::server {
 
-void SimulatedPerson::see(const Snapshot& before) { car_.drive(before, 1.0 / simulation::tick_rate_hz); }
+void SimulatedPerson::see(const Snapshot& before, std::span<const std::uint32_t> gone) {
+  car_.drive(before, 1.0 / simulation::tick_rate_hz, gone);
+}
 
 }  // namespace septet::server

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "car-io/simulated_driver_car.hpp"
@@ -23,7 +24,7 @@ class SimulatedPerson final : public SeatDevice {
   car_io::OpenHidDevice opener() const { return car_.opener(); }
 
   bool drives() const override { return true; }
-  void see(const Snapshot& before) override;
+  void see(const Snapshot& before, std::span<const std::uint32_t> gone) override;
 
  private:
   std::shared_ptr<const simulation::Model> model_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "engine/driver/course.hpp"
 #include "engine/driver/driver_parameters.hpp"
 #include "engine/driver/pedals.hpp"
+#include "engine/driver/simulated_driver.hpp"
 #include "engine/sight/walls.hpp"
 #include "engine/traffic/corridor.hpp"
 #include "engine/traffic/network/approach_view.hpp"
@@ -19,10 +21,13 @@ namespace {
 constexpr double glance_s = 0.05, comes_mps = 12.0, sign_at_m = 198.0;
 
 /// A house between the arms of east and north, up to so far before the middle of the crossing, by its two sides there.
-std::vector<traffic::ApproachView> hidden_by_house(const road::RoadNetwork& network, double from_middle_m) {
+constexpr std::uint32_t house = 1;
+std::vector<traffic::ApproachView> hidden_by_house(const road::RoadNetwork& network, double from_middle_m,
+                                                   std::span<const std::uint32_t> gone = {}) {
   const Vec2 corner(from_middle_m, 6.0);
-  return traffic::approach_views(
-      network, sight::Walls({{{90.0, 6.0}, corner, -1.0, 8.0}, {corner, {from_middle_m, 90.0}, -1.0, 8.0}}));
+  const sight::Walls walls(
+      {{{90.0, 6.0}, corner, -1.0, 8.0, house}, {corner, {from_middle_m, 90.0}, -1.0, 8.0, house}});
+  return traffic::approach_views(network, walls, gone);
 }
 
 struct Approach {
@@ -80,6 +85,24 @@ TEST_CASE("a driver comes to a hidden give-way line so that he can stop there, a
   CHECK(at_line.most_needed_mps2 < 4.0);
   CHECK(open.most_needed_mps2 > 6.0);
   CHECK(at_5_m.line_mps > at_line.line_mps + 0.3);
+}
+
+TEST_CASE("a house that is gone slows no driver, and one on his way learns that it is gone, or back") {
+  const road::RoadNetwork network = traffic::crossing(false, traffic::Posted::signs);
+  const auto standing = hidden_by_house(network, 10.0), gone = hidden_by_house(network, 10.0, std::span(&house, 1));
+  CHECK(approach(network, gone).line_mps == approach(network, {}).line_mps);
+  SimulatedDriver driver(*find_driver("experienced"), 1);
+  const auto seen_from_m = [&](const std::vector<traffic::ApproachView>& views) {
+    learn_views(driver, network, views);
+    return driver.course.lines.empty() ? -1.0 : driver.course.lines[0].view->seen_from_m;
+  };
+  CHECK(seen_from_m(standing) == -1.0);  // He is on no road yet.
+  const auto east = road::find_road(network, "east");
+  REQUIRE(east.has_value());
+  driver.corridor = traffic::build_corridor(network, {*east, -1, 50.0, 0.0});
+  CHECK(seen_from_m(standing) < 10.0);
+  CHECK(seen_from_m(gone) > traffic::looks_before_m.front());
+  CHECK(seen_from_m(standing) < 10.0);
 }
 
 TEST_CASE("a driver comes to a line at which a van hides the junction so that he can stop there, and past a car not") {

@@ -95,6 +95,7 @@ TEST_CASE("the ledger of every pair closes to 0.1 %, each part reckoned by itsel
                                      << ", wheels " << ledger.wheels_j << ", missing " << share_missing(ledger));
       CHECK(share_missing(ledger) < 0.001);
       CHECK(ledger.crush_j > 0.0);
+      CHECK(ledger.friction_j >= 0.0);
       if (with_wheels)
         CHECK(ledger.wheels_j > 0.0);
       else

@@ -25,6 +25,7 @@
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "sim-client/film/film.hpp"
 #include "sim-client/film/film_file.hpp"
+#include "sim-client/film/traced/layers.hpp"
 #include "sim-client/soundtrack/wav_file.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/relative.hpp"
@@ -218,7 +219,7 @@ TEST_CASE("OpenEXR pictures hold the light of the pictures and stay those of a f
   CHECK(sky_is_nothing);
 }
 
-TEST_CASE("the layer of motion changes no pixel and tells the ways of what moves") {
+TEST_CASE("no layer changes a pixel, and that of motion tells the ways of what moves") {
   const TemporaryFolder folder;
   {
     auto writer = logging::must_create(folder / "session.sqlite");
@@ -244,7 +245,7 @@ TEST_CASE("the layer of motion changes no pixel and tells the ways of what moves
                       .to_s = 0.26};
   REQUIRE(refusal_of(options) == "");
   options.out = folder / "with";
-  options.layers = {Layer::motion};
+  REQUIRE(read_layers("all", options.layers) == "");
   const auto made = make_film(options, [](const FilmMade&) { return true; });
   REQUIRE_MESSAGE(made.has_value(), why_not(made));
   CHECK(made->notice.empty());

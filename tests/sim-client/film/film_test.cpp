@@ -111,7 +111,7 @@ TEST_CASE("an orbit keeps its distance and its pitch and a level horizon though 
     const RigidTransform& car = world.participants[0].world_from_vehicle;
     const auto viewpoint = viewpoint_at(shot, *pivot, world, {});
     CHECK_FALSE(viewpoint.inside.has_value());  // The car is drawn whole.
-    const double north_rad = bearings == Bearings::world ? 0.0 : heading_rad(car.orientation);
+    const double north_rad = bearings == Bearings::world ? 0.0 : 2.0 * std::atan2(car.orientation.z, car.orientation.w);
     for (const Look& look : *path) {
       const auto view = views_at(shot, *pivot, look, 320, 180).views[0].projection;
       const Vec3 eye_m = viewpoint.world_from_views * view.eye_m, middle_m = car * pivot->in_views_m;
@@ -123,6 +123,26 @@ TEST_CASE("an orbit keeps its distance and its pitch and a level horizon though 
       REQUIRE(std::abs(std::remainder(std::atan2(forward.y, forward.x) - north_rad - look.heading_rad(),
                                       2.0 * std::numbers::pi)) < 1e-9);
     }
+  }
+}
+
+TEST_CASE("an orbit about a person who is thrown stays above the road and does not turn about as he tumbles") {
+  Snapshot world = world_with_others();
+  Participant& walker = world.participants[1];
+  walker.model = *find_vehicle_model("pedestrian");
+  const Shot shot{.from_s = 0.0, .to_s = 1.0, .participant = "5", .distance_m = 6.0, .pitch_rad = 5.0 * radians};
+  const auto path = camera_path(shot, frames_per_second);
+  REQUIRE(path.has_value());
+  const auto pivot = find_pivot(shot, world, Vec3(0.0), *path, {});
+  REQUIRE(pivot.has_value());
+  const Vec3 eye_in_views_m = views_at(shot, *pivot, path->front(), 320, 180).views[0].projection.eye_m;
+  for (double tumbled = 0.0; tumbled <= 170.0; tumbled += 5.0) {
+    CAPTURE(tumbled);
+    walker.world_from_vehicle = {{3200.0, -2000.0, 35.0}, orientation_from_angles(1.0, tumbled * radians, 0.0)};
+    if (tumbled >= 90.0) walker.world_from_vehicle.position_m.z += 1.75;  // His feet are up.
+    const RigidTransform views = viewpoint_at(shot, *pivot, world, {}).world_from_views;
+    CHECK((views * eye_in_views_m).z > 35.15);
+    CHECK(heading_rad(views.orientation) == doctest::Approx(1.0));
   }
 }
 

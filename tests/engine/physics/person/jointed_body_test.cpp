@@ -203,6 +203,7 @@ TEST_CASE("nobody stands after more than 3 m/s, whatever side is hit and by what
         CAPTURE(speed_mps);
         CAPTURE(heading_rad);
         CHECK(found.uprightness < 0.4);
+        CHECK(found.sinks_m > 0.65);  // To 0.3 m above the road at most, be it on his head.
         CHECK(found.rests);
       }
 }

@@ -78,7 +78,7 @@ std::vector<SavedDrive> drive_and_save(const std::string& scenario, const std::s
       saved.push_back({now.tick, now.state_hash, std::move(*bytes), keyframes(now, smoke::keyframe_kind),
                        keyframes(now, debris::keyframe_kind)});
     }
-    for (const auto& device : seat->devices) device->see(now);
+    for (const auto& device : seat->devices) device->see(now, {});
     const DriverInput input = seat->car->poll(drive.state.time_s()).input;
     now = drive.step(input);
     for (SavedDrive& each : saved) {

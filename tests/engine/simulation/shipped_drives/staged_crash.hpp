@@ -45,7 +45,7 @@ struct StagedCrash {
     return std::move(*drive);
   }
   void step() {
-    for (const auto& device : seat.devices) device->see(now);
+    for (const auto& device : seat.devices) device->see(now, {});
     inputs.push_back(seat.car->poll(state.time_s()).input);
     now = server_step(*loaded.model, inputs.back(), state, events);
   }
