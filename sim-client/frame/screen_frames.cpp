@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/core/check.hpp"
-#include "engine/world/vehicle_model.hpp"
 #include "sim-client/frame/instruments.hpp"
 
 namespace septet::frame {
@@ -25,9 +24,8 @@ ScreenViews ScreenFrames::views_in(const Snapshot& shown, const Viewpoint& viewp
   ScreenViews views = views_;
   if (are_drivers || views.only_instruments) return views;
   views.views.resize(1);  // Insets are mirrors of the driver's car.
-  // The rig's real car is around the viewer: it stands for the inside of a car, and for that of nothing else.
-  const Participant* participant = viewpoint.inside ? find_participant(shown, *viewpoint.inside) : nullptr;
-  views.show_interior |= participant && vehicle_models()[participant->model].kind != ParticipantKind::car;
+  // The rig's real car is around the viewer and stands for the driver's; others' pillars hide other things.
+  views.show_interior |= viewpoint.inside != shown.driver_car.participant;
   return views;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include "engine/scenery/vehicles/eye_point.hpp"
@@ -47,10 +48,10 @@ std::string texts_of(const instant::FrameInput& frame) {
 
 /// Frame of a screen, with or without somebody's eyes.
 instant::FrameInput frame_of(const rig::Rig& rig, const rig::Screen& screen, const Snapshot& world,
-                             std::optional<Eyes> eyes) {
+                             std::optional<Eyes> eyes, const scene::ResolvedScene& scene = {}) {
   ScreenFrames frames;
   REQUIRE(frames.look_through(rig, screen, std::move(eyes)).has_value());
-  return frames.frame(world, scene::ResolvedScene());
+  return frames.frame(world, scene);
 }
 
 }  // namespace
@@ -109,6 +110,25 @@ TEST_CASE("insets, which are mirrors of the driver's car, are left out at others
   const rig::Screen& screen = rig->screens.front();
   CHECK(frame_of(*rig, screen, world, std::nullopt).views.size() > 1);
   CHECK(frame_of(*rig, screen, world, Eyes{crosser, "4"}).views.size() == 1);
+}
+
+TEST_CASE("a rig with a real car draws the inside of any other vehicle that one looks out of, and not of the driver's") {
+  Snapshot world = crossing();
+  const rig::Rig rig = seven_screens();
+  const rig::Screen& ahead = rig::screen_ahead(rig);
+  CHECK_FALSE(ahead.show_interior);
+  for (const char* name : {"volvo-s80", "lorry", "city-bus", "bicycle"}) {
+    CAPTURE(name);
+    for (Participant& participant : world.participants) participant.model = *find_vehicle_model(name);
+    scene::ResolvedScene scene;
+    scene.prototypes = {{.name = name}, {.name = fmt::format("interior/{}", name)}};
+    const auto insides = [&](ParticipantId of) {
+      const auto frame = frame_of(rig, ahead, world, Eyes{of, "one"}, scene);
+      return std::ranges::count(frame.participants, 1u, &instant::DrawnParticipant::prototype);
+    };
+    CHECK(insides(crosser) == 1);
+    CHECK(insides(driver) == 0);
+  }
 }
 
 TEST_CASE("before somebody is there the screens wait at the driver's eyes, and after at the last place, and say so") {
