@@ -112,7 +112,8 @@ TEST_CASE("insets, which are mirrors of the driver's car, are left out at others
   CHECK(frame_of(*rig, screen, world, Eyes{crosser, "4"}).views.size() == 1);
 }
 
-TEST_CASE("a rig with a real car draws the inside of any other vehicle that one looks out of, and not of the driver's") {
+TEST_CASE(
+    "a rig with a real car draws the inside of any other vehicle that one looks out of, and not of the driver's") {
   Snapshot world = crossing();
   const rig::Rig rig = seven_screens();
   const rig::Screen& ahead = rig::screen_ahead(rig);
