@@ -1,8 +1,8 @@
 #pragma once
 /// Collisions of all participants: who meets whom, by the law of all impacts (engine/physics/impact).
 ///
-/// Pairs with the driver's car, with one of the scenario, or with a loose body are looked at; two of traffic are left
-/// to their engine. At the first touch at which the surfaces approach, either vehicle leaves its rails
+/// Pairs with the driver's car, with one of the scenario, with a loose body or with somebody of traffic who errs are looked
+/// at; two others of traffic are left to their engine. At the first touch at which the surfaces approach, either vehicle leaves its rails
 /// (bodies/bodies.hpp), and their engagement is advanced each tick until they are apart. People and two-wheelers whom
 /// a vehicle hits are thrown by a stage of their own (thrown_stage.hpp). Who cannot leave the rails stays on them:
 /// the driver's car takes its share of the impulse (car_impacts.hpp), everybody else is only told.

@@ -42,7 +42,8 @@ tl::unexpected<Error> no_command(std::string what) {
                  "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\", \"trigger element=NAME\", \"place x_m=X "
                  "y_m=Y part=NAME\", \"remove thing=N\" "
                  "\"hide entity=NAME\", \"fault what=NAME\", \"repair what=NAME\", \"put x_m=X y_m=Y heading_rad=A "
-                 "speed_mps=V\" or \"call name=NAME node=NODE PARAMETER=VALUE …\"");
+                 "speed_mps=V\", \"call name=NAME node=NODE PARAMETER=VALUE …\", \"overlook\" or \"errors "
+                 "overlook=N late_brake=N telephone=N red=N\"");
 }
 
 Expected<OperatorCommand> parse_conditions(std::string_view text) {
@@ -264,6 +265,18 @@ Expected<void> apply(const Model&, const Call& call, State&, std::vector<Event>&
   return {};
 }
 
+Expected<void> apply(const Model& model, const OverlookWish& wish, State& state, std::vector<Event>&) {
+  if (wish.whom.empty()) return state.traffic->overlook(wish.who, driver_participant);
+  const auto whom = scenario::find_entity(model.scenario, wish.whom);
+  if (!whom) return failure("the scenario has nobody of this name", wish.whom, "name an entity of the scenario");
+  const bool is_driver = *whom == model.driver_entity;
+  return state.traffic->overlook(wish.who, is_driver ? driver_participant : first_scripted_participant + *whom);
+}
+
+Expected<void> apply(const Model&, const PeopleErrorRates& rates, State& state, std::vector<Event>&) {
+  return state.traffic->set_errors(rates);
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -290,6 +303,11 @@ std::string text_of(const OperatorCommand& command) {
   if (const auto* clear = std::get_if<ClearSolid>(&command)) return text_of(*clear);
   if (const auto* show = std::get_if<ShowStanding>(&command)) return text_of(*show);
   if (const auto* call = std::get_if<Call>(&command)) return "call " + septet::text_of(*call);
+  if (const auto* rates = std::get_if<PeopleErrorRates>(&command)) return "errors " + septet::text_of(*rates);
+  if (const auto* wish = std::get_if<OverlookWish>(&command)) {
+    const std::string words = septet::text_of(*wish);
+    return words.empty() ? "overlook" : "overlook " + words;
+  }
   std::string text = "conditions";
   for (const auto& [condition, value] : std::get<SetConditions>(command).values)
     text += fmt::format(" {}={}", condition->name, value);
@@ -325,6 +343,11 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
   if (constexpr std::string_view begin = "back "; text.starts_with(begin))
     return read_standing(text.substr(begin.size()), true);
   if (constexpr std::string_view begin = "call "; text.starts_with(begin)) return read_call(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "errors "; text.starts_with(begin))
+    return read_error_rates(text.substr(begin.size()));
+  if (constexpr std::string_view word = "overlook"; text == word) return OverlookWish{};
+  if (constexpr std::string_view begin = "overlook "; text.starts_with(begin) && text.size() > begin.size())
+    return read_overlook_wish(text.substr(begin.size()));
   for (const bool failed : {false, true}) {
     const std::string_view begin = failed ? "fault what=" : "repair what=";
     if (!text.starts_with(begin)) continue;

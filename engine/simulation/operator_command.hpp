@@ -1,7 +1,7 @@
 #pragma once
 /// An operator's changes of the drive: weather, light, grip, traffic, the storyboard's next event; and the solids that
-/// editors stand in the scene (solids.hpp), what they hide of it (standing.hpp), and calls to all who listen
-/// (engine/world/call.hpp).
+/// editors stand in the scene (solids.hpp), what they hide of it (standing.hpp), calls to all who listen
+/// (engine/world/call.hpp), and errors of people in the traffic (engine/world/people_errors.hpp).
 ///
 /// A command is applied between two ticks, and is input like the driver's: it is logged as its text, with the tick that
 /// it came before, and running the drive again applies it there. The text parses to the same command to the last bit:
@@ -19,6 +19,8 @@
 ///     clear solid=3
 ///     gone x_m=412.5 y_m=-81 name="tree/412.5/-81.0"
 ///     call name=lift node=stimuli/barrier seconds=3 by=lab
+///     overlook who=1007 whom=NAME
+///     errors overlook=6 late_brake=20 telephone=10 red=2
 
 #include <cstdint>
 #include <span>
@@ -33,6 +35,7 @@
 #include "engine/simulation/standing.hpp"
 #include "engine/simulation/state.hpp"
 #include "engine/world/call.hpp"
+#include "engine/world/people_errors.hpp"
 
 namespace septet::simulation {
 
@@ -92,7 +95,7 @@ struct PutCar {
   bool operator==(const PutCar&) const = default;
 };
 using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity,
-                                     SetFault, PutCar, StandSolid, ClearSolid, ShowStanding, Call>;
+                                     SetFault, PutCar, StandSolid, ClearSolid, ShowStanding, Call, OverlookWish, PeopleErrorRates>;
 
 /// Bounds of PutCar: distance from a road, speed, and distance to other participants.
 inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;

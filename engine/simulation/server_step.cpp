@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include <fmt/core.h>
@@ -26,6 +27,7 @@
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/simulation/way_ahead.hpp"
 #include "engine/traffic/network/approach_view.hpp"
+#include "engine/world/people_errors.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -114,6 +116,8 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   begin_motion(model, state);
   const Participant car = driven_car(model, state).participant;
   apply_swarms(model, init, car, state);
+  for (const PeopleErrorRates& rates : init.error_rates)
+    if (auto set = state.traffic->set_errors(rates); !set) return tl::unexpected(set.error());
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);
   state.effects.ice = initial_ice(model.roads, model.scenario, state.scenario, model.driver_entity, driver_participant,
                                   first_scripted_participant, model.seed);
@@ -142,6 +146,8 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   for (const traffic::ViewOpening& opening : state.traffic->take_openings())
     events.push_back({"junction_sight", opening.driver,
                       fmt::format("line_m={:.1f} hidden_s={:.1f}", opening.line_m, opening.hidden_s)});
+  for (const ToldError& error : state.traffic->take_errors())
+    events.push_back({std::string(people_error_event), error.who, text_of(error)});
   advance_bodies(model, state, events);
   auto participants = participants_now(model, state, car.participant, std::move(old.participants));
   advance_thrown(model, car, participants, state, events);

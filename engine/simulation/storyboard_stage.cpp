@@ -11,6 +11,7 @@
 #include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/people_errors.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -67,6 +68,17 @@ void apply_swarms(const Model& model, const scenario::StepResult& step, const Pa
   state.traffic->stop();
 }
 
+void apply_errors(const Model& model, const scenario::StepResult& step, State& state, std::vector<Event>& events) {
+  const auto tell = [&](const Expected<void>& done) {
+    if (!done) events.push_back({std::string(people_error_event), std::nullopt, "refused=\"" + done.error().what + '"'});
+  };
+  for (const PeopleErrorRates& rates : step.error_rates) tell(state.traffic->set_errors(rates));
+  for (const scenario::OverlookAction& action : step.overlooked) {
+    const bool is_driver = action.whom == scenario::no_entity || action.whom == model.driver_entity;
+    tell(state.traffic->overlook(action.who, is_driver ? driver_participant : first_scripted_participant + action.whom));
+  }
+}
+
 void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
   using Kind = scenario::EffectAction::Kind;
   for (const scenario::EffectAction& action : step.effects) {
@@ -111,6 +123,7 @@ void carry_out(const Model& model, const scenario::StepResult& step, const Parti
     note_bad_numbers(1, first_scripted_participant + entity, "entity", state, events);
   for (const Call& call : step.calls) events.push_back(event_of(call));
   apply_swarms(model, step, car, state);
+  apply_errors(model, step, state, events);
   apply_effects(model, step, car, state);
 }
 

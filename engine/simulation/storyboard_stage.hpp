@@ -25,6 +25,10 @@ traffic::TrafficParameters swarm_parameters(const scenario::TrafficSwarmAction& 
 /// Starts and ends the swarms requested by the storyboard.
 void apply_swarms(const Model& model, const scenario::StepResult& step, const Participant& car, State& state);
 
+/// Sets the rates at which people err, and has somebody overlooked, as requested by the storyboard. What this traffic
+/// cannot do is told by an event.
+void apply_errors(const Model& model, const scenario::StepResult& step, State& state, std::vector<Event>& events);
+
 /// Spills, ignites and puts out as requested by the storyboard.
 void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state);
 

@@ -3,6 +3,11 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/traffic/traffic.hpp"
+#include "engine/world/people_errors.hpp"
+
+namespace septet {
+SEPTET_MEMBERS(PeopleErrorRates, per_hour)
+}
 
 namespace septet::traffic {
 
@@ -14,6 +19,6 @@ SEPTET_MEMBERS(FollowingLaw, inverse_desired_speed, time_gap_s, acceleration_mps
                half_inverse_root_ab, comfortable_braking_mps2)
 SEPTET_MEMBERS(VehicleClass, model, share, middle, temperament_spread)
 SEPTET_MEMBERS(TrafficParameters, classes, count, radius_m, opposite_share, exit_share, decision_interval_s, first_id,
-               worsened)
+               worsened, errors)
 
 }  // namespace septet::traffic

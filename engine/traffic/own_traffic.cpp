@@ -4,12 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "engine/traffic/driver_members.hpp"
 #include "engine/traffic/network/network_traffic.hpp"
 #include "engine/traffic/save_traffic.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 
 namespace septet::traffic {
 namespace {
+
+tl::unexpected<Error> never_errs() {
+  return failure("the drivers of this traffic never err", "errors of people",
+                 "give a road network whose ways cross a TrafficSwarmAction, and drive with Septet's own traffic");
+}
 
 class CorridorsTraffic final : public TrafficEngine {
  public:
@@ -92,7 +98,9 @@ class CrossingTraffic final : public TrafficEngine {
   void see_walls(const sight::Walls& walls) override { network_->see_walls(walls); }
   void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     is_started_ = true;
-    network_->start(parameters, foreign);
+    TrafficParameters erring = parameters;
+    erring.errors = errors_;
+    network_->start(erring, foreign);
   }
   void stop() override { now().stop(); }
   void show_lights(std::span<const TrafficLight> lights) override { now().show_lights(lights); }
@@ -100,6 +108,15 @@ class CrossingTraffic final : public TrafficEngine {
   void limit_sight(const SightNow& sight) override { now().limit_sight(sight); }
   bool release(ParticipantId id) override { return now().release(id); }
   void worsen(std::uint32_t more_vehicles) override { now().worsen(more_vehicles); }
+  Expected<void> set_errors(const PeopleErrorRates& rates) override {
+    errors_ = rates;
+    return network_->set_errors(rates);
+  }
+  Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom) override {
+    return now().overlook(who, whom);
+  }
+  std::vector<ToldError> take_errors() override { return now().take_errors(); }
+  std::vector<ParticipantId> erring() const override { return now().erring(); }
   void append_participants(std::vector<Participant>& participants) const override {
     now().append_participants(participants);
   }
@@ -107,10 +124,12 @@ class CrossingTraffic final : public TrafficEngine {
   bool can_be_saved() const override { return true; }
   void save(StateWriter& writer) const override {
     transfer(writer, is_started_);
+    transfer(writer, errors_);
     now().save(writer);
   }
   void restore(StateReader& reader) override {
     transfer(reader, is_started_);
+    transfer(reader, errors_);
     now().restore(reader);
   }
   std::uint32_t take_bad_numbers() override { return now().take_bad_numbers(); }
@@ -130,6 +149,7 @@ class CrossingTraffic final : public TrafficEngine {
   CorridorsTraffic none_;
   std::unique_ptr<TrafficEngine> network_;
   bool is_started_ = false;
+  PeopleErrorRates errors_;  ///< Of the swarm, or the next one.
 };
 
 }  // namespace
@@ -138,6 +158,12 @@ std::optional<std::string> swarm_remark(std::size_t asked, std::size_t on_road) 
   const std::size_t off = asked > on_road ? asked - on_road : on_road - asked;
   if (20 * off <= asked) return std::nullopt;
   return fmt::format("asked={} on_road={}", asked, on_road);
+}
+
+Expected<void> TrafficEngine::set_errors(const PeopleErrorRates& /*rates*/) { return never_errs(); }
+
+Expected<void> TrafficEngine::overlook(std::optional<ParticipantId> /*who*/, ParticipantId /*whom*/) {
+  return never_errs();
 }
 
 std::unique_ptr<TrafficEngine> own_traffic(const road::RoadNetwork& network, std::uint64_t seed) {

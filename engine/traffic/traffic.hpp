@@ -28,6 +28,7 @@
 #include "engine/traffic/line_table.hpp"
 #include "engine/world/limited_sight.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/people_errors.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::traffic {
@@ -49,6 +50,7 @@ struct TrafficParameters {
   double decision_interval_s = 0.5;  ///< Interval of a driver's decisions on lane changes; drivers take turns.
   ParticipantId first_id = 1000;
   std::uint32_t worsened = 0;  ///< Steps of worse manners (with_worse_manners) taken by all drivers.
+  PeopleErrorRates errors;     ///< Of traffic on a network (network/errors.hpp).
 };
 
 /// The plain mix of a motorway: hatchbacks, saloons, estates, SUVs, motorcycles, vans and lorries.

@@ -22,6 +22,7 @@
 #include "engine/sight/air.hpp"
 #include "engine/sight/walls.hpp"
 #include "engine/traffic/traffic.hpp"
+#include "engine/world/people_errors.hpp"
 #include "engine/world/traffic_light.hpp"
 
 namespace septet {
@@ -60,6 +61,15 @@ class TrafficEngine {
   /// Adds vehicles on the driver's side, and worsens all drivers' manners by a step (traffic.hpp). An engine without
   /// this ability ignores it.
   virtual void worsen(std::uint32_t /*more_vehicles*/) {}
+  /// Rates at which drivers err from now on, in later swarms too. Error: the drivers of this traffic never err.
+  virtual Expected<void> set_errors(const PeopleErrorRates& rates);
+  /// A driver overlooks another participant for one encounter: `who` from now on, or, where that is empty, the next one
+  /// who would have to give way to `whom`. Error: the drivers of this traffic never err, or cannot do so now.
+  virtual Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom);
+  /// Errors that began or ended in the last step.
+  virtual std::vector<ToldError> take_errors() { return {}; }
+  /// Those whose drivers err now, ascending: they may run into others of the engine.
+  virtual std::vector<ParticipantId> erring() const { return {}; }
   virtual void append_participants(std::vector<Participant>& participants) const = 0;
   /// Adds all state that determines the traffic's future.
   virtual void add_to_hash(StateHash& hash) const = 0;

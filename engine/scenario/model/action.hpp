@@ -14,6 +14,7 @@
 #include "engine/scenario/model/trajectory.hpp"
 #include "engine/world/call.hpp"
 #include "engine/world/lamps.hpp"
+#include "engine/world/people_errors.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::scenario {
@@ -189,6 +190,16 @@ struct TrafficStopAction {
   std::string name;
 };
 
+/// UserDefinedAction with type "septet:overlook" and an OverlookWish as content: somebody of the traffic overlooks an
+/// entity for one encounter.
+struct OverlookAction {
+  std::optional<ParticipantId> who;  ///< Empty: the next one who would have to give way.
+  EntityIndex whom = no_entity;      ///< no_entity: the driver's car.
+};
+
+/// PeopleErrorRates (engine/world/people_errors.hpp): a UserDefinedAction with type "septet:errors" and their text as
+/// content. They hold from then on, also for later swarms.
+///
 /// Call (engine/world/call.hpp): a UserDefinedAction with type "septet:call" and the call's text as content, without
 /// its author.
 ///
@@ -197,6 +208,6 @@ using ActionVariant =
     std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction, SynchronizeAction,
                  LaneChangeAction, LaneOffsetAction, TeleportAction, FollowTrajectoryAction, AssignRouteAction,
                  AcquirePositionAction, EnvironmentAction, LightStateAction, SirenAction, EffectAction, ValueAction,
-                 TrafficSwarmAction, TrafficStopAction, Call>;
+                 TrafficSwarmAction, TrafficStopAction, Call, OverlookAction, PeopleErrorRates>;
 
 }  // namespace septet::scenario

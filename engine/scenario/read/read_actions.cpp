@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/scenario/read/scenario_reading.hpp"
+#include "engine/world/people_errors.hpp"
 #include "engine/world/scene_call.hpp"
 
 namespace septet::scenario {
@@ -298,6 +299,30 @@ ActionVariant read_scene_command(const Element& element) {
   return {};
 }
 
+ActionVariant read_errors_command(const Element& element) {
+  const auto rates = read_error_rates(element.content());
+  if (rates) return *rates;
+  element.error(rates.error().what, rates.error().remedy);
+  return {};
+}
+
+ActionVariant read_overlook_command(const Reading& reading, const Element& element) {
+  const auto wish = read_overlook_wish(element.content());
+  if (!wish) {
+    element.error(wish.error().what, wish.error().remedy);
+    return {};
+  }
+  OverlookAction overlook{wish->who, no_entity};
+  if (wish->whom.empty()) return overlook;
+  if (const auto whom = find_entity(reading.scenario, wish->whom)) {
+    overlook.whom = *whom;
+    return overlook;
+  }
+  element.error(fmt::format("there is no entity \"{}\" that could be overlooked", wish->whom),
+                "name an entity of the file, or nobody for the driver's car");
+  return {};
+}
+
 }  // namespace
 
 ActionVariant read_user_defined_action(Reading& reading, const Element& action) {
@@ -310,6 +335,8 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (type == "septet:extinguish") return read_effect_command(reading, command, EffectAction::Kind::extinguish);
   if (type == "septet:call") return read_call_command(command);
   if (type == "septet:scene") return read_scene_command(command);
+  if (type == "septet:errors") return read_errors_command(command);
+  if (type == "septet:overlook") return read_overlook_command(reading, command);
   if (type == "septet:game") {
     read_game(reading, command);
     return {};
@@ -318,7 +345,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
     command.warning(
         "this command is not known and has no effect",
         "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish, septet:call, "
-        "septet:scene, septet:game");
+        "septet:scene, septet:errors, septet:overlook, septet:game");
     return {};
   }
   const std::string content = command.content();

@@ -123,6 +123,8 @@ void read_init(Reading& reading, const Element& actions) {
     ActionVariant what = read_user_defined_action(reading, user);
     if (std::holds_alternative<Call>(what))
       user.error("nobody listens yet when Init is carried out", "call from an event of the storyboard");
+    if (std::holds_alternative<OverlookAction>(what))
+      user.error("nobody drives yet when Init is carried out", "overlook from an event of the storyboard");
     add(no_entity, std::move(what), user);
   }
   for (const Element& entry : actions.children("Private")) {

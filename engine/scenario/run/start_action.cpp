@@ -169,6 +169,10 @@ StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& ne
     result.effects.push_back(*effect);
   } else if (const auto* call = std::get_if<Call>(&what)) {
     result.calls.push_back(*call);
+  } else if (const auto* rates = std::get_if<PeopleErrorRates>(&what)) {
+    result.error_rates.push_back(*rates);
+  } else if (const auto* overlook = std::get_if<OverlookAction>(&what)) {
+    result.overlooked.push_back(*overlook);
   }
   for (const EntityIndex actor : actors) {
     const StartPrivate start{scenario, network, action, actor, state, result, started.replaced};

@@ -18,6 +18,7 @@
 #include "engine/road/road_network.hpp"
 #include "engine/scenario/run/scenario_state.hpp"
 #include "engine/world/call.hpp"
+#include "engine/world/people_errors.hpp"
 
 namespace septet::scenario {
 
@@ -35,6 +36,8 @@ struct StepResult {
   std::vector<TrafficSwarmAction> swarms;    ///< Swarms to be started.
   std::vector<EffectAction> effects;         ///< Effects to be spilled, ignited, extinguished.
   std::vector<Call> calls;                   ///< Messages to all who listen.
+  std::vector<PeopleErrorRates> error_rates;  ///< Rates at which people err from now on.
+  std::vector<OverlookAction> overlooked;     ///< Who is to be overlooked.
   std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.

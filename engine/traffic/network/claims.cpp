@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -131,17 +134,17 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
   return his_arrives_s > needed_s;
 }
 
-/// True where a long one holds a way beside, past which another long one does not fit. It is waited for until it has left.
-bool long_one_is_beside(const LaneGraph& graph, const Presences& presences, const Way& way) {
-  return std::ranges::any_of(graph.long_conflicts_of(way), [&](WayIndex beside) {
-    return std::ranges::any_of(presences.on(beside), [](const Presence& other) {
-      return other.claims && other.front_m - other.rear_m > long_vehicle_m;
-    });
-  });
+/// A long one that holds a way beside, past which another long one does not fit. It is waited for until it has left.
+const Presence* long_one_beside(const LaneGraph& graph, const Presences& presences, const Way& way) {
+  for (const WayIndex beside : graph.long_conflicts_of(way))
+    for (const Presence& other : presences.on(beside))
+      if (other.claims && other.front_m - other.rear_m > long_vehicle_m) return &other;
+  return nullptr;
 }
 
-bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle, std::int32_t self,
-             const Passage& passage, bool has_green) {
+/// The first one found who keeps a vehicle from its passage; null: it is free.
+const Presence* in_the_way(const LaneGraph& graph, const Presences& presences, const TownVehicle& vehicle,
+                           std::int32_t self, const Passage& passage, bool has_green) {
   double begin_m = passage.begin_m;
   for (std::size_t k = passage.first; k <= passage.last; ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
@@ -149,16 +152,17 @@ bool is_free(const LaneGraph& graph, const Presences& presences, const TownVehic
     begin_m += way.length_m;
     for (const Presence& other : presences.on(vehicle.route[k])) {
       // On a way between two junctions too short to stop on, or one who comes in from elsewhere.
-      if (other.who != self && other.is_there() && !other.claims) return false;
+      if (other.who != self && other.is_there() && !other.claims) return &other;
     }
-    if (vehicle.length_m() > long_vehicle_m && long_one_is_beside(graph, presences, way)) return false;
+    if (vehicle.length_m() > long_vehicle_m)
+      if (const Presence* beside = long_one_beside(graph, presences, way)) return beside;
     for (const WayConflict& conflict : graph.conflicts_of(way)) {
       if (conflict.kind == WayConflict::Kind::diverging) continue;
       for (const Presence& other : presences.on(conflict.with))
-        if (other.who != self && !lets_go(graph, approach, way, conflict, other, has_green)) return false;
+        if (other.who != self && !lets_go(graph, approach, way, conflict, other, has_green)) return &other;
     }
   }
-  return true;
+  return nullptr;
 }
 
 /// Index in its route of the first way of a junction that a vehicle has not reached; the route's size if there is none.
@@ -258,6 +262,37 @@ void give_back_if_unused(const LaneGraph& graph, const Presences& presences, std
   if (!is_counted_on(graph, presences, vehicle, self)) vehicle.claims.clear();
 }
 
+/// The junction that a vehicle is to claim next, once it has come so near that it would brake for its line.
+struct NextClaim {
+  std::size_t first = 0;  ///< Of its ways, in the route.
+  double begin_m = 0.0;   ///< Of that way, from the route's begin.
+  double line_m = 0.0;    ///< To the stop line, and to where the vehicle stops.
+  double stop_m = 0.0;
+};
+
+std::optional<NextClaim> next_claim(const LaneGraph& graph, const TownVehicle& vehicle) {
+  NextClaim next;
+  for (; next.first < vehicle.route.size(); ++next.first) {
+    const Way& way = graph.ways[vehicle.route[next.first]];
+    if (next.begin_m >= vehicle.front_m && next.first >= vehicle.claims.size() && way.in_junction()) break;
+    next.begin_m += way.length_m;
+  }
+  if (next.first >= vehicle.route.size() || next.first == 0) return std::nullopt;
+  const Way& before = graph.ways[vehicle.route[next.first - 1]];
+  next.line_m = next.begin_m - vehicle.front_m - (before.in_junction() ? 0.0 : before.line_before_m);
+  const double v = vehicle.speed_mps;
+  if (next.line_m > v * v / (2.0 * stop_mps2) + 0.7 * v + 6.0) return std::nullopt;
+  next.stop_m = std::max(next.line_m, std::min(0.0, next.begin_m - vehicle.front_m));
+  return next;
+}
+
+/// True where a vehicle is not the first before the line: behind somebody who waits himself it is not its turn.
+bool is_behind_another(const LaneGraph& graph, const Leader& leader, const TownState& town, double line_m) {
+  if (leader.who < 0) return leader.gap_m < line_m;
+  const TownVehicle& ahead = town.vehicles[static_cast<std::size_t>(leader.who)];
+  return leader.gap_m + ahead.length_m() < line_m && next_entry(graph, ahead) >= ahead.claims.size();
+}
+
 /// Others see the claim in the same tick.
 void show_claim(const TownVehicle& vehicle, std::int32_t self, const Passage& passage, Presences& presences) {
   for (std::size_t k = passage.first; k <= passage.last; ++k) {
@@ -316,33 +351,17 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
   const auto self = static_cast<std::int32_t>(index);
   give_back_if_unused(graph, presences, self, dt_s, vehicle);
   give_back_at_light(graph, lights, vehicle);
-  // The first junction ahead that it has no claim on.
-  std::size_t first = 0;
-  double begin_m = 0.0;
-  for (; first < vehicle.route.size(); ++first) {
-    const Way& way = graph.ways[vehicle.route[first]];
-    if (begin_m >= vehicle.front_m && first >= vehicle.claims.size() && way.in_junction()) break;
-    begin_m += way.length_m;
-  }
   vehicle.is_held = false;
-  if (first >= vehicle.route.size() || first == 0) return no_leader;
-  const Way& before = graph.ways[vehicle.route[first - 1]];
-  const double line_m = begin_m - vehicle.front_m - (before.in_junction() ? 0.0 : before.line_before_m);
-  const double v = vehicle.speed_mps;
-  if (line_m > v * v / (2.0 * stop_mps2) + 0.7 * v + 6.0) return no_leader;
-  const double stop_m = std::max(line_m, std::min(0.0, begin_m - vehicle.front_m));
-  const bool waits = v < stands_mps && line_m < at_line_m;
+  const std::optional<NextClaim> next = next_claim(graph, vehicle);
+  if (!next) return no_leader;
+  const double line_m = next->line_m, stop_m = next->stop_m;
+  const bool waits = vehicle.speed_mps < stands_mps && line_m < at_line_m;
   vehicle.waits_s = waits ? vehicle.waits_s + dt_s : 0.0;
-  // Behind somebody who waits himself it is not its turn.
-  if (leader.who >= 0) {
-    const TownVehicle& ahead = town.vehicles[static_cast<std::size_t>(leader.who)];
-    if (leader.gap_m + ahead.length_m() < line_m && next_entry(graph, ahead) >= ahead.claims.size()) return stop_m;
-  }
-  if (leader.who < 0 && leader.gap_m < line_m) return stop_m;
+  if (is_behind_another(graph, leader, town, line_m)) return stop_m;
 
-  const LightState light = light_before(lights, before);
+  const LightState light = light_before(lights, graph.ways[vehicle.route[next->first - 1]]);
   if (!light_allows(light, vehicle, line_m)) return stop_m;
-  const Passage passage = passage_from(graph, vehicle, first, begin_m);
+  const Passage passage = passage_from(graph, vehicle, next->first, next->begin_m);
   // Who has green gives way to the oncoming alone, whom he has before him.
   const bool looks = light != LightState::green && light != LightState::amber;
   if (looks && walls_hide(graph, vehicle, passage, line_m)) {
@@ -355,13 +374,13 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
     vehicle.is_held = true;
     const double waited_s = std::max(0.0, vehicle.waits_s - dt_s);
     if (std::floor(vehicle.waits_s / tired_s) > std::floor(waited_s / tired_s)) {
-      vehicle.route.resize(first);
+      vehicle.route.resize(next->first);
       prolong_route(graph, random, vehicle);
     }
     return stop_m;
   }
   if (is_anothers_turn(graph, presences, town, vehicle, passage) ||
-      !is_free(graph, presences, vehicle, self, passage, light == LightState::green)) {
+      in_the_way(graph, presences, vehicle, self, passage, light == LightState::green) != nullptr) {
     see_junction(line_m, town, vehicle);
     return stop_m;
   }
@@ -374,6 +393,42 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
   vehicle.waits_s = vehicle.unused_s = 0.0;
   show_claim(vehicle, self, passage, presences);
   return no_leader;
+}
+
+double stop_unclaimed_m(const LaneGraph& graph, const TownVehicle& vehicle) {
+  const std::optional<NextClaim> next = next_claim(graph, vehicle);
+  return next ? next->stop_m : no_leader;
+}
+
+std::optional<std::int32_t> only_one_let_pass(const LaneGraph& graph, std::span<const LightState> lights,
+                                              const Leader& leader, const Presences& presences, const TownState& town,
+                                              std::size_t index) {
+  const TownVehicle& vehicle = town.vehicles[index];
+  const auto self = static_cast<std::int32_t>(index);
+  const std::optional<NextClaim> next = next_claim(graph, vehicle);
+  if (!next || is_behind_another(graph, leader, town, next->line_m)) return std::nullopt;
+  const LightState light = light_before(lights, graph.ways[vehicle.route[next->first - 1]]);
+  if (!light_allows(light, vehicle, next->line_m)) return std::nullopt;
+  const Passage passage = passage_from(graph, vehicle, next->first, next->begin_m);
+  const bool has_green = light == LightState::green;
+  if (!has_green && walls_hide(graph, vehicle, passage, next->line_m)) return std::nullopt;
+  if (!has_room_beyond(graph, presences, vehicle, self, passage)) return std::nullopt;
+  const Presence* first = in_the_way(graph, presences, vehicle, self, passage, has_green);
+  if (first == nullptr || first->claims || first->is_there()) return std::nullopt;
+  const Presences others = without(presences, first->who);
+  if (in_the_way(graph, others, vehicle, self, passage, has_green) != nullptr) return std::nullopt;
+  return first->who;
+}
+
+std::optional<LightAhead> light_ahead(const LaneGraph& graph, const TownVehicle& vehicle) {
+  const std::size_t entry = next_entry(graph, vehicle);
+  if (entry == 0 || entry >= vehicle.route.size()) return std::nullopt;
+  LightAhead ahead{vehicle.route[entry - 1], -vehicle.front_m};
+  const Way& before = graph.ways[ahead.way];
+  if (!before.has_light) return std::nullopt;
+  for (std::size_t k = 0; k < entry; ++k) ahead.line_m += graph.ways[vehicle.route[k]].length_m;
+  ahead.line_m -= before.line_before_m;
+  return ahead;
 }
 
 double wait_within_mps2(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t index) {

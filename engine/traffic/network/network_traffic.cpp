@@ -9,6 +9,10 @@
 #include "engine/traffic/network/approach_view.hpp"
 #include "engine/traffic/network/town.hpp"
 
+namespace septet {
+SEPTET_MEMBERS(ToldError, kind, who, whom, lasted_s, end, nearest_m)
+}
+
 namespace septet::traffic {
 
 SEPTET_MEMBERS(Swerve, own, over, from_m, to_m, left_m)
@@ -16,8 +20,13 @@ SEPTET_MEMBERS(Swerve, own, over, from_m, to_m, left_m)
 SEPTET_MEMBER_GROUPS(TownVehicle, hashed(id), kept(model, paint, driver, law, urge),
                      hashed(outside, route, front_m, speed_mps, acceleration_mps2), kept(rolled_m),
                      hashed(claims, unused_s, waits_s), kept(stands_s, hidden_s), hashed(swerve, is_held))
-// Sights and air are given anew each tick, openings taken in it.
-SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights, air, openings),
+SEPTET_MEMBERS(DriverError, who, kind, stage, whom, since_s, lasts_s, nearest_m, leader_gap_m, leader_mps, waits_within,
+               way)
+SEPTET_MEMBERS(AwaitedOverlook, whom, since_s)
+// Told is for the log alone.
+SEPTET_MEMBER_GROUPS(TownErrors, hashed(drivers, awaited, red_for_s), kept(told))
+// Errors are hashed where there are any. Sights and air are given anew each tick, openings taken in it.
+SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights, air, openings), kept(errors),
                      hashed(claims, foreign_stands_s), kept(bad_numbers, next_id))
 
 namespace {
@@ -46,6 +55,16 @@ void require_drivable(const LaneGraph& graph, const TownVehicle& vehicle, StateR
   reader.require(vehicle.front_m >= 0.0 && vehicle.front_m <= length_m + 1.0 && vehicle.speed_mps >= 0.0 &&
                      vehicle.speed_mps < most_mps && std::isfinite(vehicle.rolled_m) && vehicle.urge > 0.0,
                  wrong);
+}
+
+void require_sound(const LaneGraph& graph, const TownErrors& errors, StateReader& reader) {
+  using enum DriverError::Stage;
+  for (const ToldError& told : errors.told)
+    reader.require(told.kind <= PeopleError::red && (!told.end || *told.end <= ErrorEnd::gone), wrong);
+  for (const DriverError& error : errors.drivers)
+    reader.require(error.kind <= PeopleError::red && error.stage <= over && (error.way == no_way || error.way < graph.ways.size()) &&
+                       (error.kind != PeopleError::overlook || error.stage != runs || error.whom.has_value()),
+                   wrong);
 }
 
 class NetworkTraffic final : public TrafficEngine {
@@ -79,6 +98,8 @@ class NetworkTraffic final : public TrafficEngine {
   bool release(ParticipantId id) override {
     const auto found = std::ranges::find(town_.vehicles, id, &TownVehicle::id);
     if (found == town_.vehicles.end()) return false;
+    // Who leaves the rails has met somebody.
+    end_at_touch(id, town_);
     town_.vehicles.erase(found);
     parameters_.count -= std::min<std::uint32_t>(parameters_.count, 1);
     return true;
@@ -86,13 +107,31 @@ class NetworkTraffic final : public TrafficEngine {
   void worsen(std::uint32_t more_vehicles) override {
     if (!town_.vehicles.empty()) worsen_town(parameters_, graph_, more_vehicles, random_, town_);
   }
+  Expected<void> set_errors(const PeopleErrorRates& rates) override {
+    parameters_.errors = rates;
+    return {};
+  }
+  Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom) override {
+    return traffic::overlook(who, whom, town_);
+  }
+  std::vector<ToldError> take_errors() override { return std::exchange(town_.errors.told, {}); }
+  std::vector<ParticipantId> erring() const override {
+    std::vector<ParticipantId> erring;
+    for (const DriverError& error : town_.errors.drivers)
+      if (error.stage != DriverError::Stage::waits) erring.push_back(error.who);
+    std::ranges::sort(erring);
+    return erring;
+  }
   std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }
   std::vector<ViewOpening> take_openings() override { return std::exchange(town_.openings, {}); }
   std::uint32_t take_bad_numbers() override { return std::exchange(town_.bad_numbers, 0); }
   void append_participants(std::vector<Participant>& participants) const override {
     traffic::append_participants(graph_, town_, participants);
   }
-  void add_to_hash(StateHash& hash) const override { hash_members(hash, town_, random_); }
+  void add_to_hash(StateHash& hash) const override {
+    hash_members(hash, town_, random_);
+    if (parameters_.errors.any() || town_.errors.any()) hash_members(hash, town_.errors);
+  }
   bool can_be_saved() const override { return true; }
   void save(StateWriter& writer) const override {
     transfer(writer, parameters_);
@@ -106,6 +145,7 @@ class NetworkTraffic final : public TrafficEngine {
     for (const VehicleClass& kind : parameters_.classes) reader.require(kind.model < vehicle_models().size(), wrong);
     reader.require(town_.vehicles.empty() || !parameters_.classes.empty(), wrong);
     for (const TownVehicle& vehicle : town_.vehicles) require_drivable(graph_, vehicle, reader);
+    require_sound(graph_, town_.errors, reader);
   }
 
  private:

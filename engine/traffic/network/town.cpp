@@ -130,6 +130,14 @@ PlaceOnWay place_on_route(const LaneGraph& graph, const TownVehicle& vehicle, do
   }
 }
 
+Minded mind_others(const TownTick& tick, Random& random, Presences& presences, TownState& town, std::size_t index) {
+  Minded minded;
+  minded.leader = leader_of(tick.graph, presences, town, index);
+  minded.line_m = negotiate(tick.graph, tick.lights, minded.leader, tick.dt_s, random, presences, town, index);
+  minded.within_mps2 = wait_within_mps2(tick.graph, presences, town, index);
+  return minded;
+}
+
 void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& network, const LaneGraph& graph,
                   std::span<const TrafficLight> lights, std::span<const ForeignVehicle> foreign, double dt_s,
                   Random& random, TownState& town) {
@@ -143,15 +151,16 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
     }
   Presences presences = find_presences(network, graph, foreign, dt_s, town);
   const std::vector<LightState> shown = light_states(network, lights);
+  const TownTick tick{graph, shown, foreign, dt_s};
+  advance_errors(parameters, tick, random, town);
   const bool any_adrift = std::ranges::any_of(foreign, &ForeignVehicle::adrift);
   for (std::size_t i = 0; i < town.vehicles.size(); ++i) {
     TownVehicle& vehicle = town.vehicles[i];
     if (vehicle.outside) continue;
     const double turn_out_at_m = any_adrift ? round_wrecks(network, graph, foreign, presences, town, i) : no_leader;
-    const Leader leader = leader_of(graph, presences, town, i);
-    const double line_m = negotiate(graph, shown, leader, dt_s, random, presences, town, i);
-    const double within_mps2 = wait_within_mps2(graph, presences, town, i);
-    double a = acceleration_of(graph, vehicle, leader, std::min(line_m, turn_out_at_m), within_mps2);
+    const Minded minded = town.errors.any() ? mind_erring(tick, random, presences, town, i)
+                                            : mind_others(tick, random, presences, town, i);
+    double a = acceleration_of(graph, vehicle, minded.leader, std::min(minded.line_m, turn_out_at_m), minded.within_mps2);
     if (const auto sight = std::ranges::find(town.sights, vehicle.id, &LimitedSight::driver);
         sight != town.sights.end())
       a = std::min(a, acceleration_within_sight(vehicle.driver.following, vehicle.speed_mps, sight->seen_m));

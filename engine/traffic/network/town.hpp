@@ -26,6 +26,8 @@
 /// Where a vehicle adrift lies on a lane outside of a junction, others pass it over the lane beside it, of their own
 /// direction or the other, once nobody is on it or comes; who has come to rest too near to turn out stays.
 ///
+/// Drivers err at the rates of the parameters, or by a wish (errors.hpp).
+///
 /// Sources: car following driver.hpp; gaps: Highway Capacity Manual (Transportation Research Board, 2010), table 19-10,
 /// base critical headways of two-lane streets. Same arguments: same traffic. One thread a state.
 
@@ -35,9 +37,11 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/expected.hpp"
 #include "engine/core/random.hpp"
 #include "engine/sight/air.hpp"
 #include "engine/traffic/driver.hpp"
+#include "engine/traffic/network/errors.hpp"
 #include "engine/traffic/network/lane_graph.hpp"
 #include "engine/traffic/traffic.hpp"
 #include "engine/world/limited_sight.hpp"
@@ -85,6 +89,7 @@ struct TownState {
   std::vector<LimitedSight> sights;      ///< The caller's, of this tick.
   sight::OpticalDepth air;               ///< The same.
   std::vector<ViewOpening> openings;     ///< Of this tick.
+  TownErrors errors;
   std::uint64_t claims = 0;              ///< Given so far.
   std::vector<double> foreign_stands_s;  ///< One a foreign vehicle.
   std::uint32_t bad_numbers = 0;
@@ -105,6 +110,12 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
 /// Adds vehicles that come in as they find room, and worsens all drivers' manners by a step.
 void worsen_town(TrafficParameters& parameters, const LaneGraph& graph, std::uint32_t more, Random& random,
                  TownState& town);
+
+/// A driver overlooks another for one encounter (errors.hpp): `who` from now on; without him the next one who would have
+/// to give way to `whom`. Error: there is no such vehicle, he errs already, or somebody is to overlook that one already.
+Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom, TownState& town);
+/// Ends the errors of one who has touched somebody, and of those who overlook him.
+void end_at_touch(ParticipantId id, TownState& town);
 
 void append_participants(const LaneGraph& graph, const TownState& town, std::vector<Participant>& participants);
 

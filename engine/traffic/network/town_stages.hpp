@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -110,6 +111,21 @@ bool bodies_or_air_hide(const LaneGraph& graph, const Presences& presences, cons
 double negotiate(const LaneGraph& graph, std::span<const LightState> lights, const Leader& leader, double dt_s,
                  Random& random, Presences& presences, TownState& town, std::size_t vehicle);
 
+/// The distance of that line where nothing is claimed.
+double stop_unclaimed_m(const LaneGraph& graph, const TownVehicle& vehicle);
+
+/// Him whom a vehicle lets pass at the junction that it comes to, if it would claim it but for him, and he can still stop.
+std::optional<std::int32_t> only_one_let_pass(const LaneGraph& graph, std::span<const LightState> lights,
+                                              const Leader& leader, const Presences& presences, const TownState& town,
+                                              std::size_t vehicle);
+
+/// The light that a vehicle comes to, before the next junction that its front has not reached.
+struct LightAhead {
+  WayIndex way = no_way;  ///< The one that ends there.
+  double line_m = 0.0;    ///< To its stop line; negative: the front has passed it.
+};
+std::optional<LightAhead> light_ahead(const LaneGraph& graph, const TownVehicle& vehicle);
+
 /// Acceleration that keeps a vehicle out of what earlier claims within a junction hold, until they have left it; infinite
 /// if there is none.
 double wait_within_mps2(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t vehicle);
@@ -125,6 +141,33 @@ double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const
 /// Stage 4: vehicles leave beyond the swarm's rim and come in again there.
 void recycle_town(const TrafficParameters& parameters, const LaneGraph& graph, const Presences& presences,
                   const Vec3& middle_m, Random& random, TownState& town);
+
+/// What a driver goes by in a tick.
+struct Minded {
+  Leader leader;
+  double line_m = no_leader;       ///< As of `negotiate`.
+  double within_mps2 = no_leader;  ///< As of `wait_within_mps2`.
+};
+
+/// What all stages of a tick are given.
+struct TownTick {
+  const LaneGraph& graph;
+  std::span<const LightState> lights;
+  std::span<const ForeignVehicle> foreign;
+  double dt_s = 0.0;
+};
+
+/// Stage 2 of one who sees all others.
+Minded mind_others(const TownTick& tick, Random& random, Presences& presences, TownState& town, std::size_t vehicle);
+
+/// Stage 2 in a town where somebody errs, perhaps he: an error begins here where it is his occasion.
+Minded mind_erring(const TownTick& tick, Random& random, Presences& presences, TownState& town, std::size_t vehicle);
+
+/// Presences without one's.
+Presences without(const Presences& presences, std::int32_t who);
+
+/// Before stage 2: draws impulses to err, and ends errors and wishes.
+void advance_errors(const TrafficParameters& parameters, const TownTick& tick, Random& random, TownState& town);
 
 /// Time for a distance from a speed, with this acceleration up to the greatest speed.
 double travel_s(double distance_m, double speed_mps, double acceleration_mps2, double most_mps);

@@ -1,0 +1,227 @@
+#include "engine/traffic/network/errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "engine/road/road_locate.hpp"
+#include "engine/traffic/network/town_stages.hpp"
+
+namespace septet::traffic {
+namespace {
+
+constexpr double draws_each_s = 1.0;
+constexpr double fades_s = 60.0;     ///< An impulse without an occasion.
+constexpr double awaited_s = 120.0;  ///< A wish without one.
+constexpr double unmet_s = 60.0;     ///< Two of whom one overlooks the other, and who do not come near.
+constexpr double lingers_s = 5.0;    ///< Then who has erred is as all others.
+constexpr double near_m = 40.0, parted_m = 10.0;
+constexpr double stands_s = 2.0;
+constexpr double long_ago_s = 1e6;
+
+/// The ground that a body covers.
+struct Footprint {
+  Vec3 centre_m{0.0};
+  Vec2 along{1.0, 0.0};  ///< Unit.
+  double half_length_m = 0.0, half_width_m = 0.0;
+};
+
+Footprint footprint(const Vec3& rear_axle_m, const Vec3& forwards, const VehicleModel& model) {
+  const Vec2 along = glm::normalize(Vec2(forwards));
+  return {rear_axle_m + model.centre_x_m() * Vec3(along, 0.0), along, 0.5 * model.length_m, 0.5 * model.width_m};
+}
+
+std::optional<Footprint> footprint_of(const TownTick& tick, const TownState& town, ParticipantId id) {
+  if (const auto own = std::ranges::find(town.vehicles, id, &TownVehicle::id); own != town.vehicles.end()) {
+    if (own->outside) return std::nullopt;
+    const BodyOnRoute body = body_on_route(tick.graph, *own);
+    return footprint(body.rear_axle_m, body.forwards, vehicle_models()[own->model]);
+  }
+  const auto other = std::ranges::find(tick.foreign, id, &ForeignVehicle::id);
+  if (other == tick.foreign.end()) return std::nullopt;
+  return footprint(other->world_from_vehicle.position_m, other->world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0),
+                   other->shape());
+}
+
+std::array<Vec2, 4> corners_of(const Footprint& one) {
+  const Vec2 ahead = one.half_length_m * one.along, left = one.half_width_m * Vec2(-one.along.y, one.along.x);
+  const Vec2 centre(one.centre_m);
+  return {centre + ahead + left, centre + ahead - left, centre - ahead - left, centre - ahead + left};
+}
+
+/// Least distance of points from a footprint, and the greatest of the gaps that its two axes show between the two.
+struct Apart {
+  double least_m = 1e300, shown_m = -1e300;
+};
+Apart apart_from(const Footprint& one, const std::array<Vec2, 4>& points) {
+  Apart apart;
+  Vec2 low(1e300), high(-1e300);
+  for (const Vec2& point : points) {
+    const Vec2 off = point - Vec2(one.centre_m);
+    const Vec2 at(glm::dot(off, one.along), glm::dot(off, Vec2(-one.along.y, one.along.x)));
+    low = glm::min(low, at), high = glm::max(high, at);
+    const double beyond_x = std::max(0.0, std::abs(at.x) - one.half_length_m),
+                 beyond_y = std::max(0.0, std::abs(at.y) - one.half_width_m);
+    apart.least_m = std::min(apart.least_m, std::hypot(beyond_x, beyond_y));
+  }
+  apart.shown_m = std::max({low.x - one.half_length_m, -one.half_length_m - high.x, low.y - one.half_width_m,
+                            -one.half_width_m - high.y});
+  return apart;
+}
+
+/// Distance of two outlines on one level; 0: they overlap.
+double gap_m(const Footprint& a, const Footprint& b) {
+  if (std::abs(a.centre_m.z - b.centre_m.z) > road::level_reach_m) return 1e6;
+  const Apart from_a = apart_from(a, corners_of(b)), from_b = apart_from(b, corners_of(a));
+  if (std::max(from_a.shown_m, from_b.shown_m) <= 0.0) return 0.0;
+  return std::min(from_a.least_m, from_b.least_m);
+}
+
+void end(ErrorEnd how, double time_s, DriverError& error, TownErrors& errors) {
+  ToldError told{.kind = error.kind, .who = error.who, .whom = error.whom, .lasted_s = time_s - error.since_s, .end = how,
+                 .nearest_m = {}};
+  if (error.kind == PeopleError::overlook && std::isfinite(error.nearest_m)) told.nearest_m = error.nearest_m;
+  errors.told.push_back(told);
+  error.stage = DriverError::Stage::over;
+  error.since_s = time_s;
+}
+
+std::optional<ErrorEnd> end_of_overlook(const TownTick& tick, const TownState& town, DriverError& error) {
+  const auto own = footprint_of(tick, town, error.who), his = footprint_of(tick, town, *error.whom);
+  if (!own || !his) return ErrorEnd::gone;
+  const double apart_m = gap_m(*own, *his);
+  error.nearest_m = std::min(error.nearest_m, apart_m);
+  if (apart_m <= 0.0) return ErrorEnd::touched;
+  if (error.nearest_m < near_m) return apart_m > error.nearest_m + parted_m ? std::optional(ErrorEnd::parted) : std::nullopt;
+  return town.time_s > error.since_s + unmet_s ? std::optional(ErrorEnd::unmet) : std::nullopt;
+}
+
+std::optional<ErrorEnd> end_of_red(const TownTick& tick, const TownVehicle& vehicle, const DriverError& error) {
+  const auto ahead = light_ahead(tick.graph, vehicle);
+  if (!ahead || ahead->way != error.way || ahead->line_m <= 0.0) return ErrorEnd::passed;
+  return vehicle.stands_s > stands_s ? std::optional(ErrorEnd::stood) : std::nullopt;
+}
+
+std::optional<ErrorEnd> end_now(const TownTick& tick, const TownState& town, const TownVehicle& vehicle,
+                                DriverError& error) {
+  if (error.kind == PeopleError::overlook) return end_of_overlook(tick, town, error);
+  if (error.kind == PeopleError::red) return end_of_red(tick, vehicle, error);
+  return town.time_s >= error.since_s + error.lasts_s ? std::optional(ErrorEnd::seen) : std::nullopt;
+}
+
+void end_errors(const TownTick& tick, TownState& town) {
+  TownErrors& errors = town.errors;
+  using enum DriverError::Stage;
+  for (DriverError& error : errors.drivers) {
+    const auto own = std::ranges::find(town.vehicles, error.who, &TownVehicle::id);
+    const bool is_there = own != town.vehicles.end() && !own->outside;
+    if (error.stage == runs) {
+      const auto how = is_there ? end_now(tick, town, *own, error) : std::optional(ErrorEnd::gone);
+      if (how) end(*how, town.time_s, error, errors);
+    } else if (error.stage == waits && !is_there) {
+      error.since_s = -fades_s;
+    }
+  }
+  std::erase_if(errors.drivers, [&](const DriverError& error) {
+    const double for_s = town.time_s - error.since_s;
+    return (error.stage == waits && for_s > fades_s) || (error.stage == over && for_s > lingers_s);
+  });
+  std::erase_if(errors.awaited, [&](const AwaitedOverlook& wish) {
+    const double for_s = town.time_s - wish.since_s;
+    if (for_s <= awaited_s) return false;
+    errors.told.push_back({.kind = PeopleError::overlook, .who = {}, .whom = wish.whom, .lasted_s = for_s,
+                           .end = ErrorEnd::unmet, .nearest_m = {}});
+    return true;
+  });
+}
+
+/// Lights that are red when this begins have been so for long.
+void time_reds(const TownTick& tick, bool is_asked, std::vector<double>& red_for_s) {
+  if (!is_asked) {
+    red_for_s.clear();
+    return;
+  }
+  const bool is_first = red_for_s.size() != tick.lights.size();
+  if (is_first) red_for_s.assign(tick.lights.size(), 0.0);
+  for (std::size_t k = 0; k < red_for_s.size(); ++k)
+    red_for_s[k] = tick.lights[k] != LightState::red ? 0.0 : is_first ? long_ago_s : red_for_s[k] + tick.dt_s;
+}
+
+double drawn_duration_s(PeopleError kind, Random& random) {
+  switch (kind) {
+    case PeopleError::overlook:
+      return 0.0;
+    case PeopleError::late_brake:
+      return random.uniform(1.0, 2.5);
+    case PeopleError::telephone:
+      return random.uniform(2.0, 6.0);
+    case PeopleError::red:
+      return random.uniform(1.0, 3.0);
+  }
+  return 0.0;
+}
+
+void draw_impulses(const PeopleErrorRates& rates, Random& random, TownState& town) {
+  for (const TownVehicle& vehicle : town.vehicles) {
+    if (vehicle.outside || std::ranges::find(town.errors.drivers, vehicle.id, &DriverError::who) != town.errors.drivers.end())
+      continue;
+    for (std::size_t kind = 0; kind < rates.per_hour.size(); ++kind) {
+      if (rates.per_hour[kind] <= 0.0 || random.uniform() >= rates.per_hour[kind] * draws_each_s / 3600.0) continue;
+      DriverError error{.who = vehicle.id, .kind = static_cast<PeopleError>(kind), .whom = {}, .since_s = town.time_s};
+      error.lasts_s = drawn_duration_s(error.kind, random);
+      town.errors.drivers.push_back(error);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom, TownState& town) {
+  TownErrors& errors = town.errors;
+  if (!who) {
+    if (std::ranges::find(errors.awaited, whom, &AwaitedOverlook::whom) != errors.awaited.end())
+      return failure("somebody is to overlook that one already", "overlook", "wait until he does");
+    errors.awaited.push_back({whom, town.time_s});
+    return {};
+  }
+  const auto own = std::ranges::find(town.vehicles, *who, &TownVehicle::id);
+  if (own == town.vehicles.end() || own->outside || *who == whom)
+    return failure(fmt::format("participant {} is no vehicle of the traffic that could overlook another", *who), "overlook",
+                   "name another one, or nobody: then the next one who would have to give way");
+  const auto known = std::ranges::find(errors.drivers, *who, &DriverError::who);
+  if (known != errors.drivers.end() && known->stage == DriverError::Stage::runs)
+    return failure(fmt::format("participant {} errs already", *who), "overlook", "wait until he sees again");
+  DriverError& error = known != errors.drivers.end() ? *known : errors.drivers.emplace_back();
+  error = {.who = *who, .kind = PeopleError::overlook, .whom = whom, .since_s = town.time_s};
+  error.stage = DriverError::Stage::runs;
+  errors.told.push_back({.kind = error.kind, .who = who, .whom = whom, .lasted_s = 0.0, .end = {}, .nearest_m = {}});
+  return {};
+}
+
+void end_at_touch(ParticipantId id, TownState& town) {
+  for (DriverError& error : town.errors.drivers)
+    if (error.stage == DriverError::Stage::runs && (error.who == id || error.whom == id)) {
+      if (error.kind == PeopleError::overlook) error.nearest_m = 0.0;
+      end(ErrorEnd::touched, town.time_s, error, town.errors);
+    }
+}
+
+void advance_errors(const TrafficParameters& parameters, const TownTick& tick, Random& random, TownState& town) {
+  const PeopleErrorRates& rates = parameters.errors;
+  if (!rates.any() && !town.errors.any()) return town.errors.red_for_s.clear();
+  end_errors(tick, town);
+  time_reds(tick, rates.per_hour[static_cast<std::size_t>(PeopleError::red)] > 0.0 ||
+                      std::ranges::find(town.errors.drivers, PeopleError::red, &DriverError::kind) !=
+                          town.errors.drivers.end(),
+            town.errors.red_for_s);
+  if (std::floor((town.time_s - tick.dt_s) / draws_each_s) < std::floor(town.time_s / draws_each_s))
+    draw_impulses(rates, random, town);
+}
+
+}  // namespace septet::traffic
