@@ -94,8 +94,9 @@ struct PutCar {
   double speed_mps = 0.0;
   bool operator==(const PutCar&) const = default;
 };
-using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity,
-                                     SetFault, PutCar, StandSolid, ClearSolid, ShowStanding, Call, OverlookWish, PeopleErrorRates>;
+using OperatorCommand =
+    std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity, SetFault, PutCar,
+                 StandSolid, ClearSolid, ShowStanding, Call, OverlookWish, PeopleErrorRates>;
 
 /// Bounds of PutCar: distance from a road, speed, and distance to other participants.
 inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;

@@ -70,12 +70,14 @@ void apply_swarms(const Model& model, const scenario::StepResult& step, const Pa
 
 void apply_errors(const Model& model, const scenario::StepResult& step, State& state, std::vector<Event>& events) {
   const auto tell = [&](const Expected<void>& done) {
-    if (!done) events.push_back({std::string(people_error_event), std::nullopt, "refused=\"" + done.error().what + '"'});
+    if (!done)
+      events.push_back({std::string(people_error_event), std::nullopt, "refused=\"" + done.error().what + '"'});
   };
   for (const PeopleErrorRates& rates : step.error_rates) tell(state.traffic->set_errors(rates));
   for (const scenario::OverlookAction& action : step.overlooked) {
     const bool is_driver = action.whom == scenario::no_entity || action.whom == model.driver_entity;
-    tell(state.traffic->overlook(action.who, is_driver ? driver_participant : first_scripted_participant + action.whom));
+    tell(
+        state.traffic->overlook(action.who, is_driver ? driver_participant : first_scripted_participant + action.whom));
   }
 }
 

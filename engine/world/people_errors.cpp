@@ -32,8 +32,9 @@ tl::unexpected<Error> no_rates(std::string what) {
 }
 
 tl::unexpected<Error> no_wish(std::string what) {
-  return failure(std::move(what), "overlook",
-                 "write nothing, who=NUMBER of a vehicle of the traffic, whom=NAME of an entity, or both in this order");
+  return failure(
+      std::move(what), "overlook",
+      "write nothing, who=NUMBER of a vehicle of the traffic, whom=NAME of an entity, or both in this order");
 }
 
 }  // namespace

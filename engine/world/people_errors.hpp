@@ -69,7 +69,7 @@ struct ToldError {
   std::optional<ParticipantId> who, whom;  ///< Without `who`: a wish for which there was no occasion.
   double lasted_s = 0.0;                   ///< At its end; of a wish without an occasion, for which it waited.
   std::optional<ErrorEnd> end;             ///< Empty: it begins.
-  std::optional<double> nearest_m;         ///< At an overlook's end: least distance of the two outlines; 0: they touched.
+  std::optional<double> nearest_m;  ///< At an overlook's end: least distance of the two outlines; 0: they touched.
 };
 /// Kind of the event that tells of one; its participant is `who`.
 inline constexpr std::string_view people_error_event = "error_of_people";

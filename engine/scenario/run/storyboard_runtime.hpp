@@ -33,12 +33,12 @@ struct StoryboardEvent {
 /// The storyboard's requests to other stages.
 struct StepResult {
   std::vector<StoryboardEvent> events;
-  std::vector<TrafficSwarmAction> swarms;    ///< Swarms to be started.
-  std::vector<EffectAction> effects;         ///< Effects to be spilled, ignited, extinguished.
-  std::vector<Call> calls;                   ///< Messages to all who listen.
+  std::vector<TrafficSwarmAction> swarms;     ///< Swarms to be started.
+  std::vector<EffectAction> effects;          ///< Effects to be spilled, ignited, extinguished.
+  std::vector<Call> calls;                    ///< Messages to all who listen.
   std::vector<PeopleErrorRates> error_rates;  ///< Rates at which people err from now on.
   std::vector<OverlookAction> overlooked;     ///< Who is to be overlooked.
-  std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
+  std::vector<std::string> stopped_traffic;   ///< Names of swarms to be ended.
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.
   std::vector<EntityIndex> teleported;  ///< Entities that did not come to their places by driving.

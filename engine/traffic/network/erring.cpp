@@ -12,9 +12,9 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double braking_mps2 = 1.0;            ///< A leader's, that is to be noticed.
+constexpr double braking_mps2 = 1.0;  ///< A leader's, that is to be noticed.
 constexpr double follows_s = 2.5, least_follows_mps = 5.0;
-constexpr double runs_light_mps = 3.0;          ///< Slower ones stop at a light.
+constexpr double runs_light_mps = 3.0;  ///< Slower ones stop at a light.
 
 std::optional<ParticipantId> id_of(const TownTick& tick, const TownState& town, std::int32_t who) {
   if (who >= 0) return town.vehicles[static_cast<std::size_t>(who)].id;
@@ -39,7 +39,8 @@ void begin(std::optional<ParticipantId> whom, double time_s, DriverError& error,
   error.stage = DriverError::Stage::runs;
   error.whom = whom;
   error.since_s = time_s;
-  errors.told.push_back({.kind = error.kind, .who = error.who, .whom = whom, .lasted_s = 0.0, .end = {}, .nearest_m = {}});
+  errors.told.push_back(
+      {.kind = error.kind, .who = error.who, .whom = whom, .lasted_s = 0.0, .end = {}, .nearest_m = {}});
 }
 
 void remember(const Leader& leader, DriverError& error) {
@@ -68,7 +69,8 @@ void overlook_if_due(const TownTick& tick, const Presences& presences, TownState
   TownErrors& errors = town.errors;
   const ParticipantId self = town.vehicles[index].id;
   DriverError* error = error_of(self, errors);
-  const bool is_due = error != nullptr && error->kind == PeopleError::overlook && error->stage == DriverError::Stage::waits;
+  const bool is_due =
+      error != nullptr && error->kind == PeopleError::overlook && error->stage == DriverError::Stage::waits;
   if (!is_due && (errors.awaited.empty() || (error != nullptr && error->stage == DriverError::Stage::runs))) return;
   const Leader leader = leader_of(tick.graph, presences, town, index);
   const auto who = only_one_let_pass(tick.graph, tick.lights, leader, presences, town, index);
@@ -100,7 +102,8 @@ Minded mind_late(const TownTick& tick, Random& random, Presences& presences, Tow
   Minded minded = mind_others(tick, random, presences, town, index);
   if (error.stage == DriverError::Stage::waits) {
     const double v = town.vehicles[index].speed_mps;
-    if (v < least_follows_mps || minded.leader.gap_m > follows_s * v || !brakes(tick, town, minded.leader)) return minded;
+    if (v < least_follows_mps || minded.leader.gap_m > follows_s * v || !brakes(tick, town, minded.leader))
+      return minded;
     remember(minded.leader, error);
     begin(id_of(tick, town, minded.leader.who), town.time_s, error, town.errors);
   }

@@ -69,8 +69,8 @@ Apart apart_from(const Footprint& one, const std::array<Vec2, 4>& points) {
                  beyond_y = std::max(0.0, std::abs(at.y) - one.half_width_m);
     apart.least_m = std::min(apart.least_m, std::hypot(beyond_x, beyond_y));
   }
-  apart.shown_m = std::max({low.x - one.half_length_m, -one.half_length_m - high.x, low.y - one.half_width_m,
-                            -one.half_width_m - high.y});
+  apart.shown_m = std::max(
+      {low.x - one.half_length_m, -one.half_length_m - high.x, low.y - one.half_width_m, -one.half_width_m - high.y});
   return apart;
 }
 
@@ -83,7 +83,11 @@ double gap_m(const Footprint& a, const Footprint& b) {
 }
 
 void end(ErrorEnd how, double time_s, DriverError& error, TownErrors& errors) {
-  ToldError told{.kind = error.kind, .who = error.who, .whom = error.whom, .lasted_s = time_s - error.since_s, .end = how,
+  ToldError told{.kind = error.kind,
+                 .who = error.who,
+                 .whom = error.whom,
+                 .lasted_s = time_s - error.since_s,
+                 .end = how,
                  .nearest_m = {}};
   if (error.kind == PeopleError::overlook && std::isfinite(error.nearest_m)) told.nearest_m = error.nearest_m;
   errors.told.push_back(told);
@@ -97,7 +101,8 @@ std::optional<ErrorEnd> end_of_overlook(const TownTick& tick, const TownState& t
   const double apart_m = gap_m(*own, *his);
   error.nearest_m = std::min(error.nearest_m, apart_m);
   if (apart_m <= 0.0) return ErrorEnd::touched;
-  if (error.nearest_m < near_m) return apart_m > error.nearest_m + parted_m ? std::optional(ErrorEnd::parted) : std::nullopt;
+  if (error.nearest_m < near_m)
+    return apart_m > error.nearest_m + parted_m ? std::optional(ErrorEnd::parted) : std::nullopt;
   return town.time_s > error.since_s + unmet_s ? std::optional(ErrorEnd::unmet) : std::nullopt;
 }
 
@@ -134,8 +139,12 @@ void end_errors(const TownTick& tick, TownState& town) {
   std::erase_if(errors.awaited, [&](const AwaitedOverlook& wish) {
     const double for_s = town.time_s - wish.since_s;
     if (for_s <= awaited_s) return false;
-    errors.told.push_back({.kind = PeopleError::overlook, .who = {}, .whom = wish.whom, .lasted_s = for_s,
-                           .end = ErrorEnd::unmet, .nearest_m = {}});
+    errors.told.push_back({.kind = PeopleError::overlook,
+                           .who = {},
+                           .whom = wish.whom,
+                           .lasted_s = for_s,
+                           .end = ErrorEnd::unmet,
+                           .nearest_m = {}});
     return true;
   });
 }
@@ -168,7 +177,8 @@ double drawn_duration_s(PeopleError kind, Random& random) {
 
 void draw_impulses(const PeopleErrorRates& rates, Random& random, TownState& town) {
   for (const TownVehicle& vehicle : town.vehicles) {
-    if (vehicle.outside || std::ranges::find(town.errors.drivers, vehicle.id, &DriverError::who) != town.errors.drivers.end())
+    if (vehicle.outside ||
+        std::ranges::find(town.errors.drivers, vehicle.id, &DriverError::who) != town.errors.drivers.end())
       continue;
     for (std::size_t kind = 0; kind < rates.per_hour.size(); ++kind) {
       if (rates.per_hour[kind] <= 0.0 || random.uniform() >= rates.per_hour[kind] * draws_each_s / 3600.0) continue;
@@ -192,8 +202,8 @@ Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom, To
   }
   const auto own = std::ranges::find(town.vehicles, *who, &TownVehicle::id);
   if (own == town.vehicles.end() || own->outside || *who == whom)
-    return failure(fmt::format("participant {} is no vehicle of the traffic that could overlook another", *who), "overlook",
-                   "name another one, or nobody: then the next one who would have to give way");
+    return failure(fmt::format("participant {} is no vehicle of the traffic that could overlook another", *who),
+                   "overlook", "name another one, or nobody: then the next one who would have to give way");
   const auto known = std::ranges::find(errors.drivers, *who, &DriverError::who);
   if (known != errors.drivers.end() && known->stage == DriverError::Stage::runs)
     return failure(fmt::format("participant {} errs already", *who), "overlook", "wait until he sees again");
@@ -216,10 +226,11 @@ void advance_errors(const TrafficParameters& parameters, const TownTick& tick, R
   const PeopleErrorRates& rates = parameters.errors;
   if (!rates.any() && !town.errors.any()) return town.errors.red_for_s.clear();
   end_errors(tick, town);
-  time_reds(tick, rates.per_hour[static_cast<std::size_t>(PeopleError::red)] > 0.0 ||
-                      std::ranges::find(town.errors.drivers, PeopleError::red, &DriverError::kind) !=
-                          town.errors.drivers.end(),
-            town.errors.red_for_s);
+  time_reds(
+      tick,
+      rates.per_hour[static_cast<std::size_t>(PeopleError::red)] > 0.0 ||
+          std::ranges::find(town.errors.drivers, PeopleError::red, &DriverError::kind) != town.errors.drivers.end(),
+      town.errors.red_for_s);
   if (std::floor((town.time_s - tick.dt_s) / draws_each_s) < std::floor(town.time_s / draws_each_s))
     draw_impulses(rates, random, town);
 }

@@ -62,7 +62,8 @@ void require_sound(const LaneGraph& graph, const TownErrors& errors, StateReader
   for (const ToldError& told : errors.told)
     reader.require(told.kind <= PeopleError::red && (!told.end || *told.end <= ErrorEnd::gone), wrong);
   for (const DriverError& error : errors.drivers)
-    reader.require(error.kind <= PeopleError::red && error.stage <= over && (error.way == no_way || error.way < graph.ways.size()) &&
+    reader.require(error.kind <= PeopleError::red && error.stage <= over &&
+                       (error.way == no_way || error.way < graph.ways.size()) &&
                        (error.kind != PeopleError::overlook || error.stage != runs || error.whom.has_value()),
                    wrong);
 }

@@ -44,6 +44,9 @@ inline constexpr double horizon_m = 130.0;
 /// Gap at which vehicles stand, as room beyond a junction is reckoned.
 inline constexpr double standing_gap_m = 2.5;
 
+/// Time between one who leaves a conflict and the next who comes to it.
+inline constexpr double behind_s = 0.4;
+
 /// Length and speed of turning out round a body, and with that the room which it takes before one.
 inline constexpr double swerve_m = 16.0, swerve_mps = 4.5, turn_out_m = swerve_m;
 

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/document/table_line.hpp"
+#include "engine/world/people_errors.hpp"
 #include "engine/world/solid.hpp"
 #include "logging/study/measures/crashes.hpp"
 
@@ -154,6 +155,19 @@ std::string plain_text(const Event& event) {
   return event.detail.empty() ? kind : kind + ": " + event.detail;
 }
 
+std::string people_error_text(const Event& event, const ParticipantNames& names) {
+  const auto state = value_of(event.detail, "state"), kind = value_of(event.detail, "kind"),
+             ended = value_of(event.detail, "ended"), nearest = value_of(event.detail, "nearest_m");
+  if (!state || !kind || !event.participant) return plain_text(event);
+  const auto other = value_of(event.detail, "whom");
+  const auto number = other ? document::number_in<ParticipantId>(*other) : std::nullopt;
+  const std::string who = called_in_text(names, *event.participant);
+  const std::string what = *kind + (number ? fmt::format(" (of {})", called_in_text(names, *number)) : "");
+  if (!ended) return fmt::format("{} errs: {}", who, what);
+  return fmt::format("{} errs no more: {}, {}{}", who, what, *ended,
+                     nearest ? fmt::format(", {} m apart at the nearest", *nearest) : "");
+}
+
 std::string text_of(const Event& event, const ParticipantNames& names) {
   if (event.kind == "mark") return rest_behind(event.detail, "note=").value_or(event.detail) + said_by(event.detail);
   if (event.kind == "word")
@@ -169,6 +183,7 @@ std::string text_of(const Event& event, const ParticipantNames& names) {
   if (event.kind == "crash_of_others") return crash_of_others_text(event, names);
   if (event.kind == crash_event && event.participant)
     if (const auto crash = read_crash(*event.participant, event.detail)) return "crash: " + crash_text(*crash, names);
+  if (event.kind == people_error_event) return people_error_text(event, names);
   if (event.kind == "screen") return event.detail;
   if (event.kind == "speed_limit")
     if (const auto kmh = value_of(event.detail, "kmh"))

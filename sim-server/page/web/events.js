@@ -41,6 +41,7 @@ function event_words({ kind, values = {}, text }) {
   if (kind === 'rating') return t('event.rating', { value: values.value || '' }) + by;
   if (kind === 'collision') return t(values.what ? 'event.collision' : 'event.collision_somebody', { what: heard(values.what || ''), kmh: kmh_of(values.closing_speed_mps || 0) });
   if (kind === 'crash') return crash_words(values);
+  if (kind === 'error_of_people') return error_words(values);
   if (kind === 'kerb') return t('event.kerb', { kmh: kmh_of(values.speed_mps || 0) });
   if (kind === 'wheel_damage') return t('event.wheel_damage', { wheel: t(`wheel.${values.wheel}`) });
   if (kind === 'lane_change') return t((values.lanes_to_left || '').startsWith('-') ? 'event.lane_change_right' : 'event.lane_change_left');
@@ -54,6 +55,14 @@ function event_words({ kind, values = {}, text }) {
   if (kind === 'sound') return t('event.sound', { device: heard(values.device) });
   if (kind === 'emergency_stop') return t(values.pressed === '1' ? 'event.stop_pressed' : 'event.stop_released');
   return has_text(`event.${kind}`) ? t(`event.${kind}`) + by : text;
+}
+
+/// Somebody of the traffic errs, or his error is over.
+function error_words(values) {
+  if (values.refused) return heard(values.refused);
+  const whom = values.whom === String(hello.driver) ? t('event.error_driver') : values.whom || '';
+  if (values.ended === 'unmet') return t('event.error_unmet', { whom });
+  return t(`event.error_${values.state}`, { what: t(`event.error_${values.kind}`, { whom }), seconds: figure(Number(values.lasted_s || 0), 1) });
 }
 
 /// `event`: as the server sends it; a text of the page's own has no time.

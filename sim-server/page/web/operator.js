@@ -48,3 +48,4 @@ $('trafficform').onsubmit = (event) => {
   event.preventDefault();
   change(`traffic vehicles=${Math.max(0, Math.min(3000, Math.round(+$('vehicles').value || 0)))}`);
 };
+$('overlook').onclick = () => change('overlook');

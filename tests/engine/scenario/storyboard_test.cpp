@@ -325,6 +325,29 @@ TEST_CASE("an event of the storyboard calls, in its own name, and Init may not")
     CHECK_FALSE(read_scenario(text, "test.xosc", files_in(".")).has_value());
 }
 
+TEST_CASE("Init and events set the rates at which people err, and events alone have an entity overlooked") {
+  const auto command = [](const std::string& type, const std::string& text) {
+    return "<UserDefinedAction><CustomCommandAction type=\"septet:" + type + "\">" + text +
+           "</CustomCommandAction></UserDefinedAction>";
+  };
+  Drive drive(scenario_text(two_cars + command("errors", "overlook=6 red=2"),
+                            story_text(event_text("e", command("overlook", "who=1007 whom=B"), at_time(0.5)))));
+  CHECK(std::get<PeopleErrorRates>(drive.scenario.init.back().what).per_hour == std::array{6.0, 0.0, 0.0, 2.0});
+  std::vector<OverlookAction> overlooked;
+  while (drive.state.time_s < 2.0) {
+    const StepResult result = advance_scenario(drive.scenario, drive.network, 0.01, drive.state);
+    overlooked.insert(overlooked.end(), result.overlooked.begin(), result.overlooked.end());
+  }
+  REQUIRE(overlooked.size() == 1);
+  CHECK(overlooked.front().who == 1007u);
+  CHECK(overlooked.front().whom == find_entity(drive.scenario, "B"));
+  for (const std::string& text :
+       {scenario_text(two_cars + command("overlook", ""), ""),
+        scenario_text(two_cars + command("errors", "sleep=1"), ""),
+        scenario_text(two_cars, story_text(event_text("e", command("overlook", "whom=C"), at_time(0.5))))})
+    CHECK_FALSE(read_scenario(text, "test.xosc", files_in(".")).has_value());
+}
+
 TEST_CASE("an event of the storyboard asks for a change of the scene in a call of its own, quotes and all") {
   const auto changing = [](const std::string& text) {
     return "<UserDefinedAction><CustomCommandAction type=\"septet:scene\">" + text +

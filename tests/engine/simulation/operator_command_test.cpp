@@ -19,7 +19,9 @@ TEST_CASE("an operator's command comes back from its text to the last bit") {
         OperatorCommand(ShowEntity{"a b = c", false}), OperatorCommand(ShowEntity{"place", true}),
         OperatorCommand(SetFault{0, true}), OperatorCommand(SetFault{fault_names().size() - 1, false}),
         OperatorCommand(PutCar{1.0 / 3.0, -1e6 / 7.0, -0.1, 13.7}),
-        OperatorCommand(Call{"lift", "a b = c", {{"words", "please wait"}}, "lab"})}) {
+        OperatorCommand(Call{"lift", "a b = c", {{"words", "please wait"}}, "lab"}), OperatorCommand(OverlookWish{}),
+        OperatorCommand(OverlookWish{1007, "a b = c"}),
+        OperatorCommand(PeopleErrorRates{{1.0 / 3.0, 0.0, 2.0, 1000.0}})}) {
     const auto read = parse_operator_command(text_of(command));
     REQUIRE(read.has_value());
     CHECK(*read == command);
@@ -76,6 +78,12 @@ TEST_CASE("what is no command, or asks for what is out of range, is refused") {
                            "call ",
                            "call lift",
                            "call node=x",
+                           "overlook ",
+                           "overlook me",
+                           "overlook whom=",
+                           "errors",
+                           "errors ",
+                           "errors red=1001",
                            "conditions friction_scale=0"})
     CHECK_MESSAGE(!parse_operator_command(text).has_value(), text);
 }

@@ -44,6 +44,8 @@ def refusals(root):
     for file, sentence in (("sim-server/drive/operator_desk.cpp", r'return "([a-z][^"=]* [^"=]*)";'),
                            ("sim-server/drive/placing.cpp", r'failure\("([^"]+)"'),
                            ("sim-server/page/messages.cpp", r'no_message\("([^"]+)"\)'),
+                           ("engine/traffic/own_traffic.cpp", r'failure\("([^"]+)"'),
+                           ("engine/traffic/network/errors.cpp", r'failure\("([^"]+)"'),
                            ("engine/simulation/operator_command.cpp", r'failure\((?:[\w.]+ \? )?"([^"]+)"(?: : "([^"]+)")?')):
         found = re.findall(sentence, (root / file).read_text(encoding="utf-8"))
         assert found, file
