@@ -72,7 +72,7 @@ struct Encounter {
 double before_driver_s(bool is_wished) {
   Encounter on;
   add_car(on.network, on.graph, "west", "east", 60.0, on.town);
-  on.foreign = {driver_from_south(95.0, 13.0)};
+  on.foreign = {driver_from_south(80.0, 13.0)};
   if (is_wished) CHECK(overlook({}, driver_id, on.town).has_value());
   std::optional<double> entered_s, passed_s;
   while (on.time_s < 20.0 && !(entered_s && passed_s)) {
@@ -95,7 +95,7 @@ TEST_CASE("who overlooks the driver's car claims a crossing before it, and witho
 TEST_CASE("the one who overlooks is told as it begins and, with how near they came, once the two have parted") {
   Encounter on;
   add_car(on.network, on.graph, "west", "east", 60.0, on.town);
-  on.foreign = {driver_from_south(95.0, 13.0)};
+  on.foreign = {driver_from_south(80.0, 13.0)};
   REQUIRE(overlook({}, driver_id, on.town).has_value());
   CHECK_FALSE(overlook({}, driver_id, on.town).has_value());
   while (on.time_s < 20.0) on.step();
@@ -126,13 +126,13 @@ TEST_CASE("once an encounter is over he sees the other again") {
   // Held at his line by one who stands beyond it, until the driver's car has passed and comes a second time.
   const auto claims_before_second = [](bool overlooks_again) {
     Encounter on;
-    add_car(on.network, on.graph, "west", "east", 40.0, on.town);
+    add_car(on.network, on.graph, "west", "east", 25.0, on.town);
     ForeignVehicle stands = driver_from_south(0.0, 0.0);
     stands.id = 2;
     stands.world_from_vehicle = {{arm_end_m + 3.0, -0.5 * lane_m, 0.0}, orientation_from_angles(0.0, 0.0, 0.0)};
-    on.foreign = {driver_from_south(95.0, 13.0), stands};
+    on.foreign = {driver_from_south(40.0, 13.0), stands};
     REQUIRE(overlook(first_car_id, driver_id, on.town).has_value());
-    while (on.time_s < 13.0) on.step();
+    while (on.time_s < 7.5) on.step();
     CHECK_FALSE(on.has_entered());
     CHECK(on.town.errors.told.back().end == ErrorEnd::parted);
     on.foreign.front() = driver_from_south(50.0, 13.0);
