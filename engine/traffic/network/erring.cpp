@@ -30,9 +30,10 @@ std::optional<std::int32_t> who_is(const TownTick& tick, const TownState& town, 
   return std::nullopt;
 }
 
-DriverError* error_of(ParticipantId who, TownErrors& errors) {
-  const auto found = std::ranges::find(errors.drivers, who, &DriverError::who);
-  return found == errors.drivers.end() ? nullptr : &*found;
+DriverError* waiting_error(ParticipantId who, PeopleError kind, TownErrors& errors) {
+  for (DriverError& error : errors_of(who, errors))
+    if (error.kind == kind && error.stage == DriverError::Stage::waits) return &error;
+  return nullptr;
 }
 
 void begin(std::optional<ParticipantId> whom, double time_s, DriverError& error, TownErrors& errors) {
@@ -68,19 +69,16 @@ bool brakes(const TownTick& tick, const TownState& town, const Leader& leader) {
 void overlook_if_due(const TownTick& tick, const Presences& presences, TownState& town, std::size_t index) {
   TownErrors& errors = town.errors;
   const ParticipantId self = town.vehicles[index].id;
-  DriverError* error = error_of(self, errors);
-  const bool is_due =
-      error != nullptr && error->kind == PeopleError::overlook && error->stage == DriverError::Stage::waits;
-  if (!is_due && (errors.awaited.empty() || (error != nullptr && error->stage == DriverError::Stage::runs))) return;
+  DriverError* error = waiting_error(self, PeopleError::overlook, errors);
+  if (error == nullptr && errors.awaited.empty()) return;
   const Leader leader = leader_of(tick.graph, presences, town, index);
   const auto who = only_one_let_pass(tick.graph, tick.lights, leader, presences, town, index);
   const auto whom = who ? id_of(tick, town, *who) : std::nullopt;
   if (!whom) return;
   const auto wish = std::ranges::find(errors.awaited, *whom, &AwaitedOverlook::whom);
-  if (!is_due && wish == errors.awaited.end()) return;
-  if (error == nullptr) error = &errors.drivers.emplace_back();
-  if (!is_due) *error = {.who = self, .kind = PeopleError::overlook, .whom = {}};
+  if (error == nullptr && wish == errors.awaited.end()) return;
   if (wish != errors.awaited.end()) errors.awaited.erase(wish);
+  if (error == nullptr) error = &add_error({.who = self, .kind = PeopleError::overlook, .whom = {}}, errors);
   begin(whom, town.time_s, *error, errors);
 }
 
@@ -125,26 +123,41 @@ Minded mind_telephone(const TownTick& tick, const Presences& presences, TownStat
   return minded;
 }
 
-Minded mind_red(const TownTick& tick, Random& random, Presences& presences, TownState& town, std::size_t index,
-                DriverError& error) {
-  const TownVehicle& vehicle = town.vehicles[index];
+/// The lights as he takes them, perhaps from now on; empty: as they are.
+std::vector<LightState> lights_taken(const TownTick& tick, TownState& town, const TownVehicle& vehicle,
+                                     DriverError& error) {
   const auto ahead = light_ahead(tick.graph, vehicle);
   const std::vector<double>& red_for_s = town.errors.red_for_s;
-  if (!ahead || ahead->line_m <= 0.0 || red_for_s.size() != tick.lights.size() || tick.lights.empty())
-    return mind_others(tick, random, presences, town, index);
+  if (!ahead || ahead->line_m <= 0.0 || tick.lights.empty() || red_for_s.size() != tick.lights.size()) return {};
   const Way& before = tick.graph.ways[ahead->way];
   const std::size_t light = 2 * before.road + (before.along_s ? 0 : 1);
-  bool takes_for_green = error.stage == DriverError::Stage::runs || tick.lights[light] == LightState::amber;
-  if (tick.lights[light] == LightState::red && error.stage == DriverError::Stage::waits &&
-      vehicle.speed_mps > runs_light_mps && red_for_s[light] + ahead->line_m / vehicle.speed_mps <= error.lasts_s) {
+  const bool waits = error.stage == DriverError::Stage::waits;
+  if (waits && tick.lights[light] == LightState::red && vehicle.speed_mps > runs_light_mps &&
+      red_for_s[light] + ahead->line_m / vehicle.speed_mps <= error.lasts_s) {
     error.way = ahead->way;
     begin({}, town.time_s, error, town.errors);
-    takes_for_green = true;
+  } else if (waits && tick.lights[light] != LightState::amber) {
+    return {};
   }
-  if (!takes_for_green) return mind_others(tick, random, presences, town, index);
   std::vector<LightState> taken(tick.lights.begin(), tick.lights.end());
   taken[light] = LightState::green;
-  return mind_others({tick.graph, taken, tick.foreign, tick.dt_s}, random, presences, town, index);
+  return taken;
+}
+
+Minded mind_red(const TownTick& tick, Random& random, Presences& presences, TownState& town, std::size_t index,
+                DriverError& error) {
+  const std::vector<LightState> taken = lights_taken(tick, town, town.vehicles[index], error);
+  const std::span<const LightState> lights = taken.empty() ? tick.lights : taken;
+  return mind_others({tick.graph, lights, tick.foreign, tick.dt_s}, random, presences, town, index);
+}
+
+/// True where a light that is not green is before him.
+bool is_before_light(const TownTick& tick, const TownVehicle& vehicle) {
+  const auto ahead = tick.lights.empty() ? std::nullopt : light_ahead(tick.graph, vehicle);
+  if (!ahead) return false;
+  const Way& before = tick.graph.ways[ahead->way];
+  const LightState light = tick.lights[2 * before.road + (before.along_s ? 0 : 1)];
+  return light == LightState::amber || light == LightState::red;
 }
 
 }  // namespace
@@ -165,10 +178,14 @@ Presences without(const Presences& presences, std::int32_t who) {
 }
 
 Minded mind_erring(const TownTick& tick, Random& random, Presences& presences, TownState& town, std::size_t index) {
-  overlook_if_due(tick, presences, town, index);
-  DriverError* error = error_of(town.vehicles[index].id, town.errors);
-  if (error == nullptr || error->stage == DriverError::Stage::over)
-    return mind_others(tick, random, presences, town, index);
+  const TownVehicle& vehicle = town.vehicles[index];
+  if (running_error(vehicle.id, town.errors) == nullptr) overlook_if_due(tick, presences, town, index);
+  DriverError* error = running_error(vehicle.id, town.errors);
+  if (error == nullptr) error = waiting_error(vehicle.id, PeopleError::telephone, town.errors);
+  if (error == nullptr && is_before_light(tick, vehicle))
+    error = waiting_error(vehicle.id, PeopleError::red, town.errors);
+  if (error == nullptr) error = waiting_error(vehicle.id, PeopleError::late_brake, town.errors);
+  if (error == nullptr) return mind_others(tick, random, presences, town, index);
   if (error->kind == PeopleError::late_brake) return mind_late(tick, random, presences, town, index, *error);
   if (error->kind == PeopleError::telephone) return mind_telephone(tick, presences, town, index, *error);
   if (error->kind == PeopleError::red) return mind_red(tick, random, presences, town, index, *error);

@@ -16,7 +16,7 @@ namespace septet::traffic {
 namespace {
 
 constexpr double draws_each_s = 1.0;
-constexpr double fades_s = 60.0;     ///< An impulse without an occasion.
+constexpr double fades_s = 600.0;    ///< An impulse without an occasion.
 constexpr double awaited_s = 120.0;  ///< A wish without one.
 constexpr double unmet_s = 60.0;     ///< Two of whom one overlooks the other, and who do not come near.
 constexpr double lingers_s = 5.0;    ///< Then who has erred is as all others.
@@ -177,20 +177,41 @@ double drawn_duration_s(PeopleError kind, Random& random) {
 
 void draw_impulses(const PeopleErrorRates& rates, Random& random, TownState& town) {
   for (const TownVehicle& vehicle : town.vehicles) {
-    if (vehicle.outside ||
-        std::ranges::find(town.errors.drivers, vehicle.id, &DriverError::who) != town.errors.drivers.end())
-      continue;
-    for (std::size_t kind = 0; kind < rates.per_hour.size(); ++kind) {
-      if (rates.per_hour[kind] <= 0.0 || random.uniform() >= rates.per_hour[kind] * draws_each_s / 3600.0) continue;
-      DriverError error{.who = vehicle.id, .kind = static_cast<PeopleError>(kind), .whom = {}, .since_s = town.time_s};
-      error.lasts_s = drawn_duration_s(error.kind, random);
-      town.errors.drivers.push_back(error);
-      break;
+    if (vehicle.outside) continue;
+    for (std::size_t k = 0; k < rates.per_hour.size(); ++k) {
+      const auto kind = static_cast<PeopleError>(k);
+      if (rates.per_hour[k] <= 0.0 || random.uniform() >= rates.per_hour[k] * draws_each_s / 3600.0) continue;
+      const auto known = errors_of(vehicle.id, town.errors);
+      if (std::ranges::any_of(known, [&](const DriverError& error) {
+            return error.kind == kind && error.stage != DriverError::Stage::over;
+          }))
+        continue;
+      add_error({.who = vehicle.id,
+                 .kind = kind,
+                 .whom = {},
+                 .since_s = town.time_s,
+                 .lasts_s = drawn_duration_s(kind, random)},
+                town.errors);
     }
   }
 }
 
 }  // namespace
+
+std::span<DriverError> errors_of(ParticipantId who, TownErrors& errors) {
+  const auto [first, last] = std::ranges::equal_range(errors.drivers, who, {}, &DriverError::who);
+  return {first, last};
+}
+
+DriverError* running_error(ParticipantId who, TownErrors& errors) {
+  const auto own = errors_of(who, errors);
+  const auto runs = std::ranges::find(own, DriverError::Stage::runs, &DriverError::stage);
+  return runs == own.end() ? nullptr : &*runs;
+}
+
+DriverError& add_error(const DriverError& error, TownErrors& errors) {
+  return *errors.drivers.insert(std::ranges::upper_bound(errors.drivers, error.who, {}, &DriverError::who), error);
+}
 
 Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom, TownState& town) {
   TownErrors& errors = town.errors;
@@ -204,12 +225,14 @@ Expected<void> overlook(std::optional<ParticipantId> who, ParticipantId whom, To
   if (own == town.vehicles.end() || own->outside || *who == whom)
     return failure(fmt::format("participant {} is no vehicle of the traffic that could overlook another", *who),
                    "overlook", "name another one, or nobody: then the next one who would have to give way");
-  const auto known = std::ranges::find(errors.drivers, *who, &DriverError::who);
-  if (known != errors.drivers.end() && known->stage == DriverError::Stage::runs)
+  if (running_error(*who, errors) != nullptr)
     return failure(fmt::format("participant {} errs already", *who), "overlook", "wait until he sees again");
-  DriverError& error = known != errors.drivers.end() ? *known : errors.drivers.emplace_back();
-  error = {.who = *who, .kind = PeopleError::overlook, .whom = whom, .since_s = town.time_s};
-  error.stage = DriverError::Stage::runs;
+  const DriverError& error = add_error({.who = *who,
+                                        .kind = PeopleError::overlook,
+                                        .stage = DriverError::Stage::runs,
+                                        .whom = whom,
+                                        .since_s = town.time_s},
+                                       errors);
   errors.told.push_back({.kind = error.kind, .who = who, .whom = whom, .lasted_s = 0.0, .end = {}, .nearest_m = {}});
   return {};
 }

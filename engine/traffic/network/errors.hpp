@@ -1,9 +1,10 @@
 #pragma once
 /// Errors of people in a town's traffic (engine/world/people_errors.hpp), as state.
 ///
-/// An impulse to err is drawn for each driver at the rates of the parameters, and waits for its occasion: to overlook, for
-/// somebody who alone keeps him from a junction; to brake late, for a leader who brakes; to pass at red, for a light that
-/// turns before him; the telephone rings at once. An impulse without an occasion fades. A driver has one error at a time.
+/// An impulse to err is drawn for each driver at the rates of the parameters, one of a kind at a time, and waits for its
+/// occasion: to overlook, for somebody who alone keeps him from a junction and could still stop; to brake late, for a leader
+/// who brakes; to pass at red, for a light that turns before him; the telephone rings at once. An impulse without an
+/// occasion fades. A driver makes one error at a time.
 ///
 ///   overlook    he claims junctions and follows as if the other were not there, until the two have been near and parted,
 ///               or have touched;
@@ -19,6 +20,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/traffic/network/lane_graph.hpp"
@@ -50,7 +52,7 @@ struct AwaitedOverlook {
 };
 
 struct TownErrors {
-  std::vector<DriverError> drivers;      ///< In the order of their impulses.
+  std::vector<DriverError> drivers;      ///< Ascending `who`; of one driver in the order of his impulses.
   std::vector<AwaitedOverlook> awaited;  ///< For each other once.
   /// For how long each light has shown red, by road and direction; empty while no rate asks for it.
   std::vector<double> red_for_s;
@@ -58,5 +60,12 @@ struct TownErrors {
 
   bool any() const { return !drivers.empty() || !awaited.empty(); }
 };
+
+/// All errors of a driver.
+std::span<DriverError> errors_of(ParticipantId who, TownErrors& errors);
+/// The one that he makes; null: none.
+DriverError* running_error(ParticipantId who, TownErrors& errors);
+/// Adds one; pointers to others are then void.
+DriverError& add_error(const DriverError& error, TownErrors& errors);
 
 }  // namespace septet::traffic

@@ -61,6 +61,7 @@ void require_sound(const LaneGraph& graph, const TownErrors& errors, StateReader
   using enum DriverError::Stage;
   for (const ToldError& told : errors.told)
     reader.require(told.kind <= PeopleError::red && (!told.end || *told.end <= ErrorEnd::gone), wrong);
+  reader.require(std::ranges::is_sorted(errors.drivers, {}, &DriverError::who), wrong);
   for (const DriverError& error : errors.drivers)
     reader.require(error.kind <= PeopleError::red && error.stage <= over &&
                        (error.way == no_way || error.way < graph.ways.size()) &&
@@ -119,8 +120,8 @@ class NetworkTraffic final : public TrafficEngine {
   std::vector<ParticipantId> erring() const override {
     std::vector<ParticipantId> erring;
     for (const DriverError& error : town_.errors.drivers)
-      if (error.stage != DriverError::Stage::waits) erring.push_back(error.who);
-    std::ranges::sort(erring);
+      if (error.stage != DriverError::Stage::waits && (erring.empty() || erring.back() != error.who))
+        erring.push_back(error.who);
     return erring;
   }
   std::optional<std::string> take_remark() override { return std::exchange(remark_, std::nullopt); }

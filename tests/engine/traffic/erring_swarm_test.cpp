@@ -20,7 +20,7 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double dt_s = 1.0 / 30.0;
+constexpr double swarm_step_s = 1.0 / 30.0;
 
 PeopleErrorRates all_at(double per_hour) {
   PeopleErrorRates rates;
@@ -42,8 +42,8 @@ struct Swarm {
   }
   void start() { engine->start(motorway_traffic(40, 2000.0), std::span(&driver, 1)); }
   void drive(double seconds) {
-    for (double t = 0.0; t < seconds; t += dt_s) {
-      engine->advance(std::span(&driver, 1), dt_s);
+    for (double t = 0.0; t < seconds; t += swarm_step_s) {
+      engine->advance(std::span(&driver, 1), swarm_step_s);
       for (const ToldError& error : engine->take_errors()) told.push_back(text_of(error));
     }
   }
@@ -110,7 +110,7 @@ TEST_CASE("lights are passed at red only where that error has a rate") {
   const auto run = [&](double per_hour) {
     TrafficParameters parameters = motorway_traffic(60, 3000.0);
     parameters.errors.per_hour[static_cast<std::size_t>(PeopleError::red)] = per_hour;
-    return run_town(town.network, town.graph, parameters, 300.0, 11, dt_s, {}, {}, town.lights_at);
+    return run_town(town.network, town.graph, parameters, 300.0, 11, swarm_step_s, {}, {}, town.lights_at);
   };
   const TownRun usual = run(0.0);
   CHECK(usual.lit_lines > 20);

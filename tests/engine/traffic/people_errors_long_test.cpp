@@ -18,7 +18,7 @@ namespace {
 
 struct Came {
   std::array<std::uint32_t, people_error_names.size()> begun{};
-  std::uint32_t near = 0, touched = 0;  ///< Of overlooks: nearer than a metre; touched.
+  std::uint32_t near = 0, touched = 0;  ///< Of overlooks: two have passed nearer than two metres; touched.
   TownRun run;
 };
 
@@ -32,7 +32,7 @@ Came hour_of(const LitTown& town, std::uint32_t count, const PeopleErrorRates& r
       const ToldError& told = now.errors.told[heard];
       if (!told.end) ++came.begun[static_cast<std::size_t>(told.kind)];
       came.touched += told.end == ErrorEnd::touched;
-      came.near += told.end == ErrorEnd::parted && told.nearest_m.value_or(1e9) < 1.0;
+      came.near += told.end == ErrorEnd::parted && told.nearest_m.value_or(1e9) < 2.0;
     }
   };
   came.run = run_town(town.network, town.graph, parameters, 3600.0, 11, 1.0 / 30.0, {}, hear, town.lights_at);

@@ -19,7 +19,7 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double dt_s = 1.0 / 30.0;
+constexpr double encounter_step_s = 1.0 / 30.0;
 constexpr ParticipantId driver_id = 1;
 
 /// The driver's car on the lane from south to north.
@@ -53,9 +53,9 @@ struct Encounter {
 
   TownVehicle& car() { return town.vehicles.front(); }
   void step() {
-    for (ForeignVehicle& other : foreign) other.world_from_vehicle.position_m += dt_s * other.velocity_mps;
-    advance_town(motorway_traffic(0, 1000.0), network, graph, lights, foreign, dt_s, random, town);
-    time_s += dt_s;
+    for (ForeignVehicle& other : foreign) other.world_from_vehicle.position_m += encounter_step_s * other.velocity_mps;
+    advance_town(motorway_traffic(0, 1000.0), network, graph, lights, foreign, encounter_step_s, random, town);
+    time_s += encounter_step_s;
   }
   /// The town's first car is past its line.
   bool has_entered() { return graph.ways[car().route.front()].in_junction() || car().front_m > arm_m(); }
@@ -189,21 +189,24 @@ TEST_CASE("who errs at red passes a light that has just turned, and one that has
   CHECK_FALSE(passes(true, 0.5));
 }
 
-TEST_CASE("who brakes late begins to brake for his leader seconds later") {
-  const auto brakes_at_s = [](double late_s) {
+TEST_CASE("who brakes late begins to brake for the driver's car seconds after its brake lamps") {
+  const auto brakes_after_s = [](double late_s) {
     Encounter on;
-    on.network = crossing(false, Posted::lights);
-    on.graph = build_lane_graph(on.network);
-    on.show(Lamp::signal_red);
-    add_car(on.network, on.graph, "south", "north", 100.0, on.town);
-    add_car(on.network, on.graph, "south", "north", 80.0, on.town);
+    add_car(on.network, on.graph, "south", "north", 120.0, on.town);
+    on.foreign = {driver_from_south(100.0, 10.0)};
     if (late_s > 0.0) on.town.errors.drivers = {error_of_first(PeopleError::late_brake, late_s)};
-    while (on.time_s < 20.0 && on.car().acceleration_mps2 > -1.5) on.step();
-    return on.time_s;
+    constexpr double from_s = 1.0, hard_mps2 = 5.0;
+    while (on.time_s < from_s) on.step();
+    on.foreign.front().lamps.set(Lamp::brake, true);
+    while (on.time_s < 10.0 && on.car().acceleration_mps2 > -1.5) {
+      on.foreign.front().velocity_mps.y = std::max(0.0, 10.0 - hard_mps2 * (on.time_s - from_s));
+      on.step();
+    }
+    return on.time_s - from_s;
   };
-  const double usual_s = brakes_at_s(0.0);
-  CHECK(usual_s < 15.0);
-  CHECK(brakes_at_s(2.0) > usual_s + 0.8);
+  const double usual_s = brakes_after_s(0.0);
+  CHECK(usual_s < 1.0);
+  CHECK(brakes_after_s(2.0) == doctest::Approx(2.0).epsilon(0.05));
 }
 
 TEST_CASE("who telephones at a light drives off when the call is over, not when it turns green") {
