@@ -6,6 +6,7 @@
 #include "engine/physics/impact/outline.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/bodies/loose_body.hpp"
+#include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/participant_shape.hpp"
 #include "engine/world/vehicle_body.hpp"
 
@@ -37,6 +38,8 @@ void note_poses(const Model& model, const std::vector<Participant>& participants
     const Participant* second = crash.record.second ? find_participant(participants, *crash.record.second) : nullptr;
     if (first) crash.record.of_first.mass_centre_above_m = mass_centre_above_m(model, *first);
     if (second) crash.record.of_second.mass_centre_above_m = mass_centre_above_m(model, *second);
+    // What a vehicle loses to somebody who is thrown is told by itself (thrown_crash.hpp).
+    if (is_thrown(state, crash.record.first) || (second && is_thrown(state, second->id))) continue;
     const bool is_pushed = crash.last_push == state.tick;
     if (is_pushed && first && crash.first_moves) settle(body_of(model, state, *first), crash.first, crash);
     if (!second || !crash.second_moves) continue;

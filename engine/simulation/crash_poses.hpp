@@ -8,7 +8,7 @@
 namespace septet::simulation {
 
 /// Notes the motion with which the tick leaves both of each crash that was pushed in it, all other pushes included, and
-/// how deep their outlines have come into each other. Call it when nothing moves `participants` (ascending id) any more
+/// how deep their outlines have come into each other; somebody who is thrown has none. Call it when nothing moves `participants` (ascending id) any more
 /// in this tick.
 void note_poses(const Model& model, const std::vector<Participant>& participants, State& state);
 

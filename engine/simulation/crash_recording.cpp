@@ -186,7 +186,8 @@ void note_broken_off(const BrokenOff& broken, const std::optional<PushedByPieces
                        impact::Body& left) {
     if (!side || !moves) return;
     is_pushed = true;
-    left = side->after;
+    left.velocity_mps += side->after.velocity_mps - side->before.velocity_mps;
+    left.yaw_rate_radps += side->after.yaw_rate_radps - side->before.yaw_rate_radps;
     push.debris_j -= 0.5 * glm::dot(Vec2(given_ns), side->before.velocity_mps + side->after.velocity_mps);
   };
   add(first, crash->first_moves, broken.on_first_ns, push.first);

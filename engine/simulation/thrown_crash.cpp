@@ -21,6 +21,14 @@ Vec2 way_to_other(const person::Touches& touches) {
   return length > 0.1 ? level / length : Vec2(1.0, 0.0);
 }
 
+/// Speed in plan along that way at which the vehicle's surface comes to whom it meets, who moves as a whole: what touches
+/// first may be a limb that swings, or be met aslant.
+double closing_in_plan_mps(const ThrownTouch& touch) {
+  const Vec3 arm_m = touch.touches.point_m - touch.vehicle.world_from_vehicle.position_m;
+  const Vec3 surface_mps = touch.vehicle.velocity_mps + glm::cross(touch.vehicle.angular_velocity_radps, arm_m);
+  return std::max(0.0, glm::dot(Vec2(surface_mps - touch.other.velocity_mps), way_to_other(touch.touches)));
+}
+
 /// Change of speed by a plastic impact with another one, who may stand fast by an infinite mass.
 double plastic_delta_v_mps(double closing_mps, double own_kg, double other_kg) {
   return std::isfinite(other_kg) ? closing_mps * other_kg / (own_kg + other_kg) : closing_mps;
@@ -33,7 +41,7 @@ void tell_touch(const Model& model, const ThrownTouch& touch, State& state, std:
   const Participant &first = vehicle_first ? touch.vehicle : touch.other,
                     &second = vehicle_first ? touch.other : touch.vehicle;
   const Vec2 to_second = vehicle_first ? way_to_other(touch.touches) : -way_to_other(touch.touches);
-  const double closing_mps = touch.touches.closing_mps;
+  const double closing_mps = closing_in_plan_mps(touch);
   const auto crashed = [&](const Participant& one) {
     return CrashedVehicle{one.id, mass_kg(model, state, one), one.velocity_mps, one.angular_velocity_radps};
   };
@@ -73,14 +81,15 @@ void tell_touch(const Model& model, const ThrownTouch& touch, State& state, std:
   note(note_second, second, crash.second.mass_kg);
 }
 
-void record_loss(const Model& model, ParticipantId vehicle, ParticipantId other, const Vec3& on_vehicle_ns,
-                 State& state) {
+void record_loss(ParticipantId vehicle, ParticipantId other, const Vec3& on_vehicle_ns, State& state) {
   if (on_vehicle_ns == Vec3(0.0)) return;
   OpenCrash* crash = find_open_crash(state, std::min(vehicle, other), std::max(vehicle, other));
   if (!crash) return;
   const bool vehicle_first = vehicle < other;
+  // He may lie on the bonnet for a second in which wheels brake the vehicle: its change is that by him alone.
   CrashPush push{.first = crash->first, .second = crash->second};
-  if (const auto pushed = pushed_body(model, state, vehicle)) (vehicle_first ? push.first : push.second) = *pushed;
+  impact::Body& pushed = vehicle_first ? push.first : push.second;
+  pushed.velocity_mps += Vec2(on_vehicle_ns) / pushed.mass_kg;
   push.on_second_ns = vehicle_first ? -Vec2(on_vehicle_ns) : Vec2(on_vehicle_ns);
   note_push(state.tick, push, *crash);
 }

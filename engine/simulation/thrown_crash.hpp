@@ -18,7 +18,6 @@ struct ThrownTouch {
 void tell_touch(const Model& model, const ThrownTouch& touch, State& state, std::vector<Event>& events);
 
 /// Adds to the record what the vehicle has lost in this tick to the body of `other`.
-void record_loss(const Model& model, ParticipantId vehicle, ParticipantId other, const Vec3& on_vehicle_ns,
-                 State& state);
+void record_loss(ParticipantId vehicle, ParticipantId other, const Vec3& on_vehicle_ns, State& state);
 
 }  // namespace septet::simulation

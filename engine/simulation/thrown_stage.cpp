@@ -225,7 +225,7 @@ class Meetings {
       if (std::isfinite(vehicle.solid.mass_kg)) push(vehicle.solid.taken_ns, *loose);
       one = participant_of(*loose);
     }
-    for (const Loss& loss : losses_) record_loss(model_, loss.vehicle, loss.other, loss.on_vehicle_ns, state_);
+    for (const Loss& loss : losses_) record_loss(loss.vehicle, loss.other, loss.on_vehicle_ns, state_);
   }
 
  private:

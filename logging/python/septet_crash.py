@@ -9,7 +9,8 @@ From the record `recomputed` takes what no snapshot tells: who met whom and when
 are compared, masses, inertias and mass centres. All else is of the snapshots: outlines and motion of both at the tick
 before the touch, and until that of the last push. Left out is what no snapshot holds: crush, which the law shares out by
 stiffness and keeps where the outlines spring back; the work of crush and friction, debris and wheels, which tell apart
-pushes within a tick; what stands beside the road. Where another crash still pushes one of the two at their touch, its
+pushes within a tick; what stands beside the road; what a person or a two-wheeler took of a vehicle, whose wheels brake it
+meanwhile, and the speed at which the two met, limbs and all. Where another crash still pushes one of the two at their touch, its
 motion then is in no snapshot either, and of figures the depth alone is reckoned.
 """
 
@@ -29,6 +30,7 @@ _OF_BODY = ("mass_kg", "yaw_inertia_kgm2", "mass_centre_ahead_m", "mass_centre_a
 _LEAST_TURN_RADPS = 0.1  # Of less the snapshots' steps are too large a share.
 _MOST_TICKS = 240  # engine/world/crash_record.hpp
 _CORNER_M = 0.3  # engine/physics/impact/impact.toml: vehicles' corners in plan.
+_THROWN = ("pedestrian", "bicycle", "motorcycle")
 _BOX_CORNER_M = 0.02  # engine/simulation/effects/body_box.cpp
 
 
@@ -310,6 +312,9 @@ def recomputed(session):
             bodies = [_Body(record, of, of_one, models) for (_, of), of_one in zip(sides, of_each)]
         except (IndexError, KeyError, TypeError):
             raise SessionError(f"{session.path}: its vehicle_models are not what Septet writes: use an unaltered session") from None
+        both = here[here.participant.isin([record["first"], record.get("with", math.nan)])]
+        if any(models[index].get("kind") in _THROWN for index in both.model.unique()):
+            continue
         depends_on_others = _is_pushed_by_another(record, everyone)
         for key, value in _of_snapshots(record, bodies, tick_s).items():
             logged = _told(record, key)

@@ -101,6 +101,33 @@ TEST_CASE("a walker whom the car hits is thrown, lies, leaves his script, and th
                     shown(now, id).world_from_vehicle.position_m) < 1e-9);
 }
 
+TEST_CASE("a crash with a walker has the speed at which the car came to him, and what he took of it, not its braking") {
+  for (const char* car : {"volvo-s80", "van"}) {
+    CAPTURE(car);
+    Model model = street();
+    model.scenario.entities[0].model = *find_vehicle_model(car);
+    State state = about_to_hit(model, 12.0);
+    std::vector<Event> events;
+    std::vector<Snapshot> drive;
+    for (int tick = 0; tick < 360; ++tick) drive.push_back(server_step(model, braking(), state, events));
+    const auto told = std::ranges::find(events, crash_event, &Event::kind);
+    REQUIRE(told != events.end());
+    const auto crash = read_crash(*told->participant, told->detail);
+    REQUIRE(crash.has_value());
+    const Vec3 before = shown(drive.at(crash->tick - 2), driver_participant).velocity_mps;
+    CHECK(crash->closing_speed_mps == relative(glm::length(before), 0.02));
+    REQUIRE(crash->of_first.delta_v_mps.has_value());
+    Vec2 given_ns(0.0);
+    for (const Vec2& push_ns : crash->pulse_ns) given_ns += push_ns;
+    const Vec2 by_him = -given_ns / *crash->of_first.mass_kg;
+    CHECK(glm::distance(*crash->of_first.delta_v_mps, by_him) < 0.02);  // Pieces that broke off took the rest.
+    // About as by a plastic impact; its brakes take five times as much in that time.
+    const double plastic_mps = 80.0 / (80.0 + *crash->of_first.mass_kg) * glm::length(before);
+    CHECK(glm::length(by_him) > 0.6 * plastic_mps);
+    CHECK(glm::length(by_him) < 1.8 * plastic_mps);
+  }
+}
+
 TEST_CASE("who is passed at arm's length or touched slower than he walks is not thrown") {
   const Model model = street();
   std::vector<Event> events;
