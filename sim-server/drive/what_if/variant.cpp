@@ -135,7 +135,7 @@ Expected<void> run_as_logged(const logging::SessionReader& session, WhatIf& what
         what_if.logged->world_from_car = car->world_from_vehicle;
     }
     if (snapshot.tick <= what_if.fork) continue;
-    if (!watch) watch.emplace(what_if.names, what_if.logged ? &*what_if.logged : nullptr);
+    if (!watch) watch.emplace(what_if.names, what_if.logged ? &*what_if.logged : nullptr, what_if.from_s);
     watch->see(snapshot, run.events());
   }
   if (watch) what_if.as_logged = watch->outcome();
@@ -145,7 +145,7 @@ Expected<void> run_as_logged(const logging::SessionReader& session, WhatIf& what
 /// Runs to the first collision, else to the end, or the drive's own end.
 Expected<VariantOutcome> run_to_end(const WhatIf& what_if, const simulation::Model& model, simulation::State state,
                                     std::span<const PlacedChange> changes) {
-  OutcomeWatch watch(what_if.names, what_if.logged ? &*what_if.logged : nullptr);
+  OutcomeWatch watch(what_if.names, what_if.logged ? &*what_if.logged : nullptr, what_if.from_s);
   RunAgain run(what_if, model, std::move(state));
   const Tick end = model.motion ? std::min(what_if.end, what_if.recorded.inputs.back().tick) : what_if.end;
   while (run.state().tick < end && !natural_end(model, run.state())) {
@@ -174,7 +174,7 @@ Expected<WhatIf> prepare_what_if(const logging::SessionReader& session,
   if (const auto shown = session.shown_span_s(); !shown) return tl::unexpected(shown.error());
   auto recorded = read_recorded_drive(session);
   if (!recorded) return tl::unexpected(recorded.error());
-  WhatIf what_if{.recorded = std::move(*recorded), .where = session.path().string()};
+  WhatIf what_if{.recorded = std::move(*recorded), .where = session.path().string(), .from_s = options.from_s};
   if (what_if.recorded.traffic != "own")
     return failure("another program moves the traffic of this drive, and keeps its state", what_if.where,
                    "drive with Septet's own traffic");

@@ -30,9 +30,10 @@ struct WhatIfOptions {
 /// What all variants of a session share. Const while they run, on any number of threads.
 struct WhatIf {
   RecordedDrive recorded;
-  std::string where;  ///< The session, for errors.
+  std::string where;    ///< The session, for errors.
+  double from_s = 0.0;  ///< WhatIfOptions::from_s.
   logging::ParticipantNames names;
-  std::optional<LoggedCollision> logged;  ///< The first collision from WhatIfOptions::from_s on.
+  std::optional<LoggedCollision> logged;  ///< The first collision from `from_s` on.
   Tick known_until = 0;                   ///< Its tick, else that of the last input.
   Tick begin = 0;                         ///< Of the kept state from which the logged inputs were run again.
   Tick fork = 0;                          ///< Last tick before the first changed input.

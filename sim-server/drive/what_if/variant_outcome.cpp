@@ -41,7 +41,8 @@ std::optional<MetCollision> collision_among(std::span<const simulation::Event> e
 void OutcomeWatch::see(const Snapshot& snapshot, std::span<const simulation::Event> events) {
   outcome_.last_tick = snapshot.tick;
   outcome_.state_hash = snapshot.state_hash;
-  if (!outcome_.collision) outcome_.collision = collision_among(events, snapshot, names_);
+  if (!outcome_.collision && snapshot.simulated_time_s >= from_s_)
+    outcome_.collision = collision_among(events, snapshot, names_);
   const Participant* car = find_participant(snapshot, simulation::driver_participant);
   if (!car) return;
   world_from_car_ = car->world_from_vehicle;

@@ -34,7 +34,7 @@ struct LoggedCollision {
 };
 
 struct VariantOutcome {
-  std::optional<MetCollision> collision;  ///< The first one.
+  std::optional<MetCollision> collision;  ///< The first one that is not passed over.
   /// Begin of the driver's car's last standstill, which lasts at the end (simulated).
   std::optional<double> stopped_s;
   /// Least distance in plan between the car and whoever it hit in the logged drive; 0 where they touch. Empty: the
@@ -51,9 +51,9 @@ struct VariantOutcome {
 /// Follows a drive tick by tick.
 class OutcomeWatch {
  public:
-  /// `names` and `logged` (may be null) outlive it.
-  OutcomeWatch(const logging::ParticipantNames& names, const LoggedCollision* logged)
-      : names_(names), logged_(logged) {}
+  /// `names` and `logged` (may be null) outlive it. Collisions before the simulated second `from_s` are passed over.
+  OutcomeWatch(const logging::ParticipantNames& names, const LoggedCollision* logged, double from_s)
+      : names_(names), logged_(logged), from_s_(from_s) {}
   void see(const Snapshot& snapshot, std::span<const simulation::Event> events);
   bool has_collided() const { return outcome_.collision.has_value(); }
   VariantOutcome outcome() const;
@@ -61,6 +61,7 @@ class OutcomeWatch {
  private:
   const logging::ParticipantNames& names_;
   const LoggedCollision* logged_;
+  double from_s_;
   VariantOutcome outcome_;
   RigidTransform world_from_car_;
 };

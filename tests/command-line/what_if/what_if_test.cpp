@@ -168,6 +168,14 @@ TEST_CASE("without a change every tick has the logged state hash, from a kept st
   REQUIRE(same->collision.has_value());
   CHECK(*same->collision == later->logged->met);
   CHECK(*same->least_gap_m == 0.0);
+  // What is passed over in the logged drive is in a variant as well.
+  const auto passed = prepared(session, {change("brake:+0s")},
+                               {.from_s = static_cast<double>(same->collision->tick) / 120.0 + 0.2, .seconds = 60.0});
+  REQUIRE_MESSAGE(passed.has_value(), why_not(passed));
+  CHECK_FALSE(passed->logged.has_value());
+  const auto on = run_variant(*passed, std::vector{change("brake:+0s")});
+  REQUIRE_MESSAGE(on.has_value(), why_not(on));
+  CHECK_FALSE(on->collision.has_value());
 }
 
 TEST_CASE(
