@@ -138,6 +138,7 @@ class Contacts {
   std::optional<impact::Impact> press(std::size_t a, std::size_t b, BodyContact& contact) {
     impact::Side first = side(participants_[a]), second = side(participants_[b]);
     const impact::Side first_before = first, second_before = second;
+    const Participant one = participants_[a], other = participants_[b];
     const auto rests = [](const impact::Body& body) {
       return body.velocity_mps == Vec2(0.0) && body.yaw_rate_radps == 0.0;
     };
@@ -151,8 +152,11 @@ class Contacts {
     take(a, first_before.body, first.body);
     take(b, second_before.body, second.body);
     OpenCrash* crash = find_open_crash(state_, contact.first, contact.second);
-    if (impact && begins_record(crash, impact->pulse.impulse.closing_mps))
-      crash = &open(participants_[a], participants_[b], first_before, second_before, *impact);
+    if (impact && begins_record(crash, impact->pulse.impulse.closing_mps)) {
+      // A second blow dents and breaks as the first one did (begin).
+      if (crash) state_.effects.crashes.struck_vehicles.push_back(crash_of(one, other, *impact));
+      crash = &open(one, other, first_before, second_before, *impact);
+    }
     if (!crash || contact.engagement.given_ns == given_before_ns) return impact;
     note_push(state_.tick,
               {first.body, second.body, contact.engagement.given_ns - given_before_ns,

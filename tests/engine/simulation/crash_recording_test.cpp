@@ -335,8 +335,10 @@ TEST_CASE("a second blow so soon after a push that they have not parted is a cra
   REQUIRE(site.state.open_crashes.size() == 1);
   const Tick pushed = site.state.open_crashes.front().last_in_contact;
   drive_at(1.0, 8);
+  site.state.effects.crashes.struck_vehicles.clear();
   while (site.state.open_crashes.size() == 1 && site.state.tick < pushed + 30) drive_at(9.0, 1);
   REQUIRE(site.state.open_crashes.size() == 2);
+  CHECK(site.state.effects.crashes.struck_vehicles.size() == 1);  // It dents.
   CHECK(site.state.open_crashes.back().record.closing_speed_mps > 1.0);
   drive_at(0.0, 120);
   CHECK(site.count(crash_event) == 2);
