@@ -49,7 +49,8 @@ class Contacts {
     std::vector<ParticipantId> loose;
     for (const LooseBody& body : state_.bodies.bodies) loose.push_back(body.id);
     // Who errs, or has just erred, may run into another of his engine.
-    for (const ParticipantId id : state_.traffic->erring()) loose.push_back(id);
+    if (state_.traffic)
+      for (const ParticipantId id : state_.traffic->erring()) loose.push_back(id);
     std::ranges::sort(loose);
     auto pairs = near_pairs(participants_, first_traffic_participant, loose);
     drop_contacts_of_the_gone();

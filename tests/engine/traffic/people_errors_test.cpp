@@ -206,7 +206,7 @@ TEST_CASE("who brakes late begins to brake for the driver's car seconds after it
   };
   const double usual_s = brakes_after_s(0.0);
   CHECK(usual_s < 1.0);
-  CHECK(brakes_after_s(2.0) == doctest::Approx(2.0).epsilon(0.05));
+  CHECK(std::abs(brakes_after_s(2.0) - 2.0) < 0.1);
 }
 
 TEST_CASE("who telephones at a light drives off when the call is over, not when it turns green") {
@@ -226,7 +226,7 @@ TEST_CASE("who telephones at a light drives off when the call is over, not when 
   };
   const double usual_s = goes_after_s(0.0);
   CHECK(usual_s < 2.0);
-  CHECK(goes_after_s(4.0) == doctest::Approx(usual_s + 4.0).epsilon(0.1));
+  CHECK(std::abs(goes_after_s(4.0) - (usual_s + 4.0)) < 0.3);
 }
 
 TEST_CASE("a wish names a vehicle of the traffic that is there and does not err") {
