@@ -199,7 +199,8 @@ void draw_impulses(const PeopleErrorRates& rates, Random& random, TownState& tow
 }  // namespace
 
 std::span<DriverError> errors_of(ParticipantId who, TownErrors& errors) {
-  const auto [first, last] = std::ranges::equal_range(errors.drivers, who, {}, &DriverError::who);
+  const auto first = std::ranges::lower_bound(errors.drivers, who, {}, &DriverError::who);
+  const auto last = std::ranges::upper_bound(errors.drivers, who, {}, &DriverError::who);
   return {first, last};
 }
 

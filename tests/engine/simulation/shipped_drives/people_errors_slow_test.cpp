@@ -28,9 +28,9 @@ struct Town {
   std::uint64_t hash = 0;
 
   State begin() const {
-    auto state = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, seed));
-    REQUIRE_MESSAGE(state.has_value(), why_not(state));
-    return std::move(*state);
+    auto begun = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, seed));
+    REQUIRE_MESSAGE(begun.has_value(), why_not(begun));
+    return std::move(*begun);
   }
   Expected<void> command(const std::string& text) {
     const auto parsed = parse_operator_command(text);
