@@ -2,6 +2,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -332,7 +333,7 @@ TEST_CASE("Init and events set the rates at which people err, and events alone h
   };
   Drive drive(scenario_text(two_cars + command("errors", "overlook=6 red=2"),
                             story_text(event_text("e", command("overlook", "who=1007 whom=B"), at_time(0.5)))));
-  CHECK(std::get<PeopleErrorRates>(drive.scenario.init.back().what).per_hour == std::array{6.0, 0.0, 0.0, 2.0});
+  CHECK(std::get<PeopleErrorRates>(drive.scenario.init.front().what).per_hour == std::array{6.0, 0.0, 0.0, 2.0});
   std::vector<OverlookAction> overlooked;
   while (drive.state.time_s < 2.0) {
     const StepResult result = advance_scenario(drive.scenario, drive.network, 0.01, drive.state);
