@@ -1,8 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <array>
 #include <string>
 #include <vector>
 
