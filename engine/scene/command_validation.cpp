@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/scene/command_codec.hpp"
+#include "engine/scene/world_bounds.hpp"
 
 namespace septet::scene {
 namespace {
@@ -22,9 +23,26 @@ bool in_range(Enumeration value, Enumeration last) {
   return value <= last;
 }
 
-using Problem = const char*;
-constexpr Problem none = nullptr;
+struct Problem {
+  constexpr Problem(const char* is_wrong = nullptr, const char* to_do = "send values within COMMANDS.md")
+      : what(is_wrong), remedy(to_do) {}
+  explicit operator bool() const { return what != nullptr; }
+
+  const char* what;
+  const char* remedy;
+};
+constexpr Problem none;
 constexpr Problem not_finite = "a number is not finite";
+constexpr Problem too_far{"a place lies more than 250,000 km from the origin, or is no number",
+                          "give metres: no world is as large"};
+constexpr Problem vertex_too_far{"a vertex lies more than 250,000 km from its object's origin, or is no number",
+                                 "give metres: no world is as large"};
+constexpr Problem leaves_world{"a motion leaves the world before its last leg: 250,000 km from the origin",
+                               "let its legs be slower or shorter"};
+constexpr Problem scaled_too_far{"a scale is over 10,000, or is no number", "give the shape itself another size"};
+constexpr Problem large_value{"a value of a layer is over 1e9, or is no number", "send values within COMMANDS.md"};
+static_assert(farthest_m == 250e6 && largest_scale == 1e4 && largest_layer_value == 1e9 && max_motion_rate == 1e4 &&
+              latest_leg_s == 1e9);
 constexpr Problem long_name = "a name is longer than 255 bytes";
 constexpr Problem bad_kind = "a kind is out of range";
 constexpr Problem bad_run = "a run is empty or too long";
@@ -101,33 +119,39 @@ struct CommandCheck {
   }
   Problem operator()(const TransformSet& c) const {
     const Transform& t = c.transform;
-    if (!finite(t.position_m) || !finite(t.scale)) return not_finite;
+    if (!is_in_world(t.position_m)) return too_far;
+    if (!is_within(t.scale, largest_scale)) return scaled_too_far;
     const double length = glm::dot(t.rotation, t.rotation);
     return length > 0.99 && length < 1.01 ? none : "the rotation is not a unit quaternion";
   }
   Problem operator()(const MotionSet& c) const {
     const Motion& m = c.motion;
     const double length = glm::dot(m.rotation, m.rotation);
-    if (!finite(m.position_m) || !(length > 0.99 && length < 1.01)) return "the motion begins at no pose";
+    if (!is_in_world(m.position_m)) return too_far;
+    if (!(length > 0.99 && length < 1.01)) return "the rotation is not a unit quaternion";
     if (m.legs.size() > max_motion_legs) return "a motion has at most 16 legs";
     for (std::size_t i = 0; i < m.legs.size(); ++i) {
       const MotionLeg& leg = m.legs[i];
-      if (!finite(leg.from_s) || leg.from_s < 0.0 || (i > 0 && leg.from_s < m.legs[i - 1].from_s))
-        return "the legs of a motion do not begin one after the other";
-      for (const Vec3& rate : {leg.velocity_mps, leg.acceleration_mps2, leg.turn_radps})
-        if (!(glm::dot(rate, rate) <= max_motion_rate * max_motion_rate)) return "a motion is faster than 10 km/s";
+      if (!(leg.from_s >= 0.0 && leg.from_s <= latest_leg_s))
+        return "a leg of a motion does not begin between 0 and 1e9 s";
+      if (i > 0 && leg.from_s < m.legs[i - 1].from_s) return "the legs of a motion do not begin one after the other";
+      const auto is_slow = [](const Vec3& rate) { return glm::dot(rate, rate) <= max_motion_rate * max_motion_rate; };
+      if (!is_slow(leg.velocity_mps)) return "a motion is faster than 10 km/s";
+      if (!is_slow(leg.acceleration_mps2)) return "a motion is accelerated by more than 10 km/s²";
+      if (!is_slow(leg.turn_radps)) return "a motion turns by more than 10,000 rad/s";
     }
-    return none;
+    return farthest_coordinate_m(m) <= farthest_m ? none : leaves_world;
   }
   Problem operator()(const LinkSet& c) const { return check_name(c.value.label); }
   Problem operator()(const GeometryLayerSet& c) const {
     return first_of({check_name(c.name), in_range(c.type, LayerType::face_real) ? none : bad_kind,
-                     finite(c.default_real) ? none : not_finite});
+                     std::abs(c.default_real) <= largest_layer_value ? none : large_value});
   }
   Problem operator()(const VerticesSet& c) const {
     const std::size_t count = c.positions_m.size();
     if (count == 0 || count > max_run_values / 3) return bad_run;
-    return finite(std::span(&c.positions_m[0].x, count * 3)) ? none : not_finite;
+    const auto is_near = [](const glm::vec3& vertex_m) { return is_within(vertex_m, farthest_m); };
+    return std::ranges::all_of(c.positions_m, is_near) ? none : vertex_too_far;
   }
   Problem operator()(const PolygonsSet& c) const {
     return c.polygons.empty() || c.polygons.size() > max_run_values / 4 ? bad_run : none;
@@ -137,7 +161,8 @@ struct CommandCheck {
   }
   Problem operator()(const LayerRealsSet& c) const {
     if (c.values.empty() || c.values.size() > max_run_values) return bad_run;
-    return finite(c.values) ? none : not_finite;
+    const auto is_moderate = [](float value) { return std::abs(value) <= largest_layer_value; };
+    return std::ranges::all_of(c.values, is_moderate) ? none : large_value;
   }
   Problem operator()(const CreaseSet& c) const {
     return first_of({check_name(c.crease.layer), in_range(c.kind, CreaseKind::edge) ? none : bad_kind});
@@ -175,8 +200,7 @@ tl::unexpected<Error> refuse(const Command& command, std::string what, std::stri
 }
 
 Expected<void> validate(const Command& command) {
-  if (const Problem problem = std::visit(CommandCheck{}, command))
-    return refuse(command, problem, "send values within COMMANDS.md");
+  if (const Problem problem = std::visit(CommandCheck{}, command)) return refuse(command, problem.what, problem.remedy);
   return {};
 }
 

@@ -6,8 +6,8 @@
 
 namespace septet::scene {
 
-/// Checks that every number is finite, every enumeration and index in range, every length within its limit
-/// (command_codec.hpp).
+/// Checks that every number is finite, every place, size and speed within its bound (world_bounds.hpp, motion.hpp), every
+/// enumeration and index in range, every length within its limit (command_codec.hpp).
 Expected<void> validate(const Command& command);
 
 /// The node that a command changes or creates; no_node where it names none.

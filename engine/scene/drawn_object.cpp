@@ -19,6 +19,12 @@ T draw_tag(const Node& node, const char* name, T otherwise) {
   return typed ? *typed : otherwise;
 }
 
+/// Metres, of any number.
+float distance_tag(const Node& node, const char* name, float otherwise_m) {
+  constexpr double most_m = 1e9;
+  return static_cast<float>(std::clamp(draw_tag(node, name, double{otherwise_m}), -most_m, most_m));
+}
+
 }  // namespace
 
 DrawnObject read_object(const Node& node) {
@@ -45,8 +51,8 @@ DrawnObject read_object(const Node& node) {
   }
   std::stable_sort(object.materials.begin(), object.materials.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  object.visible_from_m = static_cast<float>(draw_tag(node, "from_m", 0.0));
-  object.visible_to_m = static_cast<float>(draw_tag(node, "to_m", 1e9));
+  object.visible_from_m = distance_tag(node, "from_m", object.visible_from_m);
+  object.visible_to_m = distance_tag(node, "to_m", object.visible_to_m);
   object.role = part_role(draw_tag(node, "role", std::string()));
   object.casts_shadow = draw_tag(node, "casts_shadow", true);
   object.keys = keys_of(node);

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bytes.hpp"
+#include "engine/scene/world_bounds.hpp"
 
 namespace septet::scene {
 namespace {
@@ -41,6 +42,7 @@ std::optional<PoseKey> read_key(ByteReader& in) {
   for (float& number : n) number = in.get_float();
   if (!std::ranges::all_of(n, [](float number) { return std::isfinite(number); })) return std::nullopt;
   PoseKey key{n[0], {n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7]}, {n[8], n[9], n[10]}};
+  if (!is_within(key.position_m, farthest_m) || !is_within(key.scale, largest_scale)) return std::nullopt;
   const float length = glm::length(key.rotation);
   if (!(length > 0.9f && length < 1.1f)) return std::nullopt;
   if (std::abs(length - 1.0f) > 1e-6f) key.rotation = key.rotation / length;

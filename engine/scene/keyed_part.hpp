@@ -32,7 +32,8 @@ std::optional<Instance> moved(const Instance& instance, double simulated_time_s)
 
 /// Tags that hold the keys, of which at most `max_pose_keys` are written.
 std::vector<Tag> tags_of_keys(const std::vector<PoseKey>& keys);
-/// The keys of an object; none where a tag is not of this form, has a number that is not finite, or a time falls.
+/// The keys of an object; none where a tag is not of this form, has a number that is not finite or out of
+/// its bound (world_bounds.hpp), or a time falls.
 std::vector<PoseKey> keys_of(const Node& object);
 
 }  // namespace septet::scene

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/math/rigid_transform.hpp"
+#include "engine/scene/world_bounds.hpp"
 
 namespace septet::scene {
 namespace {
@@ -77,6 +78,7 @@ void PlacedObjects::place(Object& object, NodeId id, const ScaledPose& parent, c
   if (std::find(path.begin(), path.end(), id) != path.end()) return;
   const RigidTransform own{drawn.transform.position_m, drawn.transform.rotation};
   const ScaledPose placed = child_of(parent, own, drawn.transform.scale);
+  if (!is_in_world(placed.pose.position_m) || !is_within(placed.scale, largest_drawn_scale)) return;
   Keyed keyed;
   if (above)
     keyed = {above->above, above->keys, child_of(above->below, own, drawn.transform.scale)};

@@ -17,6 +17,7 @@
 #include "engine/instant/mirror_view.hpp"
 #include "engine/scene/motion.hpp"
 #include "engine/scene/participant_root.hpp"
+#include "engine/scene/world_bounds.hpp"
 #include "engine/scenery/vehicles/cockpit.hpp"
 #include "engine/world/instrument_panel.hpp"
 #include "engine/world/paint.hpp"
@@ -207,6 +208,7 @@ void add_moving_things(instant::FrameInput& frame, const Snapshot& shown, const 
     const scene::Prototype& prototype = scene.prototypes[i];
     if (prototype.motion.legs.empty() && !prototype.box) continue;
     const scene::MovingPose now = pose_now(prototype, shown);
+    if (!scene::is_in_world(now.world_from_object.position_m)) continue;
     instant::DrawnParticipant drawn;
     drawn.prototype = i;
     drawn.number = prototype.number;

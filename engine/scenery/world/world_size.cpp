@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/road/road_limits.hpp"
+#include "engine/scene/world_bounds.hpp"
 #include "engine/scenery/world/road_world.hpp"
 #include "engine/scenery/world/world_context.hpp"
 
@@ -13,6 +15,9 @@ namespace {
 // Limits. For comparison, the motorway's 11 km take 110 squares, 173 km of lanes, 4,500 dashes and 10 MB on the wire.
 constexpr std::size_t most_squares = 1500, most_structures = 2000, most_signals = 20'000;
 constexpr double most_lane_m = 2e7, most_dashes = 5e5;
+
+// A road's points lie up to twice as far as its beginning may (engine/road/read_plan.cpp), and what stands beside it little further.
+static_assert(scene::farthest_m >= 2.0 * road::farthest_m + 1e6);
 
 tl::unexpected<Error> too_large(std::string what) {
   return failure(std::move(what), "the road network", "cut out of it the part that is driven");

@@ -238,4 +238,27 @@ TEST_CASE("a model is checked as a drive reads it, and what was found in it is t
   CHECK(json["files"][1]["found"].size() == 4);
 }
 
+TEST_CASE("a model with a vertex beyond any world is an error that names the file, the node and what to do") {
+  // (0, 0, 0), (x, 0, 0), (0, 1, 0) as real32, x being 1e9, infinite and no number.
+  const std::pair<const char*, const char*> vertices[] = {
+      {"AAAAAAAAAAAAAAAAKGtuTgAAAAAAAAAAAAAAAAAAgD8AAAAA", "node 0: it lies further than 2000 m from the origin; give"},
+      {"AAAAAAAAAAAAAAAAAACAfwAAAAAAAAAAAAAAAAAAgD8AAAAA", "accessor 0: number 0 of row 1 is not finite"},
+      {"AAAAAAAAAAAAAAAAAADAfwAAAAAAAAAAAAAAAAAAgD8AAAAA", "accessor 0: number 0 of row 1 is not finite"}};
+  for (const auto& row : vertices) {
+    const std::string bytes = row.first, wanted = row.second;
+    CAPTURE(wanted);
+    const Written model("far.gltf",
+                        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+                        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                        R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+                        R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+                        R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)" +
+                            bytes + "\"}]}");
+    const Answer answer = check({model.path.string()});
+    CHECK(answer.status == 1);
+    CHECK_MESSAGE(answer.text.find(wanted) != std::string::npos, answer.text);
+    CHECK(answer.text.find("far.gltf") != std::string::npos);
+  }
+}
+
 }  // namespace septet::server

@@ -3,8 +3,12 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "engine/scene/command_codec.hpp"
+#include "engine/scene/command_validation.hpp"
+#include "engine/scene/world_bounds.hpp"
 #include "tests/engine/scene/sample_commands.hpp"
 
 using namespace septet;
@@ -79,6 +83,48 @@ TEST_CASE("numbers that are not finite are refused") {
   CHECK_FALSE(decode(bytes_of(VerticesSet{1, 0, {{0, INFINITY, 0}}})).has_value());
   CHECK_FALSE(decode(bytes_of(TransformSet{1, {{NAN, 0.0, 0.0}}})).has_value());
   CHECK_FALSE(decode(bytes_of(TagSet{1, 0, 0, {"x", double{NAN}}})).has_value());
+}
+
+TEST_CASE("a place, size, speed or value beyond any world is refused with its bound and what to do") {
+  const double infinite = std::numeric_limits<double>::infinity(), no_number = std::numeric_limits<double>::quiet_NaN();
+  const auto why = [](const Command& command) {
+    const auto valid = validate(command);
+    const auto decoded = decode(bytes_of(command));
+    CHECK(valid.has_value() == decoded.has_value());
+    if (!valid) CHECK_FALSE(valid.error().remedy.empty());
+    return valid ? std::string() : valid.error().what;
+  };
+  const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  for (const double wrong : {1e9, -1e9, 1e300, infinite, no_number}) {
+    CAPTURE(wrong);
+    const auto real = static_cast<float>(wrong);
+    CHECK(has(why(TransformSet{1, {{0.0, wrong, 0.0}}}), "more than 250,000 km"));
+    CHECK(has(why(TransformSet{1, {{}, {1, 0, 0, 0}, {1.0f, 1.0f, real}}}), "a scale is over 10,000"));
+    CHECK(has(why(MotionSet{1, {{wrong, 0, 0}, {1, 0, 0, 0}, {MotionLeg{}}}}), "more than 250,000 km"));
+    CHECK(has(why(MotionSet{1, {{}, {1, 0, 0, 0}, {{0.0, {0, 0, wrong}, {}, {}}}}}), "faster than 10 km/s"));
+    CHECK(has(why(MotionSet{1, {{}, {1, 0, 0, 0}, {{0.0, {}, {wrong, 0, 0}, {}}}}}), "accelerated by more"));
+    CHECK(has(why(MotionSet{1, {{}, {1, 0, 0, 0}, {{0.0, {}, {}, {0, 0, wrong}}}}}), "turns by more"));
+    CHECK(has(why(VerticesSet{1, 0, {{0, 0, 0}, {0, real, 0}}}), "a vertex lies more than 250,000 km"));
+    CHECK(has(why(LayerRealsSet{1, 0, 0, {0.0f, 2.0f * real}}), "a value of a layer"));
+    CHECK(has(why(GeometryLayerSet{1, 0, "n", LayerType::vertex_real, 0, 2.0f * real}), "a value of a layer"));
+  }
+  for (const double late : {2e9, -1.0, 1e300, infinite, no_number})
+    CHECK(has(why(MotionSet{1, {{}, {1, 0, 0, 0}, {{late, {}, {}, {}}}}}), "between 0 and 1e9 s"));
+  for (const double turn : {infinite, no_number, 1e300, 2.0})
+    CHECK(has(why(TransformSet{1, {{}, {turn, 0.0, 0.0, 0.0}}}), "unit quaternion"));
+  CHECK(why(TransformSet{1, {{farthest_m, -farthest_m, 0.0}, {1, 0, 0, 0}, glm::vec3(1e4f)}}).empty());
+}
+
+TEST_CASE("a motion whose legs lead out of the world, or out and back, is refused; its last leg goes on") {
+  const auto is_valid = [](const std::vector<MotionLeg>& legs) {
+    return validate(MotionSet{1, {{}, {1, 0, 0, 0}, legs}}).has_value();
+  };
+  CHECK(is_valid({{0.0, {1e4, 0, 0}, {}, {}}}));
+  CHECK(is_valid({{10.0, {1e4, 0, 0}, {}, {}}, {2e4, {}, {}, {}}}));
+  CHECK_FALSE(is_valid({{10.0, {1e4, 0, 0}, {}, {}}, {4e4, {}, {}, {}}}));
+  // Slowed evenly, it is farthest after half of the time, 5e7 or 5e8 m out, and at its beginning after all of it.
+  CHECK(is_valid({{0.0, {1e3, 0, 0}, {-0.01, 0, 0}, {}}, {2e5, {}, {}, {}}}));
+  CHECK_FALSE(is_valid({{0.0, {1e4, 0, 0}, {-0.1, 0, 0}, {}}, {2e5, {}, {}, {}}}));
 }
 
 TEST_CASE("opcode 13 is of no command and those behind it stay what they were") {

@@ -1,5 +1,6 @@
 #include "engine/scene/keyed_part.hpp"
 
+#include <limits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -56,6 +57,18 @@ Vec3 place_at(const ResolvedScene& scene, double time_s) {
 }
 
 }  // namespace
+
+TEST_CASE("keys beyond any world are none") {
+  const float infinite = std::numeric_limits<float>::infinity();
+  for (const float wrong : {1e9f, -1e9f, 1e30f, infinite}) {
+    CAPTURE(wrong);
+    Lifted far, large;
+    give_keys(far.store, far.lifted, {{0.0f, {0, wrong, 0}}});
+    give_keys(large.store, large.lifted, {{0.0f, {}, {1, 0, 0, 0}, {1, wrong, 1}}});
+    CHECK(keys_of(*far.store.find(far.lifted)).empty());
+    CHECK(keys_of(*large.store.find(large.lifted)).empty());
+  }
+}
 
 TEST_CASE("what hangs below an object with keys moves by them, in the frame of that one's parent") {
   const ResolvedScene scene = resolve(Lifted().store);

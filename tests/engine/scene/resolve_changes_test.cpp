@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -95,6 +97,35 @@ TEST_CASE("of a chain of children the first thirty-two are drawn") {
     top = above;
   }
   CHECK(resolve(world.store).instances.size() == 32);
+}
+
+TEST_CASE("what is placed or scaled out of any world by its parents is not drawn, and no number of it is infinite") {
+  for (const bool scaled : {false, true}) {
+    CAPTURE(scaled);
+    DrawnWorld world;
+    NodeId top = world.build.add_object("", {.geometry = world.mesh});
+    std::vector<NodeId> chain{top};
+    for (int i = 1; i < 30; ++i) {
+      const NodeId above = world.build.add_object("", {.geometry = world.mesh});
+      world.build.add_child(above, top);
+      chain.push_back(top = above);
+    }
+    for (const NodeId object : chain) {
+      Transform transform;
+      if (scaled)
+        transform.scale = glm::vec3(1e4f);
+      else
+        transform.position_m.x = 2e8;
+      world.build.apply(TransformSet{object, transform});
+    }
+    const ResolvedScene scene = resolve(world.store);
+    // Of scales of 1e4 the product of two is drawn; of 2e8 m each the first alone is within the bound.
+    CHECK(scene.instances.size() == (scaled ? 2 : 1));
+    for (const Instance& instance : scene.instances) {
+      CHECK(std::abs(instance.world_from_object.position_m.x) <= 2.5e8);
+      CHECK(instance.scale.x <= 1.01e8f);
+    }
+  }
 }
 
 TEST_CASE("a hidden object hides its children and one that is shown again shows them") {

@@ -82,7 +82,7 @@ inline std::vector<Command> sample_commands() {
       GeometryLayerSet{2, 3, "gone", LayerType::vertex_xyz, 0, 0.0f},
       GeometryLayerDestroy{2, 3},
       VerticesSet{2, 0, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}},
-      VerticesSet{2, 4, {{0.1f, 0.2f, 3e20f}}},
+      VerticesSet{2, 4, {{0.1f, 0.2f, 2e8f}}},
       PolygonsSet{2, 0, {{0, 1, 2, 3}, {0, 3, 4, geometry::no_vertex}}},
       LayerRealsSet{2, 0, 1, {0.0f, 0.25f, 1.0f, -3.5f}},
       LayerIntegersSet{2, 1, 0, {0, geometry::crease_sharp, 0, 0, 0, 0, 5, 5}},
