@@ -104,11 +104,12 @@ Expected<InsertStatements> prepare_inserts(const Database& database) {
   auto state = database.prepare("INSERT INTO saved_states VALUES(?,?)");
   auto head = database.prepare("INSERT INTO head_positions VALUES(" + placeholders(5) + ")");
   auto actuators = database.prepare("INSERT INTO actuators VALUES(" + placeholders(6) + ")");
-  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state, &actuators, &head})
+  auto fingerprints = database.prepare("INSERT INTO edit_fingerprints VALUES((SELECT max(id) FROM scene_edits),?)");
+  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state, &actuators, &head, &fingerprints})
     if (!*statement) return tl::unexpected(statement->error());
-  return InsertStatements{std::move(*snapshot), std::move(*input),     std::move(*edit),
-                          std::move(*sample),   std::move(*event),     std::move(*answer),
-                          std::move(*state),    std::move(*actuators), std::move(*head)};
+  return InsertStatements{std::move(*snapshot), std::move(*input),       std::move(*edit),  std::move(*sample),
+                          std::move(*event),    std::move(*answer),      std::move(*state), std::move(*actuators),
+                          std::move(*head),     std::move(*fingerprints)};
 }
 
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value) {
@@ -195,11 +196,19 @@ Expected<void> insert(Statement& statement, const SceneRun& run) {
   return statement.run();
 }
 
+Expected<void> insert_fingerprints(Statement& statement, const SceneRun& run) {
+  if (!run.fingerprints) return {};
+  RowBinder(statement).add_bytes(*run.fingerprints);
+  return statement.run();
+}
+
 Expected<SceneRun> read_scene_run(const Statement& row) {
   SceneRun run;
   RowReader in(row);
   in.to(run.tick);
   run.data = in.bytes();
+  // An edit whose row is missing has none that agree.
+  if (row.columns() > 2 && run.tick > 0) run.fingerprints = in.is_null() ? Bytes() : in.bytes();
   return run;
 }
 

@@ -16,7 +16,7 @@ struct HeadRecord {
 };
 
 struct InsertStatements {
-  Statement snapshot, input, scene_run, sample, event, answer, state, actuators, head;
+  Statement snapshot, input, scene_run, sample, event, answer, state, actuators, head, fingerprints;
 };
 Expected<InsertStatements> prepare_inserts(const Database& database);
 Expected<Statement> prepare_answer_insert(const Database& database);  ///< Works for a session that lacks later tables.
@@ -26,6 +26,8 @@ Expected<void> insert_meta(const Database& database, const std::string& key, con
 Expected<void> insert(Statement& statement, const InputRecord& record);
 Expected<void> insert_head(Statement& statement, const InputRecord& record);  ///< Writes no row for a head at rest.
 Expected<void> insert(Statement& statement, const SceneRun& run);
+/// Of the row that was inserted last; writes no row for a run without fingerprints.
+Expected<void> insert_fingerprints(Statement& statement, const SceneRun& run);
 Expected<void> insert(Statement& statement, const Sample& sample);
 Expected<void> insert(Statement& statement, const Event& event);
 Expected<void> insert(Statement& statement, const QuestionnaireRecord& answer);
@@ -35,7 +37,8 @@ Expected<void> insert(Statement& statement, const ActuatorRecord& actuators);
 Expected<SessionInfo> read_info(const Database& database);
 Expected<InputRecord> read_input(const Statement& row);  ///< Without the head.
 Expected<HeadRecord> read_head(const Statement& row);
-Expected<SceneRun> read_scene_run(const Statement& row);  ///< Columns tick, data.
+Expected<SceneRun> read_scene_run(
+    const Statement& row);  ///< Columns tick, data and, where the session has them, fingerprints.
 Expected<StateRecord> read_state(const Statement& row);
 Expected<ActuatorRecord> read_actuators(const Statement& row);
 Expected<Sample> read_sample(const Statement& row);

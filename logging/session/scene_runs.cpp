@@ -1,12 +1,16 @@
 #include "logging/session/scene_runs.hpp"
 
+#include <span>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include <fmt/core.h>
 #include <zlib.h>
 
 #include "engine/core/check.hpp"
+#include "engine/core/printable.hpp"
+#include "engine/scene/command_codec.hpp"
 
 namespace septet::logging {
 namespace {
@@ -34,6 +38,28 @@ Bytes inflated(std::span<const std::byte> data) {
   return reader.ok() && result == Z_OK && size == commands.size() ? commands : Bytes{};
 }
 
+/// Its last name; where it has none, its number.
+std::string name_of(scene::NodeId node, std::span<const SceneEdit> edits) {
+  if (node == scene::no_node) return "a node";
+  std::string name;
+  for (const SceneEdit& edit : edits) {
+    const auto command = edited_node(edit.command) == node ? scene::decode(edit.command) : failure("", "", "");
+    if (!command) continue;
+    if (const auto* named = std::get_if<scene::NodeNameSet>(&*command)) name = named->name;
+  }
+  return name.empty() ? fmt::format("node #{}", node) : fmt::format("\"{}\"", printable(name));
+}
+
+/// `edits`: all so far, of which those from `first` on are the run's.
+Expected<void> check_fingerprints(const SceneRun& run, std::span<const SceneEdit> edits, std::size_t first) {
+  EditFingerprints found;
+  for (const SceneEdit& edit : edits.subspan(first)) found.add(edit.tick, edit.command);
+  const auto altered = found.altered_node(*run.fingerprints);
+  if (!altered) return {};
+  return damaged(run.tick, fmt::format("the edit of {} from tick {} on is not the one that was made",
+                                       name_of(*altered, edits), run.tick));
+}
+
 }  // namespace
 
 bool SceneRunPacker::has_room_for(const SceneEdit& edit) const {
@@ -44,6 +70,7 @@ void SceneRunPacker::add(const SceneEdit& edit) {
   SEPTET_CHECK(has_room_for(edit), "a command of tick {} in a run of tick {}, {} bytes", edit.tick, tick_,
                commands_.size());
   tick_ = edit.tick;
+  if (edit.tick > 0) fingerprints_.add(edit.tick, edit.command);
   ByteWriter writer(commands_);
   writer.put_varint(edit.command.size());
   writer.put_bytes(edit.command);
@@ -51,6 +78,8 @@ void SceneRunPacker::add(const SceneEdit& edit) {
 
 SceneRun SceneRunPacker::take() {
   SceneRun run{tick_, {}};
+  if (!fingerprints_.is_empty()) run.fingerprints = fingerprints_.to_bytes();
+  fingerprints_ = {};
   ByteWriter(run.data).put_varint(commands_.size());
   const std::size_t header_bytes = run.data.size();
   auto size = compressBound(static_cast<uLong>(commands_.size()));
@@ -68,13 +97,14 @@ Expected<void> SceneUnpacker::unpack(const SceneRun& run, std::vector<SceneEdit>
   if (session_format_ < first_format_with_runs) return append(run.tick, run.data, out);
   const Bytes commands = inflated(run.data);
   if (commands.empty()) return damaged(run.tick, "its commands do not unpack");
+  const std::size_t first = out.size();
   ByteReader reader(commands);
   while (!reader.at_end()) {
     const auto command = reader.take(reader.get_count(max_run_bytes));
     if (!reader.ok()) return damaged(run.tick, "its last command is cut off");
     if (auto done = append(run.tick, command, out); !done) return done;
   }
-  return {};
+  return run.fingerprints ? check_fingerprints(run, out, first) : Expected<void>{};
 }
 
 Expected<void> SceneUnpacker::append(Tick tick, std::span<const std::byte> command, std::vector<SceneEdit>& out) {

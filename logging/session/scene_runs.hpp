@@ -5,11 +5,13 @@
 /// the writer's thread. A row's bytes are untrusted: unpacking ends in the commands or an error, in bounded memory.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/core/bytes.hpp"
 #include "engine/core/expected.hpp"
+#include "logging/session/edit_fingerprints.hpp"
 #include "logging/session/records.hpp"
 
 namespace septet::logging {
@@ -18,6 +20,8 @@ namespace septet::logging {
 struct SceneRun {
   Tick tick = 0;
   Bytes data;
+  /// EditFingerprints of its commands; empty for the world before any edit, and in a session of an earlier build.
+  std::optional<Bytes> fingerprints{};
 };
 
 class SceneRunPacker {
@@ -33,6 +37,7 @@ class SceneRunPacker {
  private:
   Tick tick_ = 0;
   Bytes commands_;
+  EditFingerprints fingerprints_;
 };
 
 /// The commands of a session, from its rows in their order.
@@ -40,7 +45,8 @@ class SceneUnpacker {
  public:
   /// Rows of formats 1 and 2 hold one command each, as it is.
   explicit SceneUnpacker(int session_format) : session_format_(session_format) {}
-  /// Appends the commands of `run`. Error: damaged bytes, or more memory than a scene may take.
+  /// Appends the commands of `run`. Error: damaged bytes, more memory than a scene may take, or an edit that is not the one
+  /// that was made, with its tick and node.
   Expected<void> unpack(const SceneRun& run, std::vector<SceneEdit>& out);
 
  private:

@@ -72,6 +72,13 @@ inline constexpr Table head_positions{
     "CREATE TABLE head_positions(tick INTEGER PRIMARY KEY, forward_m REAL NOT NULL, left_m REAL NOT NULL, "
     "up_m REAL NOT NULL, turn_rad REAL NOT NULL)"};
 
+/// Of rows of `scene_edits`, by their ids, but for the world at the drive's beginning; absent from sessions of earlier builds.
+inline constexpr Table edit_fingerprints{"edit_fingerprints",
+                                         "CREATE TABLE edit_fingerprints(id INTEGER PRIMARY KEY, nodes BLOB NOT NULL)"};
+
+/// Tables that sessions of earlier builds lack.
+inline constexpr std::array later_tables{saved_states, actuators, head_positions, edit_fingerprints};
+
 /// Finds the keyframe before a time without reading the table.
 inline constexpr std::string_view keyframe_index =
     "CREATE INDEX keyframes ON snapshots(simulated_time_s) WHERE baseline_tick IS NULL";

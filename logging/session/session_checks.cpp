@@ -74,7 +74,7 @@ Expected<void> check_format(const Database& database) {
   };
   for (const Table& table : tables)
     if (auto checked = check_table(table, false); !checked) return checked;
-  for (const Table& table : {saved_states, actuators, head_positions})
+  for (const Table& table : later_tables)
     if (auto checked = check_table(table, true); !checked) return checked;
   const auto triggers = database.query_integer("SELECT count(*) FROM sqlite_schema WHERE type = 'trigger'");
   if (!triggers) return tl::unexpected(triggers.error());
@@ -99,7 +99,7 @@ Expected<void> check_integrity(const Database& database) {
 Expected<void> check_values(const Database& database) {
   for (const Table& table : tables)
     if (auto checked = check_values_of(database, table); !checked) return checked;
-  for (const Table& table : {saved_states, actuators, head_positions}) {
+  for (const Table& table : later_tables) {
     const auto count = database.query_integer(
         fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", table.name));
     if (!count) return tl::unexpected(count.error());

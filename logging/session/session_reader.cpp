@@ -227,7 +227,13 @@ Expected<std::vector<InputRecord>> SessionReader::inputs(TickRange range) const 
 Expected<std::vector<SceneEdit>> SessionReader::scene_edits(TickRange range) const {
   const auto format = state_->database.query_integer("PRAGMA user_version");
   if (!format) return tl::unexpected(format.error());
-  auto rows = prepare_range(state_->database, "tick, data", "scene_edits", range, "id");
+  const auto has_fingerprints = has_table_called(state_->database, edit_fingerprints.name);
+  if (!has_fingerprints) return tl::unexpected(has_fingerprints.error());
+  auto rows = prepare_range(state_->database,
+                            *has_fingerprints
+                                ? "tick, data, (SELECT nodes FROM edit_fingerprints AS f WHERE f.id = scene_edits.id)"
+                                : "tick, data",
+                            "scene_edits", range, "id");
   if (!rows) return tl::unexpected(rows.error());
   SceneUnpacker unpacker(static_cast<int>(*format));
   std::vector<SceneEdit> edits;

@@ -76,7 +76,7 @@ Expected<Database> create_database(const std::filesystem::path& path, const Sess
       page_bytes, application_id, format_version);
   std::string schema;
   for (const Table& table : tables) schema += fmt::format("{}; ", table.sql);
-  schema += fmt::format("{}; {}; {}; ", saved_states.sql, actuators.sql, head_positions.sql);
+  for (const Table& table : later_tables) schema += fmt::format("{}; ", table.sql);
   schema += keyframe_index;
   // A reader that looks just then holds the file for a moment.
   if (auto done = execute_patiently(*database, mode, options.patience); !done) return tl::unexpected(done.error());
@@ -252,7 +252,11 @@ Expected<void> SessionWriter::State::write_edit(const SceneEdit& edit) {
 }
 
 Expected<void> SessionWriter::State::write_run() {
-  return scene_run.is_empty() ? Expected<void>{} : insert(inserts.scene_run, scene_run.take());
+  if (scene_run.is_empty()) return {};
+  const SceneRun run = scene_run.take();
+  auto done = insert(inserts.scene_run, run);
+  if (done) done = insert_fingerprints(inserts.fingerprints, run);
+  return done;
 }
 
 /// Writes to a deleted open file succeed silently, and are lost in the end.

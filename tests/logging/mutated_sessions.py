@@ -17,7 +17,7 @@ import tempfile
 sys.dont_write_bytecode = True
 PAGE_BYTES = 16384
 KEYS = {"meta": "key", "files": "rowid", "snapshots": "tick", "driver_inputs": "tick", "scene_edits": "id", "samples": "tick", "events": "id",
-        "questionnaire": "id", "saved_states": "tick", "actuators": "tick", "head_positions": "tick"}
+        "questionnaire": "id", "saved_states": "tick", "edit_fingerprints": "id", "actuators": "tick", "head_positions": "tick"}
 
 
 # Deliberately crafted files; check reports each.
