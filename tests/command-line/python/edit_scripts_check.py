@@ -1,63 +1,16 @@
-"""The scripts of samples/scripts, and what the module promises, against a real server: edit_scripts_check.py SEPTET."""
-import json
-import os
+"""What the module promises, against a real server: edit_scripts_check.py SEPTET."""
 import pathlib
 import queue
 import sqlite3
-import struct
-import subprocess
 import sys
 import tempfile
 import time
 
+from edited_drive import EditedDrive, run, triangle_glb, use_module_of
+
 septet_program = pathlib.Path(sys.argv[1])
-root = pathlib.Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(root / "command-line/python"))
-os.environ["SEPTET_PROGRAM"] = str(septet_program)
-os.environ["SEPTET_DATA"] = str(root)
-os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
-os.environ["PYTHONPATH"] = str(root / "command-line/python")
+use_module_of(septet_program)
 import septet  # noqa: E402
-
-RIG = """name = "small"
-eye_point_m = [1.35, 0.37, 1.17]
-[network]
-[car]
-source = "simulated-driver"
-[[screen]]
-name = "a"
-width_px = 160
-height_px = 120
-lower_left_m = [2.15, 0.77, 0.87]
-lower_right_m = [2.15, -0.03, 0.87]
-upper_left_m = [2.15, 0.77, 1.47]
-"""
-
-
-def triangle_glb(height_m: float = 1) -> bytes:
-    """A red triangle, a metre wide."""
-    numbers = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, height_m, 0)
-    document = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
-        "materials": [{"name": "red", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, height_m, 0]}],
-        "bufferViews": [{"buffer": 0, "byteLength": len(numbers)}],
-        "buffers": [{"byteLength": len(numbers)}],
-    }
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(numbers), 0x004E4942) + numbers
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
-
-
-def run(*words: str) -> str:
-    done = subprocess.run(words, capture_output=True, text=True, timeout=600)
-    assert done.returncode == 0, (words, done.stdout, done.stderr)
-    return done.stdout
 
 
 def refused(change) -> septet.Refused:
@@ -339,21 +292,6 @@ def undo_by_the_server(host: str, port: int, keys: pathlib.Path) -> None:
         assert lab.get(tree.name).visible
 
 
-def lift_the_barrier(host: str, port: int, keys: pathlib.Path) -> None:
-    """The barrier of the samples is lifted by another script's call."""
-    script = subprocess.Popen([sys.executable, str(root / "samples/scripts/barrier.py"), str(keys / "lab"), "8"], stdout=subprocess.PIPE, text=True)
-    with septet.connect(host, port, keys / "desk/desk.key") as desk:
-        while not desk.find("stimuli/arm"):
-            time.sleep(0.1)
-        hinge = desk.get("stimuli/hinge")
-        assert hinge.wxyz == (1, 0, 0, 0), hinge.wxyz
-        desk.call("lift", "stimuli/barrier", degrees=90)
-        assert script.stdout.readline().startswith("lifted for desk at "), script.poll()
-        while abs(desk.get("stimuli/hinge").wxyz[1] - 0.5**0.5) > 1e-9:
-            time.sleep(0.1)
-    assert script.wait(120) == 0
-
-
 def time_of(host: str, port: int, keys: pathlib.Path) -> float:
     with septet.connect(host, port, keys / "desk/desk.key") as desk:
         return next(desk.ticks()).time_s
@@ -377,48 +315,22 @@ events_of_ticks_that_a_slow_script_misses_go_to_the_next_and_are_bounded()
 heard_by: list = []
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
-    (folder / "small.toml").write_text(RIG)
     (folder / "ball.glb").write_bytes(triangle_glb())
-    keys = folder / "keys"
-    run(str(septet_program), "rig", "keys", str(folder / "small.toml"), "--out", str(keys), "--editor", "lab=edit operate", "--editor", "desk=edit operate",
-        "--editor", "guest=edit hide move", "--editor", "reader=look")
-    server = subprocess.Popen(
-        [str(septet_program.parent / "septet-server"), "--scenario", "first-lesson", "--rig", str(folder / "small.toml"), "--keys",
-         str(keys / "server"), "--out", str(folder / "out"), "--any-port", "--wait-for-screens", "0", "--start-now", "--seconds", "36000",
-         "--save", str(folder / "saved.edits")],
-        stdout=subprocess.PIPE, stderr=(folder / "server.log").open("w"), text=True)
-    try:
-        ready = server.stdout.readline()
-        assert ready.startswith("ready "), (ready, (folder / "server.log").read_text())
-        port = ready.split()[1]
-        use("127.0.0.1", int(port), keys, folder / "ball.glb", folder)
-        call_and_listen("127.0.0.1", int(port), keys)
-        undo_by_the_server("127.0.0.1", int(port), keys)
-        ended_at = end_lifetimes("127.0.0.1", int(port), keys, folder / "ball.glb")
-        (keys / "lab/address").write_text(f"127.0.0.1:{port}\n")
+    editors = ["lab=edit operate", "desk=edit operate", "guest=edit hide move", "reader=look"]
+    with EditedDrive(septet_program, folder, editors, "--save", str(folder / "saved.edits")) as drive:
+        keys, port = drive.keys, drive.port
+        use("127.0.0.1", port, keys, folder / "ball.glb", folder)
+        used_s = time_of("127.0.0.1", port, keys)
+        call_and_listen("127.0.0.1", port, keys)
+        undo_by_the_server("127.0.0.1", port, keys)
+        ended_at = end_lifetimes("127.0.0.1", port, keys, folder / "ball.glb")
         (folder / "lines").write_text(f"save {folder}/as-lines.edits\nmove stimuli/again 1 2 3\n")
         saved, moved = [line for line in run(str(septet_program), "edit", "--keys", str(keys / "lab"), str(folder / "lines")).splitlines() if line[1:2] == ":"]
         assert saved == "1: done" and moved.startswith("2: done, shown from tick "), (saved, moved)
-        glb = str(folder / "ball.glb")
-        lift_the_barrier("127.0.0.1", int(port), keys)
-        ended_s = [time_of("127.0.0.1", int(port), keys)]
-        said_by = {"sign_at_200_m.py": "changed at ", "repaint_traffic.py": "repainted "}
-        for script, more in (("ball.py", [glb]), ("deer.py", [glb]), ("sign_at_200_m.py", []), ("n_back.py", ["9"]), ("repaint_traffic.py", []),
-                             ("log_gaze.py", [str(folder / "gaze.csv"), "4"]), ("follow_me.py", [glb, "2"]), ("rain_in_bends.py", ["2"]),
-                             ("step_by_step.py", ["4"]), ("too_close.py", ["2"])):
-            said = run(sys.executable, str(root / "samples/scripts" / script), str(keys / "lab"), *more)
-            assert said.startswith(said_by.get(script, "")), (script, said)
-            ended_s.append(time_of("127.0.0.1", int(port), keys))
-    except BaseException:
-        print((folder / "server.log").read_text(), file=sys.stderr)
-        raise
-    finally:
-        server.terminate()
-        server.wait(300)
-    log = (folder / "server.log").read_text()
+        ended_s = time_of("127.0.0.1", port, keys)
+    log, session = drive.log_file.read_text(), drive.session
     assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create, solid, and operates" in log, log
     assert "refused so far: 2" in log, log
-    session = folder / "out/session.sqlite"
     logged = sqlite3.connect(session).execute("SELECT count(*) FROM scene_edits WHERE tick > 0").fetchone()[0]
     notes = [row for row in sqlite3.connect(session).execute("SELECT kind, detail FROM events WHERE detail LIKE 'by=lab %'")]
     assert ("mark", "by=lab note=phase 2") in notes and ("operator", "by=lab wish=pause") in notes, notes
@@ -430,16 +342,9 @@ with tempfile.TemporaryDirectory() as name:
     at_tick = [row[0] for row in sqlite3.connect(session).execute("SELECT tick FROM scene_edits WHERE tick > ? AND tick <= ?", (ended_at - 60, ended_at))]
     assert ended_at in at_tick and set(at_tick) <= {ended_at - 30, ended_at}, at_tick
     assert not [line for line in log.splitlines() if "lab: nothing" in line and "node destroy" in line], log
-    # A row for each tenth of a second of which a tick came.
-    rows = (folder / "gaze.csv").read_text().splitlines()[1:]
-    tenths = [int(float(row.split(",")[0]) * 10 + 0.01) for row in rows]
-    assert len(set(tenths)) == len(tenths) > 9, tenths
-    assert sum(detail.startswith("by=lab note=n-back") for _, detail in notes) > 1, notes
-    assert any(detail.startswith("by=lab wish=conditions") for _, detail in notes), notes
     assert logged > 20, logged
     print(run(str(septet_program), "replay", "--verify", str(session)))
-    assert len(ended_s) == len(list((root / "samples/scripts").glob("*.py"))), ended_s
-    film(session, ended_s, folder)
+    film(session, [used_s, ended_s], folder)
     told = sqlite3.connect(session).execute("SELECT detail FROM events WHERE kind = 'operator_command'").fetchall()
     solids = [row[0].split()[:2] for row in told if "solid=" in row[0]]
     stand, clear = ["stand", "solid=0"], ["clear", "solid=0"]
