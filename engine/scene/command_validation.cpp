@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/scene/command_codec.hpp"
+#include "engine/scene/motion_reach.hpp"
 #include "engine/scene/world_bounds.hpp"
 
 namespace septet::scene {

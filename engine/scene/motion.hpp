@@ -22,8 +22,6 @@ struct MotionLeg {
 inline constexpr std::size_t max_motion_legs = 16;
 /// Bound of a leg's speed in m/s, acceleration in m/s² and turn in rad/s.
 inline constexpr double max_motion_rate = 1e4;
-/// Latest beginning of a leg, in s of simulated time.
-inline constexpr double latest_leg_s = 1e9;
 
 /// Each leg begins where the one before it ends. No legs: no motion.
 struct Motion {
@@ -40,9 +38,5 @@ struct MovingPose {
 };
 
 MovingPose pose_at(const Motion& motion, double simulated_time_s);
-
-/// Largest coordinate, without its sign, on the way from the beginning to the last leg, which goes on for ever. The numbers
-/// are finite.
-double farthest_coordinate_m(const Motion& motion);
 
 }  // namespace septet::scene

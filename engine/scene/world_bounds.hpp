@@ -15,6 +15,8 @@ inline constexpr double farthest_m = 2.5e8;
 inline constexpr double largest_scale = 1e4;
 /// Of all scales from an object up to its root, multiplied: with more it is not drawn.
 inline constexpr double largest_drawn_scale = 1e8;
+/// Of the beginning of a motion's leg, in s of simulated time.
+inline constexpr double latest_leg_s = 1e9;
 /// Of a value of a geometry's layer: pictures' coordinates, normals, colours.
 inline constexpr double largest_layer_value = 1e9;
 

@@ -80,9 +80,8 @@ bool read_leg(std::string_view word, scene::MotionLeg& leg) {
 Expected<void> check_leg(const scene::MotionLeg& leg) {
   for (const double number : numbers_of(leg))
     if (!std::isfinite(number)) return no_place("its motion has what is no finite number");
-  if (std::abs(leg.from_s) > scene::latest_leg_s)
-    return no_place(
-        fmt::format("its motion begins at {:g} s, which is beyond {:g} s", leg.from_s, scene::latest_leg_s));
+  if (std::abs(leg.from_s) > latest_leg_s)
+    return no_place(fmt::format("its motion begins at {:g} s, which is beyond {:g} s", leg.from_s, latest_leg_s));
   if (const double speed_mps = glm::length(leg.velocity_mps); speed_mps > fastest_solid_mps)
     return no_place(fmt::format("it moves at {:g} m/s, and a solid at {:g} at most", speed_mps, fastest_solid_mps));
   if (const double rate_mps2 = glm::length(leg.acceleration_mps2); rate_mps2 > scene::max_motion_rate)

@@ -48,6 +48,7 @@ struct ClearSolid {
 inline constexpr double thinnest_solid_m = 0.05, longest_solid_m = 200.0;
 /// Farthest place of one, on each axis, and its greatest speed and turn: within what a snapshot can tell.
 inline constexpr double farthest_solid_m = 5e5, fastest_solid_mps = 1000.0, fastest_solid_radps = 1000.0;
+inline constexpr double latest_leg_s = 1e9;
 
 /// True where place and speed are within those bounds.
 bool is_in_range(const LooseBody& solid);

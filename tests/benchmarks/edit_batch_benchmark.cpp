@@ -1,0 +1,178 @@
+// What an editor's batch costs the tick that does it: its message's bytes to commands, the gate (rights, the change, its inverse), and the word to seven screens. The
+// world is the motorway's. Counters: microseconds a command, and the share of a tick.
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "engine/core/bytes.hpp"
+#include "engine/replication/message.hpp"
+#include "engine/replication/replication_client.hpp"
+#include "engine/replication/replication_server.hpp"
+#include "engine/scene/builder.hpp"
+#include "engine/scene/command_codec.hpp"
+#include "engine/scenery/world/road_world.hpp"
+#include "engine/simulation/server_step.hpp"
+#include "program/resources.hpp"
+#include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/world_gate.hpp"
+
+namespace septet::server {
+namespace {
+
+using replication::ConnectionId;
+using replication::ReplicationClient;
+using replication::ReplicationServer;
+using scene::Command;
+using scene::NodeId;
+
+template <class T>
+T must_be(Expected<T> result) {
+  if (!result) throw std::runtime_error(describe(result.error()));
+  return std::move(*result);
+}
+
+LoadedDrive drive_of_the_motorway() {
+  const auto scenario = must_be(program::find_resource("behind-ambulance", "scenarios", ".xosc"));
+  const auto rig = must_be(program::find_resource("desktop", "rigs", ".toml"));
+  return must_be(load_drive(DriveFiles{scenario.string(), rig.string(), 1}));
+}
+
+/// A gate, seven screens that have everything, and the editor's connection.
+struct EditedWorld {
+  static constexpr ConnectionId editor = 100;
+  static constexpr int screen_count = 7;
+  OpenedDrive opened{.loaded = drive_of_the_motorway(), .store = scene::Store()};
+  std::unique_ptr<LiveDrive> live;
+  std::optional<WorldGate> gate;
+  std::optional<ReplicationServer> server;
+  std::deque<ReplicationClient> screens;
+  NodeId own_ids = 0;
+
+  EditedWorld() {
+    scene::SceneBuilder builder(opened.store);
+    scenery::build_road_world(builder, opened.loaded.model->roads, 1);
+    const auto& model = opened.loaded.model;
+    live = must_be(LiveDrive::start(model, traffic::own_traffic(model->roads, 1), {}));
+    opened.live = live.get();
+    server.emplace(opened.store, 1);
+    gate.emplace(opened);
+    gate->tell([this](const Command& command, Tick from) { server->applied(command, from); });
+    gate->begin();
+    for (int i = 0; i < screen_count; ++i) {
+      screens.emplace_back().connected();
+      server->connect(static_cast<ConnectionId>(i), "screen");
+    }
+    for (int rounds = 0; rounds < 10'000 && !all_complete(); ++rounds) pump_screens();
+    if (!all_complete()) throw std::runtime_error("the screens have no scene");
+    server->connect(editor, "lab");
+    const auto hello = server->receive(editor, replication::encode(replication::Hello{}));
+    if (!hello) throw std::runtime_error(describe(hello.error()));
+    own_ids = server->own_ids(editor);
+  }
+  bool all_complete() {
+    for (ReplicationClient& screen : screens)
+      if (!screen.complete() || screen.complete_revision() != opened.store.revision()) return false;
+    return true;
+  }
+  void pump_screens() {
+    for (std::size_t i = 0; i < screens.size(); ++i) {
+      const auto id = static_cast<ConnectionId>(i);
+      screens[i].pump([&](std::span<const std::byte> message) { return server->receive(id, message).has_value(); });
+      server->pump(id, 1u << 20,
+                   [&](std::span<const std::byte> message) { return screens[i].receive(message).has_value(); });
+    }
+  }
+};
+
+enum class Kind { moves, creates };
+
+std::vector<Command> batch_of(const EditedWorld& world, Kind kind, std::size_t commands, std::size_t round) {
+  std::vector<Command> batch;
+  batch.reserve(commands);
+  const auto node = [&](std::size_t i) { return world.own_ids + static_cast<NodeId>(i); };
+  if (kind == Kind::moves) {
+    for (std::size_t i = 0; i < commands; ++i)
+      batch.emplace_back(scene::TransformSet{node(i % 1000), {{0.5 * static_cast<double>(i + round), 1.0, 2.0}}});
+    return batch;
+  }
+  const std::size_t first = 1000 + round * commands;
+  for (std::size_t i = 0; batch.size() + 1 < commands; ++i) {
+    batch.emplace_back(scene::NodeCreate{node(first + i), scene::NodeType::object});
+    batch.emplace_back(scene::NodeNameSet{node(first + i), "lab/thing/" + std::to_string(i)});
+  }
+  return batch;
+}
+
+void edit_batch(benchmark::State& state, Kind kind) {
+  static EditedWorld world;
+  const Editor lab{"lab", {}, world.own_ids};
+  static bool has_things = false;
+  if (!std::exchange(has_things, true)) {
+    std::vector<Command> things;
+    for (NodeId i = 0; i < 1000; ++i)
+      things.emplace_back(scene::NodeCreate{world.own_ids + i, scene::NodeType::object});
+    if (world.gate->make(lab, things, 1)) throw std::runtime_error("the things are refused");
+    for (int rounds = 0; rounds < 1000 && !world.all_complete(); ++rounds) world.pump_screens();
+  }
+  static std::uint64_t sequence = 0;
+  const auto commands = static_cast<std::size_t>(state.range(0));
+  std::size_t round = 0, done = 0;
+  double seconds = 0.0, worst_s = 0.0;
+  for (auto unused : state) {
+    const std::vector<Command> asked = batch_of(world, kind, commands, round++);
+    Bytes bytes;
+    for (const Command& command : asked) scene::encode(command, bytes);
+    const Bytes message = replication::encode(replication::CommandBatch{++sequence, 0, bytes});
+    const auto begun = std::chrono::steady_clock::now();
+    auto batch = must_be(world.server->receive(EditedWorld::editor, message));
+    if (!batch.changes.empty() && !world.gate->make(lab, std::move(batch.changes), 1)) done += asked.size();
+    const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    state.SetIterationTime(took_s);
+    seconds += took_s, worst_s = std::max(worst_s, took_s);
+    if (kind == Kind::creates && batch.changes.empty()) {
+      std::vector<Command> gone;
+      for (const Command& command : asked)
+        if (const auto* create = std::get_if<scene::NodeCreate>(&command))
+          gone.emplace_back(scene::NodeDestroy{create->node});
+      (void)world.gate->make(lab, gone, 1, false);
+      round = 0;
+    }
+    for (int rounds = 0; rounds < 1000 && !world.all_complete(); ++rounds) world.pump_screens();
+  }
+  const auto asked = static_cast<double>(commands * state.iterations());
+  state.counters["us_a_command"] = 1e6 * seconds / asked;
+  state.counters["done"] = static_cast<double>(done) / asked;
+  state.counters["worst_share_of_tick"] = worst_s / simulation::tick_s;
+}
+
+#define EDIT_BATCH(KIND)                          \
+  BENCHMARK_CAPTURE(edit_batch, KIND, Kind::KIND) \
+      ->Name("edit_batch/" #KIND)                 \
+      ->Arg(256)                                  \
+      ->Arg(1024)                                 \
+      ->Arg(2048)                                 \
+      ->Arg(4096)                                 \
+      ->Arg(16384)                                \
+      ->Arg(50000)                                \
+      ->Iterations(8)                             \
+      ->UseManualTime()                           \
+      ->Unit(benchmark::kMillisecond)
+EDIT_BATCH(moves);
+EDIT_BATCH(creates);
+#undef EDIT_BATCH
+
+}  // namespace
+}  // namespace septet::server
