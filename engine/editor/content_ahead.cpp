@@ -36,7 +36,8 @@ SplitBatch split_content(std::span<const scene::Command> batch) {
   std::vector<std::size_t> bytes;
   bytes.reserve(batch.size());
   for (const scene::Command& command : batch) bytes.push_back(bytes_of(command));
-  const bool is_small = std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) <= replication::max_batch_bytes;
+  const bool is_small = batch.size() <= replication::most_changes_of_batch &&
+                        std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) <= replication::max_batch_bytes;
   std::set<scene::NodeId> content;
   std::size_t filled = 0;
   for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -48,7 +49,9 @@ SplitBatch split_content(std::span<const scene::Command> batch) {
       split.rest_from.push_back(i);
       continue;
     }
-    if (split.ahead.empty() || filled + bytes[i] > replication::max_batch_bytes) {
+    const bool is_full = !split.ahead.empty() && (filled + bytes[i] > replication::max_batch_bytes ||
+                                                  split.ahead.back().size() == replication::most_changes_of_batch);
+    if (split.ahead.empty() || is_full) {
       split.ahead.emplace_back();
       filled = 0;
     }

@@ -15,6 +15,9 @@ namespace septet::replication {
 
 inline constexpr std::uint8_t message_version = 3;
 inline constexpr std::size_t max_batch_bytes = 2u << 20;
+/// Changes that a client's batch asks for: a batch is done whole between two ticks, and this many take a part of one
+/// (`./bench --benchmark_filter=edit_batch`).
+inline constexpr std::size_t most_changes_of_batch = 4096;
 /// Of a refusal: failures that are told, and bytes of the words and of the node's name of each.
 inline constexpr std::size_t most_failures_told = 16, max_refusal_bytes = 1000, max_failed_name_bytes = 200;
 

@@ -255,7 +255,10 @@ struct ReplicationServer::State {
       auto command = scene::decode(in);
       if (!command) return tl::unexpected(command.error());
       constexpr std::size_t subscription_kinds = 3;
-      if (command->index() >= subscription_kinds)
+      const bool is_change = command->index() >= subscription_kinds;
+      asked.has_too_many = is_change && asked.changes.size() == most_changes_of_batch;
+      if (asked.has_too_many) break;  // What nobody does need not be read.
+      if (is_change)
         asked.changes.push_back(std::move(*command));
       else if (session.requests.size() < options.waiting_requests)
         session.requests.push_back(std::move(*command));

@@ -43,6 +43,8 @@ struct ClientBatch {
   std::uint64_t tick = 0;    ///< The one that is to show them first; 0: the next.
   std::size_t bytes = 0;     ///< As encoded.
   std::vector<scene::Command> changes{};
+  bool has_too_many =
+      false;  ///< More than most_changes_of_batch: `changes` are the first of them, and it is to be refused.
 };
 
 class ReplicationServer {

@@ -3,8 +3,8 @@
 /// is over it waits in its editor's own queue of bounded size; so one that floods keeps neither the drive nor the others
 /// waiting. Work is counted in commands and bytes, never by a clock: the same requests are done at the same ticks.
 ///
-/// A batch stays whole. One of more work than a tick's is done at once, and its editor's next ones wait until the ticks
-/// since would have had room for it.
+/// A batch stays whole. One of more work than a tick's share, up to replication::most_changes_of_batch, is done at once, and its
+/// editor's next ones wait until the ticks since would have had room for it.
 
 #include <cstddef>
 #include <deque>

@@ -213,6 +213,12 @@ void ScreenHost::on_scene(const net::ServerEvent& event, double now_s) {
   if (!rights)
     return refuse_scene(
         request, fmt::format("the key of {0} may look, not edit: allowed-clients needs `KEY {0} edit`", name), now_s);
+  if (request.batch.has_too_many)
+    return refuse_scene(request,
+                        fmt::format("it has more than {} changes, and is done whole between two ticks: send it in "
+                                    "several batches",
+                                    replication::most_changes_of_batch),
+                        now_s);
   std::size_t& waiting = edits_waiting_[event.client];
   if (request.batch.changes.size() > most_edits - waiting)
     return refuse_scene(request, fmt::format("{} changes wait for this tick already: send fewer", waiting), now_s);
@@ -238,9 +244,9 @@ void ScreenHost::refuse_scene(const SceneRequest& request, replication::Refusal 
   if (clients_.contains(request.client))
     tell(request.client,
          fmt::format(
-             "{}: nothing of its {} changes of the scene was done, for command {} ({}): {}{}; refused so far: {}",
-             request.editor.name, changes.size(), first.index + 1, what, first.why,
-             more == 0 ? "" : fmt::format("; {} more could not be done", more), refused),
+             "{}: nothing of its {}{} changes of the scene was done, for command {} ({}): {}{}; refused so far: {}",
+             request.editor.name, request.batch.has_too_many ? "more than " : "", changes.size(), first.index + 1, what,
+             first.why, more == 0 ? "" : fmt::format("; {} more could not be done", more), refused),
          now_s);
   scene_.refuse(request.client, request.batch.number, std::move(refusal));
 }

@@ -53,4 +53,21 @@ TEST_CASE("of a larger one the contents go ahead in batches that a message holds
   CHECK(split.rest_from.back() == commands.size() - 1);
 }
 
+TEST_CASE("of more commands than a batch may have the contents go ahead in batches that may be sent") {
+  constexpr std::size_t fragments = 2 * replication::most_changes_of_batch;
+  std::vector<Command> commands{NodeCreate{1, NodeType::material}};
+  for (std::size_t i = 0; i < fragments; ++i)
+    commands.emplace_back(FragmentSet{1, static_cast<FragmentId>(i % 100), ColorFragment{}});
+  commands.insert(commands.end(), {NodeCreate{2, NodeType::object}, LinkSet{2, 0, {"material", 1, 0}}});
+  const SplitBatch split = split_content(commands);
+  REQUIRE(split.ahead.size() == 3);
+  std::size_t ahead = 0;
+  for (const auto& batch : split.ahead) {
+    CHECK(batch.size() <= replication::most_changes_of_batch);
+    ahead += batch.size();
+  }
+  CHECK(ahead == fragments + 1);
+  CHECK(split.rest.size() == 2);
+}
+
 }  // namespace septet::editor
