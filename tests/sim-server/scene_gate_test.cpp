@@ -1,6 +1,7 @@
 #include "sim-server/drive/scene_gate.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "engine/control/control_message.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/udp_socket.hpp"
+#include "engine/replication/message.hpp"
 #include "engine/replication/replication_client.hpp"
 #include "engine/scene/builder.hpp"
 #include "sim-server/host/screen_host.hpp"
@@ -285,8 +287,9 @@ TEST_CASE("an editor's own node that is gone already need not be destroyed, and 
 TEST_CASE("an editor that floods is refused beyond what waits for one tick and the host keeps its memory") {
   Stage stage;
   REQUIRE(stage.all_equal());
-  const std::vector<Command> many(30'000, scene::HideSet{stage.tree, true});
-  for (int i = 0; i < 8; ++i) REQUIRE(stage.editor.scene.request_batch(many).has_value());
+  const std::vector<Command> many(replication::most_changes_of_batch, scene::HideSet{stage.tree, true});
+  constexpr std::size_t taken = most_edits / replication::most_changes_of_batch;
+  for (std::size_t i = 0; i < taken + 7; ++i) REQUIRE(stage.editor.scene.request_batch(many).has_value());
   std::size_t most = 0, refused = 0;
   // The host is busy: no tick takes the requests.
   for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -298,7 +301,7 @@ TEST_CASE("an editor that floods is refused beyond what waits for one tick and t
   }
   for (const SceneRequest& request : stage.host.take_scene_requests()) most += request.batch.changes.size();
   CHECK(refused == 7);
-  CHECK(most == 30'000);
+  CHECK(most == taken * many.size());
 }
 
 TEST_CASE("an editor that floods takes no room of another one's") {
@@ -306,8 +309,9 @@ TEST_CASE("an editor that floods takes no room of another one's") {
   stage.host.set_allowed({{stage.editor_key.public_key(), "lab", {true, net::EditRights{}}},
                           {stage.looker_key.public_key(), "guest", {true, net::EditRights{}}}});
   REQUIRE(stage.all_equal());
-  const std::vector<Command> many(30'000, scene::HideSet{stage.tree, true});
-  for (int i = 0; i < 3; ++i) REQUIRE(stage.editor.scene.request_batch(many).has_value());
+  const std::vector<Command> many(replication::most_changes_of_batch, scene::HideSet{stage.tree, true});
+  constexpr std::size_t taken = most_edits / replication::most_changes_of_batch;
+  for (std::size_t i = 0; i < taken + 2; ++i) REQUIRE(stage.editor.scene.request_batch(many).has_value());
   const auto pump = [&] {
     const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage.begun).count();
     stage.host.pump(now_s), stage.editor.pump(now_s), stage.looker.pump(now_s);
@@ -322,12 +326,42 @@ TEST_CASE("an editor that floods takes no room of another one's") {
     return refused;
   };
   REQUIRE(until_refused(stage.editor, 2) == 2);
-  // Of the other one there is room for the first.
-  for (int i = 0; i < 2; ++i) REQUIRE(stage.looker.scene.request_batch(many).has_value());
+  // Of the other one there is room for as many.
+  for (std::size_t i = 0; i < taken + 1; ++i) REQUIRE(stage.looker.scene.request_batch(many).has_value());
   REQUIRE(until_refused(stage.looker, 1) == 1);
   std::set<std::string> heard;
   for (const SceneRequest& request : stage.host.take_scene_requests()) heard.insert(request.editor.name);
   CHECK(heard == std::set<std::string>{"guest", "lab"});
+}
+
+TEST_CASE(
+    "a batch of more changes than may be done between two ticks is refused with their number, and no less of it is "
+    "done") {
+  Stage stage;
+  REQUIRE(stage.all_equal());
+  const auto answered = [&](std::size_t changes) {
+    REQUIRE(
+        stage.editor.scene.request_batch(std::vector<Command>(changes, scene::HideSet{stage.tree, true})).has_value());
+    std::vector<replication::Refused> refusals;
+    std::size_t waiting = 0;
+    for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+         std::chrono::steady_clock::now() < end && refusals.empty() && waiting == 0;) {
+      const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - stage.begun).count();
+      stage.host.pump(now_s);
+      stage.editor.pump(now_s);
+      refusals = stage.editor.scene.take_refusals();
+      for (const SceneRequest& request : stage.host.take_scene_requests()) waiting += request.batch.changes.size();
+    }
+    return std::pair{waiting, refusals.empty() ? std::string() : refusals.front().refusal.failures.front().why};
+  };
+  constexpr std::size_t most = replication::most_changes_of_batch;
+  CHECK(answered(most) == std::pair{most, std::string()});
+  for (const std::size_t changes : {most + 1, std::size_t{100'000}}) {
+    const auto answer = answered(changes);
+    CHECK(answer.first == 0);
+    CHECK(answer.second.find("it has more than 4096 changes") == 0);
+    CHECK(answer.second.find("send it in several batches") != std::string::npos);
+  }
 }
 
 }  // namespace septet::server

@@ -332,7 +332,7 @@ TEST_CASE("a solid that may not be is refused with the command and why, and the 
   REQUIRE(site.make(wall_at(site.ahead(30.0), true)).empty());
   const simulation::StandSolid stood =
       std::get<simulation::StandSolid>(*simulation::parse_operator_command(site.logged.front().second));
-  refused({scene::TransformSet{wall, {{1e9, 0.0, 0.0}}}}, "its x_m is 1e+09", 0);
+  refused({scene::TransformSet{wall, {{1e6, 0.0, 0.0}}}}, "its x_m is 1e+06", 0);
   refused({scene::TransformSet{wall, {Vec3(0.0), {1, 0, 0, 0}, glm::vec3(1000.0f)}}}, "its length_m is 500", 0);
   scene::MotionSet motion{wall, {}};
   motion.motion.legs.push_back({.velocity_mps = {2000.0, 0.0, 0.0}});

@@ -20,7 +20,7 @@ import septet  # noqa: E402
 
 TRANSFORM_SET, HIDE_SET, MOTION_SET, CREATE_NAME = 10, 14, 29, 5
 #: Drives at once: they wait for their scripts most of the time.
-DRIVES_AT_ONCE = 4
+DRIVES_AT_ONCE = 6
 
 
 def varint(data: bytes, at: int) -> tuple:
@@ -114,7 +114,7 @@ SCRIPTS = {
 
 
 def film(session: pathlib.Path, folder: pathlib.Path, until_s: float) -> bytes:
-    """The picture of the drive's end."""
+    """A picture of the drive shortly before that instant."""
     (folder / "end.toml").write_text(f"[[shot]]\nfrom_s = {until_s - 0.25:.3f}\nto_s = {until_s:.3f}\ninterior = true\n")
     run(str(septet_program), "film", str(session), "--shots", str(folder / "end.toml"), "--out", str(folder / "film"), "--fps", "4", "--size", "96x64",
         "--renderer", "raster", "--software", "--no-sound")
@@ -138,7 +138,7 @@ def drive_with(script: str, folder: pathlib.Path) -> pathlib.Path:
     assert is_shown(log, said, folder), (script, said, log.edits, log.events)
     verified = run(str(septet_program), "replay", "--verify", str(drive.session))
     assert "every state hash agrees" in verified and "the scene is the one that was driven in" in verified, (script, verified)
-    picture = film(drive.session, folder, log.last_s)
+    picture = film(drive.session, folder, log.last_s - 0.1)
     assert picture.startswith(b"\x89PNG") and len(picture) > 1000, (script, len(picture))
     return drive.session
 
