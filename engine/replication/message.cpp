@@ -73,7 +73,8 @@ struct Put {
         out.put_varint(m.first_id);
   }
   void operator()(const CommandBatch& m) const {
-    out.put_varint(m.sequence), out.put_varint(m.received), out.put_varint(m.tick), put_commands(out, m.commands);
+    out.put_varint(m.sequence), out.put_varint(m.received), out.put_varint(m.tick);
+    out.put(static_cast<std::uint8_t>(m.goes_on)), put_commands(out, m.commands);
   }
   void operator()(const Complete& m) const { out.put_varint(m.revision), out.put_varint(m.answered); }
   void operator()(const Received& m) const { out.put_varint(m.sequence); }
@@ -109,6 +110,9 @@ Message get(ByteReader& in, std::uint8_t kind) {
     case 2: {
       CommandBatch m;
       m.sequence = in.get_varint(), m.received = in.get_varint(), m.tick = in.get_varint();
+      const auto goes_on = in.get<std::uint8_t>();
+      if (goes_on > 1) in.fail();
+      m.goes_on = goes_on == 1;
       m.commands = get_commands(in);
       return m;
     }

@@ -28,18 +28,24 @@ void add_range(Ranges& ranges, std::uint32_t first, std::uint32_t end) {
 
 }  // namespace
 
-void Outbox::mark(const Change& change) {
+void Outbox::mark(const Change& change, std::uint64_t tick) {
   const auto [found, added] = waiting_.try_emplace(change.subject);
   Waiting& waiting = found->second;
   if (added) {
     waiting.change = change;
-    order_.push_back(change.subject);
+    order_.emplace_back(change.subject, tick);
   } else {
     waiting.change.renew = waiting.change.renew || change.renew;
     waiting.change.smallest_vertices = std::min(waiting.change.smallest_vertices, change.smallest_vertices);
     waiting.change.smallest_polygons = std::min(waiting.change.smallest_polygons, change.smallest_polygons);
   }
+  waiting.changed_at = std::max(waiting.changed_at, tick);
   if (is_range(change.subject.kind)) add_range(waiting.ranges, change.first, change.end);
+}
+
+bool Outbox::goes_on() const {
+  const auto next = std::ranges::find_if(order_, [&](const auto& entry) { return waiting_.contains(entry.first); });
+  return next != order_.end() && next->second != 0 && next->second <= written_up_to_;
 }
 
 void Outbox::forget(const Subject& first, const Subject& last) {
@@ -50,6 +56,7 @@ void Outbox::write_whole(const scene::Store& store, const Subject& subject, Byte
   const auto found = waiting_.find(subject);
   if (found == waiting_.end()) return;
   describe_change(store, found->second.change, [&](const scene::Command& command) { encode(command, out); });
+  written_up_to_ = std::max(written_up_to_, found->second.changed_at);
   sent.push_back(found->second.change);
   waiting_.erase(found);
 }
@@ -80,7 +87,7 @@ void Outbox::write_what_it_needs(const scene::Store& store, const Subject& subje
 
 void Outbox::write(const scene::Store& store, std::size_t bytes, Bytes& out, std::vector<Change>& sent) {
   while (out.size() < bytes && !order_.empty()) {
-    const Subject subject = order_.front();
+    const Subject subject = order_.front().first;
     const auto found = waiting_.find(subject);
     if (found == waiting_.end()) {
       order_.pop_front();
@@ -92,6 +99,7 @@ void Outbox::write(const scene::Store& store, std::size_t bytes, Bytes& out, std
       order_.pop_front();
       continue;
     }
+    written_up_to_ = std::max(written_up_to_, found->second.changed_at);
     auto& ranges = found->second.ranges;
     const std::uint32_t count = element_count(store, subject);
     Change piece = found->second.change;

@@ -5,8 +5,10 @@
 /// overwrite-by-address of Brink, Steenberg and Svensson (2006, §2.3.3). Memory is bounded by the number of subjects in
 /// the world.
 
+#include <cstdint>
 #include <deque>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/core/bytes.hpp"
@@ -16,10 +18,14 @@ namespace septet::replication {
 
 class Outbox {
  public:
-  void mark(const Change& change);
+  /// `tick`: the first that shows it; 0: at once.
+  void mark(const Change& change, std::uint64_t tick = 0);
   /// Drops waiting changes of the subjects from `first` to `last`.
   void forget(const Subject& first, const Subject& last);
   bool empty() const { return waiting_.empty(); }
+  /// True where what waits belongs to what was written: a subject is written as it is now, so all that changed up to its last
+  /// change's tick belongs to it, as a new node's content to what points at it.
+  bool goes_on() const;
 
   /// Appends commands until `out` holds about `bytes` or no change waits, and appends their subjects to `sent`.
   void write(const scene::Store& store, std::size_t bytes, Bytes& out, std::vector<Change>& sent);
@@ -28,13 +34,15 @@ class Outbox {
   struct Waiting {
     Change change;                                                ///< Only the subject counts for a range subject.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  ///< [first, end), rising, apart.
+    std::uint64_t changed_at = 0;                                 ///< Tick of its last change.
   };
 
   void write_whole(const scene::Store& store, const Subject& subject, Bytes& out, std::vector<Change>& sent);
   void write_what_it_needs(const scene::Store& store, const Subject& subject, Bytes& out, std::vector<Change>& sent);
 
   std::map<Subject, Waiting> waiting_;
-  std::deque<Subject> order_;  ///< May name subjects that no longer wait.
+  std::deque<std::pair<Subject, std::uint64_t>> order_;  ///< With their ticks; may name subjects that no longer wait.
+  std::uint64_t written_up_to_ = 0;                      ///< Latest tick of a change that was written.
 };
 
 }  // namespace septet::replication

@@ -30,6 +30,7 @@ constexpr std::size_t most_held_bytes = 64u << 20;
 /// Commands that a later tick shows.
 struct HeldBatch {
   std::uint64_t tick = 0;
+  bool goes_on = false;  ///< The next one belongs to it.
   std::size_t bytes = 0;
   std::vector<Command> commands;
 };
@@ -69,6 +70,8 @@ struct ReplicationClient::State {
   std::size_t held_bytes = 0;
   std::map<NodeId, NodeType> held_nodes;  ///< Created by what is held.
 
+  /// The server then sends each node with its content, unasked.
+  bool wants_all() const { return !policy.wants_part; }
   Store& mirror() { return filling ? *filling : *shown; }
   bool complete() const { return ever_complete && queued.empty() && answered == sent; }
 
@@ -85,7 +88,7 @@ struct ReplicationClient::State {
     shown_tick.reset();
     filling = std::make_unique<Store>(limits);
     if (shown->revision() == 0) show();  // No older mirror exists to keep: this one is shown as it fills.
-    queue(NodeIndexSubscribe{policy.node_types});
+    queue(NodeIndexSubscribe{policy.node_types | (wants_all() ? with_content(policy.node_types) : 0u)});
   }
   void show() {
     shown = std::move(filling);
@@ -96,8 +99,12 @@ struct ReplicationClient::State {
     held_nodes.clear();
     held_bytes = 0;
   }
-  Expected<void> apply_held(std::uint64_t tick) {
-    while (!held.empty() && held.front().tick <= tick) {
+  /// Of the batches that belong together all or none, unless they are `forced`.
+  Expected<void> apply_held(std::uint64_t tick, bool forced = false) {
+    std::size_t whole = 0;
+    for (std::size_t i = 0; i < held.size() && held[i].tick <= tick; ++i)
+      if (forced || !held[i].goes_on) whole = i + 1;
+    for (; whole > 0; --whole) {
       const HeldBatch batch = std::move(held.front());
       held.pop_front();
       held_bytes -= batch.bytes;
@@ -136,6 +143,7 @@ struct ReplicationClient::State {
 
   /// Subscribes to the nodes and parts that a command announces.
   void learn_from(const Command& command) {
+    if (wants_all()) return;
     if (const auto* c = std::get_if<NodeCreate>(&command)) {
       queue(NodeSubscribe{c->node, true});
       if (c->type == NodeType::geometry) {
@@ -181,8 +189,8 @@ struct ReplicationClient::State {
     if (message.sequence != received + 1)
       return failure(fmt::format("batch {} follows {}", message.sequence, received), "replication server",
                      "connect again");
-    const bool is_held = !held.empty() || (shown_tick && !filling && message.tick > *shown_tick);
-    HeldBatch batch{message.tick, message.commands.size(), {}};
+    const bool is_held = !held.empty() || (shown_tick && !filling && (message.goes_on || message.tick > *shown_tick));
+    HeldBatch batch{message.tick, message.goes_on, message.commands.size(), {}};
     ByteReader in(message.commands);
     while (!in.at_end()) {
       auto command = scene::decode(in);
@@ -201,7 +209,7 @@ struct ReplicationClient::State {
       held_bytes += batch.bytes;
       held.push_back(std::move(batch));
       if (held_bytes > most_held_bytes)
-        if (auto applied = apply_held(std::numeric_limits<std::uint64_t>::max()); !applied) return applied;
+        if (auto applied = apply_held(std::numeric_limits<std::uint64_t>::max(), true); !applied) return applied;
     }
     received = message.sequence;
     owes_acknowledgement = true;
@@ -211,6 +219,7 @@ struct ReplicationClient::State {
   Expected<void> operator()(const Complete& message) {
     answered = message.answered;
     revision = message.revision;
+    if (!held.empty()) held.back().goes_on = false;  // Nothing is to come that belongs to it.
     // Before the first batch is sent there are no requests, so nothing can be complete.
     ever_complete = ever_complete || answered > 0;
     if (filling && complete()) show();

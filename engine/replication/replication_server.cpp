@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -39,7 +40,7 @@ struct Session {
   std::uint32_t node_types = 0;
   NodeId next_listed = no_node;  ///< First node of the index still to be listed; no_node: all are listed.
   std::set<NodeId> announced;
-  std::map<NodeId, std::set<std::pair<PartKind, PartId>>> subscriptions;
+  std::map<NodeId, std::set<std::pair<PartKind, PartId>>> subscriptions;  ///< Those with their type's content, too.
 
   Outbox outbox;
   std::deque<Command> requests;  ///< Requests without a reply yet.
@@ -54,6 +55,8 @@ struct Session {
   std::uint64_t changed_at = 0;  ///< First tick that shows the newest change.
   std::deque<Message> answers;   ///< Refused and Done, to be sent.
 
+  bool wants_type(NodeType type) const { return node_types >> static_cast<int>(type) & 1; }
+  bool wants_all_of(NodeType type) const { return node_types & with_content(1u << static_cast<int>(type)); }
   bool wants(const Subject& subject) const {
     const auto node = subscriptions.find(subject.node);
     if (node == subscriptions.end()) return false;
@@ -88,6 +91,38 @@ struct Connection {
   Bytes unsent;                      ///< A message that the lane did not accept.
 };
 
+using Parts = std::set<std::pair<PartKind, PartId>>;
+
+Parts base_layers_of(NodeType type) {
+  if (type != NodeType::geometry) return {};
+  return {{PartKind::layer, base_vertex_layer}, {PartKind::layer, base_polygon_layer}};
+}
+
+/// All that a node has.
+Parts parts_of(const Node& node) {
+  Parts parts = base_layers_of(node.type());
+  for (const auto& [id, group] : node.tag_groups) parts.insert({PartKind::tag_group, id});
+  const auto add_layers = [&](const auto& data) {
+    for (const auto& [id, layer] : data.layers) parts.insert({PartKind::layer, id});
+  };
+  if (const auto* geometry = std::get_if<GeometryData>(&node.data)) add_layers(*geometry);
+  if (const auto* bitmap = std::get_if<BitmapData>(&node.data)) add_layers(*bitmap);
+  return parts;
+}
+
+/// The part that a subject defines; empty for any other.
+std::optional<std::pair<PartKind, PartId>> part_of(const Subject& definition) {
+  switch (definition.kind) {
+    case SubjectKind::tag_group:
+      return std::pair{PartKind::tag_group, definition.part};
+    case SubjectKind::geometry_layer:
+    case SubjectKind::bitmap_layer:
+      return std::pair{PartKind::layer, definition.part};
+    default:
+      return std::nullopt;
+  }
+}
+
 /// Drops waiting changes of a part's content.
 void forget_content(Outbox& outbox, const Subject& definition) {
   const auto [node, kind, part, item] = definition;
@@ -117,22 +152,25 @@ struct ReplicationServer::State {
     if (change.subject.kind == SubjectKind::existence) {
       if (const auto* created = std::get_if<NodeCreate>(&command)) {
         const bool already_listed = node < session.next_listed;
-        if (!(session.node_types >> static_cast<int>(created->type) & 1) || !already_listed) return;
+        if (!session.wants_type(created->type) || !already_listed) return;
         session.announced.insert(node);
+        if (session.wants_all_of(created->type)) session.subscriptions[node] = base_layers_of(created->type);
       } else {
         if (session.announced.erase(node) == 0) return;
         session.subscriptions.erase(node);
         session.outbox.forget({node, SubjectKind::name, 0, 0}, {node, SubjectKind::tiles, 0xFFFF, 0xFFFF});
       }
-      return session.outbox.mark(change);
+      return session.outbox.mark(change, tick);
     }
     if (!session.wants(change.subject)) return;
     if (change.renew) {
       const PartKind kind = change.subject.kind == SubjectKind::tag_group ? PartKind::tag_group : PartKind::layer;
       session.subscriptions[node].erase({kind, change.subject.part});
       forget_content(session.outbox, change.subject);
+    } else if (const Node* changed = store.find(node); changed && session.wants_all_of(changed->type())) {
+      if (const auto part = part_of(change.subject)) session.subscriptions[node].insert(*part);
     }
-    session.outbox.mark(change);
+    session.outbox.mark(change, tick);
   }
 
   // ---- requests
@@ -180,10 +218,16 @@ struct ReplicationServer::State {
   /// Marks the next nodes of the index.
   void list_nodes(Session& session) {
     auto node = store.nodes().lower_bound(session.next_listed);
-    for (int i = 0; i < nodes_listed_at_once && node != store.nodes().end(); ++i, ++node)
-      if (session.node_types >> static_cast<int>(node->second.type()) & 1)
-        if (session.announced.insert(node->first).second)
-          session.outbox.mark({{node->first, SubjectKind::existence, 0, 0}});
+    const Mark mark = [&](const Change& change) { session.outbox.mark(change); };
+    for (int i = 0; i < nodes_listed_at_once && node != store.nodes().end(); ++i, ++node) {
+      const NodeType type = node->second.type();
+      if (!session.wants_type(type) || !session.announced.insert(node->first).second) continue;
+      mark({{node->first, SubjectKind::existence, 0, 0}});
+      if (!session.wants_all_of(type)) continue;
+      mark_node(node->second, mark);
+      Parts& parts = session.subscriptions[node->first] = parts_of(node->second);
+      for (const auto& [kind, part] : parts) mark_part(store, node->first, kind, part, mark);
+    }
     session.next_listed = node == store.nodes().end() ? no_node : node->first;
   }
 
@@ -300,7 +344,8 @@ struct ReplicationServer::State {
       session.unacknowledged_bytes += batch.bytes;
       session.unacknowledged.push_back(std::move(batch));
       session.owes_acknowledgement = false;
-      if (!offer(encode(CommandBatch{session.sent, session.received, std::move(commands), session.changed_at})))
+      if (!offer(encode(CommandBatch{session.sent, session.received, std::move(commands), session.changed_at,
+                                     session.outbox.goes_on()})))
         return pumped;
     }
 

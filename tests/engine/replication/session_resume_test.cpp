@@ -171,13 +171,13 @@ TEST_CASE("commands are packed where that makes them smaller and unpacked to exa
   CHECK(bytes.size() < commands.size() / 4);
   CHECK(std::get<CommandBatch>(replication::decode(bytes).value()).commands == commands);
   Bytes few(commands.begin(), commands.begin() + 100);
-  CHECK(replication::encode(CommandBatch{1, 0, few}).size() == 6 + few.size());
-  // A claim of another size is refused: version, kind, sequence, received, tick, packing, then the size as a varint of two
+  CHECK(replication::encode(CommandBatch{1, 0, few}).size() == 7 + few.size());
+  // A claim of another size is refused: version, kind, sequence, received, tick, goes on, packing, then the size as a varint of two
   // bytes.
-  REQUIRE(bytes[5] == std::byte{1});
+  REQUIRE(bytes[6] == std::byte{1});
   for (const int by : {-1, 1}) {
     Bytes wrong = bytes;
-    wrong[6] = static_cast<std::byte>(static_cast<int>(wrong[6]) + by);
+    wrong[7] = static_cast<std::byte>(static_cast<int>(wrong[7]) + by);
     CHECK_FALSE(replication::decode(wrong).has_value());
   }
 }

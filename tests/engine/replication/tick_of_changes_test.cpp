@@ -1,8 +1,15 @@
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "engine/core/random.hpp"
+#include "engine/replication/message.hpp"
+#include "engine/scene/command_codec.hpp"
+#include "tests/engine/replication/whole_things.hpp"
 #include "tests/engine/replication/wire.hpp"
 
 namespace septet::replication {
@@ -65,6 +72,115 @@ TEST_CASE("a node that a later tick shows comes whole at that tick") {
   CHECK_FALSE(end.client->store().find(deer));
   REQUIRE(end.client->show(8).has_value());
   CHECK(same_content(end.client->store(), wire.store));
+}
+
+TEST_CASE("in real time no picture has a node whose content is not there yet, however late its messages come") {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+    CAPTURE(seed);
+    Random random(seed);
+    Wire wire;
+    wire.build.add_object("ground", {});
+    auto& end = wire.add("left");
+    REQUIRE(wire.settle(end));
+    REQUIRE(end.client->show(1).has_value());
+    // Ticks are shown when they are due, whatever has come of the scene: the lane repeats what was lost, and all behind it waits.
+    constexpr NodeId first = 100;
+    NodeId next = first;
+    std::size_t bare = 0, pictures = 0, seen = 0;
+    for (std::uint64_t tick = 2; tick < 600; ++tick) {
+      if (tick < 300 && random.below(3) == 0) {
+        for (const Command& command : commands_of_a_thing(next)) change(wire, command, tick);
+        next += 10;
+      }
+      // Another look for a thing, made after it was first marked.
+      if (next > first && random.below(4) == 0) {
+        const NodeId things = (next - first) / 10;
+        const NodeId thing = next - 10 * (1 + static_cast<NodeId>(random.below(std::min(things, NodeId{3}))));
+        const NodeId look = thing + 3 + static_cast<NodeId>(random.below(5));
+        if (!wire.store.find(look)) {
+          change(wire, NodeCreate{look, NodeType::material}, tick);
+          change(wire, FragmentSet{look, 0, ColorFragment{{0, 0, 1}}}, tick);
+          change(wire, LinkSet{thing, 1, {"material", look, 0}}, tick);
+        }
+      }
+      wire.pump(end, 48 * 1024, random.below(5));
+      REQUIRE(end.client->show(tick).has_value());
+      ++pictures;
+      bare += !shows_nothing_bare(end.client->store());
+      seen = end.client->store().nodes().size();
+    }
+    CHECK(bare == 0);
+    CHECK(seen > 30);
+    REQUIRE(wire.settle(end));
+    REQUIRE(end.client->show(1000).has_value());
+    CHECK(same_content(end.client->store(), wire.store));
+  }
+}
+
+TEST_CASE("what belongs together is held until all of it is there, and what comes behind it waits") {
+  Wire wire({.batch_bytes = 100});
+  wire.build.add_object("ground", {});
+  auto& end = wire.add("left");
+  REQUIRE(wire.settle(end));
+  REQUIRE(end.client->show(5).has_value());
+  constexpr NodeId thing = 500;
+  for (const Command& command : std::vector<Command>{
+           NodeCreate{thing, NodeType::object}, NodeNameSet{thing, std::string(150, 'n')},
+           TagGroupSet{thing, 0, std::string(150, 'g')}, TagSet{thing, 0, 0, {"t", std::string(150, 't')}}})
+    change(wire, command, 6);
+  for (int messages = 0; messages < 3; ++messages) {
+    CHECK_FALSE(end.client->store().find(thing));
+    wire.pump(end, 1u << 20, 1);
+    REQUIRE(end.client->show(9).has_value());
+  }
+  REQUIRE(wire.settle(end));
+  REQUIRE(end.client->show(9).has_value());
+  CHECK(same_content(end.client->store(), wire.store));
+}
+
+TEST_CASE("what points at a node made after it was first sent for comes with that node") {
+  Wire wire({.batch_bytes = 40});
+  wire.build.add_object("ground", {});
+  auto& end = wire.add("left");
+  REQUIRE(wire.settle(end));
+  REQUIRE(end.client->show(5).has_value());
+  constexpr NodeId thing = 500, look = 501, later_look = 502;
+  const auto make_look = [&](NodeId id, std::uint64_t tick) {
+    change(wire, NodeCreate{id, NodeType::material}, tick);
+    change(wire, NodeNameSet{id, std::string(100, 'n')}, tick);
+    change(wire, FragmentSet{id, 0, ColorFragment{}}, tick);
+    change(wire, LinkSet{thing, 1, {std::string(60, 'l'), id, 0}}, tick);  // A message by itself.
+  };
+  change(wire, NodeCreate{thing, NodeType::object}, 6);
+  make_look(look, 6);
+  make_look(later_look, 7);  // The link still waits, and is written as it is by then.
+  std::size_t with_link = 0;
+  for (int messages = 0; messages < 12; ++messages) {
+    wire.pump(end, 1u << 20, 1);
+    REQUIRE(end.client->show(9).has_value());
+    const Node* object = end.client->store().find(thing);
+    if (!object || std::get<ObjectData>(object->data).links.empty()) continue;
+    ++with_link;
+    const Node* worn = end.client->store().find(std::get<ObjectData>(object->data).links.at(1).target);
+    REQUIRE(worn);
+    CHECK_FALSE(std::get<MaterialData>(worn->data).fragments.empty());
+  }
+  CHECK(with_link > 0);
+}
+
+TEST_CASE("what was to be followed is shown when the server has no more to say") {
+  ReplicationClient client;
+  client.connected();
+  REQUIRE(client.receive(encode(Welcome{1, false, 0, 1000})).has_value());
+  REQUIRE(client.show(1).has_value());
+  Bytes create;
+  scene::encode(NodeCreate{5, NodeType::object}, create);
+  REQUIRE(client.receive(encode(CommandBatch{1, 0, create, 2, true})).has_value());
+  REQUIRE(client.show(3).has_value());
+  CHECK_FALSE(client.store().find(5));
+  REQUIRE(client.receive(encode(Complete{1, 0})).has_value());
+  REQUIRE(client.show(4).has_value());
+  CHECK(client.store().find(5));
 }
 
 TEST_CASE("a mirror that is filled anew keeps nothing back") {

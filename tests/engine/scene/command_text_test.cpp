@@ -65,7 +65,7 @@ TEST_CASE("a line that is no command names the word that is wrong") {
   CHECK(why("hide-set +0 yes") == "word 3, \"yes\", is not 0 or 1");
   CHECK(why("hide-set +0 1 1").find("word 4") != std::string::npos);
   CHECK(why("hidden +0 1").find("word 1") != std::string::npos);
-  CHECK(why("transform-set +0 1 2 nan").find("not finite") != std::string::npos);
+  CHECK(why("transform-set +0 1 2 nan").find("is no number") != std::string::npos);
   CHECK(why("vertices-set +0 0 4000000000").find("count of what follows") != std::string::npos);
   CHECK(why("node-name-set +0 \"a") == "a text without its end");
   CHECK(why("node-name-set +0 \"\\q\"") == "an unknown escape");
