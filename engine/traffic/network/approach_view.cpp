@@ -136,6 +136,7 @@ std::vector<Vec3> looked_for_places(const LaneGraph& graph, WayIndex entry, doub
 }  // namespace
 
 double critical_gap_s(const Way& way) {
+  if (way.onto_ring) return 5.0;
   const double keeps = way.left_hand ? -1.0 : 1.0;
   const double left_rad = keeps * way.turns_rad;
   if (way.rank == Rank::priority || (way.rank == Rank::equal && left_rad > turns_from_rad)) return 4.1;

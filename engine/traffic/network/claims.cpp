@@ -19,7 +19,11 @@ constexpr double ahead_s = 1.5;      ///< Between one who has left a conflict an
 constexpr double patience_s = 3.0;   ///< Then somebody who stands before his own right of way is passed.
 constexpr double courtesy_s = 25.0;  ///< Then those who can stop let him in.
 constexpr double tired_s = 5.0;      ///< Each time another way is chosen, if what lies beyond this one is full.
-constexpr double at_line_m = 8.0, stands_mps = 0.5;
+constexpr double queues_mps = 5.0, looks_at_m = 1.5;  ///< Slower, and from there on, one out of a queue looks.
+constexpr double starts_before_s = 0.5;    ///< Before one who crosses is there, whom it lets pass, somebody starts.
+constexpr double reckoned_early_s = 0.15;  ///< Who comes is reckoned to speed up, so that gaps look shorter.
+constexpr double rolls_mps = 1.0;          ///< Slower, one has stopped at a stop sign.
+constexpr double at_line_m = 8.0, stands_mps = 0.5, stands_at_line_m = 2.0;
 
 /// What a claim covers.
 Passage passage_from(const LaneGraph& graph, const TownVehicle& vehicle, std::size_t first, double begin_m) {
@@ -69,8 +73,10 @@ bool has_room_beyond(const LaneGraph& graph, const Presences& presences, const T
   double room_m = 0.0, taken_m = 0.0;
   for (std::size_t k = passage.last + 1; k < vehicle.route.size() && room_m < 60.0; ++k) {
     const Way& way = graph.ways[vehicle.route[k]];
-    double end_m = way.length_m;
-    bool is_ended = way.in_junction();
+    // Nobody waits before the next junction of a roundabout but for somebody who does.
+    const bool holds_nobody = way.in_junction() && !way.on_ring;
+    double end_m = holds_nobody ? 0.0 : way.length_m;
+    bool is_ended = holds_nobody;
     for (const Presence& presence : presences.on(vehicle.route[k])) {
       if (presence.who == self || is_behind(here, self, presence.who)) continue;
       const bool is_first = k == passage.last + 1;
@@ -83,7 +89,7 @@ bool has_room_beyond(const LaneGraph& graph, const Presences& presences, const T
       const double until_m = std::max(0.0, presence.rear_m) + presence.speed_mps * presence.speed_mps / leaves_mps2;
       if (until_m < end_m) end_m = until_m, is_ended = true;
     }
-    room_m += is_ended && way.in_junction() ? 0.0 : end_m;
+    room_m += end_m;
     if (is_ended) break;
   }
   const bool ends_here = passage.last + 1 >= vehicle.route.size();
@@ -97,6 +103,18 @@ struct Approach {
   double front_m = 0.0;  ///< Of the vehicle, from the way's begin.
   double most_mps = 0.0;
 };
+
+/// Time until a vehicle may have somebody behind it who comes along the way into which it turns: it is there by then, and he
+/// brakes gently at most to its speed, to which it goes on gaining.
+double merges_in_s(const Approach& approach, double to_begin_m, double his_mps) {
+  constexpr double lets_in_mps2 = 2.0;
+  const TownVehicle& vehicle = approach.vehicle;
+  const double a = 0.8 * vehicle.driver.following.acceleration_mps2, v = vehicle.speed_mps;
+  const double there_mps = std::min(std::sqrt(v * v + 2.0 * a * to_begin_m), std::max(v, approach.most_mps));
+  const double closing_mps = std::max(0.0, his_mps - there_mps);
+  const double behind_m = vehicle.length_m() + standing_gap_m + closing_mps * closing_mps / (2.0 * (lets_in_mps2 + a));
+  return travel_s(to_begin_m, v, a, approach.most_mps) + behind_m / std::max(his_mps, 1.0);
+}
 
 /// True where this presence on the other way of a conflict leaves the vehicle free to go.
 bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, const WayConflict& conflict,
@@ -115,6 +133,11 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
           (mine.length_m + mine.to_exit_m - approach.front_m) - (his.length_m + his.to_exit_m - other.front_m);
       if (behind_m > 3.0 && other.speed_mps > 1.0) return true;
     }
+    // Nobody starts across before one who is not there yet.
+    const double soon_m = conflict.with_whole_from_m - other.front_m;
+    if (conflict.kind == WayConflict::Kind::crossing && mine.rank == Rank::yields && vehicle.speed_mps < queues_mps &&
+        soon_m > starts_before_s * other.speed_mps)
+      return false;
     const double arrives_s = travel_s(to_begin_m, vehicle.speed_mps, a, approach.most_mps);
     const double clears_s = travel_s(conflict.with_whole_to_m - other.rear_m, other.speed_mps, 1.0, his_most);
     return arrives_s > clears_s + behind_s;
@@ -125,11 +148,13 @@ bool lets_go(const LaneGraph& graph, const Approach& approach, const Way& mine, 
   const bool can_stop = other.speed_mps * other.speed_mps < 2.0 * stop_mps2 * to_line_m || other.speed_mps < stands_mps;
   if (vehicle.waits_s > courtesy_s * vehicle.urge && can_stop && !has_green) return true;
   if (has_green && vehicle.waits_s > 2.0 * courtesy_s * vehicle.urge && can_stop) return true;
-  const double clears_s = travel_s(conflict.whole_to_m - approach.front_m + vehicle.length_m(), vehicle.speed_mps,
-                                   0.8 * a, approach.most_mps);
+  const bool merges = conflict.kind == WayConflict::Kind::merging;
+  const double clears_s = merges ? merges_in_s(approach, to_begin_m, std::max(other.speed_mps, his_most))
+                                 : travel_s(conflict.whole_to_m - approach.front_m + vehicle.length_m(),
+                                            vehicle.speed_mps, 0.8 * a, approach.most_mps);
   const double his_arrives_s = travel_s(conflict.with_whole_from_m - other.front_m, other.speed_mps, 1.5, his_most);
-  double needed_s = clears_s + ahead_s * vehicle.urge;
-  if (vehicle.speed_mps < 3.0) needed_s = std::max(needed_s, critical_gap_s(mine) * vehicle.urge);
+  double needed_s = merges ? clears_s : clears_s + ahead_s * vehicle.urge;
+  if (vehicle.speed_mps < 3.0) needed_s = std::max(needed_s, (critical_gap_s(mine) - reckoned_early_s) * vehicle.urge);
   return his_arrives_s > needed_s;
 }
 
@@ -285,6 +310,18 @@ std::optional<NextClaim> next_claim(const LaneGraph& graph, const TownVehicle& v
   return next;
 }
 
+/// True where a vehicle goes on to its line before it claims: at a stop sign everybody stands there, unless lights are
+/// lit; out of a queue one looks from the line, and only then goes on.
+bool goes_to_line_first(const LaneGraph& graph, LightState light, const TownVehicle& vehicle, const NextClaim& next) {
+  if (light != LightState::dark) return false;
+  const double v = vehicle.speed_mps;
+  const Way& before = graph.ways[vehicle.route[next.first - 1]];
+  const Way& entry = graph.ways[vehicle.route[next.first]];
+  if (before.has_stop && (v >= rolls_mps || next.line_m > stands_at_line_m)) return true;
+  const bool looks_at_line = entry.rank == Rank::yields && !entry.onto_ring && !entry.on_ring;
+  return looks_at_line && v < queues_mps && next.line_m > looks_at_m;
+}
+
 /// True where a vehicle is not the first before the line: behind somebody who waits himself it is not its turn.
 bool is_behind_another(const LaneGraph& graph, const Leader& leader, const TownState& town, double line_m) {
   if (leader.who < 0) return leader.gap_m < line_m;
@@ -344,6 +381,7 @@ double negotiate(const LaneGraph& graph, std::span<const LightState> lights, con
 
   const LightState light = light_before(lights, graph.ways[vehicle.route[next->first - 1]]);
   if (!light_allows(light, vehicle, line_m)) return stop_m;
+  if (goes_to_line_first(graph, light, vehicle, *next)) return stop_m;
   const Passage passage = passage_from(graph, vehicle, next->first, next->begin_m);
   // Who has green gives way to the oncoming alone, whom he has before him.
   const bool looks = light != LightState::green && light != LightState::amber;
@@ -391,7 +429,8 @@ std::optional<std::int32_t> only_one_let_pass(const LaneGraph& graph, std::span<
   const std::optional<NextClaim> next = next_claim(graph, vehicle);
   if (!next || is_behind_another(graph, leader, town, next->line_m)) return std::nullopt;
   const LightState light = light_before(lights, graph.ways[vehicle.route[next->first - 1]]);
-  if (!light_allows(light, vehicle, next->line_m)) return std::nullopt;
+  if (!light_allows(light, vehicle, next->line_m) || goes_to_line_first(graph, light, vehicle, *next))
+    return std::nullopt;
   const Passage passage = passage_from(graph, vehicle, next->first, next->begin_m);
   const bool has_green = light == LightState::green;
   if (!has_green && walls_hide(graph, vehicle, passage, next->line_m)) return std::nullopt;

@@ -111,7 +111,7 @@ double acceleration_of(const LaneGraph& graph, const TownVehicle& vehicle, const
     // Its rear is in the bend still.
     if (front_m > 0.0)
       for (double at = std::max(0.0, front_m - length_m); at < std::min(front_m, way.length_m); at += 2.0) {
-        const double curvature = std::abs(place_on_way(graph, way, at).curvature_per_m);
+        const double curvature = std::abs(curvature_on_way_per_m(graph, way, at));
         bound = std::min(bound, keeping_to(town_bend_mps2 / std::max(curvature, 1e-6), 0.0, v));
       }
   }

@@ -213,6 +213,18 @@ void find_turns(LaneGraph& graph) {
   }
 }
 
+/// The point before a place, and the share of the step from there to it.
+struct Between {
+  std::uint32_t point = 0;
+  double share = 0.0, step_m = 0.0;
+};
+Between between_points(const Way& way, double at_m) {
+  const double step_m = way.length_m / static_cast<double>(way.points.count - 1);
+  const double at = std::clamp(at_m / step_m, 0.0, static_cast<double>(way.points.count - 1));
+  const auto k = std::min(static_cast<std::uint32_t>(at), way.points.count - 2);
+  return {way.points.first + k, at - static_cast<double>(k), step_m};
+}
+
 }  // namespace
 
 LaneGraph build_lane_graph(const road::RoadNetwork& network) {
@@ -236,11 +248,8 @@ WayIndex way_at(const LaneGraph& graph, const road::RoadNetwork& network, road::
 }
 
 PlaceOnWay place_on_way(const LaneGraph& graph, const Way& way, double at_m) {
-  const double step = way.length_m / static_cast<double>(way.points.count - 1);
-  const double at = std::clamp(at_m / step, 0.0, static_cast<double>(way.points.count - 1));
-  const auto k = std::min(static_cast<std::uint32_t>(at), way.points.count - 2);
-  const double u = at - static_cast<double>(k);
-  const WayPoint &a = graph.points[way.points.first + k], &b = graph.points[way.points.first + k + 1];
+  const auto [k, u, step] = between_points(way, at_m);
+  const WayPoint &a = graph.points[k], &b = graph.points[k + 1];
   // Hermite's cubic through both points with both tangents.
   const double u2 = u * u, u3 = u2 * u;
   PlaceOnWay place;
@@ -255,13 +264,16 @@ PlaceOnWay place_on_way(const LaneGraph& graph, const Way& way, double at_m) {
   return place;
 }
 
+double curvature_on_way_per_m(const LaneGraph& graph, const Way& way, double at_m) {
+  const auto [k, u, step] = between_points(way, at_m);
+  const double from = graph.points[k].curvature_per_m;
+  return from + u * (graph.points[k + 1].curvature_per_m - from);
+}
+
 AllowedSquare bend_square_at(const LaneGraph& graph, const Way& way, double at_m) {
-  const double step = way.length_m / static_cast<double>(way.points.count - 1);
-  const double at = std::clamp(at_m / step, 0.0, static_cast<double>(way.points.count - 1));
-  const auto k = std::min(static_cast<std::uint32_t>(at), way.points.count - 2);
-  const double low = graph.points[way.points.first + k].bend_m2ps2;
-  const double high = graph.points[way.points.first + k + 1].bend_m2ps2;
-  return {low + (at - static_cast<double>(k)) * (high - low), (high - low) / step};
+  const auto [k, u, step] = between_points(way, at_m);
+  const double low = graph.points[k].bend_m2ps2, high = graph.points[k + 1].bend_m2ps2;
+  return {low + u * (high - low), (high - low) / step};
 }
 
 bool has_crossings(const LaneGraph& graph) {

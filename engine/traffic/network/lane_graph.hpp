@@ -54,12 +54,15 @@ struct Way {
   /// positive), and its right of way there.
   double enters_rad = 0.0, turns_rad = 0.0;
   Rank rank = Rank::equal;
+  bool onto_ring = false;  ///< It leads into a roundabout.
+  bool on_ring = false;    ///< It lies on a roundabout's ring, or leads out of it and crosses nobody.
   /// Its connecting road's first and last way, and the distances from where that begins and to where it ends.
   WayIndex entry = no_way, exit = no_way;
   double from_entry_m = 0.0, to_exit_m = 0.0;
-  /// Of a way that ends at a junction: distance of its stop line from its end, and whether lights hang there.
+  /// Of a way that ends at a junction: distance of its stop line from its end, whether lights hang there, and whether a
+  /// stop sign (206) has everybody stand at the line.
   double line_before_m = 1.0;
-  bool has_light = false;
+  bool has_light = false, has_stop = false;
   bool goes_on = true;          ///< A drive from here need not end.
   double tightest_per_m = 0.0;  ///< Greatest curvature, as a magnitude.
   Range points, next, before, conflicts, long_conflicts;
@@ -129,6 +132,9 @@ struct PlaceOnWay {
   double width_m = 0.0;  ///< Of the lane.
 };
 PlaceOnWay place_on_way(const LaneGraph& graph, const Way& way, double at_m);
+
+/// Its curvature alone.
+double curvature_on_way_per_m(const LaneGraph& graph, const Way& way, double at_m);
 
 /// Square of the speed that bends allow at a place, and its slope by the metre.
 struct AllowedSquare {

@@ -30,6 +30,13 @@ Rank rank_by_signs(const road::Road& road, bool along_s) {
   return rank;
 }
 
+bool has_stop_sign(const road::Road& road, bool along_s) {
+  return std::ranges::any_of(road.signals, [&](const road::Signal& signal) {
+    return signal.type == "206" && applies_along_s(road, signal) == along_s &&
+           before_end_m(road, along_s, signal.s_m) <= near_end_m;
+  });
+}
+
 /// Where a junction orders some of its roads, one that only goes before others has priority, one that only waits yields,
 /// and one that does both is between them.
 Rank rank_by_order(const road::Junction& junction, road::RoadIndex road) {
@@ -108,8 +115,18 @@ void rank_roundabouts(LaneGraph& graph) {
   for (WayIndex index = 0; index < graph.ways.size(); ++index)
     if (on_ring[index] != 0) {
       graph.ways[index].rank = Rank::priority;
-      for (const WayConflict& conflict : graph.conflicts_of(graph.ways[index]))
-        if (on_ring[conflict.with] == 0) graph.ways[conflict.with].rank = Rank::yields;
+      graph.ways[index].on_ring = true;
+      for (const WayConflict& conflict : graph.conflicts_of(graph.ways[index])) {
+        if (on_ring[conflict.with] != 0) continue;
+        Way& beside = graph.ways[conflict.with];
+        beside.rank = Rank::yields;
+        const auto conflicts = graph.conflicts_of(beside);
+        beside.onto_ring = std::ranges::any_of(conflicts, [&](const WayConflict& own) {
+          return on_ring[own.with] != 0 && own.kind != WayConflict::Kind::diverging;
+        });
+        beside.on_ring = std::ranges::all_of(
+            conflicts, [](const WayConflict& own) { return own.kind == WayConflict::Kind::diverging; });
+      }
     }
 }
 
@@ -127,6 +144,7 @@ void find_right_of_way(const road::RoadNetwork& network, LaneGraph& graph) {
       if (!next.in_junction()) continue;
       if (const Rank rank = rank_into(network, way, next); rank != Rank::equal) next.rank = rank;
     }
+    way.has_stop = has_stop_sign(road, way.along_s);
     for (const YieldLine& line : lines) {
       if (line.road != way.road || line.along_s != way.along_s || line.kind == YieldLine::Kind::crossing) continue;
       const double before_m = before_end_m(road, way.along_s, line.s_m);

@@ -20,8 +20,8 @@ namespace septet::traffic {
 /// From the crossing's middle to where an arm ends, and the radius of the lane's middle in a right turn.
 inline constexpr double arm_end_m = 10.0, lane_m = 3.5, right_turn_m = arm_end_m - 0.5 * lane_m;
 
-/// Signs: give way on the arms of west and east, priority on those of south and north; or lights on all arms.
-enum class Posted : std::uint8_t { nothing, signs, lights };
+/// Signs: give way (or stop) on the arms of west and east, priority on those of south and north; or lights on all arms.
+enum class Posted : std::uint8_t { nothing, signs, stop_signs, lights };
 
 inline road::RoadNetwork crossing(bool left_hand = false, Posted posted = Posted::nothing) {
   struct Arm {
@@ -53,9 +53,10 @@ inline road::RoadNetwork crossing(bool left_hand = false, Posted posted = Posted
           "<signals><signal s=\"{}\" t=\"-5\" id=\"s-{}\" name=\"\" dynamic=\"{}\" orientation=\"+\" zOffset=\"2\" "
           "country=\"{}\" type=\"{}\" subtype=\"-1\" height=\"0.6\" width=\"0.6\"/></signals>",
           arm_m - 2.0, arm.name, lights ? "yes" : "no", lights ? "OpenDRIVE" : "DE",
-          lights  ? "1000001"
-          : minor ? "205"
-                  : "301");
+          lights                         ? "1000001"
+          : !minor                       ? "301"
+          : posted == Posted::stop_signs ? "206"
+                                         : "205");
     }
     text += fmt::format(
         "<road id=\"{}\" name=\"\" length=\"{}\" junction=\"-1\" rule=\"{}\"><link><successor "
