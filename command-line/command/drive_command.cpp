@@ -19,6 +19,7 @@
 #include "command-line/command/drive_folder.hpp"
 #include "command-line/command/last_line.hpp"
 #include "command-line/command/panorama_file.hpp"
+#include "command-line/command/town_scenario.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/document/text_file.hpp"
 #include "engine/editor/edit_place.hpp"
@@ -432,7 +433,9 @@ Expected<int> run_drive(DriveOptions options) {
   const auto rig = rig::read_rig(*rig_text, rig_file->string());
   if (!rig) return tl::unexpected(rig.error());
   if (options.replay.empty()) {
-    const auto scenario = program::find_resource(options.scenario, "scenarios", ".xosc");
+    const auto found = program::find_resource(options.scenario, "scenarios", ".xosc");
+    if (!found) return tl::unexpected(found.error());
+    const auto scenario = found->extension() == ".xodr" ? scenario_beside(*found) : found;
     if (!scenario) return tl::unexpected(scenario.error());
     options.scenario = scenario->string();
   }

@@ -42,8 +42,9 @@ void add_models_option(CLI::App& command, std::filesystem::path& models) {
 void add_drive_commands(CLI::App& app, Options& options) {
   auto* drive_command = app.add_subcommand("drive", "Drive a scenario: server, screens and car on this machine");
   add_drive_options(*drive_command, options.drive, "out/latest", "0 in a window, 30 off-screen");
-  drive_command->add_option("--scenario", options.drive.scenario,
-                            "OpenSCENARIO file, its folder, or a name of septet list scenarios");
+  drive_command->add_option(
+      "--scenario", options.drive.scenario,
+      "OpenSCENARIO file, its folder, a name of septet list scenarios, or a road by itself (docs/your-town.md)");
   drive_command
       ->add_option("--parameter", options.drive.parameters,
                    "Of the scenario, instead of its own value; as often as needed")

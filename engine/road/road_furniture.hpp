@@ -67,6 +67,9 @@ struct Signal {
   Orientation orientation = Orientation::both;
   bool dynamic = false;
   int from_lane = 0, to_lane = 0;  ///< Range of its lanes; both 0 where it is valid for all.
+
+  /// A light for vehicles, of round lamps or of arrows (OpenDRIVE's catalogue).
+  bool is_vehicle_light() const { return dynamic && (type == "1000001" || type == "1000011"); }
 };
 
 }  // namespace septet::road

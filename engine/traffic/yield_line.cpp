@@ -68,7 +68,7 @@ std::vector<YieldLine> yield_lines(const road::RoadNetwork& network) {
     const std::size_t first = lines.size();
     for (const road::Signal& signal : road.signals) {
       const bool along = applies_along_s(road, signal);
-      if (signal.dynamic && signal.type == "1000001")
+      if (signal.is_vehicle_light())
         lines.push_back({Kind::light, index, along, stop_line_s(road, signal, along), signal.s_m});
       if (signal.type == "205" || signal.type == "206")
         lines.push_back({Kind::give_way, index, along, signal.s_m, signal.s_m});

@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -20,6 +24,25 @@ void check_named_places(const Reading& reading, const road::RoadNetwork& network
                     fmt::format("name a place that {} has", reading.scenario.road_file));
     }
   }
+}
+
+/// Names vehicles' lights that no phase switches.
+void check_lights(const Reading& reading, const road::RoadNetwork& network, const Element& logic_file) {
+  constexpr std::size_t most_named = 5;
+  std::set<std::string_view> switched;
+  for (const SignalController& controller : reading.scenario.signals)
+    for (const SignalPhase& phase : controller.phases)
+      for (const SignalState& state : phase.states) switched.insert(state.signal);
+  std::size_t count = 0;
+  std::string names;
+  for (const road::Road& road : network.roads)
+    for (const road::Signal& signal : road.signals)
+      if (signal.is_vehicle_light() && !switched.contains(signal.id) && ++count <= most_named)
+        names += (names.empty() ? "" : ", ") + signal.id.substr(0, 40);
+  if (count == 0) return;
+  logic_file.warning(fmt::format("{} traffic lights of the road have no phase and stay dark: {}{}", count, names,
+                                 count > most_named ? ", …" : ""),
+                     "switch them by a TrafficSignalController, or expect traffic to go by signs");
 }
 
 /// Checks the places of all entities after Init.
@@ -63,6 +86,7 @@ void check_on_road(Reading& reading, const Element& logic_file) {
     return;
   }
   check_named_places(reading, *network);
+  check_lights(reading, *network, logic_file);
   // Init runs only where all of it could be read.
   if (!findings_of(*reading.xml_files.front()).has_error()) check_start(reading, *network);
 }

@@ -36,20 +36,26 @@ inline LitTown walled_town(road::RoadNetwork network) {
   return town;
 }
 
-/// scenarios/town, with its walls, and its lights as its scenario switches them.
+/// With its lights as a scenario switches them.
+inline LitTown lit_town(road::RoadNetwork network, scenario::Scenario scenario) {
+  LitTown town = walled_town(std::move(network));
+  const auto model = std::make_shared<simulation::Model>();
+  model->scenario = std::move(scenario);
+  model->lights = simulation::switched_lights(roadside::RoadShape(town.network, roadside::usual_overrun_m),
+                                              model->scenario.signals);
+  if (!model->lights.empty()) town.lights_at = [model](double time_s) { return simulation::lit_heads(*model, time_s); };
+  return town;
+}
+
+/// scenarios/town.
 inline LitTown shipped_town() {
   auto network = road::read_opendrive(shipped_text("scenarios/town/town.xodr"), "town.xodr");
   REQUIRE_MESSAGE(network.has_value(), why_not(network));
   auto scenario = scenario::read_scenario(shipped_text("scenarios/town/town.xosc"), "town.xosc",
                                           scenario::files_in(source_folder() + "/scenarios/town"));
   REQUIRE_MESSAGE(scenario.has_value(), why_not(scenario));
-  LitTown town = walled_town(std::move(*network));
-  const auto model = std::make_shared<simulation::Model>();
-  model->scenario = std::move(*scenario);
-  model->lights = simulation::switched_lights(roadside::RoadShape(town.network, roadside::usual_overrun_m),
-                                              model->scenario.signals);
-  REQUIRE(!model->lights.empty());
-  town.lights_at = [model](double time_s) { return simulation::lit_heads(*model, time_s); };
+  LitTown town = lit_town(std::move(*network), std::move(*scenario));
+  REQUIRE(town.lights_at);
   return town;
 }
 
