@@ -1,253 +1,26 @@
-// septet-figures: figures 3, 8, 9, 10 and 11 of Servin, Lacoursière and Melin (2006) as SVG, all but the first drawn
-// from Septet's own stepper, each with the paper's claim and the result.
-
-#include <time.h>
+#include "tests/benchmarks/figures/elastic_figures.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
-#include "engine/document/chart_page.hpp"
 #include "engine/document/text_file.hpp"
-#include "tests/benchmarks/figures/ice_figures.hpp"
-#include "tests/benchmarks/figures/motion_figures.hpp"
-#include "tests/benchmarks/figures/smoke_figures.hpp"
-#include "tests/benchmarks/figures/swinging_cube.hpp"
-#include "tests/engine/physics/elastic/beam.hpp"
 
 namespace septet::figures {
-namespace {
 
-using namespace septet::elastic;
-using document::Range;
-using document::Series;
-using document::Stroke;
-
-struct Plot {
-  std::string title, x_label, y_label;
-  std::string claim;     ///< The paper's claim.
-  std::string measured;  ///< The result.
-  std::vector<Series> series;
-  std::optional<Range> y;
-};
-
-std::string to_svg(const Plot& plot) {
-  document::LineChart chart;
-  chart.x_label = plot.x_label;
-  chart.y_label = plot.y_label;
-  chart.series = plot.series;
-  chart.y = plot.y;
-  return document::to_svg(document::ChartPage{.title = plot.title,
-                                              .lines = {"Paper: " + plot.claim, "Here: " + plot.measured},
-                                              .charts = {chart},
-                                              .notes = {}});
+Expected<void> draw_elastic(const std::filesystem::path& folder) {
+  auto figures = draw_elastic_pictures(folder);
+  if (!figures) return tl::unexpected(figures.error());
+  const auto charts = draw_elastic_charts(folder);
+  if (!charts) return tl::unexpected(charts.error());
+  figures->insert(figures->end(), charts->begin(), charts->end());
+  std::ranges::stable_sort(*figures, {}, [](const ElasticFigure& f) { return std::stoi(f.number); });
+  std::string table = "| figure | published | here | picture |\n|---|---|---|---|\n";
+  for (const ElasticFigure& f : *figures) {
+    table += fmt::format("| {} | {} | {} | `{}` |\n", f.number, f.published, f.here, f.file);
+    fmt::print("{}\n  paper: {}\n  here:  {}\n", (folder / f.file).string(), f.published, f.here);
+  }
+  return document::write_text_file(folder / "elastic.md", table);
 }
 
-Plot swinging_cube_figure() {
-  using swinging_cube::Stepper;
-  Plot plot{"Figure 3: height of the corner of a swinging cube",
-            "time, s",
-            "height, m",
-            "linear implicit Euler takes 35 % longer at 0.05 s, the regularised stepper keeps time",
-            "",
-            {},
-            {}};
-  double regularised_s = 0.0, implicit_s = 0.0;
-  std::vector<double> heights;
-  for (const auto& [name, stepper, dt, mark] :
-       {std::tuple{"implicit Euler, 0.05 s", Stepper::implicit_euler, 0.05, Stroke::dots},
-        std::tuple{"implicit Euler, 0.005 s", Stepper::implicit_euler, 0.005, Stroke::dashed},
-        std::tuple{"regularised, 0.05 s", Stepper::regularised, 0.05, Stroke::dots},
-        std::tuple{"regularised, 0.005 s", Stepper::regularised, 0.005, Stroke::line}}) {
-    heights = swinging_cube::heights(stepper, dt, 3.0, 2.0);
-    Series series{name, {}, mark};
-    for (std::size_t i = 0; i < heights.size(); ++i) series.points.push_back({dt * static_cast<double>(i), heights[i]});
-    if (dt == 0.05)
-      (stepper == Stepper::regularised ? regularised_s : implicit_s) = swinging_cube::time_of_minimum_s(heights, dt);
-    plot.series.push_back(std::move(series));
-  }
-  const double reference_s = swinging_cube::time_of_minimum_s(heights, 0.005);
-  plot.measured = fmt::format("time to the minimum at 0.05 s: {:+.0f} % with implicit Euler, {:+.1f} % regularised",
-                              100 * (implicit_s / reference_s - 1), 100 * (regularised_s / reference_s - 1));
-  return plot;
-}
-
-Plot pull_figure() {
-  Plot plot{"Figure 8: pull and push of a beam", "F / YA", "ΔL / L", "fits Hooke's law", "", {}, {}};
-  Series hooke{"Hooke: F / YA", {}, Stroke::dashed};
-  Series exact{"St. Venant-Kirchhoff: s(s²-1)/2 = F / YA", {}, Stroke::line};
-  for (int k = -10; k <= 10; ++k) {
-    const double load = 0.01 * k;
-    hooke.points.push_back({load, load});
-    exact.points.push_back({load, beam::st_venant_kirchhoff_strain(load)});
-  }
-  double worst = 0.0;
-  plot.series = {hooke, exact};
-  for (const auto& [name, cells, free] :
-       {std::tuple{"105 tetrahedra, pulled at both ends", 1, true}, std::tuple{"105 tetrahedra, clamped", 1, false},
-        std::tuple{"840 tetrahedra, pulled at both ends", 2, true}}) {
-    Series series{name, {}, Stroke::dots};
-    for (const double load : {0.001, 0.02, 0.04, 0.06, 0.08, 0.1}) {
-      series.points.push_back({load, beam::static_stretch(cells, load, free)});
-      worst = std::max(worst, std::abs(series.points.back().y / beam::st_venant_kirchhoff_strain(load) - 1));
-    }
-    plot.series.push_back(std::move(series));
-  }
-  Series push{"pushed block of 40 tetrahedra", {}, Stroke::dots};
-  for (const double load : {-0.02, -0.04, -0.06, -0.08, -0.1}) {
-    push.points.push_back({load, beam::static_push_strain(2, load)});
-    worst = std::max(worst, std::abs(push.points.back().y / beam::st_venant_kirchhoff_strain(load) - 1));
-  }
-  plot.series.push_back(std::move(push));
-  plot.measured =
-      fmt::format("within {:.1f} % of St. Venant-Kirchhoff; Hooke's law itself only at small strain", 100 * worst);
-  return plot;
-}
-
-Plot twist_figure() {
-  Plot plot{"Figure 9: twist of a beam",
-            "τL / μK, rad",
-            "twist of the end, rad",
-            "105 tetrahedra fit theory, with a clear dependence on the mesh",
-            "",
-            {},
-            {}};
-  plot.series.push_back({"theory: τL / μK", {{0, 0}, {0.001, 0.001}}, Stroke::dashed});
-  std::string ratios;
-  for (const auto& [cells, count] : {std::pair{1, 105}, std::pair{2, 840}, std::pair{4, 6720}}) {
-    const double ratio = beam::static_twist_ratio(cells);
-    Series series{fmt::format("{} tetrahedra", count), {}, Stroke::line};
-    for (int k = 0; k <= 10; ++k) {
-      series.points.push_back({1e-4 * k, ratio * 1e-4 * k});
-    }
-    ratios += fmt::format("{}{:.2f}", ratios.empty() ? "" : ", ", ratio);
-    plot.series.push_back(std::move(series));
-  }
-  plot.measured = "105 linear tetrahedra are five times too stiff; share of theory " + ratios + " converges";
-  return plot;
-}
-
-Plot energy_figure() {
-  Plot plot{"Figure 10: deformation energy of a soft beam swinging from one end",
-            "time, s",
-            "energy, J",
-            "dissipation increases with decreasing time step",
-            "",
-            {},
-            {}};
-  std::string kept;
-  for (const double dt : {0.02, 0.01, 0.005, 0.0025}) {
-    ElasticBody body = beam::make(1, {8e3, 0.25, 10.0 / (beam::area_m2 * beam::length_m)});
-    beam::clamp_start(body);
-    StepSettings settings;
-    settings.step_s = dt;
-    settings.damping_ratio = 0.0;  // As published: no damping but the stepper's own.
-    settings.gravity_mps2 = {0, -9.81, 0};
-    Series series{fmt::format("Δt = {} ms", 1e3 * dt), {}, Stroke::line};
-    double late = 0.0;
-    for (double t = 0.0; t < 12.0; t += dt) {
-      step_elastic(body, settings);
-      series.points.push_back({t + dt, elastic_energy_j(body)});
-      if (t > 9.0) late = std::max(late, kinetic_energy_j(body));
-    }
-    kept += fmt::format("{}{:.2g} J", kept.empty() ? "" : ", ", late);
-    plot.series.push_back(std::move(series));
-  }
-  plot.measured = "largest kinetic energy after 9 s, by time step from the coarsest: " + kept;
-  return plot;
-}
-
-double thread_time_s() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median_step_ms(int cells_long, Solver solver) {
-  auto made = make_elastic_body(lattice_mesh({1, 1, cells_long}, {0.1, 0.1, 0.1 * cells_long}), {1e8, 0.25, 1000.0});
-  ElasticBody& body = *made;
-  beam::clamp_start(body);
-  StepSettings settings;
-  settings.solver = solver;
-  settings.gravity_mps2 = {0, -9.81, 0};
-  std::vector<double> times;
-  for (int k = 0; k < 31; ++k) {
-    const double start = thread_time_s();
-    step_elastic(body, settings);
-    if (k > 0) times.push_back(1e3 * (thread_time_s() - start));
-  }
-  std::ranges::sort(times);
-  return times[times.size() / 2];
-}
-
-Plot time_figure() {
-  Plot plot{"Figure 11: time of a step against the size of a beam",
-            "tetrahedra",
-            "time, ms",
-            "linear in the number of tetrahedra; 15 ms at 200 of them (Pentium 4, eq. 21)",
-            "",
-            {},
-            {}};
-  Series direct{"direct", {}, Stroke::line}, factor{"factor at rest", {}, Stroke::line};
-  for (const int cells : {10, 20, 40, 80, 120, 160, 200, 300, 400}) {
-    for (Series* s : {&direct, &factor}) {
-      s->points.push_back({5.0 * cells, median_step_ms(cells, s == &direct ? Solver::direct : Solver::rest_factor)});
-    }
-  }
-  plot.measured =
-      fmt::format("{:.3f} ms at 200, {:.2f} ms at 2000 tetrahedra, direct; {:.2f} ms with the factor at rest",
-                  direct.points[2].y, direct.points.back().y, factor.points.back().y);
-  plot.series = {direct, factor};
-  plot.y = Range{0.0, 1.1 * std::max(direct.points.back().y, factor.points.back().y)};
-  return plot;
-}
-
-}  // namespace
 }  // namespace septet::figures
-
-int main(int argc, char** argv) {
-  using namespace septet::figures;
-  CLI::App app{
-      "Draws figures of the papers on elastic materials, ice, turning, face normals and smoke from measurements"};
-  std::string folder;
-  app.add_option("folder", folder, "where the files go")->required();
-  bool ice_alone = false;
-  app.add_flag("--ice", ice_alone, "those of the paper on ice alone");
-  bool motion_alone = false;
-  app.add_flag("--motion", motion_alone, "those of the papers on turning and on face normals alone");
-  bool smoke_alone = false;
-  app.add_flag("--smoke", smoke_alone, "those of the paper on smoke alone");
-  CLI11_PARSE(app, argc, argv);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const auto draw_all = [&](std::initializer_list<septet::Expected<void> (*)(const std::filesystem::path&)> draws) {
-    for (const auto draw : draws)
-      if (const auto drawn = draw(folder); !drawn) {
-        fmt::print(stderr, "{}\n", describe(drawn.error()));
-        return false;
-      }
-    return true;
-  };
-  if (smoke_alone) return draw_all({draw_smoke_sampling, draw_smoke_room}) ? 0 : 1;
-  if (motion_alone) return draw_all({draw_turns, draw_normals}) ? 0 : 1;
-  if (!draw_all({draw_ice_pictures, draw_ice_times})) return 1;
-  if (ice_alone) return 0;
-  if (!draw_all({draw_turns, draw_normals, draw_smoke_sampling, draw_smoke_room})) return 1;
-  for (const auto& [name, make] :
-       {std::pair{"elastic-3-swinging-cube", &swinging_cube_figure}, std::pair{"elastic-8-pull", &pull_figure},
-        std::pair{"elastic-9-twist", &twist_figure}, std::pair{"elastic-10-energy", &energy_figure},
-        std::pair{"elastic-11-time", &time_figure}}) {
-    const Plot plot = make();
-    const auto path = std::filesystem::path(folder) / (std::string(name) + ".svg");
-    if (const auto written = septet::document::write_text_file(path, to_svg(plot)); !written) {
-      fmt::print(stderr, "{}\n", describe(written.error()));
-      return 1;
-    }
-    fmt::print("{}\n  paper: {}\n  here:  {}\n", path.string(), plot.claim, plot.measured);
-  }
-}

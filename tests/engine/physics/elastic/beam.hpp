@@ -65,24 +65,31 @@ double mean_z(const ElasticBody& body, OnFace on_face) {
   return sum / count;
 }
 
-/// Stretch of a free beam under a static axial force: fixes one node and lets Newton settle it.
-inline double static_stretch(int cells_across, double force_over_ya, bool free, double poisson_ratio = 0.25,
-                             double* volume_ratio = nullptr) {
-  ElasticBody body = make(cells_across, {1e8, poisson_ratio, 1000.0});
+/// Strain of a beam along z under a static traction on both ends (free = true) or on the far end of a clamped one.
+inline double static_stretch(ElasticBody& body, double traction_pa, bool free) {
   if (free) {
     // One fixed node holds the body's place; the tension itself keeps it from turning.
-    const double low = -1e-9, tip = 1e-9;
-    fix_nodes(body, {low, low, low}, {tip, tip, tip});
+    int corner = 0;
+    for (int i = 1; i < body.node_count(); ++i)
+      if (body.rest_position_m[i].sum() < body.rest_position_m[corner].sum()) corner = i;
+    body.fixed[corner] = 1;
+    invalidate_rest_factor(body);
+    load_face(body, at_start, -traction_pa);
   } else {
     clamp_start(body);
   }
-  const double force = force_over_ya * 1e8 * area_m2;
-  pull(body, force, free);
-  const double before = volume_m3(body);
+  load_face(body, at_end, traction_pa);
   const auto report = find_equilibrium(body, Eigen::Vector3d::Zero());
-  SEPTET_CHECK(report.converged, "no equilibrium at {}", force_over_ya);
-  if (volume_ratio) *volume_ratio = volume_m3(body) / before;
+  SEPTET_CHECK(report.converged, "no equilibrium at {} Pa", traction_pa);
   return (mean_z(body, at_end) - mean_z(body, at_start)) / length_m - 1.0;
+}
+
+inline double static_stretch(int cells_across, double force_over_ya, bool free, double poisson_ratio = 0.25,
+                             double* volume_ratio = nullptr) {
+  ElasticBody body = make(cells_across, {1e8, poisson_ratio, 1000.0});
+  const double before = volume_m3(body), strain = static_stretch(body, force_over_ya * 1e8, free);
+  if (volume_ratio) *volume_ratio = volume_m3(body) / before;
+  return strain;
 }
 
 /// Strain of a block pushed by a static force. It is short, because the long beam would buckle at a fiftieth of this
@@ -98,14 +105,13 @@ inline double static_push_strain(int cells_across, double force_over_ya) {
   return mean_z(body, is_end) / (2 * side_m) - 1.0;
 }
 
-/// Twist of the clamped beam's end by a small moment, relative to θ = τL/(μK).
-inline double static_twist_ratio(int cells_across, double poisson_ratio = 0.25) {
-  const ElasticMaterial material{1e8, poisson_ratio, 1000.0};
-  ElasticBody body = make(cells_across, material);
+/// A clamped beam along z whose section has this middle and torsion constant: twist of its end by a small moment,
+/// relative to θ = τL/(μK).
+inline double static_twist_ratio(ElasticBody body, const Eigen::Vector2d& middle_m, double torsion_constant) {
   clamp_start(body);
   const double expected_rad = 1e-3;
-  const double moment = expected_rad * lame_constants(material).mu_pa * torsion_constant_m4 / length_m;
-  const Eigen::Vector3d centre(side_m / 2, side_m / 2, length_m);
+  const double moment = expected_rad * lame_constants(body.material).mu_pa * torsion_constant / length_m;
+  const Eigen::Vector3d centre(middle_m.x(), middle_m.y(), length_m);
   double inertia = 0.0;
   for (int i = 0; i < body.node_count(); ++i)
     if (at_end(body, i)) inertia += (body.rest_position_m[i] - centre).squaredNorm();
@@ -121,6 +127,11 @@ inline double static_twist_ratio(int cells_across, double poisson_ratio = 0.25) 
       angle += Eigen::Vector3d::UnitZ().cross(arm).dot(body.position_m[i] - body.rest_position_m[i]) / inertia;
     }
   return angle / expected_rad;
+}
+
+inline double static_twist_ratio(int cells_across, double poisson_ratio = 0.25) {
+  return static_twist_ratio(make(cells_across, {1e8, poisson_ratio, 1000.0}), {side_m / 2, side_m / 2},
+                            torsion_constant_m4);
 }
 
 /// Deflection of the clamped beam's end under a small transverse force over that of Euler and

@@ -99,4 +99,18 @@ inline EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector
   return report;
 }
 
+/// Moves the free nodes to where `force_n` would take them if strain were small: the strain's square is left out, and so
+/// is the change of stiffness with shape. For loads that balance, or a body that is held.
+inline bool move_by_small_strain(ElasticBody& body) {
+  body.position_m = body.rest_position_m;
+  BlockVector move(body.position_m.size(), Eigen::Array4d::Zero());
+  for (int i = 0; i < body.node_count(); ++i)
+    if (!body.fixed[i]) move[i] = padded(body.force_n[i]);
+  BlockFactor<double> factor;
+  if (!factorise(body.pattern, body.factor_structure, equilibrium::stiffness(body, false), factor)) return false;
+  solve(body.factor_structure, factor, move);
+  for (int i = 0; i < body.node_count(); ++i) body.position_m[i] += move[i].head<3>().matrix();
+  return true;
+}
+
 }  // namespace septet::elastic
