@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/held_volume.hpp"
 
 namespace septet::elastic {
 
@@ -75,7 +76,7 @@ RigidMotion rigid_motion(const ElasticBody& body) {
 Eigen::Matrix3d cauchy_stress_pa(const ElasticBody& body, int element) {
   if (!body.shell.empty()) return shell_stress_pa(body, element);
   const Eigen::Matrix3d f = deformation_gradient(body.elements[element], body.position_m);
-  const Eigen::Matrix3d s = second_piola_stress(green_strain(f), lame_constants(body.material));
+  const Eigen::Matrix3d s = stress_at_pa(body, element, green_strain(f));
   return f * s * f.transpose() / std::max(f.determinant(), least_determinant);
 }
 

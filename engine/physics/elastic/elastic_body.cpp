@@ -13,9 +13,9 @@ Expected<void> validate(const ElasticMaterial& m) {
   if (!(m.young_modulus_pa > 0) || !std::isfinite(m.young_modulus_pa))
     return failure(fmt::format("Young's modulus is {} Pa", m.young_modulus_pa), "elastic material",
                    "give a positive number");
-  if (!(m.poisson_ratio >= 0 && m.poisson_ratio < 0.5))
+  if (!(m.poisson_ratio >= 0 && m.poisson_ratio <= 0.5))
     return failure(fmt::format("Poisson's ratio is {}", m.poisson_ratio), "elastic material",
-                   "give a number from 0 to below 0.5");
+                   "give a number from 0 to 0.5, which is incompressible");
   if (!(m.density_kgpm3 > 0) || !std::isfinite(m.density_kgpm3))
     return failure(fmt::format("density is {} kg/m³", m.density_kgpm3), "elastic material", "give a positive number");
   return {};

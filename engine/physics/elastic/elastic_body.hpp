@@ -42,6 +42,7 @@ struct StepWorkspace {
   BlockMatrix matrix;
   BlockVector right_side, solution, residual, direction, image, preconditioned;
   BlockFactor<double> factor;
+  std::vector<double> held_stress_pa;  ///< Of each element of an incompressible solid: p in the right side.
   std::vector<Eigen::Array4f> single;
   std::vector<Block> mean_deformation;  ///< Volume-weighted F of each node.
 };
@@ -57,6 +58,8 @@ struct ElasticBody {
   /// set. In a stiff body it is the only trace of an impact, because the strain that remains after the step is nearly
   /// zero.
   std::vector<Eigen::Matrix3d> step_stress_pa;
+  /// Of an incompressible solid: the stress of each element that kept its volume in the last step (held_volume.hpp).
+  std::vector<double> volume_stress_pa;
 
   // Constant, except where fracture or plastic flow rewrites it.
   ElasticMaterial material;

@@ -10,10 +10,11 @@ namespace septet::elastic {
 SEPTET_MEMBER_GROUPS(Element, hashed(nodes, rest_inverse, rest_volume_m3), left_out(slots))
 // Left out are what is made of a part's recipe, and the cells.
 SEPTET_MEMBER_GROUPS(Shell, left_out(across, height_m, thickness_m, yield_npm), hashed(natural), left_out(cells))
-// Left out are the material and data derived from the elements; the factor at rest is made again when it is needed.
+// Left out are the material and data derived from the elements; the factor at rest is made again when it is needed, and
+// the stress that keeps the volume is of incompressible solids, which debris is not made of.
 // Kept are the body's construction, and results of hashed members.
 SEPTET_MEMBER_GROUPS(ElasticBody, hashed(position_m, velocity_mps),
-                     kept(force_n, fixed, contact_impulse_ns, step_stress_pa), left_out(material),
+                     kept(force_n, fixed, contact_impulse_ns, step_stress_pa), left_out(volume_stress_pa, material),
                      kept(rest_position_m, mass_kg, elements, body_node_of_mesh_node, shell),
                      left_out(pattern, factor_structure), kept(rotation), left_out(rest_factor, workspace))
 

@@ -12,6 +12,7 @@
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/director_arcs.hpp"
 #include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/held_volume.hpp"
 #include "engine/physics/elastic/pivot.hpp"
 #include "engine/physics/elastic/preconditioned_solve.hpp"
 
@@ -31,6 +32,8 @@ constexpr double creep_speed_mps = 2e-3;
 /// Solutions of a step; a contact that still pulls after them pulls until the next step. 13 % of the contacts pull after
 /// one, 2.4 % after two, 0.8 % after four, none after eight, which solve a third more often again.
 constexpr int most_contact_passes = 4;
+/// Solutions of a step for the stress that keeps the volume of an incompressible solid; four to six are enough.
+constexpr int most_volume_passes = 20;
 /// A spawn inside a wall is no shot. The figures are the same from 1 to 20 m/s.
 constexpr double most_release_mps = 2.0;
 
@@ -187,21 +190,25 @@ void start_from_flight(ElasticBody& body, const StepSettings& settings) {
 /// The new velocities; not a number where the matrix has no factor.
 void solve_system(ElasticBody& body, const StepSettings& settings, bool direct, StepReport& report) {
   StepWorkspace& w = body.workspace;
-  if (!direct) {
-    const SolveReport result = preconditioned_solve(body, settings);
-    report.iterations += result.iterations;
-    report.converged = result.converged;
-  } else if (factorise(body.pattern, body.factor_structure, w.matrix, w.factor)) {
-    w.solution = w.right_side;
-    solve(body.factor_structure, w.factor, w.solution);
-  } else {
+  if (direct && !factorise(body.pattern, body.factor_structure, w.matrix, w.factor)) {
     w.solution.assign(body.velocity_mps.size(), padded(Eigen::Vector3d::Constant(NAN)));
+    return;
   }
+  int pass = 0;
+  do {
+    if (direct) {
+      w.solution = w.right_side;
+      solve(body.factor_structure, w.factor, w.solution);
+    } else {
+      const SolveReport result = preconditioned_solve(body, settings);
+      report.iterations += result.iterations;
+      report.converged = result.converged;
+    }
+  } while (++pass <= most_volume_passes && hold_volume(body, settings));
 }
 
 /// The multiplier of eq. 20 as a stress: D (φ + Δt/γ J v⁺), the mean over the step.
 void keep_step_stress(ElasticBody& body, const StepSettings& settings) {
-  const LameConstants lame = lame_constants(body.material);
   const double lead_s = settings.step_s / gamma_of(settings);
   body.step_stress_pa.clear();
   if (!body.shell.empty()) {
@@ -209,11 +216,12 @@ void keep_step_stress(ElasticBody& body, const StepSettings& settings) {
       body.step_stress_pa.push_back(shell_stress_pa(body, e, lead_s));
     return;
   }
-  for (const Element& e : body.elements) {
+  for (int k = 0; k < static_cast<int>(body.elements.size()); ++k) {
+    const Element& e = body.elements[k];
     const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
     const Eigen::Matrix3d rate = f.transpose() * deformation_gradient(e, body.velocity_mps);
     const Eigen::Matrix3d strain = green_strain(f) + 0.5 * lead_s * (rate + rate.transpose());
-    body.step_stress_pa.push_back(f * second_piola_stress(strain, lame) * f.transpose() /
+    body.step_stress_pa.push_back(f * stress_at_pa(body, k, strain) * f.transpose() /
                                   std::max(f.determinant(), least_determinant));
   }
 }
@@ -264,6 +272,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::sp
   if (pivot) add_centrifugal_force(body, before, settings.step_s);
   auto active = add_contacts(body, settings, contacts);
   hold_fixed_nodes(body);
+  release_volume(body);
 
   StepWorkspace& w = body.workspace;
   if (!direct) start_from_flight(body, settings);

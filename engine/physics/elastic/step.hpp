@@ -4,7 +4,8 @@
 ///
 /// Their eq. 20, with the multiplier eliminated and α⁻¹ = D, is
 ///     (M + Δt²/γ JᵀDJ) v⁺ = M v + Δt F − Δt JᵀDφ,   x⁺ = x + Δt v⁺,   γ = (½ + β/Δt)⁻¹,
-/// three unknowns a node instead of nine a tetrahedron, symmetric and positive definite. It is linearly implicit Euler
+/// three unknowns a node instead of nine a tetrahedron, symmetric and positive definite; where α has no inverse, at
+/// Poisson's ratio one half, held_volume.hpp keeps one multiplier a tetrahedron. It is linearly implicit Euler
 /// without the geometric stiffness, the term that delays a swinging body; rigid motion is therefore untouched. Stiff
 /// modes are multiplied by 1−γ each step: β = 0 rings at the step's own frequency for ever, β = Δt/2 kills them in one
 /// step.

@@ -7,6 +7,7 @@
 
 #include "engine/physics/elastic/assembly.hpp"
 #include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/held_volume.hpp"
 #include "engine/physics/elastic/pivot.hpp"
 #include "engine/physics/elastic/shell_cell.hpp"
 
@@ -97,7 +98,8 @@ StepEnergy step_energy(ElasticBody before, const ElasticBody& after, const StepS
   const Vectors solved_mps = solved_velocity_mps(before, after);
   Vectors mean_mps = before.velocity_mps;
   for (std::size_t i = 0; i < mean_mps.size(); ++i) mean_mps[i] = 0.5 * (mean_mps[i] + after.velocity_mps[i]);
-  const Vectors inner_ns = inner_impulse_ns(before, settings, solved_mps);
+  Vectors inner_ns = inner_impulse_ns(before, settings, solved_mps);
+  add_held_impulses(before, after, dt, inner_ns);
   const std::optional<Pivot> pivot = settings.follow_spin ? pivot_of(before) : std::nullopt;
   const RigidMotion motion = pivot ? motion_about(before, *pivot) : RigidMotion{};
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <string>
 
 #include <doctest/doctest.h>
 #include <Eigen/Dense>
@@ -251,7 +252,10 @@ TEST_CASE("both solvers agree on a tumbling stiff beam") {
 
 TEST_CASE("bad meshes and materials are refused with a message") {
   TetrahedralMesh mesh = lattice_mesh({1, 1, 1}, {1, 1, 1});
-  CHECK_FALSE(make_elastic_body(mesh, {1e9, 0.5, 1000}).has_value());
+  const auto beyond = make_elastic_body(mesh, {1e9, 0.501, 1000});
+  REQUIRE_FALSE(beyond.has_value());
+  CHECK(describe(beyond.error()).find("Poisson's ratio is 0.501") != std::string::npos);
+  CHECK(describe(beyond.error()).find("give a number from 0 to 0.5") != std::string::npos);
   CHECK_FALSE(make_elastic_body(mesh, {-1, 0.3, 1000}).has_value());
   mesh.tetrahedra[0][1] = 99;
   CHECK_FALSE(make_elastic_body(mesh, {}).has_value());

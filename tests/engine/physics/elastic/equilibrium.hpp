@@ -11,6 +11,7 @@
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
 #include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/step.hpp"
 #include "tests/engine/physics/elastic/element_measures.hpp"
 
 namespace septet::elastic {
@@ -65,9 +66,38 @@ inline double potential_j(const ElasticBody& body, const Eigen::Vector3d& gravit
 
 }  // namespace equilibrium
 
+namespace equilibrium {
+
+/// Of an incompressible body, by steps so long that its inertia is nothing: each is an iteration of Newton's without the
+/// geometric stiffness.
+inline EquilibriumReport by_long_steps(ElasticBody& body, const Eigen::Vector3d& gravity_mps2, int max_iterations) {
+  StepSettings settings;
+  settings.step_s = 1.0;
+  settings.damping_ratio = 0.5;
+  settings.gravity_mps2 = gravity_mps2;
+  settings.tension_stiffness = settings.follow_spin = false;
+  settings.solver = Solver::direct;
+  EquilibriumReport report;
+  double first_change = 0.0;
+  while (report.iterations < max_iterations && !report.converged) {
+    ++report.iterations;
+    std::ranges::fill(body.velocity_mps, Eigen::Vector3d::Zero());
+    step_elastic(body, settings);
+    double largest = 0.0;
+    for (const auto& v : body.velocity_mps) largest = std::max(largest, settings.step_s * v.norm());
+    if (report.iterations == 1) first_change = largest;
+    report.converged = largest <= 1e-6 * first_change;
+  }
+  std::ranges::fill(body.velocity_mps, Eigen::Vector3d::Zero());
+  return report;
+}
+
+}  // namespace equilibrium
+
 /// Moves the free nodes until `force_n`, gravity and the internal forces balance. Sets the nodes' velocities to zero.
 inline EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2,
                                           int max_iterations = 40) {
+  if (is_incompressible(body.material)) return equilibrium::by_long_steps(body, gravity_mps2, max_iterations);
   EquilibriumReport report;
   std::ranges::fill(body.velocity_mps, Eigen::Vector3d::Zero());
   BlockFactor<double> factor;

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double energy_tick_s = 1.0 / 60.0;
 
-ElasticBody block(double young_modulus_pa) {
-  return *make_elastic_body(lattice_mesh({2, 2, 2}, {0.2, 0.3, 0.2}), {young_modulus_pa, 0.3, 1000.0});
+ElasticBody block(double young_modulus_pa, double poisson_ratio = 0.3) {
+  return *make_elastic_body(lattice_mesh({2, 2, 2}, {0.2, 0.3, 0.2}), {young_modulus_pa, poisson_ratio, 1000.0});
 }
 
 double stored_j(const ElasticBody& body) {
@@ -96,6 +96,10 @@ TEST_CASE("the accounts of a step sum to what the body gained") {
   const Steps on_belt = steps_of(carried, belt);
   closes(on_belt);
   CHECK(on_belt.surface_work_j > 0.0);
+
+  ElasticBody incompressible = block(1e6, 0.5);
+  for (auto& v : incompressible.velocity_mps) v = {0.0, 0.0, -2.0};
+  closes(steps_of(incompressible, belt));
 
   ElasticBody dragged = block(1e6);
   for (int i = 0; i < dragged.node_count(); ++i) {
