@@ -12,7 +12,6 @@
 
 #include <Eigen/Geometry>
 
-#include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
 #include "engine/physics/elastic/step.hpp"
 #include "tests/engine/physics/elastic/fixed_nodes.hpp"
@@ -28,21 +27,18 @@ double thread_time_ms() {
 }
 
 /// Runs of 60 steps, each from where the body is now: it is wound up again before it has come to rest. Counts the
-/// median of a step's processor time, and of the energy that is left of a run's start, its share.
+/// median of a step's processor time.
 void time_steps(benchmark::State& state, ElasticBody body, const StepSettings& settings) {
   const ElasticBody start = body;
   std::vector<double> times_ms;
   int iterations = 0;
-  double most_left = 0.0;
   step_elastic(body, settings);  // The factor at rest is made once in a body's life.
-  const double wound_up_j = elastic_energy_j(body) + kinetic_energy_j(body);
   for (auto _ : state) {
     const double begun_ms = thread_time_ms();
     iterations += step_elastic(body, settings).iterations;
     times_ms.push_back(thread_time_ms() - begun_ms);
     if (times_ms.size() % 60 != 0) continue;
     state.PauseTiming();
-    most_left = std::max(most_left, (elastic_energy_j(body) + kinetic_energy_j(body)) / wound_up_j);
     body.position_m = start.position_m;
     body.velocity_mps = start.velocity_mps;
     state.ResumeTiming();
@@ -52,7 +48,6 @@ void time_steps(benchmark::State& state, ElasticBody body, const StepSettings& s
   state.counters["median_ms"] = times_ms[times_ms.size() / 2];
   state.counters["tetrahedra"] = static_cast<double>(body.elements.size());
   state.counters["iterations"] = iterations / steps;
-  state.counters["energy_left"] = most_left;
 }
 
 /// A beam of cubes of 0.1 m, clamped at one end and twisted.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -75,7 +76,7 @@ std::string drawn(const std::vector<Facet>& facets, const Eigen::Matrix3d& axes,
     double depth_m;
     std::string polygon;
   };
-  const Eigen::Vector3d light = Eigen::Vector3d(-0.35, -0.75, -0.6).normalized();
+  const Eigen::Vector3d light = Eigen::Vector3d(-0.3, -0.55, -0.78).normalized();
   std::vector<Seen> seen;
   for (const Facet& facet : facets) {
     std::array<Eigen::Vector3d, 3> p;
@@ -98,6 +99,20 @@ std::string drawn(const std::vector<Facet>& facets, const Eigen::Matrix3d& axes,
   std::string svg;
   for (const Seen& s : seen) svg += s.polygon;
   return svg;
+}
+
+/// Words in lines of at most `most` bytes, broken at spaces.
+std::vector<std::string> wrapped(const std::string& words, std::size_t most) {
+  std::vector<std::string> lines;
+  std::size_t from = 0;
+  while (words.size() - from > most) {
+    const std::size_t space = words.rfind(' ', from + most);
+    if (space == std::string::npos || space <= from) break;
+    lines.push_back(words.substr(from, space - from));
+    from = space + 1;
+  }
+  lines.push_back(words.substr(from));
+  return lines;
 }
 
 std::string text(double x, double y, int size_px, bool bold, const std::string& words) {
@@ -128,7 +143,10 @@ std::string to_svg(const PicturePage& page) {
   const double panel_width = (page_width - margin) / page.columns;
   const double px_per_m = std::min((panel_width - margin) / largest_m.x(), most_panel_height / largest_m.y());
   const double panel_height = px_per_m * largest_m.y() + caption_height + margin;
-  const double head = 44.0 + 20.0 * static_cast<double>(page.lines.size());
+  std::vector<std::string> lines;
+  for (const std::string& line : page.lines)
+    for (std::string& part : wrapped(line, 118)) lines.push_back(std::move(part));
+  const double head = 44.0 + 20.0 * static_cast<double>(lines.size());
   const auto columns = static_cast<std::size_t>(page.columns);
   const std::size_t rows = (page.panels.size() + columns - 1) / columns;
   std::string svg = fmt::format(
@@ -136,8 +154,8 @@ std::string to_svg(const PicturePage& page) {
       "font-family=\"DejaVu Sans, sans-serif\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
       page_width, head + panel_height * static_cast<double>(rows) + margin);
   svg += text(margin, 30.0, 20, true, page.title);
-  for (std::size_t n = 0; n < page.lines.size(); ++n)
-    svg += text(margin, 51.0 + 20.0 * static_cast<double>(n), 13, false, page.lines[n]);
+  for (std::size_t n = 0; n < lines.size(); ++n)
+    svg += text(margin, 51.0 + 20.0 * static_cast<double>(n), 13, false, lines[n]);
   for (std::size_t n = 0; n < page.panels.size(); ++n) {
     const Panel& panel = page.panels[n];
     const double left = margin + panel_width * static_cast<double>(n % columns),

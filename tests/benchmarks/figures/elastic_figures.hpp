@@ -23,7 +23,7 @@ using ElasticFigures = std::vector<ElasticFigure>;
 Expected<ElasticFigures> draw_elastic_pictures(const std::filesystem::path& folder);
 /// Figures 3 and 8 to 11.
 Expected<ElasticFigures> draw_elastic_charts(const std::filesystem::path& folder);
-/// All of them, and the table of both in `elastic.md`.
+/// All of them, and in `elastic.md` their table and that of the beam's convergence.
 Expected<void> draw_elastic(const std::filesystem::path& folder);
 
 }  // namespace septet::figures
