@@ -14,16 +14,16 @@ using namespace septet::elastic;
 
 namespace {
 
-constexpr double young_pa = 1e8, side_m = 0.3;
+constexpr double cube_young_pa = 1e8, cube_side_m = 0.3;
 
 /// A free cube, pulled at two faces and stepped until it rests. Steps are short, because the pull keeps its direction and
 /// holds the cube upright as a stiff spring would.
 ElasticBody pulled_cube(double poisson_ratio, double traction_pa, Solver solver) {
-  ElasticBody cube =
-      *make_elastic_body(lattice_mesh({3, 3, 3}, {side_m, side_m, side_m}), {young_pa, poisson_ratio, 1000.0});
+  ElasticBody cube = *make_elastic_body(lattice_mesh({3, 3, 3}, {cube_side_m, cube_side_m, cube_side_m}),
+                                        {cube_young_pa, poisson_ratio, 1000.0});
   beam::load_face(cube, beam::at_start, -traction_pa);
   beam::load_face(
-      cube, [](const ElasticBody& b, int i) { return b.rest_position_m[i].z() > side_m - 1e-9; }, traction_pa);
+      cube, [](const ElasticBody& b, int i) { return b.rest_position_m[i].z() > cube_side_m - 1e-9; }, traction_pa);
   StepSettings settings;
   settings.gravity_mps2.setZero();
   settings.step_s = 0.002;
@@ -37,7 +37,7 @@ ElasticBody pulled_cube(double poisson_ratio, double traction_pa, Solver solver)
 double strain_along(const ElasticBody& cube, int axis) {
   double low = INFINITY, high = -INFINITY;
   for (const auto& x : cube.position_m) low = std::min(low, x[axis]), high = std::max(high, x[axis]);
-  return (high - low) / side_m - 1.0;
+  return (high - low) / cube_side_m - 1.0;
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ TEST_CASE("an incompressible cube under tension keeps its volume and has its You
   for (const Solver solver : {Solver::direct, Solver::rest_factor})
     for (const double load : {1e-4, 1e-2}) {
       CAPTURE(load);
-      const ElasticBody cube = pulled_cube(0.5, load * young_pa, solver);
-      const double gained = volume_m3(cube) / (side_m * side_m * side_m) - 1.0;
+      const ElasticBody cube = pulled_cube(0.5, load * cube_young_pa, solver);
+      const double gained = volume_m3(cube) / (cube_side_m * cube_side_m * cube_side_m) - 1.0;
       CHECK(std::abs(gained) < 1e-3);
       CHECK(std::abs(gained) < 2.0 * load * load);  // Green's trace zero is determinant one but for the square.
       CHECK(strain_along(cube, 2) == relative(beam::st_venant_kirchhoff_strain(load), 0.01));
@@ -55,12 +55,12 @@ TEST_CASE("an incompressible cube under tension keeps its volume and has its You
       // The stress is the load along the axis and nothing across it.
       for (int e = 0; e < static_cast<int>(cube.elements.size()); ++e) {
         const Eigen::Matrix3d stress = cauchy_stress_pa(cube, e);
-        CHECK(stress(2, 2) == relative(load * young_pa, 0.03));
-        CHECK(std::abs(stress(0, 0)) < 0.03 * load * young_pa);
+        CHECK(stress(2, 2) == relative(load * cube_young_pa, 0.03));
+        CHECK(std::abs(stress(0, 0)) < 0.03 * load * cube_young_pa);
       }
     }
   // A quarter is not one half.
-  CHECK(volume_m3(pulled_cube(0.25, 1e-2 * young_pa, Solver::direct)) / std::pow(side_m, 3) - 1.0 > 4e-3);
+  CHECK(volume_m3(pulled_cube(0.25, 1e-2 * cube_young_pa, Solver::direct)) / std::pow(cube_side_m, 3) - 1.0 > 4e-3);
 }
 
 TEST_CASE("Poisson's ratio one half is the limit of ratios below it") {
