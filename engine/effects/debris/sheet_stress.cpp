@@ -1,6 +1,7 @@
 #include "engine/effects/debris/sheet_stress.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -71,11 +72,9 @@ std::array<bool, 2> side_of(const SheetStress& sheet, const Piece& piece, const 
 /// Adds the forces that hold an element's nodes against its stress. `even_pa`: of it as much as its whole cube has
 /// within the sheet, which bends nothing; by their diagonals, though, the cube's tetrahedra give its corners unlike
 /// shares of it.
-void add_element(SheetStress& sheet, const Piece& piece, int element, const Eigen::Matrix3d& stress_pa,
-                 const Eigen::Matrix3d& even_pa) {
-  const auto place = cube_of(sheet, piece, element);
+void add_element(SheetStress& sheet, const Piece& piece, const elastic::Element& e, const std::array<int, 2>& place,
+                 const Eigen::Matrix3d& stress_pa, const Eigen::Matrix3d& even_pa) {
   SheetCube& cube = sheet.cubes[index_of(sheet, place)];
-  const elastic::Element& e = piece.body.elements[static_cast<std::size_t>(element)];
   const auto gradients = elastic::shape_gradients(e);
   const auto within = [&](const Eigen::Vector3d& v) { return Eigen::Vector2d(v[sheet.axes[0]], v[sheet.axes[1]]); };
   for (std::size_t a = 0; a < 4; ++a) {
@@ -95,11 +94,12 @@ void add_element(SheetStress& sheet, const Piece& piece, int element, const Eige
 
 /// Mean of a cube's elements by their volume, of the stress within the sheet.
 std::vector<Eigen::Matrix3d> even_stress_pa(const SheetStress& sheet, const Piece& piece,
+                                            const std::vector<std::array<int, 2>>& places,
                                             const std::vector<Eigen::Matrix3d>& stress_pa) {
   std::vector<Eigen::Matrix3d> even_pa(sheet.cubes.size(), Eigen::Matrix3d::Zero());
   std::vector<double> volume_m3(sheet.cubes.size(), 0.0);
   for (std::size_t e = 0; e < stress_pa.size(); ++e) {
-    const std::size_t cube = index_of(sheet, cube_of(sheet, piece, static_cast<int>(e)));
+    const std::size_t cube = index_of(sheet, places[e]);
     volume_m3[cube] += piece.body.elements[e].rest_volume_m3;
     even_pa[cube] += piece.body.elements[e].rest_volume_m3 * stress_pa[e];
   }
@@ -133,13 +133,17 @@ std::optional<SheetStress> sheet_stress(const Piece& piece) {
   if (piece.body.step_stress_pa.empty()) return std::nullopt;
   auto sheet = sheet_of(piece);
   if (!sheet) return std::nullopt;
+  std::vector<std::array<int, 2>> places;
   std::vector<Eigen::Matrix3d> stress_pa;
+  places.reserve(piece.body.elements.size());
   stress_pa.reserve(piece.body.elements.size());
-  for (std::size_t e = 0; e < piece.body.elements.size(); ++e) stress_pa.push_back(stress_at_rest_pa(piece.body, e));
-  const auto even_pa = even_stress_pa(*sheet, piece, stress_pa);
-  for (int e = 0; e < static_cast<int>(stress_pa.size()); ++e)
-    add_element(*sheet, piece, e, stress_pa[static_cast<std::size_t>(e)],
-                even_pa[index_of(*sheet, cube_of(*sheet, piece, e))]);
+  for (std::size_t e = 0; e < piece.body.elements.size(); ++e) {
+    places.push_back(cube_of(*sheet, piece, static_cast<int>(e)));
+    stress_pa.push_back(stress_at_rest_pa(piece.body, e));
+  }
+  const auto even_pa = even_stress_pa(*sheet, piece, places, stress_pa);
+  for (std::size_t e = 0; e < stress_pa.size(); ++e)
+    add_element(*sheet, piece, piece.body.elements[e], places[e], stress_pa[e], even_pa[index_of(*sheet, places[e])]);
   return sheet;
 }
 
@@ -149,13 +153,21 @@ std::array<Eigen::Matrix3d, 2> surface_stress_pa(const SheetStress& sheet, const
 }
 
 double greatest_surface_stress_pa(const SheetStress& sheet) {
-  double greatest_pa = 0.0;
+  // at_corner_pa of all corners at once: their stresses along the axes vary by side alone, and the shear by cube.
+  const double stretch_pm = 1.0 / sheet.height_m, bend_pm2 = 6.0 / (sheet.fill * sheet.height_m * sheet.height_m);
+  double greatest_pa2 = 0.0;
   for (const SheetCube& cube : sheet.cubes)
-    for (const bool first : {false, true})
-      for (const bool second : {false, true})
-        for (const Eigen::Matrix3d& stress : at_corner_pa(sheet, cube, {first, second}))
-          greatest_pa = std::max(greatest_pa, stress.norm());
-  return greatest_pa;
+    for (const double surface : {bend_pm2, -bend_pm2}) {
+      const auto at = [&](const SheetSide& side) -> Eigen::Vector2d {
+        return stretch_pm * side.force_npm + surface * side.moment_n;
+      };
+      const Eigen::Vector2d low = at(cube[0]), high = at(cube[1]), near = at(cube[2]), far = at(cube[3]);
+      const double shear_pa = 0.25 * (low.y() + high.y() + near.x() + far.x());
+      const double along_pa2 = std::max(low.x() * low.x(), high.x() * high.x()),
+                   across_pa2 = std::max(near.y() * near.y(), far.y() * far.y());
+      greatest_pa2 = std::max(greatest_pa2, along_pa2 + across_pa2 + 2.0 * shear_pa * shear_pa);
+    }
+  return std::sqrt(greatest_pa2);
 }
 
 Eigen::Vector3d normal_within(const SheetStress& sheet, const Piece& piece, const std::array<int, 3>& face) {

@@ -120,11 +120,14 @@ TEST_CASE("the surface of a sheet on two supports is pulled as hard as a plate's
     for (int k = 0; k < 120; ++k) step_under(bent, load_n);
     const auto sheet = sheet_stress(bent.piece);
     REQUIRE(sheet);
-    double most_pa = 0.0;
+    double most_pa = 0.0, greatest_pa = 0.0;
     for (int e = 0; e < static_cast<int>(bent.piece.body.elements.size()); ++e)
       for (const int node : bent.piece.body.elements[static_cast<std::size_t>(e)].nodes)
-        for (const Eigen::Matrix3d& stress : surface_stress_pa(*sheet, bent.piece, e, node))
+        for (const Eigen::Matrix3d& stress : surface_stress_pa(*sheet, bent.piece, e, node)) {
           most_pa = std::max(most_pa, stress(bent.along, bent.along));
+          greatest_pa = std::max(greatest_pa, stress.norm());
+        }
+    CHECK(greatest_surface_stress_pa(*sheet) == relative(greatest_pa, 1e-12));
     CHECK(most_pa / sheet->fill == relative(plate_stress_pa(bent, load_n), 0.05));
   }
 }
