@@ -32,7 +32,7 @@ constexpr double creep_speed_mps = 2e-3;
 /// Solutions of a step; a contact that still pulls after them pulls until the next step. 13 % of the contacts pull after
 /// one, 2.4 % after two, 0.8 % after four, none after eight, which solve a third more often again.
 constexpr int most_contact_passes = 4;
-/// Solutions of a step for the stress that keeps the volume of an incompressible solid; four to six are enough.
+/// Solutions of a step for the stress that keeps the volume of an incompressible solid; five to nine are enough.
 constexpr int most_volume_passes = 20;
 /// A spawn inside a wall is no shot. The figures are the same from 1 to 20 m/s.
 constexpr double most_release_mps = 2.0;
