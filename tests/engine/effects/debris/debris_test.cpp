@@ -137,3 +137,8 @@ TEST_CASE("of a part that breaks one of the large pieces keeps the name") {
   }
   CHECK(2 * named > largest);  // The largest of each break, which may break again.
 }
+
+TEST_CASE("debris is compressible and its saved bodies lack no stress that keeps a volume") {
+  for (int m = 0; m < material_count; ++m)
+    CHECK_FALSE(elastic::is_incompressible(material_data(static_cast<Material>(m)).elastic));
+}
