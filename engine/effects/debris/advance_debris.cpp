@@ -19,6 +19,7 @@
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/shards.hpp"
 #include "engine/math/gravity.hpp"
+#include "engine/physics/elastic/bad_nodes.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/step.hpp"
 #include "engine/physics/elastic/step_energy.hpp"

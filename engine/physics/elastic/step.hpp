@@ -69,10 +69,6 @@ struct StepReport {
 /// Advances the body by one step. Contacts have at most one entry per node and surface.
 StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::span<NodeContact> contacts = {});
 
-/// Resets nodes with non-finite numbers to their rest place in the body's mean motion; returns their number. A step
-/// ends with it; call it after moving nodes elsewhere, too.
-int reset_bad_nodes(ElasticBody& body);
-
 inline double gamma_of(const StepSettings& s) { return 1.0 / (0.5 + s.damping_ratio); }
 
 }  // namespace septet::elastic
