@@ -95,6 +95,11 @@ Expected<void> for_each_world(const logging::SessionReader& session, std::pair<d
   }
 }
 
+MovedBy driven_by(const AccidentFacts& facts) {
+  if (!facts.table.empty()) return MovedBy::table;
+  return facts.driver.empty() ? MovedBy::person : MovedBy::simulated_driver;
+}
+
 /// First snapshot's driver.
 Expected<ParticipantId> driver_of(const logging::SessionReader& session) {
   auto cursor = session.snapshots();
@@ -182,8 +187,14 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
   }
   facts.window_s = {std::max(span_s->first, middle_s - before_contact_s),
                     std::min(span_s->second, middle_s + after_contact_s)};
-  const auto kind = session.info().other.find("driver");
-  if (kind != session.info().other.end()) facts.driver = kind->second;
+  const logging::SessionInfo& info = session.info();
+  const auto table = std::ranges::find(info.files, "motion", &logging::SourceFile::role);
+  if (table != info.files.end()) facts.table = table->name;
+  // Who was to drive is logged also where a table moved the car.
+  const auto kind = info.other.find("driver");
+  if (kind != info.other.end() && facts.table.empty()) facts.driver = kind->second;
+  const auto changes = info.other.find("what_if_changes");
+  if (changes != info.other.end()) facts.changes = changes->second;
   for (const ParticipantId number : numbers) {
     const auto name = names->find(number);
     facts.involved.push_back({.number = number, .name = name == names->end() ? std::string() : name->second});
@@ -192,7 +203,7 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
     if (is_solid(number) && facts.chosen && !facts.contacts[*facts.chosen].stands.empty())
       one.name = facts.contacts[*facts.chosen].stands;
     one.moved_by = is_solid(number)       ? MovedBy::editor
-                   : number == *driver    ? facts.driver.empty() ? MovedBy::person : MovedBy::simulated_driver
+                   : number == *driver    ? driven_by(facts)
                    : name != names->end() ? MovedBy::scenario
                                           : MovedBy::traffic;
   }

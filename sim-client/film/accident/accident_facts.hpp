@@ -19,6 +19,7 @@ namespace septet::film {
 enum class MovedBy : std::uint8_t {
   person,            ///< The driver's car, by the logged controls of a person.
   simulated_driver,  ///< The driver's car, by a simulated driver.
+  table,             ///< The driver's car, by a path or a recorder's table (docs/given-motion.md).
   scenario,          ///< By what the scenario's storyboard tells it.
   traffic,           ///< By the traffic model.
   editor,            ///< A solid (engine/world/solid.hpp).
@@ -60,7 +61,9 @@ struct AccidentFacts {
   double nearest_m = 0.0;               ///< and the distance of their outlines; 0: they overlap.
   std::vector<Involved> involved;       ///< One or two, the contact's first before its second.
   std::vector<Involved> bystanders;     ///< Everybody else who comes within `bystanders_within_m` of the first.
-  std::string driver;                   ///< Kind of the simulated driver; empty: a person.
+  std::string driver;                   ///< Kind of the simulated driver; empty: a person, or nobody.
+  std::string table;                    ///< Name of the table by which the driver's car goes; empty: none.
+  std::string changes;                  ///< Of a variant of another session: what was changed of its driver's inputs.
 };
 
 inline constexpr double before_contact_s = 5.0, after_contact_s = 3.0, bystanders_within_m = 60.0;

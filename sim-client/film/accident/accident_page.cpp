@@ -23,6 +23,8 @@ std::string_view words_of(MovedBy moved_by) {
       return "a person's controls (measured), car computed";
     case MovedBy::simulated_driver:
       return "a simulated driver, car computed";
+    case MovedBy::table:
+      return "a table (given), car computed on its springs and after an impact";
     case MovedBy::scenario:
       return "the scenario (assumed) until an impact";
     case MovedBy::traffic:

@@ -27,6 +27,7 @@ constexpr double lowest_above_m = 12.0;  ///< Of a camera that looks down.
 /// left of the first and above the second, notes below the third.
 constexpr double clock_until_share = -0.15, clock_from_share = 0.22, notes_until_share = -0.35;
 constexpr std::size_t longest_name = 24;  ///< In words over pictures.
+constexpr std::size_t longest_changes = 60;
 
 double to_centimetres(double value_m) { return std::round(100.0 * value_m) / 100.0; }
 
@@ -238,11 +239,13 @@ std::vector<std::string> origins(const AccidentFacts& facts) {
   };
   if (has_driver && !has_person) add_computed(fmt::format("driver ({})", printable(facts.driver, longest_name)));
   if (has_driver) add_computed("the car's motion");
+  std::string given = has_person ? "measured: the driver's controls and head" : "measured: nothing";
+  if (!facts.table.empty()) given = fmt::format("given: the car's way, by {}", printable(facts.table, longest_name));
+  if (!facts.changes.empty()) given += fmt::format("; changed: {}", printable(facts.changes, longest_changes));
   if (!traffic.empty()) add_computed(fmt::format("traffic ({})", traffic));
   if (facts.chosen) add_computed("the impact");
   if (!scripted.empty()) assumed += "; way and speed of " + scripted + " (scenario)";
-  return {"simulation from a log; measured: " + std::string(has_person ? "the driver's controls and head" : "nothing"),
-          assumed, computed.empty() ? "computed: nothing" : computed};
+  return {"simulation from a log; " + given, assumed, computed.empty() ? "computed: nothing" : computed};
 }
 
 AccidentPlan plan_accident(const AccidentFacts& facts, const Solids& solids, double width_over_height) {

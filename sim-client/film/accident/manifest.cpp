@@ -84,6 +84,8 @@ Json made_of_json(const logging::SessionInfo& session, const AccidentFacts& fact
   Json json;
   json["title"] = plan.title;
   json["session"] = {{"started", session.started_utc}, {"septet", session.septet_version}, {"driver", facts.driver}};
+  if (!facts.table.empty()) json["session"]["table"] = facts.table;
+  if (!facts.changes.empty()) json["session"]["changes"] = facts.changes;
   json["inputs"] = inputs_json(session);
   json["event"] = facts.chosen ? *facts.chosen + 1 : 0;
   json["contacts"] = facts.contacts.size();

@@ -178,6 +178,10 @@ Expected<WhatIf> prepare_what_if(const logging::SessionReader& session,
   if (what_if.recorded.traffic != "own")
     return failure("another program moves the traffic of this drive, and keeps its state", what_if.where,
                    "drive with Septet's own traffic");
+  const bool is_changed = std::ranges::any_of(extremes, [](const auto& changes) { return !changes.empty(); });
+  if (is_changed && what_if.recorded.loaded.model->motion)
+    return failure("the car of this drive goes by a table: nobody pressed or steered what could be changed",
+                   what_if.where, "depart from the table within its ± by --runs, or drive with another table");
   if (auto whole = check_without_gap(what_if); !whole) return tl::unexpected(whole.error());
   auto names = logging::participant_names(session);
   if (!names) return tl::unexpected(names.error());

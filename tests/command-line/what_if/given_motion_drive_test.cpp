@@ -111,6 +111,9 @@ TEST_CASE("such a drive is verified, and run again within the ± of its table, w
   const auto verified = run_verify(session, 0.0);
   CHECK_MESSAGE(verified.has_value(), why_not(verified));
   std::ostringstream out;
+  const auto changed =
+      run_what_if({.session = session, .changes = {"brake:=0.8@1s"}, .run = {}, .out = drive.folder / "none"}, out);
+  CHECK(why_not(changed).find("goes by a table") != std::string::npos);
   const auto done = run_what_if({.session = session, .changes = {}, .runs = 24, .run = {}, .out = {}}, out);
   REQUIRE_MESSAGE(done.has_value(), why_not(done));
   CHECK(out.str().find("as logged: no collision") != std::string::npos);

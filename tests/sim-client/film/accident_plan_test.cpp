@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -46,12 +47,14 @@ Snapshot crossing_world(Tick tick, bool with_driver) {
 }
 
 PlannedAccident planned(const TemporaryFolder& folder, const std::vector<logging::Event>& events, bool with_driver,
-                        std::optional<std::size_t> event = std::nullopt) {
+                        std::optional<std::size_t> event = std::nullopt,
+                        const std::function<void(logging::SessionInfo&)>& alter = {}) {
   const auto file = folder / "session.sqlite";
   std::filesystem::remove(file);
   auto info = logging::example_info();
   info.other["participant_names"] = R"({"1":"ego","2":"crosser"})";
   info.other["driver"] = "novice";
+  if (alter) alter(info);
   auto writer = logging::SessionWriter::create(file, info);
   REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
   for (Tick tick = 0; tick <= 1200; tick += 1) writer->record(logging::taken(crossing_world(tick, with_driver)));
@@ -121,6 +124,23 @@ TEST_CASE(
   CHECK(closing->value == doctest::Approx(54.0));
   CHECK(text_of(planned(folder, {collision(6.0, 2, "closing_speed_mps=15.00 delta_v_mps=7.50")}, true).plan.script) ==
         text_of(plan.script));
+}
+
+TEST_CASE("a film of a drive by a table, and of a changed drive, says so") {
+  const TemporaryFolder folder;
+  const std::vector<logging::Event> events{collision(6.0, 2, "closing_speed_mps=15.00 delta_v_mps=7.50")};
+  const auto given = planned(folder, events, true, {}, [](logging::SessionInfo& info) {
+    info.files.push_back({"motion", "recorder.csv", "time_s,speed_mps\n"});
+  });
+  check_is_a_film(given);
+  CHECK(given.facts.involved[0].moved_by == MovedBy::table);
+  const std::vector<std::string>& notes = given.plan.script.overlay.notes;
+  CHECK(notes[0] == "simulation from a log; given: the car's way, by recorder.csv");
+  CHECK(notes[2].find("driver") == std::string::npos);
+  CHECK(shots_of(given.plan, "ego: eyes, gaze assumed straight on") > 0);
+  const auto changed = planned(folder, events, true, {},
+                               [](logging::SessionInfo& info) { info.other["what_if_changes"] = "brake:-0.5s"; });
+  CHECK(changed.plan.script.overlay.notes[0] == "simulation from a log; measured: nothing; changed: brake:-0.5s");
 }
 
 TEST_CASE("a contact whose record the log has brings its figures, and what was not measured brings none") {
