@@ -72,6 +72,9 @@ Expected<std::vector<ReadColumn>> read_columns(const std::vector<std::string_vie
     return std::ranges::any_of(read,
                                [&](const ReadColumn& one) { return one.column->value == value && !one.is_plus_minus; });
   };
+  for (const ReadColumn& one : read)
+    if (one.is_plus_minus && !has(one.column->value))
+      return failure(fmt::format("{}_pm is the ± of a column that is not there", one.column->name), where, use_columns);
   const bool is_path = has(&MotionValues::x_m) && has(&MotionValues::y_m);
   if (!has(&MotionValues::time_s) || is_path == has(&MotionValues::speed_mps))
     return failure("the columns make neither a path nor a table of speeds", where, use_columns);

@@ -103,7 +103,7 @@ std::vector<ThrownBody> bodies_of(const Model& model, const Participant& other) 
   own.model = model_named(pedals ? "bicycle-alone" : "motorcycle-alone");
   own.body = person::standing_body(machine, std::max(lightest_machine_kg, mass - rider_kg), before, other.velocity_mps);
   ThrownBody rider;
-  rider.id = first_rider_participant + other.id, rider.model = model_named("pedestrian");
+  rider.id = rider_of(other.id), rider.model = model_named("pedestrian");
   rider.paint = static_cast<std::uint8_t>(other.id % 12);
   rider.body = person::riding_body(machine, rider_kg, before, other.velocity_mps);
   return {own, rider};

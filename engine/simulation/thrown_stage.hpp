@@ -2,7 +2,7 @@
 /// People, cyclists and motorcyclists whom a vehicle hits are thrown (engine/physics/person).
 ///
 /// From the touch on such a participant is a body of State::thrown: it has left its script, flies, slides and lies, and
-/// stays there. A rider leaves the machine and is a participant of his own, with an id from first_rider_participant on.
+/// stays there. A rider leaves the machine and is a participant of his own, with a number by engine/world/rider.hpp.
 /// The driver's car and loose bodies lose what bodies get, along their motion and not about it; who was on rails leaves
 /// them at the touch, as after any crash (bodies/bodies.hpp). Who cannot leave them pushes bodies and loses nothing. What
 /// a traffic engine does not give up goes on in its lane, unseen; for the other drivers its place is still taken. Pairs
@@ -12,11 +12,9 @@
 
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/state.hpp"
+#include "engine/world/rider.hpp"
 
 namespace septet::simulation {
-
-/// Rider of the machine with id n: this and n.
-inline constexpr ParticipantId first_rider_participant = 8192;
 
 bool is_thrown(const State& state, ParticipantId id);
 

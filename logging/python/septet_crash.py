@@ -10,7 +10,7 @@ are compared, masses, inertias and mass centres. All else is of the snapshots: o
 before the touch, and until that of the last push. Left out is what no snapshot holds: crush, which the law shares out by
 stiffness and keeps where the outlines spring back; the work of crush and friction, debris and wheels, which tell apart
 pushes within a tick; what stands beside the road; what a person or a two-wheeler took of a vehicle, whose wheels brake it
-meanwhile, and the speed at which the two met, limbs and all. Where another crash still pushes one of the two at their touch, its
+meanwhile: of such a crash the closing speed alone is reckoned. Where another crash still pushes one of the two at their touch, its
 motion then is in no snapshot either, and of figures the depth alone is reckoned.
 """
 
@@ -249,6 +249,17 @@ def _is_pushed_by_another(record, everyone):
                two & {other["first"], other.get("with", other["first"])} for other in everyone)
 
 
+def _of_throw(record, bodies, rows, tick_s):
+    """Of a vehicle that meets a person or a two-wheeler, who moves as a whole until then."""
+    before = rows[rows.tick < record["tick"]].sort_values("tick")
+    if before.empty or len(bodies) != 1:
+        return {}
+    velocity = before[["velocity_x_mps", "velocity_y_mps"]].to_numpy()[-1]
+    normal = np.array([math.cos(record["normal_rad"]), math.sin(record["normal_rad"])]) * (1.0 if bodies[0].of == "" else -1.0)
+    point_m = np.array([record["point_x_m"], record["point_y_m"]])
+    return {"closing_speed_mps": float((bodies[0].surface(point_m, tick_s) - velocity) @ normal)}
+
+
 def _of_snapshots(record, bodies, tick_s):
     """The figures of a record that its bodies' snapshots tell."""
     figures = {}
@@ -312,11 +323,11 @@ def recomputed(session):
             bodies = [_Body(record, of, of_one, models) for (_, of), of_one in zip(sides, of_each)]
         except (IndexError, KeyError, TypeError):
             raise SessionError(f"{session.path}: its vehicle_models are not what Septet writes: use an unaltered session") from None
-        both = here[here.participant.isin([record["first"], record.get("with", math.nan)])]
-        if any(models[index].get("kind") in _THROWN for index in both.model.unique()):
-            continue
+        thrown = [one for number in (record["first"], record.get("with", math.nan))
+                  if not (one := here[here.participant == number]).empty and models[int(one.model.iloc[0])].get("kind") in _THROWN]
         depends_on_others = _is_pushed_by_another(record, everyone)
-        for key, value in _of_snapshots(record, bodies, tick_s).items():
+        figures = _of_snapshots(record, bodies, tick_s) if not thrown else _of_throw(record, bodies, thrown[0], tick_s)
+        for key, value in figures.items():
             logged = _told(record, key)
             if not math.isfinite(logged) or (depends_on_others and key != "depth_m"):
                 continue

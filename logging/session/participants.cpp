@@ -9,6 +9,7 @@
 
 #include "engine/core/printable.hpp"
 #include "engine/document/json.hpp"
+#include "engine/world/rider.hpp"
 #include "engine/world/solid.hpp"
 #include "logging/session/shallow_json.hpp"
 
@@ -54,6 +55,10 @@ Expected<ParticipantNames> participant_names(const SessionReader& session) {
     if (event.kind == operator_command_kind)
       if (const auto solid = named_solid(event.detail))
         names->insert_or_assign(solid->participant, std::string(solid->name));
+  ParticipantNames riders;
+  for (const auto& [number, name] : *names)
+    if (number < first_rider_participant) riders.emplace(rider_of(number), name + " rider");
+  names->merge(riders);
   return names;
 }
 

@@ -18,7 +18,7 @@ namespace septet::logging {
 using ParticipantNames = std::map<ParticipantId, std::string>;
 
 /// Names of a session (meta row `participant_names`, and the commands that stand solids: FORMAT.md); of a solid's number
-/// that several things had, the last one's. Empty for one that keeps none. Error: an altered row, or damage.
+/// that several things had, the last one's. Who leaves a machine NAME is "NAME rider". Empty for one that keeps none. Error: an altered row, or damage.
 Expected<ParticipantNames> participant_names(const SessionReader& session);
 
 /// Number of a participant given as text: a name, or a number. Empty: neither.

@@ -9,6 +9,7 @@
 
 #include "engine/scenery/vehicles/eye_point.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/rider.hpp"
 
 namespace septet::film {
 namespace {
@@ -16,6 +17,15 @@ namespace {
 constexpr double least_height_m = 0.3;  ///< Least height of a camera above the ground below its participant.
 
 bool is_outside(const Shot& shot) { return shot.distance_m > 0.0; }
+
+/// Viewpoint at the eyes of who has left his machine: what a shot through a rider's eyes sees from then on.
+std::optional<frame::Viewpoint> rider_viewpoint(const Pivot& pivot, const Snapshot& world) {
+  const Participant* rider = pivot.participant ? find_participant(world, rider_of(*pivot.participant)) : nullptr;
+  if (!rider) return std::nullopt;
+  const Vec3 eye_m = scenery::eye_in(shape_of(*rider));
+  return frame::Viewpoint{rider->world_from_vehicle * RigidTransform{eye_m - pivot.in_views_m, Quat(1, 0, 0, 0)},
+                          rider->id};
+}
 
 VehicleModel model_of(const Participant& participant) { return shape_of(participant); }
 
@@ -90,6 +100,8 @@ frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapsh
   if (shot.place_m) return {{*shot.place_m, Quat(1, 0, 0, 0)}, std::nullopt};
   const Participant* participant = pivot.participant ? find_participant(world, *pivot.participant) : nullptr;
   if (!participant) return before;
+  if (!is_outside(shot))
+    if (auto rider = rider_viewpoint(pivot, world)) return *rider;
   frame::Viewpoint viewpoint{participant->world_from_vehicle, participant->id};
   if (is_outside(shot)) viewpoint.inside.reset();
   if (!is_outside(shot) && shot.bearings == Bearings::vehicle) return viewpoint;

@@ -111,6 +111,8 @@ TEST_CASE("a table with faults is refused with the line and the fault") {
   CHECK(says(refusal("time_s,x_m\n0,0\n1,1\n"), "neither a path nor a table of speeds"));
   CHECK(says(refusal("time_s,x_m,y_m,speed_mps\n0,0,0,1\n1,1,0,1\n"), "neither a path nor a table of speeds"));
   CHECK(says(refusal("time_s,speed_kmh,speed_mps\n0,0,0\n1,1,0\n"), "comes twice"));
+  CHECK(says(refusal("time_s,speed_kmh,x_m_pm,y_m_pm\n0,0,1,1\n1,1,1,1\n"),
+             "x_m_pm is the ± of a column that is not there"));
   CHECK(says(refusal("time_s,colour\n0,0\n"), "edr.csv:1: \"colour\" is no column"));
   CHECK(says(refusal("time_s,speed_mps\n0,3\n0,4\n"), "edr.csv:3: time_s 0 follows 0"));
   CHECK(says(refusal("time_s,speed_mps\n0,nan\n"), "edr.csv:2: speed_mps is \"nan\""));

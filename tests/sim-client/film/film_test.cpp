@@ -14,6 +14,7 @@
 #include "engine/image/png.hpp"
 #include "engine/math/spherical_interpolation.hpp"
 #include "engine/scenery/vehicles/eye_point.hpp"
+#include "engine/world/rider.hpp"
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_program.hpp"
@@ -144,6 +145,26 @@ TEST_CASE("an orbit about a person who is thrown stays above the road and does n
     CHECK((views * eye_in_views_m).z > 35.15);
     CHECK(heading_rad(views.orientation) == doctest::Approx(1.0));
   }
+}
+
+TEST_CASE("a shot through a cyclist's eyes goes with the rider once he has left his bicycle") {
+  Snapshot world = world_with_others();
+  world.participants[1].model = *find_vehicle_model("bicycle");
+  const Shot shot{.from_s = 0.0, .to_s = 1.0, .participant = "5"};
+  const auto pivot = find_pivot(shot, world, Vec3(0.0), {}, {});
+  REQUIRE(pivot.has_value());
+  const auto eye_m = [&] { return viewpoint_at(shot, *pivot, world, {}).world_from_views * pivot->in_views_m; };
+  const auto eye_of = [](const Participant& one) {
+    return one.world_from_vehicle * scenery::eye_in(vehicle_models()[one.model]);
+  };
+  CHECK(glm::distance(eye_m(), eye_of(world.participants[1])) < 1e-9);
+  Participant rider;
+  rider.id = rider_of(5);
+  rider.model = *find_vehicle_model("pedestrian");
+  rider.world_from_vehicle = {{3210.0, -2001.0, 36.0}, orientation_from_angles(1.0, 1.2, 0.3)};
+  world.participants.push_back(rider);
+  CHECK(glm::distance(eye_m(), eye_of(rider)) < 1e-9);
+  CHECK(viewpoint_at(shot, *pivot, world, {}).inside == rider.id);
 }
 
 TEST_CASE("with the eyes of the driver a camera sees what a screen in front of them shows") {

@@ -149,7 +149,7 @@ TEST_CASE("figures of the crashes of three shipped scenarios follow from the sna
   const TemporaryFolder folder;
   for (const Shipped& shipped :
        {Shipped{"crossing-crash", "plain", 14.0, both}, Shipped{"pile-up", "experienced", 20.0, both},
-        Shipped{"walker-behind-van", "plain", 9.0, "delta_v_mps"}}) {
+        Shipped{"walker-behind-van", "plain", 9.0, "closing_speed_mps"}}) {
     const std::string name = shipped.scenario;
     CAPTURE(name);
     StagedCrash crash(server::shipped_drive(name, "desktop"), shipped.driver);
