@@ -15,7 +15,7 @@ TEST_CASE("the report tells which vehicle errs, and how and how near to whom it 
     event.kind = people_error_event;
     event.participant = told.who;
     event.detail = text_of(told);
-    return tell_events({event}).front().says;
+    return tell_events({event}, {}).front().says;
   };
   CHECK(sentence() == "participant 1007 errs: overlook (of participant 1)");
   told.end = ErrorEnd::parted;
