@@ -155,7 +155,8 @@ class Contacts {
     OpenCrash* crash = find_open_crash(state_, contact.first, contact.second);
     if (impact && begins_record(crash, impact->pulse.impulse.closing_mps)) {
       // A second blow dents and breaks as the first one did (begin).
-      if (crash) state_.effects.crashes.struck_vehicles.push_back(crash_of(one, other, *impact));
+      if (crash || given_before_ns != Vec2(0.0))
+        state_.effects.crashes.struck_vehicles.push_back(crash_of(one, other, *impact));
       crash = &open(one, other, first_before, second_before, *impact);
     }
     if (!crash || contact.engagement.given_ns == given_before_ns) return impact;

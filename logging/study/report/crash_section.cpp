@@ -106,7 +106,8 @@ std::string crash_section(std::span<const CrashRecord> crashes, double ticks_per
   if (crashes.empty()) return "";
   std::string html =
       "<h2>Crashes</h2>\n<p class=\"soft\">ΔV is the change of the mass centre's velocity from the touch to the last "
-      "push, wheels included. The principal direction is whence the blow came: 0 from straight ahead, 90 from the "
+      "push, wheels included, but of a vehicle that met a person or a two-wheeler. The principal direction is whence "
+      "the blow came: 0 from straight ahead, 90 from the "
       "left. What both lose of their kinetic energy is told by parts, each reckoned by itself. A dash: not "
       "measured.</p>\n";
   for (const CrashRecord& crash : crashes.first(std::min(crashes.size(), most_shown_crashes)))

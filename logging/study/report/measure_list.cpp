@@ -213,8 +213,8 @@ void list_incidents(const DriveMeasures& m, const MeasureSettings& settings, Lis
   }
   list.of(measured, collisions.size() - measured);
   list.add("collision_delta_v_largest_mps", "Collisions, largest ΔV", "m/s", delta_v_mps,
-           "Change of the velocity of the car's mass centre from the touch to the last push, wheels included, as the "
-           "log's record of the crash has it.");
+           "Change of the velocity of the car's mass centre from the touch to the last push, wheels included but where "
+           "it met a person or a two-wheeler, as the log's record of the crash has it.");
   std::vector<double> times_s;
   std::size_t already = 0, censored = 0;
   for (const BrakeReaction& reaction : m.brake_reactions) {

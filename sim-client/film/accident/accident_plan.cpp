@@ -179,7 +179,7 @@ void add_crash_figures(const AccidentFacts& facts, const CrashRecord& crash, std
     const CrashedBody& body = *bodies[i];
     const std::string name = short_name(facts.involved[i]);
     const auto delta_v_mps = body.delta_v_mps ? std::optional(glm::length(*body.delta_v_mps)) : std::nullopt;
-    add(name + ", change of velocity in the crash (ΔV), wheels included", "km/h", delta_v_mps, kmh_per_mps);
+    add(name + ", change of velocity in the crash (ΔV)", "km/h", delta_v_mps, kmh_per_mps);
     add(name + ", principal direction: whence the blow came, 0 ahead, 90 left", "°", body.principal_direction_rad,
         1.0 / per_degree);
     add(name + ", change of yaw rate", "°/s", body.delta_yaw_rate_radps, 1.0 / per_degree);
