@@ -11,6 +11,7 @@
 
 #include "engine/physics/impact/outline.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/rider.hpp"
 #include "engine/world/solid.hpp"
 #include "logging/session/participants.hpp"
 #include "logging/study/measures/collisions.hpp"
@@ -211,10 +212,11 @@ Expected<AccidentFacts> read_accident(const logging::SessionReader& session, std
   const auto read = for_each_world(session, facts.window_s, [&](const Snapshot& world) {
     const Participant* first = find_participant(world, numbers.front());
     for (const Participant& participant : world.participants) {
-      const auto one = std::ranges::find(facts.involved, participant.id, &Involved::number);
+      const auto one = std::ranges::find(facts.involved, machine_of(participant.id), &Involved::number);
+      const bool is_left_machine = one != facts.involved.end() && find_person(world, one->number) != &participant;
       const WayPoint point = way_point(participant, world.simulated_time_s);
-      if (one != facts.involved.end()) {
-        one->model = participant.model, one->box_size_m = box_size_of(participant);
+      if (one != facts.involved.end() && !is_left_machine) {
+        if (participant.id == one->number) one->model = participant.model, one->box_size_m = box_size_of(participant);
         one->way.push_back(point);
       } else if (first && glm::length(first->world_from_vehicle.position_m - point.position_m) < bystanders_within_m) {
         Involved& other = others[participant.id];

@@ -49,7 +49,8 @@ struct Involved {
   ModelIndex model = 0;
   std::optional<Vec3> box_size_m = {};  ///< Of a box (engine/world/participant_shape.hpp).
   MovedBy moved_by = MovedBy::traffic;
-  std::vector<WayPoint> way;  ///< Every tick of the window in which they are there.
+  std::vector<WayPoint>
+      way;  ///< Every tick of the window in which they are there; the rider's once he has left the machine.
 };
 
 struct AccidentFacts {

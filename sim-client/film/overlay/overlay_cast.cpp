@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/printable.hpp"
+#include "engine/world/rider.hpp"
 #include "logging/session/participants.hpp"
 
 namespace septet::film {
@@ -28,7 +29,7 @@ Expected<std::vector<OverlayWay>> read_ways(const logging::SessionReader& sessio
     if ((*world)->simulated_time_s < next_s - 1e-6) continue;
     next_s = (*world)->simulated_time_s + place_every_s;
     for (std::size_t n = 0; n < people.size(); ++n)
-      if (const Participant* participant = find_participant(**world, people[n].number)) {
+      if (const Participant* participant = find_person(**world, people[n].number)) {
         ways[n].times_s.push_back((*world)->simulated_time_s);
         ways[n].places_m.push_back(participant->world_from_vehicle.position_m);
       }

@@ -1,6 +1,7 @@
 #include "sim-client/film/overlay/overlay_content.hpp"
 #include "engine/math/speed_units.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/rider.hpp"
 
 #include <algorithm>
 #include <array>
@@ -90,14 +91,14 @@ void add_way(const OverlayMoment& moment, const instant::FrameView& view, std::s
     const OverlayWay& way = moment.ways[n];
     for (std::size_t i = 0; i < way.times_s.size(); ++i)
       (way.times_s[i] <= moment.world.simulated_time_s ? past_m : to_come_m).push_back(way.places_m[i]);
-    if (const Participant* now = find_participant(moment.world, moment.people[n].number)) {
+    if (const Participant* now = find_person(moment.world, moment.people[n].number)) {
       past_m.push_back(now->world_from_vehicle.position_m);
       to_come_m.insert(to_come_m.begin(), now->world_from_vehicle.position_m);
     }
     add(to_come_m, 0.5 * thick_px, 150);
     add(past_m, thick_px, 235);
   }
-  if (const Participant* now = find_participant(moment.world, moment.people[n].number)) {
+  if (const Participant* now = find_person(moment.world, moment.people[n].number)) {
     const VehicleModel model = shape_of(*now);
     const double front = model.front_m(), rear = -model.rear_overhang_m, side = model.width_m / 2.0;
     std::vector<Vec3> outline_m;
@@ -133,7 +134,7 @@ void add_contact(const OverlayMoment& moment, const instant::FrameView& view, Ov
 
 void add_label(const OverlayMoment& moment, const instant::FrameView& view, std::size_t n, const image::Font& font,
                const OverlaySizes& sizes, OverlayContent& content) {
-  const Participant* now = find_participant(moment.world, moment.people[n].number);
+  const Participant* now = find_person(moment.world, moment.people[n].number);
   if (!now) return;
   const VehicleModel model = shape_of(*now);
   const auto pixel = pixel_of(view, now->world_from_vehicle * Vec3(model.centre_x_m(), 0.0, model.height_m + 0.3));
@@ -234,7 +235,7 @@ OverlayContent overlay_content(const OverlayMoment& moment, const image::Font& f
     }
     for (std::size_t n = 0; n < moment.people.size(); ++n) {
       column.next_line();
-      column.add_figure(speed_text(find_participant(moment.world, moment.people[n].number)));
+      column.add_figure(speed_text(find_person(moment.world, moment.people[n].number)));
       column.add("km/h");
       column.add(moment.people[n].name, color_of(n));
     }

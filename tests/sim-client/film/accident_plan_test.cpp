@@ -12,9 +12,11 @@
 
 #include "engine/film_script/film_script.hpp"
 #include "engine/film_script/script_text.hpp"
+#include "engine/world/rider.hpp"
 #include "engine/world/solid.hpp"
 #include "sim-client/film/accident/read_plan.hpp"
 #include "sim-client/film/film.hpp"
+#include "sim-client/film/overlay/overlay_cast.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/relative.hpp"
 #include "tests/why_not.hpp"
@@ -124,6 +126,44 @@ TEST_CASE(
   CHECK(closing->value == doctest::Approx(54.0));
   CHECK(text_of(planned(folder, {collision(6.0, 2, "closing_speed_mps=15.00 delta_v_mps=7.50")}, true).plan.script) ==
         text_of(plan.script));
+}
+
+TEST_CASE("ways, speeds and labels are the rider's once he has left his bicycle") {
+  const TemporaryFolder folder;
+  const auto file = folder / "session.sqlite";
+  auto info = logging::example_info();
+  info.other["participant_names"] = R"({"1":"ego","2":"cyclist"})";
+  const auto world_at = [](Tick tick) {
+    Snapshot world = crossing_world(tick, true);
+    Participant& bicycle = world.participants[1];
+    bicycle.model = *find_vehicle_model("bicycle");
+    if (tick <= 720) return world;
+    Participant rider = bicycle;
+    rider.id = rider_of(bicycle.id);
+    rider.model = *find_vehicle_model("pedestrian");
+    rider.world_from_vehicle.position_m.x += 100.0;
+    world.participants.push_back(rider);
+    return world;
+  };
+  auto writer = logging::SessionWriter::create(file, info);
+  REQUIRE_MESSAGE(writer.has_value(), why_not(writer));
+  for (Tick tick = 0; tick <= 1200; ++tick) writer->record(logging::taken(world_at(tick)));
+  writer->record(collision(6.0, 2, "closing_speed_mps=15.00"));
+  REQUIRE(writer->finish().has_value());
+  const auto session = logging::must_open(file);
+  const auto planned = read_plan(session, {}, picture_shape);
+  REQUIRE_MESSAGE(planned.has_value(), why_not(planned));
+  const Involved& cyclist = planned->facts.involved[1];
+  CHECK(vehicle_models()[cyclist.model].name == "bicycle");
+  for (const WayPoint& point : cyclist.way) {
+    const auto tick = static_cast<Tick>(std::lround(120.0 * point.time_s));
+    const Vec3 bicycle_m = world_at(tick).participants[1].world_from_vehicle.position_m;
+    CHECK(point.position_m.x - bicycle_m.x == doctest::Approx(tick <= 720 ? 0.0 : 100.0).epsilon(1e-3));
+  }
+  const auto people = OverlayCast::of(session, planned->plan.script);
+  REQUIRE_MESSAGE(people.has_value(), why_not(people));
+  REQUIRE(people->ways.size() == 2);
+  CHECK(people->ways[1].places_m.back().x - people->ways[1].places_m.front().x > 50.0);
 }
 
 TEST_CASE("a film of a drive by a table, and of a changed drive, says so") {
