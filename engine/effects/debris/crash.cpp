@@ -166,8 +166,10 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
     if (struck) {
       // Carried along by the crush to the common speed, and out with the rebound of the impact.
       const double returned = material_data(part_recipe(mounted.part).material).restitution * closing;
-      velocity += lost_speed_mps * push + returned * std::sqrt(context.random.uniform()) *
-                                              way_out(context, place.position_m - crash.point_m, push);
+      // In sequence: the order in which operands are evaluated is the compiler's choice.
+      const Vec3 way = way_out(context, place.position_m - crash.point_m, push);
+      const double share = std::sqrt(context.random.uniform());
+      velocity += lost_speed_mps * push + returned * share * way;
       ++context.report.struck;
     } else {
       const double sine = mounted.mount_strength_n / peak_n;
