@@ -28,6 +28,7 @@
 #include "program/resources.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/world_gate.hpp"
+#include "tests/benchmarks/must_be.hpp"
 
 namespace septet::server {
 namespace {
@@ -37,12 +38,6 @@ using replication::ReplicationClient;
 using replication::ReplicationServer;
 using scene::Command;
 using scene::NodeId;
-
-template <class T>
-T must_be(Expected<T> result) {
-  if (!result) throw std::runtime_error(describe(result.error()));
-  return std::move(*result);
-}
 
 LoadedDrive drive_of_the_motorway() {
   const auto scenario = must_be(program::find_resource("behind-ambulance", "scenarios", ".xosc"));

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "engine/scene/builder.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "tests/benchmarks/must_be.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::render {
@@ -29,12 +29,6 @@ using scene::Command;
 using scene::NodeId;
 using scene::NodeType;
 using scene::Store;
-
-template <class T>
-T must_be(Expected<T> result) {
-  if (!result) throw std::runtime_error(describe(result.error()));
-  if constexpr (!std::is_void_v<T>) return std::move(*result);
-}
 
 /// Adds a copy of every object and geometry, `east_m` further; materials and images are shared.
 void add_copy(Store& store, const Store& world, NodeId offset, double east_m) {

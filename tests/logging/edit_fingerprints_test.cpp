@@ -10,16 +10,11 @@
 #include "logging/session/scene_runs.hpp"
 #include "logging/session/session_digest.hpp"
 #include "logging/session/sqlite_database.hpp"
+#include "tests/logging/scene_edit.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::logging {
 namespace {
-
-SceneEdit edit_of(Tick tick, const scene::Command& command) {
-  SceneEdit edit{tick, {}};
-  scene::encode(command, edit.command);
-  return edit;
-}
 
 constexpr scene::NodeId tree = 7, ball = 1048576, sign = 1048577;
 

@@ -5,29 +5,19 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/scene/command_codec.hpp"
+#include "tests/logging/scene_edit.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::logging {
-namespace {
-
-SceneEdit edit_at(Tick tick, const scene::Command& command) {
-  SceneEdit edit{tick, {}};
-  scene::encode(command, edit.command);
-  return edit;
-}
-
-}  // namespace
-
 TEST_CASE("a recorded scene changes at the ticks of its edits, forwards and from the beginning again") {
   const TemporaryFolder folder;
   const auto path = folder / "session.sqlite";
   {
     SessionWriter writer = must_create(path);
-    writer.record(edit_at(0, scene::NodeCreate{1, scene::NodeType::object}));
-    writer.record(edit_at(12, scene::HideSet{1, true}));
-    writer.record(edit_at(12, scene::NodeNameSet{1, "gone"}));
-    writer.record(edit_at(30, scene::NodeDestroy{1}));
+    writer.record(edit_of(0, scene::NodeCreate{1, scene::NodeType::object}));
+    writer.record(edit_of(12, scene::HideSet{1, true}));
+    writer.record(edit_of(12, scene::NodeNameSet{1, "gone"}));
+    writer.record(edit_of(30, scene::NodeDestroy{1}));
     REQUIRE(writer.finish());
   }
   const SessionReader reader = must_open(path);
