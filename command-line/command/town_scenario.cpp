@@ -23,6 +23,7 @@ namespace septet::server {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr int usual_vehicles = 60;
 constexpr double start_m = 10.0, least_start_m = 20.0;  ///< Of the car on its street, and the shortest street for it.
 
 /// Signals of one junction by who has green together.
@@ -89,11 +90,11 @@ constexpr std::string_view head = R"(<?xml version="1.0" encoding="UTF-8"?>
 <OpenSCENARIO>
   <FileHeader revMajor="1" revMinor="3" date="2026-01-01T12:00:00" author="Septet" description="A town of your own"/>
   <ParameterDeclarations>
-    <ParameterDeclaration name="vehicles" parameterType="unsignedInt" value="60"/>
+    <ParameterDeclaration name="vehicles" parameterType="unsignedInt" value="{vehicles}"/>
   </ParameterDeclarations>
   <CatalogLocations/>
   <RoadNetwork>
-    <LogicFile filepath="{}"/>
+    <LogicFile filepath="{road}"/>
 )";
 
 constexpr std::string_view body = R"(  </RoadNetwork>
@@ -177,7 +178,8 @@ Expected<std::string> town_scenario(const road::RoadNetwork& network, const std:
   if (!lights.empty()) lights = "    <TrafficSignals>\n" + lights + "    </TrafficSignals>\n";
   const road::LaneSection& section = network.roads[street->road].sections[street->section];
   const double s_m = street->along_s ? section.s_m + start_m : section.s_end_m - start_m;
-  return fmt::format(head, document::escaped(road_file)) + lights +
+  return fmt::format(head, fmt::arg("vehicles", usual_vehicles), fmt::arg("road", document::escaped(road_file))) +
+         lights +
          fmt::format(body, fmt::arg("road", document::escaped(network.roads[street->road].id)),
                      fmt::arg("lane", street->lane), fmt::arg("s", s_m));
 }
@@ -194,8 +196,8 @@ Expected<fs::path> scenario_beside(const fs::path& road) {
   if (!text) return tl::unexpected(text.error());
   if (const auto written = write_whole_file(scenario, "scenario", std::as_bytes(std::span(*text))); !written)
     return tl::unexpected(written.error());
-  program::say(
-      fmt::format("{} is written: a drive on {}, among 60 vehicles", scenario.string(), road.filename().string()));
+  program::say(fmt::format("{} is written: a drive on {}, among {} vehicles", scenario.string(),
+                           road.filename().string(), usual_vehicles));
   return scenario;
 }
 

@@ -50,4 +50,9 @@ struct Model {
   std::uint64_t sources_hash = 0;
 };
 
+/// Number of the participant that an entity of the scenario is.
+inline ParticipantId number_of(const Model& model, scenario::EntityIndex entity) {
+  return entity == model.driver_entity ? driver_participant : first_scripted_participant + entity;
+}
+
 }  // namespace septet::simulation

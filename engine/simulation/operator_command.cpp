@@ -269,8 +269,7 @@ Expected<void> apply(const Model& model, const OverlookWish& wish, State& state,
   if (wish.whom.empty()) return state.traffic->overlook(wish.who, driver_participant);
   const auto whom = scenario::find_entity(model.scenario, wish.whom);
   if (!whom) return failure("the scenario has nobody of this name", wish.whom, "name an entity of the scenario");
-  const bool is_driver = *whom == model.driver_entity;
-  return state.traffic->overlook(wish.who, is_driver ? driver_participant : first_scripted_participant + *whom);
+  return state.traffic->overlook(wish.who, number_of(model, *whom));
 }
 
 Expected<void> apply(const Model&, const PeopleErrorRates& rates, State& state, std::vector<Event>&) {

@@ -74,11 +74,9 @@ void apply_errors(const Model& model, const scenario::StepResult& step, State& s
       events.push_back({std::string(people_error_event), std::nullopt, "refused=\"" + done.error().what + '"'});
   };
   for (const PeopleErrorRates& rates : step.error_rates) tell(state.traffic->set_errors(rates));
-  for (const scenario::OverlookAction& action : step.overlooked) {
-    const bool is_driver = action.whom == scenario::no_entity || action.whom == model.driver_entity;
-    tell(
-        state.traffic->overlook(action.who, is_driver ? driver_participant : first_scripted_participant + action.whom));
-  }
+  for (const scenario::OverlookAction& action : step.overlooked)
+    tell(state.traffic->overlook(
+        action.who, action.whom == scenario::no_entity ? driver_participant : number_of(model, action.whom)));
 }
 
 void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
@@ -88,8 +86,7 @@ void apply_effects(const Model& model, const scenario::StepResult& step, const P
       freeze(model.roads, action, state.effects.ice);
       continue;
     }
-    const ParticipantId id =
-        action.entity == model.driver_entity ? driver_participant : first_scripted_participant + action.entity;
+    const ParticipantId id = number_of(model, action.entity);
     if (action.kind == Kind::spill) {
       spill(action, model.scenario.entities[action.entity], state.scenario.entities[action.entity], id, state.effects);
       continue;

@@ -16,12 +16,8 @@ std::vector<std::pair<ParticipantId, std::string>> participant_names(const simul
   std::vector<std::pair<ParticipantId, std::string>> names;
   const auto& entities = model.scenario.entities;
   names.reserve(entities.size());
-  for (std::size_t i = 0; i < entities.size(); ++i) {
-    const bool is_driver = i == static_cast<std::size_t>(model.driver_entity);
-    names.emplace_back(is_driver ? simulation::driver_participant
-                                 : simulation::first_scripted_participant + static_cast<ParticipantId>(i),
-                       entities[i].name);
-  }
+  for (scenario::EntityIndex i = 0; i < entities.size(); ++i)
+    names.emplace_back(simulation::number_of(model, i), entities[i].name);
   return names;
 }
 

@@ -1,14 +1,13 @@
 #include "engine/traffic/network/errors.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "engine/physics/impact/outline.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/traffic/network/town_stages.hpp"
 
@@ -26,14 +25,15 @@ constexpr double long_ago_s = 1e6;
 
 /// The ground that a body covers.
 struct Footprint {
-  Vec3 centre_m{0.0};
-  Vec2 along{1.0, 0.0};  ///< Unit.
-  double half_length_m = 0.0, half_width_m = 0.0;
+  Vec3 middle_m{0.0};
+  impact::Outline outline;
 };
 
 Footprint footprint(const Vec3& rear_axle_m, const Vec3& forwards, const VehicleModel& model) {
+  constexpr double round_m = 0.001;  // The least that an outline may have.
   const Vec2 along = glm::normalize(Vec2(forwards));
-  return {rear_axle_m + model.centre_x_m() * Vec3(along, 0.0), along, 0.5 * model.length_m, 0.5 * model.width_m};
+  const Vec3 middle_m = rear_axle_m + model.centre_x_m() * Vec3(along, 0.0);
+  return {middle_m, impact::box_outline(Vec2(middle_m), along, 0.5 * Vec2(model.length_m, model.width_m), round_m)};
 }
 
 std::optional<Footprint> footprint_of(const TownTick& tick, const TownState& town, ParticipantId id) {
@@ -48,38 +48,10 @@ std::optional<Footprint> footprint_of(const TownTick& tick, const TownState& tow
                    other->shape());
 }
 
-std::array<Vec2, 4> corners_of(const Footprint& one) {
-  const Vec2 ahead = one.half_length_m * one.along, left = one.half_width_m * Vec2(-one.along.y, one.along.x);
-  const Vec2 centre(one.centre_m);
-  return {centre + ahead + left, centre + ahead - left, centre - ahead - left, centre - ahead + left};
-}
-
-/// Least distance of points from a footprint, and the greatest of the gaps that its two axes show between the two.
-struct Apart {
-  double least_m = 1e300, shown_m = -1e300;
-};
-Apart apart_from(const Footprint& one, const std::array<Vec2, 4>& points) {
-  Apart apart;
-  Vec2 low(1e300), high(-1e300);
-  for (const Vec2& point : points) {
-    const Vec2 off = point - Vec2(one.centre_m);
-    const Vec2 at(glm::dot(off, one.along), glm::dot(off, Vec2(-one.along.y, one.along.x)));
-    low = glm::min(low, at), high = glm::max(high, at);
-    const double beyond_x = std::max(0.0, std::abs(at.x) - one.half_length_m),
-                 beyond_y = std::max(0.0, std::abs(at.y) - one.half_width_m);
-    apart.least_m = std::min(apart.least_m, std::hypot(beyond_x, beyond_y));
-  }
-  apart.shown_m = std::max(
-      {low.x - one.half_length_m, -one.half_length_m - high.x, low.y - one.half_width_m, -one.half_width_m - high.y});
-  return apart;
-}
-
 /// Distance of two outlines on one level; 0: they overlap.
 double gap_m(const Footprint& a, const Footprint& b) {
-  if (std::abs(a.centre_m.z - b.centre_m.z) > road::level_reach_m) return 1e6;
-  const Apart from_a = apart_from(a, corners_of(b)), from_b = apart_from(b, corners_of(a));
-  if (std::max(from_a.shown_m, from_b.shown_m) <= 0.0) return 0.0;
-  return std::min(from_a.least_m, from_b.least_m);
+  if (std::abs(a.middle_m.z - b.middle_m.z) > road::level_reach_m) return 1e6;
+  return std::max(0.0, impact::nearest(a.outline, b.outline).gap_m);
 }
 
 void end(ErrorEnd how, double time_s, DriverError& error, TownErrors& errors) {
