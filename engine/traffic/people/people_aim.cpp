@@ -29,6 +29,20 @@ double weight_of(const WalkwayGraph& graph, const Walk& walk) {
 /// Along the way that one goes: distance from the begin of his walk.
 double gone_m(const Walk& walk, bool forwards, double at_m) { return forwards ? at_m : walk.length_m - at_m; }
 
+/// Where one leaves his walk for the next one, along his way: its end, or the breadth of a crossing before it; of a
+/// crossing, the pavement beyond it.
+double leaves_at_m(const WalkwayGraph& graph, const Person& person) {
+  constexpr double beyond_kerb_m = 0.3, breadth_m = 0.8;
+  const Walk& walk = graph.walks[person.walk];
+  const bool forwards = person.forwards;
+  if (!walk.is_crossing()) {
+    const bool to_crossing = person.next_walk != no_walk && graph.walks[person.next_walk].is_crossing();
+    return walk.length_m - (to_crossing ? breadth_m : 0.0);
+  }
+  const Crossing& crossing = graph.crossings[walk.crossing];
+  return beyond_kerb_m + (forwards ? crossing.right_at_m : walk.length_m - crossing.left_at_m);
+}
+
 void enter_next(const WalkwayGraph& graph, Person& person) {
   if (person.next_walk == no_walk) {
     turn_back(person);
@@ -54,7 +68,7 @@ Vec2 lane_place(const WalkwayGraph& graph, const Walk& walk, bool forwards, doub
 Vec2 place_ahead(const WalkwayGraph& graph, const Person& person, double beside) {
   const Walk& walk = graph.walks[person.walk];
   const double ahead_m = gone_m(walk, person.forwards, person.at_m) + looks_ahead_m;
-  const double beyond_m = ahead_m - walk.length_m;
+  const double beyond_m = ahead_m - leaves_at_m(graph, person);
   if (beyond_m <= 0.0 || person.next_walk == no_walk)
     return lane_place(graph, walk, person.forwards, person.forwards ? ahead_m : walk.length_m - ahead_m, beside);
   const Walk& next = graph.walks[person.next_walk];
@@ -114,7 +128,8 @@ Aim aim_of(const WalkwayGraph& graph, const PeopleAround& around, const std::vec
            double since_s, std::uint32_t index, PeopleState& people) {
   Person& person = people.people[index];
   if (person.next_walk == no_walk) choose_next(graph, person);
-  if (gone_m(graph.walks[person.walk], person.forwards, person.at_m) >= graph.walks[person.walk].length_m)
+  const Walk& until_now = graph.walks[person.walk];
+  if (gone_m(until_now, person.forwards, person.at_m) >= leaves_at_m(graph, person))
     enter_next(graph, person);
   // A way that leads against the side to which people keep is theirs all the same: `beside_m` is from it.
   const double beside = around.keeps_left ? -person.beside_m : person.beside_m;

@@ -24,17 +24,22 @@ struct Body {
 double free_m(const Body& body, const Vec2& velocity_mps, double mps) {
   const Vec2 d = body.from_me_m, v = velocity_mps - body.velocity_mps;
   const double towards = glm::dot(d, v), c = glm::dot(d, d) - body.radius_m * body.radius_m;
-  if (c <= 0.0) return glm::dot(d, velocity_mps) > 0.0 ? 0.0 : horizon_m;
+  if (c <= 0.0) {
+    // Too near already: away from it, or along it.
+    constexpr double along_cos = 0.3;
+    return glm::dot(d, velocity_mps) > along_cos * glm::length(d) * mps ? 0.0 : horizon_m;
+  }
   if (towards <= 0.0) return horizon_m;
   const double a = glm::dot(v, v), root = towards * towards - a * c;
   if (root <= 0.0) return horizon_m;
   return std::min(horizon_m, mps * (towards - std::sqrt(root)) / a);
 }
 
-/// How far one gets before he leaves his ribbon.
-double within_m(const PlaceOnWalk& place, double left_m, const Vec2& direction) {
+/// How far one gets before he is so far beyond his ribbon's borders.
+double within_m(const PlaceOnWalk& place, double left_m, const Vec2& direction, double beyond_m) {
+  if (beyond_m > 1.0) return horizon_m;
   const Vec2 left(-place.along.y, place.along.x);
-  const double outwards = glm::dot(direction, left), most_m = usable_half_m(place.half_m);
+  const double outwards = glm::dot(direction, left), most_m = usable_half_m(place.half_m) + beyond_m;
   if (std::abs(outwards) < 0.05) return horizon_m;
   const double room = outwards > 0.0 ? most_m - left_m : most_m + left_m;
   return room <= 0.0 ? 0.0 : std::min(horizon_m, room / std::abs(outwards));
@@ -78,9 +83,13 @@ Vec2 step_to(const WalkwayGraph& graph, const std::vector<SeenVehicle>& vehicles
   if (walk.is_crossing())
     for (const SeenVehicle& vehicle : vehicles) add_vehicle(vehicle, person, bodies);
   const PlaceOnWalk place = place_on_walk(graph, walk, person.at_m);
+  const bool on_pavement = walk.is_crossing() && (person.at_m < graph.crossings[walk.crossing].left_at_m ||
+                                                  person.at_m > graph.crossings[walk.crossing].right_at_m);
   // Who is stuck also looks beside and behind himself, and minds less where that leads.
   constexpr double looks_round_s = 1.5;
   const bool is_stuck = person.stuck_s > looks_round_s;
+  // A crossing has no borders on the pavements at its ends; who is stuck steps over them.
+  const double beyond_m = on_pavement ? 1e9 : is_stuck ? 0.3 : 0.0;
   const int widest = is_stuck ? directions / 2 : directions / 4;
   double best = 1e300, best_free_m = 0.0;
   Vec2 chosen(0.0);
@@ -89,7 +98,7 @@ Vec2 step_to(const WalkwayGraph& graph, const std::vector<SeenVehicle>& vehicles
     const double angle = side * step_rad * ((n + 1) / 2) * (n % 2 == 0 ? -1.0 : 1.0);
     const Vec2 direction(ahead.x * std::cos(angle) - ahead.y * std::sin(angle),
                          ahead.x * std::sin(angle) + ahead.y * std::cos(angle));
-    double free = within_m(place, person.left_m, direction);
+    double free = within_m(place, person.left_m, direction, beyond_m);
     const Vec2 velocity = aim.most_mps * direction;
     for (const Body& body : bodies) {
       if (free <= 0.0) break;
@@ -97,8 +106,10 @@ Vec2 step_to(const WalkwayGraph& graph, const std::vector<SeenVehicle>& vehicles
     }
     if (is_stuck && free < 0.1) continue;
     const double reach_m = std::min(horizon_m, std::max(way_m, 1.0) + 2.0);
-    free = std::min(free, reach_m);
-    double cost = reach_m * reach_m + free * free - 2.0 * reach_m * free * std::cos(angle);
+    // No further than to where he is nearest to his aim; who is stuck goes some way at least.
+    const double least_m = is_stuck ? 0.4 : 0.0;
+    const double goes_m = std::min(free, std::max(reach_m * std::cos(angle), least_m));
+    double cost = reach_m * reach_m + goes_m * goes_m - 2.0 * reach_m * goes_m * std::cos(angle);
     // Not hither and thither: a direction near the present one is a little better.
     cost -= 0.15 * glm::dot(direction, person.velocity_mps);
     if (cost < best - 1e-9) best = cost, best_free_m = free, chosen = direction;
