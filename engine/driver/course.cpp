@@ -13,6 +13,7 @@
 #include "engine/road/turn.hpp"
 #include "engine/world/participant_shape.hpp"
 #include "engine/world/participant_sight.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/vehicle_model.hpp"
 
@@ -79,7 +80,8 @@ bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, s
   if (way.empty()) return false;
   const Vec2 middle = way[way.size() / 2];
   return std::ranges::any_of(around, [&](const Participant& other) {
-    return vehicle_models()[other.model].kind == ParticipantKind::pedestrian &&
+    const bool walks_by = is_person_of_swarm(other.id) && !other.lamps.has(Lamp::signal_green);
+    return vehicle_models()[other.model].kind == ParticipantKind::pedestrian && !walks_by &&
            glm::distance(Vec2(other.world_from_vehicle.position_m), middle) < edge_of_crossing_m;
   });
 }

@@ -19,6 +19,8 @@
 #include "engine/road/position_members.hpp"
 #include "engine/scenario/run/save_scenario.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/people_stage.hpp"
+#include "engine/simulation/save_people.hpp"
 #include "engine/simulation/save_thrown.hpp"
 #include "engine/simulation/solids.hpp"
 #include "engine/world/participant_shape.hpp"
@@ -103,11 +105,11 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, bodies,
-// thrown ones, things that are gone, solids in motion, limited sights, a given motion, a game, and an examiner are
+// thrown ones, people, things that are gone, solids in motion, limited sights, a given motion, a game, and an examiner are
 // hashed where there are any. Open crashes and sightings change nothing.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown, open_crashes),
                      hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
-                     left_out(scenario, traffic, effects),
+                     left_out(scenario, traffic), kept(people), left_out(effects),
                      kept(gone, solid_motions, sights, sightings, motion, game, examiner, input),
                      hashed(diagnostics, touching))
 
@@ -274,6 +276,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
                    wrong);
   for (const OpenCrash& crash : state.open_crashes) reader.require(is_sound(crash, state.tick), wrong);
   require_sound(reader, model.roads, state.thrown);
+  require_sound(reader, model, state.people);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
   const std::uint32_t things = model.obstacles ? model.obstacles->things() : 0;
   reader.require(std::ranges::is_sorted(state.gone, std::ranges::less_equal{}), wrong);
@@ -312,6 +315,7 @@ std::uint64_t hash_state(const State& state) {
   if (state.faults.any()) hash_members(hash, state.faults);
   for (const CarImpact& running : state.impacts) hash_members(hash, running);
   if (!state.bodies.empty()) hash_members(hash, state.bodies);
+  if (!state.people.empty()) hash_members(hash, state.people);
   for (const ThrownBody& thrown : state.thrown) hash_members(hash, thrown);
   return hash.value();
 }
@@ -376,6 +380,7 @@ Expected<State> restore(const Model& model, std::unique_ptr<traffic::TrafficEngi
   State state;
   state.traffic = std::move(traffic);
   if (model.obstacles) state.traffic->see_walls(model.obstacles->walls());
+  state.traffic->see_crossings(crossing_places(model));
   scenario::StepResult init;
   auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
   if (!started) return tl::unexpected(started.error());

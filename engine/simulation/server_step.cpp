@@ -22,6 +22,7 @@
 #include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/game.hpp"
 #include "engine/simulation/lights_stage.hpp"
+#include "engine/simulation/people_stage.hpp"
 #include "engine/simulation/sight_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
@@ -106,6 +107,7 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   State state;
   state.traffic = std::move(traffic);
   if (model.obstacles) state.traffic->see_walls(model.obstacles->walls());
+  state.traffic->see_crossings(crossing_places(model));
   scenario::StepResult init;
   auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
   if (!started) return tl::unexpected(started.error());
@@ -118,6 +120,7 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   apply_swarms(model, init, car, state);
   for (const PeopleErrorRates& rates : init.error_rates)
     if (auto set = state.traffic->set_errors(rates); !set) return tl::unexpected(set.error());
+  if (init.people) start_people(model, *init.people, car, state);
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);
   state.effects.ice = initial_ice(model.roads, model.scenario, state.scenario, model.driver_entity, driver_participant,
                                   first_scripted_participant, model.seed);
@@ -137,6 +140,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   note_bad_numbers(reset_bad_numbers(state.input), driver_participant, "controls", state, events);
   DrivenCar car = advance_car(model, state, events);
   advance_storyboard(model, car, state, events);
+  advance_people(model, car.participant, state);
   if (!model.lights.empty()) state.traffic->show_lights(lit_heads(model, state.time_s()));
   state.traffic->limit_sight(
       {state.sights, depth_for_lamps(air_of(state), traffic::farthest_looked_for_m), state.gone});

@@ -20,6 +20,7 @@
 #include "engine/simulation/game_state.hpp"
 #include "engine/simulation/model.hpp"
 #include "engine/simulation/open_crash.hpp"
+#include "engine/simulation/people_state.hpp"
 #include "engine/simulation/solid_motion.hpp"
 #include "engine/simulation/thrown_state.hpp"
 #include "engine/traffic/traffic_engine.hpp"
@@ -79,6 +80,7 @@ struct State {
   std::uint32_t off_road_ticks = 0;  ///< Time since the car was last on a road or right beside it.
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
+  PeopleOfDrive people;  ///< Hashed where there is one.
   EffectsState effects;
   /// Things beside the roads that are hidden (standing.hpp), by Obstacle::thing, ascending. Hashed where there is one.
   std::vector<std::uint32_t> gone;

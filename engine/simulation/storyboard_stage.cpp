@@ -9,6 +9,7 @@
 
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/people_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/participant_shape.hpp"
 #include "engine/world/people_errors.hpp"
@@ -123,6 +124,7 @@ void carry_out(const Model& model, const scenario::StepResult& step, const Parti
   for (const Call& call : step.calls) events.push_back(event_of(call));
   apply_swarms(model, step, car, state);
   apply_errors(model, step, state, events);
+  if (step.people) start_people(model, *step.people, car, state);
   apply_effects(model, step, car, state);
 }
 

@@ -3,6 +3,9 @@
 ///
 ///     count=120 radius_m=250       both words may be missing; `count=0` ends them
 ///
+/// A person of a swarm has one lamp, which shines on nobody: signal_green while he crosses a road or stands before a
+/// crosswalk and would, as his look and step tell every driver.
+///
 /// Pure functions.
 
 #include <cstdint>

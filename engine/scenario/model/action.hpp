@@ -14,6 +14,7 @@
 #include "engine/scenario/model/trajectory.hpp"
 #include "engine/world/call.hpp"
 #include "engine/world/lamps.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/people_errors.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -200,6 +201,9 @@ struct OverlookAction {
 /// PeopleErrorRates (engine/world/people_errors.hpp): a UserDefinedAction with type "septet:errors" and their text as
 /// content. They hold from then on, also for later swarms.
 ///
+/// PeopleWish (engine/world/people.hpp): a UserDefinedAction with type "septet:people" and its text as content: people
+/// walk around the driver's car from then on, in the place of those before.
+///
 /// Call (engine/world/call.hpp): a UserDefinedAction with type "septet:call" and the call's text as content, without
 /// its author.
 ///
@@ -208,6 +212,6 @@ using ActionVariant =
     std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction, SynchronizeAction,
                  LaneChangeAction, LaneOffsetAction, TeleportAction, FollowTrajectoryAction, AssignRouteAction,
                  AcquirePositionAction, EnvironmentAction, LightStateAction, SirenAction, EffectAction, ValueAction,
-                 TrafficSwarmAction, TrafficStopAction, Call, OverlookAction, PeopleErrorRates>;
+                 TrafficSwarmAction, TrafficStopAction, Call, OverlookAction, PeopleErrorRates, PeopleWish>;
 
 }  // namespace septet::scenario

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/scenario/read/scenario_reading.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/people_errors.hpp"
 #include "engine/world/scene_call.hpp"
 
@@ -306,6 +307,13 @@ ActionVariant read_errors_command(const Element& element) {
   return {};
 }
 
+ActionVariant read_people_command(const Element& element) {
+  const auto wish = read_people_wish(element.content_with_parameters());
+  if (wish) return *wish;
+  element.error(wish.error().what, wish.error().remedy);
+  return {};
+}
+
 ActionVariant read_overlook_command(const Reading& reading, const Element& element) {
   const auto wish = read_overlook_wish(element.content());
   if (!wish) {
@@ -336,6 +344,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (type == "septet:call") return read_call_command(command);
   if (type == "septet:scene") return read_scene_command(command);
   if (type == "septet:errors") return read_errors_command(command);
+  if (type == "septet:people") return read_people_command(command);
   if (type == "septet:overlook") return read_overlook_command(reading, command);
   if (type == "septet:game") {
     read_game(reading, command);
@@ -345,7 +354,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
     command.warning(
         "this command is not known and has no effect",
         "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish, septet:call, "
-        "septet:scene, septet:errors, septet:overlook, septet:game");
+        "septet:scene, septet:errors, septet:overlook, septet:people, septet:game");
     return {};
   }
   const std::string content = command.content();

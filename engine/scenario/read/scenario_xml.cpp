@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -254,6 +256,20 @@ bool Element::required_boolean(const char* attribute, bool fallback) const {
 }
 
 std::string Element::content() const { return pugi::xml_node(node_).text().as_string(); }
+
+std::string Element::content_with_parameters() const {
+  std::string filled;
+  std::istringstream words(content());
+  for (std::string word; words >> word;) {
+    const auto value = std::min(word.find('=') + 1, word.size());
+    if (!filled.empty()) filled += ' ';
+    filled += word.substr(0, value);
+    const auto known = substitute(word.substr(value), *parameters_);
+    if (!known) error(known.error().what, known.error().remedy);
+    filled += known.value_or("");
+  }
+  return filled;
+}
 
 std::string Element::where() const {
   return file_ != nullptr ? file_->findings.where(pugi::xml_node(node_)) : std::string();

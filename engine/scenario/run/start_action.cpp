@@ -171,6 +171,8 @@ StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& ne
     result.calls.push_back(*call);
   } else if (const auto* rates = std::get_if<PeopleErrorRates>(&what)) {
     result.error_rates.push_back(*rates);
+  } else if (const auto* people = std::get_if<PeopleWish>(&what)) {
+    result.people = *people;
   } else if (const auto* overlook = std::get_if<OverlookAction>(&what)) {
     result.overlooked.push_back(*overlook);
   }

@@ -10,6 +10,7 @@
 /// elements, edges, delays and priorities are those of OpenSCENARIO XML 1.3, "Storyboard and entities", "Conditions and
 /// triggers".
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "engine/road/road_network.hpp"
 #include "engine/scenario/run/scenario_state.hpp"
 #include "engine/world/call.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/people_errors.hpp"
 
 namespace septet::scenario {
@@ -38,6 +40,7 @@ struct StepResult {
   std::vector<Call> calls;                    ///< Messages to all who listen.
   std::vector<PeopleErrorRates> error_rates;  ///< Rates at which people err from now on.
   std::vector<OverlookAction> overlooked;     ///< Who is to be overlooked.
+  std::optional<PeopleWish> people;           ///< Who is to walk around the driver's car.
   std::vector<std::string> stopped_traffic;   ///< Names of swarms to be ended.
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.

@@ -157,6 +157,7 @@ void append_participants(const PeopleState& people, std::vector<Participant>& pa
     const double mps = glm::length(person.velocity_mps);
     participant.velocity_mps = Vec3(person.velocity_mps, 0.0);
     participant.angular_velocity_radps.z = person.turns_radps;
+    participant.lamps.set(Lamp::signal_green, person.crosses || person.asks);
     participant.wheel_spin_rad = turn_rad * person.strides;
     participant.wheel_spin_radps = turn_rad * strides_hz(mps > steps_from_mps ? mps : 0.0);
   }
