@@ -48,6 +48,7 @@ std::vector<traffic::CrossingPlace> crossing_places(const Model& model) {
 
 void start_people(const Model& model, const PeopleWish& wish, const Participant& car, State& state) {
   state.people = {wish, {}};
+  state.traffic->show_people({});
   // Those of an earlier swarm who were thrown lie where they lie, and their numbers are theirs.
   if (!model.walkways) return;
   const std::vector<Participant> others = others_now(model, state, car);

@@ -163,7 +163,9 @@ void append_bodies(const State& state, std::vector<Participant>& participants) {
 void append_others(const Model& model, const State& state, std::vector<Participant>& participants) {
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
   if (state.traffic) state.traffic->append_participants(participants);
-  traffic::append_participants(state.people.swarm, participants);
+  // As many participants as a snapshot holds: a swarm of the most vehicles leaves no room for the most people.
+  if (participants.size() + state.people.swarm.people.size() + most_solids <= max_wire_participants)
+    traffic::append_participants(state.people.swarm, participants);
   append_bodies(state, participants);
 }
 

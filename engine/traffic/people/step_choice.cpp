@@ -80,8 +80,11 @@ Vec2 step_to(const WalkwayGraph& graph, const std::vector<SeenVehicle>& vehicles
     const Vec2 apart = post.at_m - person.position_m;
     if (glm::dot(apart, apart) < near_m * near_m) bodies.push_back({apart, Vec2(0.0), post.radius_m + half_person_m});
   }
-  if (walk.is_crossing())
-    for (const SeenVehicle& vehicle : vehicles) add_vehicle(vehicle, person, bodies);
+  // On a pavement what stands or creeps is in the way; what drives keeps to its lane.
+  constexpr double creeps_mps = 2.0;
+  for (const SeenVehicle& vehicle : vehicles)
+    if (walk.is_crossing() || glm::dot(vehicle.velocity_mps, vehicle.velocity_mps) < creeps_mps * creeps_mps)
+      add_vehicle(vehicle, person, bodies);
   const PlaceOnWalk place = place_on_walk(graph, walk, person.at_m);
   const bool on_pavement = walk.is_crossing() && (person.at_m < graph.crossings[walk.crossing].left_at_m ||
                                                   person.at_m > graph.crossings[walk.crossing].right_at_m);
