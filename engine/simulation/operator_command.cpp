@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
@@ -15,12 +16,15 @@
 #include "engine/simulation/command_words.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/guidance.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 
 namespace septet::simulation {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::string_view no_goal = "nowhere";
+constexpr std::size_t longest_goal = 200;
 // Within the ranges that models and pictures support.
 constexpr std::array condition_table{
     Condition{"rain_mm_per_h", 0.0, 100.0, &Environment::rain_mm_per_h},
@@ -42,8 +46,8 @@ tl::unexpected<Error> no_command(std::string what) {
                  "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\", \"trigger element=NAME\", \"place x_m=X "
                  "y_m=Y part=NAME\", \"remove thing=N\" "
                  "\"hide entity=NAME\", \"fault what=NAME\", \"repair what=NAME\", \"put x_m=X y_m=Y heading_rad=A "
-                 "speed_mps=V\", \"call name=NAME node=NODE PARAMETER=VALUE …\", \"overlook\" or \"errors "
-                 "overlook=N late_brake=N telephone=N red=N\"");
+                 "speed_mps=V\", \"call name=NAME node=NODE PARAMETER=VALUE …\", \"overlook\", \"errors "
+                 "overlook=N late_brake=N telephone=N red=N\" or \"to PLACE\"");
 }
 
 Expected<OperatorCommand> parse_conditions(std::string_view text) {
@@ -276,6 +280,10 @@ Expected<void> apply(const Model&, const PeopleErrorRates& rates, State& state, 
   return state.traffic->set_errors(rates);
 }
 
+Expected<void> apply(const Model& model, const GuideDriver& wish, State& state, std::vector<Event>& events) {
+  return guide(model, wish.to, state, events);
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -301,6 +309,8 @@ std::string text_of(const OperatorCommand& command) {
   if (const auto* stand = std::get_if<StandSolid>(&command)) return text_of(*stand);
   if (const auto* clear = std::get_if<ClearSolid>(&command)) return text_of(*clear);
   if (const auto* show = std::get_if<ShowStanding>(&command)) return text_of(*show);
+  if (const auto* guided = std::get_if<GuideDriver>(&command))
+    return "to " + (guided->to.empty() ? std::string(no_goal) : guided->to);
   if (const auto* call = std::get_if<Call>(&command)) return "call " + septet::text_of(*call);
   if (const auto* rates = std::get_if<PeopleErrorRates>(&command)) return "errors " + septet::text_of(*rates);
   if (const auto* wish = std::get_if<OverlookWish>(&command)) {
@@ -347,6 +357,11 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
   if (constexpr std::string_view word = "overlook"; text == word) return OverlookWish{};
   if (constexpr std::string_view begin = "overlook "; text.starts_with(begin) && text.size() > begin.size())
     return read_overlook_wish(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "to "; text.starts_with(begin) && text.size() > begin.size()) {
+    const std::string_view to = text.substr(begin.size());
+    if (to.size() > longest_goal || !printable_characters(to)) return no_command("this is no goal");
+    return GuideDriver{to == no_goal ? std::string() : std::string(to)};
+  }
   for (const bool failed : {false, true}) {
     const std::string_view begin = failed ? "fault what=" : "repair what=";
     if (!text.starts_with(begin)) continue;

@@ -21,6 +21,8 @@
 ///     call name=lift node=stimuli/barrier seconds=3 by=lab
 ///     overlook who=1007 whom=NAME
 ///     errors overlook=6 late_brake=20 telephone=10 red=2
+///     to Bahnhofsplatz
+///     to nowhere
 
 #include <cstdint>
 #include <span>
@@ -94,9 +96,14 @@ struct PutCar {
   double speed_mps = 0.0;
   bool operator==(const PutCar&) const = default;
 };
+/// Guides the driver to a place (guidance.hpp), or no more.
+struct GuideDriver {
+  std::string to;  ///< Empty: no more.
+  bool operator==(const GuideDriver&) const = default;
+};
 using OperatorCommand =
     std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity, SetFault, PutCar,
-                 StandSolid, ClearSolid, ShowStanding, Call, OverlookWish, PeopleErrorRates>;
+                 StandSolid, ClearSolid, ShowStanding, Call, OverlookWish, PeopleErrorRates, GuideDriver>;
 
 /// Bounds of PutCar: distance from a road, speed, and distance to other participants.
 inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;

@@ -21,6 +21,7 @@
 #include "engine/simulation/examiner.hpp"
 #include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/game.hpp"
+#include "engine/simulation/guidance.hpp"
 #include "engine/simulation/lights_stage.hpp"
 #include "engine/simulation/people_stage.hpp"
 #include "engine/simulation/sight_stage.hpp"
@@ -96,6 +97,7 @@ Snapshot capture(const Model& model, const State& state, const DrivenCar& car, s
   if (auto warnings = warning_keyframe(state)) snapshot.effects.push_back(std::move(*warnings));
   if (auto sights = sight_keyframe(state)) snapshot.effects.push_back(std::move(*sights));
   if (auto seen = seen_keyframe(state)) snapshot.effects.push_back(std::move(*seen));
+  append_guidance(state, snapshot.effects);
   snapshot.diagnostics = state.diagnostics;
   if (state.game) snapshot.game = state.game->standing;
   return snapshot;
@@ -127,6 +129,8 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   apply_effects(model, init, car, state);
   if (model.scenario.game) state.game = initial_game(*model.scenario.game, model.seed);
   if (!model.yield_lines.empty()) state.examiner.emplace();
+  std::vector<Event> route_untold;  // Its words come with the first looks. Without a way there nobody guides.
+  for (const auto& places : init.guided) (void)guide_over(model, places, state, route_untold);
   if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
   std::vector<Event> unseen_before;  // At the beginning everybody is.
   look_for_others(model, participants_now(model, state, car, {}), state, unseen_before);
@@ -161,6 +165,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   find_collisions(model, car, participants, state, events);
   advance_game(model, car.participant, state, events);
   advance_examiner(model, participants, car.participant, state, events);
+  advance_guidance(model, car.participant, state, events);
   look_ahead(model, participants, state.effects, state.scenario);
   look_through_air(model, participants, state, events);
   look_for_others(model, participants, state, events);

@@ -18,6 +18,7 @@
 #include "engine/simulation/effects/effects_state.hpp"
 #include "engine/simulation/examiner_state.hpp"
 #include "engine/simulation/game_state.hpp"
+#include "engine/simulation/guidance_state.hpp"
 #include "engine/simulation/model.hpp"
 #include "engine/simulation/open_crash.hpp"
 #include "engine/simulation/people_state.hpp"
@@ -90,6 +91,7 @@ struct State {
   std::optional<MotionState> motion;       ///< Present where the car goes by a table (given_motion.hpp).
   std::optional<GameState> game;           ///< Present where the scenario is played as a game.
   std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.
+  std::optional<GuidanceState> guidance;  ///< Present where the driver is guided to a goal.
   DriverInput input;                      ///< Input of the last step.
   Diagnostics diagnostics;
   /// Participants that overlapped the car last tick, ascending: one collision counts once.

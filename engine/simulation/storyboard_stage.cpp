@@ -9,6 +9,7 @@
 
 #include "engine/simulation/bodies/bodies.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/guidance.hpp"
 #include "engine/simulation/people_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
 #include "engine/world/participant_shape.hpp"
@@ -126,6 +127,9 @@ void carry_out(const Model& model, const scenario::StepResult& step, const Parti
   apply_errors(model, step, state, events);
   if (step.people) start_people(model, *step.people, car, state);
   apply_effects(model, step, car, state);
+  for (const auto& places : step.guided)
+    if (auto guided = guide_over(model, places, state, events); !guided)
+      events.push_back({"guidance", driver_participant, "refused=\"" + guided.error().what + '"'});
 }
 
 }  // namespace septet::simulation

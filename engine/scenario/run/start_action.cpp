@@ -139,6 +139,12 @@ struct StartPrivate {
     if (entity().path_control.timed) take_over(entity().path_control);
   }
   void take_route(const std::vector<Position>& waypoints) const {
+    if (entity().external) {
+      std::vector<road::LanePosition>& places = result.guided.emplace_back();
+      for (const Position& waypoint : waypoints)
+        if (const auto placement = resolve_position(network, state, waypoint); placement && placement->on_road)
+          places.push_back(placement->lane);
+    }
     entity().route = {
         std::make_shared<const std::vector<road::RoadIndex>>(plan_from(network, state, entity(), waypoints)), 0};
   }

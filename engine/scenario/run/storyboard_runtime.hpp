@@ -41,6 +41,8 @@ struct StepResult {
   std::vector<PeopleErrorRates> error_rates;  ///< Rates at which people err from now on.
   std::vector<OverlookAction> overlooked;     ///< Who is to be overlooked.
   std::optional<PeopleWish> people;           ///< Who is to walk around the driver's car.
+  /// Routes of the entity that is moved from outside: the places that it is to be guided over.
+  std::vector<std::vector<road::LanePosition>> guided;
   std::vector<std::string> stopped_traffic;   ///< Names of swarms to be ended.
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.

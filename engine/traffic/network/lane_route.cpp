@@ -77,7 +77,10 @@ struct Search {
 /// Steps from the nodes passed, the first one last.
 LaneRoute route_of(const Search& search, std::vector<Node> nodes, const PlaceOnLane& from, const PlaceOnLane& to) {
   const LaneGraph& graph = *search.graph;
-  LaneRoute route{.steps = {}, .length_m = -from.at_m, .time_s = 0.0, .from = from, .to = to};
+  LaneRoute route;
+  route.length_m = -from.at_m;
+  route.from = from;
+  route.to = to;
   Node last = no_node;
   for (const Node node : nodes) {
     const WayIndex way = search.way_of(node);
@@ -131,6 +134,7 @@ std::optional<LaneRoute> plan_route(const LaneGraph& graph, const PlaceOnLane& f
   std::ranges::reverse(nodes);
   LaneRoute route = route_of(search, std::move(nodes), from, *goal);
   route.time_s = least_s;
+  route.reached_m = {route.length_m};
   return route;
 }
 
@@ -151,17 +155,17 @@ std::optional<LaneRoute> plan_route_over(const LaneGraph& graph, const PlaceOnLa
       whole->steps.back().begins_m += whole->length_m;
     }
     whole->length_m += leg->length_m;
+    whole->reached_m.push_back(whole->length_m);
     whole->time_s += leg->time_s;
     whole->to = leg->to;
   }
   return whole;
 }
 
-std::optional<PlaceOnLane> lane_under(const LaneGraph& graph, const road::RoadNetwork& network, const Vec2& world_m,
-                                      double heading_rad) {
+std::vector<PlaceOnLane> lanes_under(const LaneGraph& graph, const road::RoadNetwork& network, const Vec2& world_m,
+                                     double heading_rad) {
   constexpr double widest_rad = 1.2;
-  std::optional<PlaceOnLane> best;
-  double least_rad = widest_rad;
+  std::vector<std::pair<double, PlaceOnLane>> found;
   for (const road::Location& location : road::roads_holding(network, world_m)) {
     const road::RoadPosition& there = location.position;
     if (location.lanes.lane == 0) continue;
@@ -173,11 +177,13 @@ std::optional<PlaceOnLane> lane_under(const LaneGraph& graph, const road::RoadNe
     const double at_m = std::clamp(way.along_s ? share : 1.0 - share, 0.0, 1.0) * way.length_m;
     const Vec3 tangent = place_on_way(graph, way, at_m).tangent;
     const double off_rad = std::abs(road::wrap_angle(std::atan2(tangent.y, tangent.x) - heading_rad));
-    if (off_rad >= least_rad) continue;
-    least_rad = off_rad;
-    best = PlaceOnLane{index, at_m};
+    if (off_rad < widest_rad) found.emplace_back(off_rad, PlaceOnLane{index, at_m});
   }
-  return best;
+  std::ranges::stable_sort(found, {}, &std::pair<double, PlaceOnLane>::first);
+  std::vector<PlaceOnLane> lanes;
+  lanes.reserve(found.size());
+  for (const auto& [off_rad, place] : found) lanes.push_back(place);
+  return lanes;
 }
 
 std::vector<PlaceOnLane> lanes_at(const LaneGraph& graph, const road::RoadNetwork& network, road::RoadIndex road,

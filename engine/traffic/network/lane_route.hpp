@@ -34,6 +34,7 @@ struct LaneRoute {
   std::vector<RouteStep> steps;  ///< At least one.
   double length_m = 0.0, time_s = 0.0;
   PlaceOnLane from, to;
+  std::vector<double> reached_m;  ///< Where each of its goals is reached, from its begin; the last is its length.
 };
 
 /// What a change of lanes costs, and the length of a section that leaves room for one.
@@ -46,8 +47,9 @@ std::optional<LaneRoute> plan_route(const LaneGraph& graph, const PlaceOnLane& f
 std::optional<LaneRoute> plan_route_over(const LaneGraph& graph, const PlaceOnLane& from,
                                          std::span<const std::vector<PlaceOnLane>> places);
 
-/// The lane on which a body stands that heads along it; empty: off all lanes, or against their traffic.
-std::optional<PlaceOnLane> lane_under(const LaneGraph& graph, const road::RoadNetwork& network, const Vec2& world_m,
+/// The lanes that hold a point and lead about where a body heads, the one that does so best first: in a junction there
+/// are several. Empty: off all lanes, or against their traffic.
+std::vector<PlaceOnLane> lanes_under(const LaneGraph& graph, const road::RoadNetwork& network, const Vec2& world_m,
                                       double heading_rad);
 
 /// All driving lanes of a road at a station.

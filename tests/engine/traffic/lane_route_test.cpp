@@ -84,10 +84,11 @@ TEST_CASE("a body stands in the lane that leads where it heads") {
     const Way& way = graph.ways[index];
     const PlaceOnWay place = place_on_way(graph, way, 0.6 * way.length_m);
     const auto found =
-        lane_under(graph, network, Vec2(place.position_m), std::atan2(place.tangent.y, place.tangent.x));
-    REQUIRE(found.has_value());
-    if (!way.in_junction()) CHECK(found->way == index);
-    CHECK(glm::distance(place_on_way(graph, graph.ways[found->way], found->at_m).position_m, place.position_m) < 2.0);
+        lanes_under(graph, network, Vec2(place.position_m), std::atan2(place.tangent.y, place.tangent.x));
+    CHECK(std::ranges::find(found, index, &PlaceOnLane::way) != found.end());
+    if (!way.in_junction()) CHECK(found.size() == 1);
+    for (const PlaceOnLane& lane : found)
+      CHECK(glm::distance(place_on_way(graph, graph.ways[lane.way], lane.at_m).position_m, place.position_m) < 2.5);
   }
 }
 
