@@ -67,6 +67,7 @@ Lamps light_at(const Snapshot& snapshot, const traffic::YieldLine& line) {
 
 /// The lane's path beyond a line.
 std::vector<Vec2> way_at(const CourseLine& ahead, const road::RoadNetwork& network, const OwnPlace& own) {
+  if (ahead.lane != 0) return traffic::way_beyond(network, ahead.line.kind, {ahead.line.road, ahead.lane, ahead.line.s_m, 0.0});
   const int lane = ahead.line.along_s ? -own.lane : own.lane;
   const bool right_hand = network.roads[ahead.line.road].rule == road::TrafficRule::right_hand;
   return traffic::way_beyond(network, ahead.line.kind,
@@ -150,12 +151,18 @@ CourseState read_course(const road::RoadNetwork& network, const traffic::Corrido
     const traffic::CorridorPiece& piece = corridor.pieces[k];
     for (const traffic::YieldLine& line : lines) {
       if (line.road != piece.road || line.along_s != piece.along_s) continue;
-      const double x_m = piece.x_m + (piece.along_s ? line.s_m : piece.length_m - line.s_m);
+      // On a route give-way lines are minded with all else that has right of way (junction_gaps.hpp).
+      if (corridor.is_route && (line.kind == LineKind::give_way || line.s_m < piece.from_s_m ||
+                                line.s_m > piece.from_s_m + piece.length_m))
+        continue;
+      const double x_m = traffic::x_on_piece(piece, line.s_m);
       const bool is_last = k + 1 == corridor.pieces.size();
       const bool gives_way = line.kind == LineKind::give_way && !is_last;
-      state.lines.push_back({x_m, line, gives_way ? view_of(views, corridor.pieces[k + 1]) : std::nullopt});
+      state.lines.push_back({x_m, line, gives_way ? view_of(views, corridor.pieces[k + 1]) : std::nullopt,
+                             corridor.is_route ? piece.lane : 0});
     }
-    const int side = road::turn_through(network, piece.road, piece.side, piece.along_s);
+    const int side =
+        road::turn_through(network, piece.road, corridor.is_route ? piece.lane : piece.side, piece.along_s);
     if (side != 0) state.turns.push_back({piece.x_m, piece.x_m + piece.length_m, side});
   }
   std::ranges::stable_sort(state.lines, {}, &CourseLine::x_m);

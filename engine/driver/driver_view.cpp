@@ -20,9 +20,8 @@ Vec2 ground_position(const Participant& participant) { return Vec2(participant.w
 
 /// Along the corridor; 0 off it.
 double x_on(const traffic::Corridor& corridor, const road::RoadPosition& place) {
-  const auto piece = std::ranges::find(corridor.pieces, place.road, &traffic::CorridorPiece::road);
-  if (piece == corridor.pieces.end()) return 0.0;
-  return piece->x_m + (piece->along_s ? place.s_m : piece->length_m - place.s_m);
+  const traffic::CorridorPiece* piece = traffic::piece_of(corridor, place);
+  return piece ? traffic::x_on_piece(*piece, place.s_m) : 0.0;
 }
 
 /// Place on the corridor, where other roads of a junction overlap: the one nearest along it to the expected place.
@@ -99,7 +98,7 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const tr
   OwnPlace own;
   own.position = location->position;
   own.x_m = *x_m;
-  own.lane = std::abs(location->lanes.lane);
+  own.lane = std::abs(location->lanes.lane) + traffic::piece_at(corridor, *x_m).lane_shift;
   own.offset_m = to_the_left(traffic::piece_at(corridor, *x_m), location->lanes.offset_m);
   own.across_m = to_the_left(traffic::piece_at(corridor, *x_m), location->position.t_m);
   own.half_width_m = model.width_m / 2.0;
@@ -131,7 +130,8 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
     const auto location = on_corridor(network, corridor, road::locate(network, there, &hint), there,
                                       own.x_m + glm::dot(there - here, ahead_along_s * forward));
     const int side = traffic::piece_at(corridor, own.x_m).side;
-    if (!location || location->lanes.lane * side <= 0) continue;
+    // On a route x_of tells sides apart.
+    if (!location || (!corridor.is_route && location->lanes.lane * side <= 0)) continue;
     const VehicleModel model = shape_of(other);
     const double sideways = sideways_mps(network, location->position, other);
     const road::LaneRange lanes = lanes_taken(network, location->position, other, model, sideways);
@@ -141,9 +141,10 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
     const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
     SeenVehicle vehicle;
     vehicle.id = other.id;
-    vehicle.lane = std::abs(location->lanes.lane);
-    vehicle.innermost_lane = std::min(std::abs(lanes.lowest), std::abs(lanes.highest));
-    vehicle.outermost_lane = std::max(std::abs(lanes.lowest), std::abs(lanes.highest));
+    const int shift = traffic::piece_at(corridor, *x_m).lane_shift;
+    vehicle.lane = std::abs(location->lanes.lane) + shift;
+    vehicle.innermost_lane = std::min(std::abs(lanes.lowest), std::abs(lanes.highest)) + shift;
+    vehicle.outermost_lane = std::max(std::abs(lanes.lowest), std::abs(lanes.highest)) + shift;
     const double ahead_m = traffic::length_along_lane_m(network, corridor, own.lane, own.x_m,
                                                         traffic::distance_m(corridor, own.x_m, *x_m), gap_step_m);
     const traffic::CorridorPiece& piece = traffic::piece_at(corridor, *x_m);
