@@ -32,6 +32,8 @@ constexpr double start_s = 1.2;  ///< To drive off.
 constexpr double doubt_s = 0.5;
 /// A driver indicates after the previous exit has been passed, or at the fork.
 constexpr double farthest_signal_m = 40.0, turn_before_m = 16.0;
+/// Share of the acceleration in a bend that is taken in a turn, where hands have far to go.
+constexpr double in_turns = 0.6;
 constexpr double stands_before_m = 1.2, overrun_m = 1.0;
 
 /// Permitted excess of the squared speed here over the squared target so far ahead.
@@ -48,8 +50,15 @@ double allowed_speed_mps(const DriverParameters& driver, const road::RoadNetwork
     if (!corridor.closed && x >= corridor.length_m) break;
     const road::LanePosition there = traffic::position_at(corridor, x, own.lane);
     const double slower = slower_m2ps2(driver.course, own, ahead_m);
-    const double curvature = std::abs(road::evaluate_lane(network, there).road.curvature_per_m);
-    if (curvature > 1e-6) allowed = std::min(allowed, std::sqrt(driver.course.bend_mps2 / curvature + slower));
+    const road::LanePoint point = road::evaluate_lane(network, there);
+    double curvature = std::abs(point.road.curvature_per_m);
+    double bend_mps2 = driver.course.bend_mps2;
+    if (corridor.is_route) {
+      // Turns at crossings are as tight as the lane is beside its line.
+      curvature /= std::max(0.3, 1.0 - point.road.curvature_per_m * point.t_m);
+      bend_mps2 *= in_turns;
+    }
+    if (curvature > 1e-6) allowed = std::min(allowed, std::sqrt(bend_mps2 / curvature + slower));
     const double limit = road::speed_limit_mps(network, there) * driver.speed.limit_factor;
     if (limit > 0.0 && ahead_m > 0.0) allowed = std::min(allowed, std::sqrt(limit * limit + slower));
   }

@@ -48,4 +48,8 @@ $('trafficform').onsubmit = (event) => {
   event.preventDefault();
   change(`traffic vehicles=${Math.max(0, Math.min(3000, Math.round(+$('vehicles').value || 0)))}`);
 };
+$('guideform').onsubmit = (event) => {
+  event.preventDefault();
+  change(`to ${$('guide_to').value.trim() || 'nowhere'}`);
+};
 $('overlook').onclick = () => change('overlook');
