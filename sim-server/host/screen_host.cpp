@@ -72,6 +72,7 @@ ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
     : options_(std::move(options)),
       lane_(lane_socket, {options_.identity, options_.session, options_.allowed, options_.limits}),
       publisher_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}),
+      every_tick_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}, publisher_),
       baselines_(baselines_for(options_.welcome.lockstep)),
       store_(store),
       scene_(store, instance_of(options_.session)),
@@ -156,10 +157,15 @@ void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
   const auto* info = lane_.info(client);
   if (!info) return;
   const net::Address destination{info->address.ip, port};
-  if (const auto before = unicast_.find(client); before != unicast_.end())
-    publisher_.remove_destination(before->second);
+  if (const auto before = unicast_.find(client); before != unicast_.end()) remove_destination(before->second);
   unicast_[client] = destination;
-  publisher_.add_destination(destination);
+  const bool is_told_every_tick = options_.welcome.lockstep && watchers_.contains(client);
+  (is_told_every_tick ? every_tick_ : publisher_).add_destination(destination);
+}
+
+void ScreenHost::remove_destination(const net::Address& destination) {
+  publisher_.remove_destination(destination);
+  every_tick_.remove_destination(destination);
 }
 
 net::Rights ScreenHost::rights_of(const std::string& name) const {
@@ -430,7 +436,7 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
   scene_.disconnect(client);
   baselines_.leave(client);
   if (const auto destination = unicast_.find(client); destination != unicast_.end()) {
-    publisher_.remove_destination(destination->second);
+    remove_destination(destination->second);
     unicast_.erase(destination);
   }
   watchers_.erase(client);
@@ -451,6 +457,16 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
 }
 
 void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_s) {
+  send_tick(std::move(taken), now_s, true);
+  for (HostedScreen& screen : screens_)
+    if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
+}
+
+void ScreenHost::publish_to_watchers(std::shared_ptr<const TakenSnapshot> taken, double now_s) {
+  if (!every_tick_.destinations().empty()) send_tick(std::move(taken), now_s, false);
+}
+
+void ScreenHost::send_tick(std::shared_ptr<const TakenSnapshot> taken, double now_s, bool is_for_screens) {
   baselines_.advance_to(now_s);
   const WireSnapshot* baseline = nullptr;
   if (const auto tick = baselines_.baseline()) {
@@ -465,9 +481,8 @@ void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_
   put_tick_header(writer, header);
   encode_snapshot(taken->wire(), baseline, payload);
   last_tick_bytes_ = payload.size();
-  publisher_.publish(taken->snapshot().tick, payload);
-  for (HostedScreen& screen : screens_)
-    if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
+  if (is_for_screens) publisher_.publish(taken->snapshot().tick, payload);
+  if (!every_tick_.destinations().empty()) every_tick_.publish(taken->snapshot().tick, payload);
   constexpr std::size_t most_begun = 480;  // Four seconds: a screen that shows a tick later has been away.
   if (!options_.welcome.lockstep) begun_s_.emplace_back(taken->snapshot().tick, now_s);
   if (begun_s_.size() > most_begun) begun_s_.pop_front();
