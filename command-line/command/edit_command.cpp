@@ -117,8 +117,9 @@ Expected<int> run_edit(const EditOptions& options) {
     session.look_at_files(program::monotonic_s());
     if (auto read = lines->pump(); !read) return tl::unexpected(read.error());
     const auto may_take = [&](const std::string& line) {
-      return session.is_settled() || ((options.json || session.is_in_batch()) && !EditSession::reads_scene(line) &&
-                                      session.answers_owed() < most_answers_owed);
+      return session.is_settled_for_now() ||
+             ((options.json || session.is_in_batch()) && !EditSession::reads_scene(line) &&
+              session.answers_owed() < most_answers_owed);
     };
     while (!lines->empty() && may_take(lines->front())) session.take(lines->take());
     if (lines->ended() && session.is_settled() && !session.is_watching()) break;
@@ -130,7 +131,8 @@ Expected<int> run_edit(const EditOptions& options) {
   }
   output.end(end);
   (*client)->close();
-  return session.refusals() == 0 && session.answers_owed() == 0 ? logging::finished_status : logging::failed_status;
+  return session.refusals() == 0 && session.answers_owed() + session.ahead_of_now() == 0 ? logging::finished_status
+                                                                                         : logging::failed_status;
 }
 
 }  // namespace septet::server

@@ -59,9 +59,8 @@ void SceneEdits::take_requests(Tick from, const Moment& moment) {
   for (SceneRequest& request : host_->take_scene_requests()) {
     if (!gate_)
       host_->refuse_scene(request, "a session that is shown again cannot be changed: edit a drive", now_s);
-    else if (!turns_.has_room_for(request))
-      host_->refuse_scene(request, "this editor's changes that wait for their turn or tick fill its queue: send fewer",
-                          now_s);
+    else if (const auto why_not = turns_.refusal(request))
+      host_->refuse_scene(request, *why_not, now_s);
     else
       turns_.add(std::move(request));
   }

@@ -66,6 +66,13 @@ bool EditSession::reads_scene(std::string_view line) {
   return std::ranges::find(verbs, first_word(line)) != verbs.end();
 }
 
+std::size_t EditSession::ahead_of_now() const {
+  const auto& ticks = client_.link().history();
+  const Tick next = ticks.empty() ? 0 : ticks.newest().snapshot.tick + 1;
+  return static_cast<std::size_t>(
+      std::ranges::count_if(waiting_, [&](const auto& entry) { return entry.second.batch.tick > next; }));
+}
+
 void EditSession::refuse(std::uint64_t request, const FailedLines& failed) {
   ++refusals_;
   output_.refused(request, failed);
