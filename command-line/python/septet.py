@@ -267,7 +267,6 @@ class Handle:
     def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
         self._world, self.node = world, node
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
-        self._is_moving = False
         self._solid: Solid = False
 
     @property
@@ -282,11 +281,8 @@ class Handle:
         position, wxyz, scale = tuple(map(float, position)), tuple(map(float, wxyz)), tuple(map(float, scale))
         if (len(position), len(wxyz), len(scale)) != (3, 4, 3):
             raise ValueError("a position is x, y, z, a rotation w, x, y, z, a scale x, y, z")
-        self._world._change(f"transform-set {self.node} {_numbers(position)} {_numbers(wxyz)} {_numbers(scale)}")
+        self._world._change(f"move {self.node} {_numbers(position)} {_numbers(wxyz)} {_numbers(scale)}")
         self._position, self._wxyz, self._scale = position, wxyz, scale
-        if self._is_moving:
-            self._world._change(f"motion-set {self.node} 0 0 0 0 1 0 0 0 0")
-        self._is_moving = False
 
     def go(self, velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float = 0.0, then: Iterable[tuple[Any, ...]] = ()) -> None:
         """In motion from where it is, m/s, m/s² and degrees a second about the vertical, until a position is assigned.
@@ -297,7 +293,6 @@ class Handle:
         for after_s, *leg in then:
             line += f" then {float(after_s)!r} {_leg(*leg)}"
         self._world._change(line)
-        self._is_moving = True
 
     @property
     def position(self) -> tuple[float, ...]:

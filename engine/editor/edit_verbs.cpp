@@ -91,6 +91,16 @@ std::optional<Transform> transform_of(Words words) {
 
 namespace {
 
+/// Of X Y Z, a rotation w x y z and a scale x y z; empty: other words.
+std::optional<Transform> whole_transform_of(Words words) {
+  const auto read = numbers(words);
+  if (!read || read->size() != 10) return std::nullopt;
+  const auto& n = *read;
+  return Transform{{n[0], n[1], n[2]},
+                   {n[3], n[4], n[5], n[6]},
+                   {static_cast<float>(n[7]), static_cast<float>(n[8]), static_cast<float>(n[9])}};
+}
+
 /// A leg of `go`; a later one begins with its time after the first one's beginning.
 std::optional<MotionLeg> leg_of(Words words, bool is_later) {
   const auto given = numbers(words);
@@ -142,6 +152,12 @@ class Verbs {
   }
 
  private:
+  void learn(const MotionSet& set) {
+    if (set.motion.legs.empty())
+      names_.going.erase(set.node);
+    else
+      names_.going.insert(set.node);
+  }
   std::optional<NodeId> object(const TextWord& word) const {
     const auto id = node_of({store_, names_.own_ids, nullptr, &names_.fresh}, word);
     return id && *id != no_node ? id : std::nullopt;
@@ -152,6 +168,7 @@ class Verbs {
   /// Ids that are used are not free, and names of objects are known at once.
   void learn(const Command& command) {
     learn_worn(names_.paints, command);
+    if (const auto* motion = std::get_if<MotionSet>(&command)) return learn(*motion);
     if (const auto* create = std::get_if<NodeCreate>(&command)) {
       if (create->node >= names_.next && create->node - names_.own_ids < replication::ids_per_session)
         names_.next = create->node + 1;
@@ -223,20 +240,23 @@ class Verbs {
         {{NodeCreate{*id, NodeType::object}, NodeNameSet{*id, words[0].text}, TransformSet{*id, *transform}}, *id + 1});
   }
   Expected<EditedLine> move(Words words) {
-    constexpr std::string_view usage = "move NODE X Y Z [HEADING_DEG]";
+    constexpr std::string_view usage = "move NODE X Y Z [HEADING_DEG], or X Y Z QW QX QY QZ SCALE_X SCALE_Y SCALE_Z";
     if (words.size() < 4) return wrong("a node and its place are needed", usage);
     const auto id = object(words[0]);
     if (!id) return no_node_called(words[0]);
-    auto transform = transform_of(words.subspan(1));
-    if (!transform) return wrong("a place is three or four numbers", usage);
-    EditedLine line;
+    const auto whole = whole_transform_of(words.subspan(1));
+    auto transform = whole ? whole : transform_of(words.subspan(1));
+    if (!transform) return wrong("a place is three or four numbers, or ten", usage);
     const Node* node = store_.find(*id);
-    if (const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr) {
+    const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr;
+    if (now && !whole) {
       transform->scale = now->transform.scale;
       if (words.size() == 4) transform->rotation = now->transform.rotation;
-      if (!now->motion.legs.empty()) line.commands.emplace_back(MotionSet{*id, {}});
     }
-    line.commands.emplace(line.commands.begin(), TransformSet{*id, *transform});
+    EditedLine line{{TransformSet{*id, *transform}}};
+    // Whose line ever set it in motion; one of this editor's may not be in the mirror yet.
+    if ((now && !now->motion.legs.empty()) || names_.going.erase(*id) > 0)
+      line.commands.emplace_back(MotionSet{*id, {}});
     return line;
   }
   Expected<EditedLine> go(Words words) {
@@ -250,7 +270,10 @@ class Verbs {
       const auto leg = leg_of(rest.first(static_cast<std::size_t>(then - rest.begin())), !motion.motion.legs.empty());
       if (!leg) return wrong("a velocity is three numbers, an acceleration three more, a turn one more", usage);
       motion.motion.legs.push_back(*leg);
-      if (then == rest.end()) return EditedLine{{std::move(motion)}};
+      if (then == rest.end()) {
+        learn(motion);
+        return EditedLine{{std::move(motion)}};
+      }
       rest = rest.subspan(static_cast<std::size_t>(then - rest.begin()) + 1);
     }
   }
@@ -488,8 +511,10 @@ Expected<Lifetime> lifetime_of(const std::vector<TextWord>& words, const Store& 
 
 void forget_destroyed(EditNames& names, std::span<const Command> batch) {
   for (const Command& command : batch)
-    if (const auto* destroy = std::get_if<NodeDestroy>(&command))
+    if (const auto* destroy = std::get_if<NodeDestroy>(&command)) {
       std::erase_if(names.fresh, [&](const auto& entry) { return entry.second == destroy->node; });
+      names.going.erase(destroy->node);
+    }
 }
 
 Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store) {

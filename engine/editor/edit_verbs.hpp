@@ -24,6 +24,7 @@ struct EditNames {
   scene::NodeId next = 0;                                     ///< First of the own ids that is free.
   std::map<std::string, scene::NodeId, std::less<>> fresh{};  ///< Objects by the names given to them.
   std::set<scene::NodeId> objects{};                          ///< Created.
+  std::set<scene::NodeId> going{};                            ///< Set in motion, and not halted by a place since.
   Paints paints{};
   scene::NodeId kept_to = 0;  ///< Own ids below it are spoken for, used or not.
 };

@@ -295,6 +295,27 @@ TEST_CASE("what is moved keeps its heading unless another is given, and its scal
   CHECK(place().scale == glm::vec3(2));
 }
 
+TEST_CASE("a place ends the motion, set by another's line or by one that the scene does not have yet") {
+  EditedWorld world;
+  REQUIRE(world.take("create ball 1 2 3"));
+  REQUIRE(world.take("go ball 1 0 0"));
+  // Another editor's names, the same scene.
+  EditNames others{2000, 2000};
+  const auto moved = edit_of(scene::words_of("move ball 4 5 6 1 0 0 0 2 2 2").value(), world.store, others).value();
+  REQUIRE(moved.commands.size() == 2);
+  CHECK(std::get<scene::TransformSet>(moved.commands[0]).transform.scale == glm::vec3(2.0F));
+  CHECK(std::get<scene::MotionSet>(moved.commands[1]).motion.legs.empty());
+
+  REQUIRE(world.take("move ball 1 2 3"));
+  CHECK(world.take("move ball 1 2 4")->commands.size() == 1);
+  const auto line = [&](std::string_view text) {
+    return edit_of(scene::words_of(text).value(), world.store, world.names).value().commands.size();
+  };
+  CHECK(line("go ball 1 0 0") == 1);
+  CHECK(line("move ball 1 0 0 1 0 0 0 1 1 1") == 2);
+  CHECK(line("move ball 2 0 0 1 0 0 0 1 1 1") == 1);
+}
+
 TEST_CASE("an imported model's properties are tags of its object, by which it is found") {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("{}-deer.gltf", getpid());
   std::ofstream(file)
