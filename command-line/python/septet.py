@@ -19,7 +19,6 @@ import math
 import os
 import pathlib
 import queue
-import re
 import shutil
 import subprocess
 import tempfile
@@ -227,14 +226,6 @@ def _word(text: str) -> str:
     return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
 
 
-def _unquoted(word: str) -> str:
-    return re.sub(r"\\x([0-9a-f]{2})|\\(.)", _unescaped, word[1:-1]) if word.startswith('"') else word
-
-
-def _unescaped(sign: "re.Match[str]") -> str:
-    return chr(int(sign[1], 16)) if sign[1] else {"n": "\n"}.get(sign[2], sign[2])
-
-
 def _who(participant: Parent) -> str:
     if isinstance(participant, Handle):
         return participant.node
@@ -262,17 +253,13 @@ def _leg(velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float =
 
 
 class Handle:
-    """An object of the world, by its name. Assigning a property is the change."""
+    """An object of the world. Assigning a property is the change."""
 
-    def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
-        self._world, self.node = world, node
+    def __init__(self, world: World, node: str, name: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
+        self._world, self.node, self.name = world, node, name
+        """`node` is its word in a line; `name` is as events and calls name it: #NUMBER where it has no name of its own."""
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
         self._solid: Solid = False
-
-    @property
-    def name(self) -> str:
-        """As events and calls name it; #NUMBER where it has no name of its own."""
-        return _unquoted(self.node)
 
     def __repr__(self) -> str:
         return f"<septet.Handle {self.node} at {self._position}>"
@@ -475,17 +462,13 @@ class World:
     def find(self, pattern: str = "*", near: Optional[tuple[float, float, float]] = None) -> list[Handle]:
         """Objects whose names match (* and ?), `near` (x, y, metres); a thousand at most."""
         line = f"find {_word(pattern)}" + ("" if near is None else f" near {_numbers(near)}")
-        return [
-            Handle(self, one["node"], one["position"], one["wxyz"], one["scale"], one["visible"])
-            for one in self._ask([line]).result(60.0)
-            if "position" in one
-        ]
+        return [self._found(one) for one in self._ask([line]).result(60.0) if "position" in one]
 
     def get(self, name: str) -> Handle:
         """The object of this name. Raises KeyError."""
         for one in self._ask([f"find {_word(name)}"]).result(60.0):
             if one["name"] == name:
-                return Handle(self, one["node"], one["position"], one["wxyz"], one["scale"], one["visible"])
+                return self._found(one)
         raise KeyError(name)
 
     def batch(self, at_tick: Optional[int] = None) -> Batch:
@@ -655,6 +638,10 @@ class World:
                 except Exception:
                     traceback.print_exc()
 
+    def _found(self, one: dict[str, Any]) -> Handle:
+        name = one["name"] or f"#{one['id']}"
+        return Handle(self, one["node"], name, one["position"], one["wxyz"], one["scale"], one["visible"])
+
     def _made(
         self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent], solid: Solid
     ) -> Handle:
@@ -666,7 +653,7 @@ class World:
         if solid is not False:
             lines.append(f"solid {_word(name)}{_solid(solid)}")
         self._change(*lines)
-        made = Handle(self, _word(name), position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
+        made = Handle(self, _word(name), name, position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
         made._solid = solid
         return made
 

@@ -96,7 +96,7 @@ void EditOutput::nodes(std::uint64_t request, const std::vector<scene::NodeId>& 
       out_ << '\n';
       continue;
     }
-    Json entry{{"node", word}, {"name", node ? node->name : ""}};
+    Json entry{{"node", word}, {"id", id}, {"name", node ? node->name : ""}};
     if (object) {
       const glm::vec3 scale = object->transform.scale;
       entry["position"] = of(object->transform.position_m);
