@@ -564,7 +564,7 @@ class World:
                 yield tick
 
     def on(self, what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-        """`@world.on("tick")`, "end", "message": called in the connection's own thread; such a handler must not change the world."""
+        """`@world.on("tick")`, "end", "message": called in the connection's own thread; such a handler must not change the world. What one raises is printed."""
         def register(handler: Callable[..., Any]) -> Callable[..., Any]:
             self._handlers[what].append(handler)
             if what == "tick":
@@ -719,8 +719,14 @@ class World:
                 answer.set_exception(Ended(self.why_ended))
             self._asked.clear()
             self._news.notify_all()
-        for handler in self._handlers["end"]:
-            handler(self.why_ended)
+        self._tell("end", self.why_ended)
+
+    def _tell(self, what: str, news: Any) -> None:
+        for handler in list(self._handlers[what]):
+            try:
+                handler(news)
+            except Exception:
+                traceback.print_exc()
 
     def _take(self, row: dict[str, Any]) -> None:
         kind = row["type"]
@@ -738,11 +744,9 @@ class World:
             if self._calls is not None:
                 for call in tick.calls:
                     self._calls.put(call)
-            for handler in self._handlers["tick"]:
-                handler(tick)
+            self._tell("tick", tick)
         elif kind == "message":
-            for handler in self._handlers["message"]:
-                handler(row["text"])
+            self._tell("message", row["text"])
         elif kind == "hello":
             with self._news:
                 self.hello = row
