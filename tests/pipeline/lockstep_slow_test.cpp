@@ -134,6 +134,31 @@ TEST_CASE("in lockstep a world that changes at every tick is shown whole by scre
   CHECK(different == 0);
 }
 
+TEST_CASE(
+    "in lockstep a screen that comes up in a world that changes at every tick shows none with what a later one has") {
+  LockstepRig lockstep(3, {.loss = 0.05, .latency_s = 0.002});
+  std::map<Tick, std::uint64_t> worlds;
+  int first_pictures = 0, different = 0;
+  bool is_first = false;
+  lockstep.looks = [&](std::size_t i, Tick tick) {
+    different += scene::content_hash(lockstep.rig.screen(i).link->scene()) != worlds.at(tick);
+    if (i == 1 && std::exchange(is_first, false)) ++first_pictures;
+  };
+  lockstep.serve(
+      20.0,
+      [&] {
+        // The one before has shown its first picture, and some more.
+        if (lockstep.shown[1].size() < 3) return;
+        is_first = true;
+        lockstep.shown[1].clear();
+        lockstep.rig.stop_screen(1);
+        lockstep.rig.start_screen(1);
+      },
+      std::make_unique<Builder>(lockstep.rig, worlds));
+  CHECK(first_pictures >= 3);
+  CHECK(different == 0);
+}
+
 TEST_CASE("in lockstep all screens show every drawn tick") {
   LockstepRig lockstep(3);
   lockstep.serve(2.0, [] {});
