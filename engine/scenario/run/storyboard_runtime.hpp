@@ -32,6 +32,12 @@ struct StoryboardEvent {
   ElementStatus to = ElementStatus::standby;
 };
 
+/// A hazard that begins now: its name, and those who are it (several, one or nobody).
+struct BegunHazard {
+  std::string name;
+  std::vector<EntityIndex> actors;
+};
+
 /// The storyboard's requests to other stages.
 struct StepResult {
   std::vector<StoryboardEvent> events;
@@ -44,6 +50,7 @@ struct StepResult {
   /// Routes of the entity that is moved from outside: the places that it is to be guided over.
   std::vector<std::vector<road::LanePosition>> guided;
   std::vector<std::string> stopped_traffic;   ///< Names of swarms to be ended.
+  std::vector<BegunHazard> hazards;
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.
   std::vector<EntityIndex> teleported;  ///< Entities that did not come to their places by driving.
@@ -68,6 +75,10 @@ void place_external(const road::RoadNetwork& network, EntityIndex entity, const 
 /// are added to `result`.
 void release_entity(const Scenario& scenario, const road::RoadNetwork& network, EntityIndex entity,
                     ScenarioState& state, StepResult& result);
+
+/// Call between two steps: an entity that is not in the world comes into it, standing in a lane as one drives there.
+void bring_into_world(const road::RoadNetwork& network, EntityIndex entity, const road::LanePosition& lane,
+                      ScenarioState& state);
 
 /// Sets the obstacle in a scripted entity's path, each step anew; empty: its path is clear. It brakes for that and
 /// regains the speed of its script afterwards. `beside_is_taken`: the target place of its lateral action is occupied;

@@ -52,4 +52,9 @@ $('guideform').onsubmit = (event) => {
   event.preventDefault();
   change(`to ${$('guide_to').value.trim() || 'nowhere'}`);
 };
+/// The map was clicked there: the chosen hazard waits for the driver in the lane nearest to there.
+function set_hazard_at(x, y) {
+  set_map_click(null);
+  if ($('hazards').value) change(`hazard x_m=${+x.toFixed(2)} y_m=${+y.toFixed(2)} name=${$('hazards').value}`);
+}
 $('overlook').onclick = () => change('overlook');
